@@ -1,0 +1,202 @@
+//! Axis-aligned boxes and the elimination test.
+
+use glam::{Vec2, Vec3};
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Aabb2 {}
+    impl Sealed for super::Aabb3 {}
+}
+
+/// What a broad phase may ask of a box, in either dimension. Sealed: [`Aabb2`] and [`Aabb3`] are all there is.
+///
+/// ```
+/// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};
+/// let bounds = Aabb3::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0));
+/// assert_eq!(bounds.interval(2), (0.0, 3.0));
+/// assert_eq!(Aabb3::AXES, 3);
+/// ```
+pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Sealed + 'static {
+    /// Number of axes.
+    const AXES: usize;
+    /// A box that overlaps nothing, itself included.
+    const NOTHING: Self;
+    /// Least and greatest coordinate on an axis below [`Bounds::AXES`], in metres.
+    fn interval(&self, axis: usize) -> (f32, f32);
+    /// Whether the box is a set of points: no NaN, no minimum above its maximum.
+    fn is_valid(&self) -> bool;
+    /// The elimination test: whether the two closed boxes share a point. Invalid boxes share none.
+    fn overlaps(&self, other: &Self) -> bool;
+}
+
+/// A closed axis-aligned box in the plane, in metres.
+///
+/// A box with a NaN, or with a minimum above its maximum, is the empty set and overlaps nothing.
+///
+/// ```
+/// use asunder_geometry::{Aabb2, glam::Vec2};
+/// let left = Aabb2::new(Vec2::ZERO, Vec2::ONE);
+/// let right = Aabb2::new(Vec2::new(1.0, 0.0), Vec2::new(2.0, 1.0));
+/// assert!(left.overlaps(&right), "closed sets: touching counts");
+/// assert!(!left.overlaps(&Aabb2::new(Vec2::splat(1.5), Vec2::splat(2.0))));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb2 {
+    /// Least corner.
+    pub min: Vec2,
+    /// Greatest corner.
+    pub max: Vec2,
+}
+
+/// A closed axis-aligned box in space, in metres.
+///
+/// A box with a NaN, or with a minimum above its maximum, is the empty set and overlaps nothing.
+///
+/// ```
+/// use asunder_geometry::{Aabb3, glam::Vec3};
+/// let low = Aabb3::new(Vec3::ZERO, Vec3::ONE);
+/// let high = Aabb3::new(Vec3::new(0.0, 0.0, 1.5), Vec3::splat(2.0));
+/// assert!(!low.overlaps(&high), "one axis that parts them is enough");
+/// assert_eq!(low.union(&high).max, Vec3::splat(2.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb3 {
+    /// Least corner.
+    pub min: Vec3,
+    /// Greatest corner.
+    pub max: Vec3,
+}
+
+impl Aabb2 {
+    /// A box from its least and greatest corner. No check: see the type for what an inverted one means.
+    #[inline]
+    pub const fn new(min: Vec2, max: Vec2) -> Self {
+        Self { min, max }
+    }
+
+    /// The elimination test (four comparisons): eliminate the pair as soon as one axis parts it.
+    #[inline]
+    pub fn overlaps(&self, other: &Self) -> bool {
+        Bounds::overlaps(self, other)
+    }
+
+    /// Whether the closed box holds the point.
+    #[inline]
+    pub fn contains(&self, point: Vec2) -> bool {
+        self.min.x <= point.x && point.x <= self.max.x && self.min.y <= point.y && point.y <= self.max.y
+    }
+
+    /// The least box around both. Both must be valid.
+    #[inline]
+    pub fn union(&self, other: &Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+}
+
+impl Aabb3 {
+    /// A box from its least and greatest corner. No check: see the type for what an inverted one means.
+    #[inline]
+    pub const fn new(min: Vec3, max: Vec3) -> Self {
+        Self { min, max }
+    }
+
+    /// The elimination test (six comparisons): eliminate the pair as soon as one axis parts it.
+    #[inline]
+    pub fn overlaps(&self, other: &Self) -> bool {
+        Bounds::overlaps(self, other)
+    }
+
+    /// Whether the closed box holds the point.
+    #[inline]
+    pub fn contains(&self, point: Vec3) -> bool {
+        self.min.x <= point.x
+            && point.x <= self.max.x
+            && self.min.y <= point.y
+            && point.y <= self.max.y
+            && self.min.z <= point.z
+            && point.z <= self.max.z
+    }
+
+    /// The least box around both. Both must be valid.
+    #[inline]
+    pub fn union(&self, other: &Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+}
+
+impl Bounds for Aabb2 {
+    const AXES: usize = 2;
+    const NOTHING: Self = Self { min: Vec2::INFINITY, max: Vec2::NEG_INFINITY };
+
+    #[inline]
+    fn interval(&self, axis: usize) -> (f32, f32) {
+        (self.min[axis], self.max[axis])
+    }
+
+    #[inline]
+    fn is_valid(&self) -> bool {
+        self.min.x <= self.max.x && self.min.y <= self.max.y
+    }
+
+    #[inline]
+    fn overlaps(&self, other: &Self) -> bool {
+        self.is_valid()
+            && other.is_valid()
+            && self.min.x <= other.max.x
+            && other.min.x <= self.max.x
+            && self.min.y <= other.max.y
+            && other.min.y <= self.max.y
+    }
+}
+
+impl Bounds for Aabb3 {
+    const AXES: usize = 3;
+    const NOTHING: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+
+    #[inline]
+    fn interval(&self, axis: usize) -> (f32, f32) {
+        (self.min[axis], self.max[axis])
+    }
+
+    #[inline]
+    fn is_valid(&self) -> bool {
+        self.min.x <= self.max.x && self.min.y <= self.max.y && self.min.z <= self.max.z
+    }
+
+    #[inline]
+    fn overlaps(&self, other: &Self) -> bool {
+        self.is_valid()
+            && other.is_valid()
+            && self.min.x <= other.max.x
+            && other.min.x <= self.max.x
+            && self.min.y <= other.max.y
+            && other.min.y <= self.max.y
+            && self.min.z <= other.max.z
+            && other.min.z <= self.max.z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_overlaps_nothing() {
+        let everything = Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
+        assert!(everything.overlaps(&everything));
+        assert!(!everything.overlaps(&Aabb3::NOTHING));
+        assert!(!Aabb3::NOTHING.overlaps(&Aabb3::NOTHING));
+        assert!(!Aabb2::NOTHING.overlaps(&Aabb2::NOTHING));
+    }
+
+    #[test]
+    fn nan_and_inverted_boxes_overlap_nothing() {
+        let unit = Aabb3::new(Vec3::ZERO, Vec3::ONE);
+        let mut broken = unit;
+        broken.max.y = f32::NAN;
+        assert!(!unit.overlaps(&broken) && !broken.overlaps(&broken));
+        // Inverted, yet every one of the six comparisons holds: only the explicit check refuses it.
+        let inverted = Aabb3::new(Vec3::splat(0.6), Vec3::splat(0.4));
+        assert!(!unit.overlaps(&inverted) && !inverted.overlaps(&unit));
+    }
+}

@@ -1,0 +1,138 @@
+//! Where a body is in the plane, and the exact meaning of its rotation.
+
+use crate::pose3::{PoseError, check_position, check_rotation};
+use glam::{DVec2, Vec2};
+
+/// A rotation in the plane, stored as its cosine and sine.
+///
+/// It means the stored matrix `[c -s; s c]`, which its constructor normalises once. The stored pair is within an f32
+/// rounding of unit length; that tiny scale is part of the true shape.
+///
+/// ```
+/// use asunder_geometry::{Rotation2, glam::Vec2};
+/// let quarter = Rotation2::new(0.0, 2.0)?;
+/// assert_eq!((quarter.cos(), quarter.sin()), (0.0, 1.0));
+/// let eighth = Rotation2::from_angle(std::f32::consts::FRAC_PI_4)?;
+/// assert!((eighth.cos() - eighth.sin()).abs() < 1e-7);
+/// # Ok::<(), asunder_geometry::PoseError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation2 {
+    cos: f32,
+    sin: f32,
+}
+
+impl Rotation2 {
+    /// No rotation.
+    pub const IDENTITY: Self = Self { cos: 1.0, sin: 0.0 };
+
+    /// The rotation that takes the x axis to the direction (`cos`, `sin`), of any length but zero.
+    ///
+    /// # Errors
+    /// What is not finite, and zero.
+    pub fn new(cos: f32, sin: f32) -> Result<Self, PoseError> {
+        check_rotation(&[cos, sin])?;
+        let (c, s) = (f64::from(cos), f64::from(sin));
+        let length = (c * c + s * s).sqrt();
+        Ok(Self { cos: (c / length) as f32, sin: (s / length) as f32 })
+    }
+
+    /// A counter-clockwise rotation by an angle in radians, by `libm`: the same bits on every platform.
+    ///
+    /// # Errors
+    /// An angle that is not finite.
+    pub fn from_angle(radians: f32) -> Result<Self, PoseError> {
+        if !radians.is_finite() {
+            return Err(PoseError::RotationNotFinite { component: 0, value: radians });
+        }
+        Self::new(libm::cos(f64::from(radians)) as f32, libm::sin(f64::from(radians)) as f32)
+    }
+
+    /// The stored cosine.
+    #[inline]
+    pub const fn cos(&self) -> f32 {
+        self.cos
+    }
+
+    /// The stored sine.
+    #[inline]
+    pub const fn sin(&self) -> f32 {
+        self.sin
+    }
+
+    /// A vector turned by the stored matrix.
+    #[inline]
+    pub fn turn(&self, v: DVec2) -> DVec2 {
+        let (c, s) = (f64::from(self.cos), f64::from(self.sin));
+        DVec2::new(c * v.x - s * v.y, s * v.x + c * v.y)
+    }
+}
+
+impl Default for Rotation2 {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+/// Where a body is in the plane: an f64 position in metres and an f32 rotation.
+///
+/// ```
+/// use asunder_geometry::{Pose2, Rotation2, glam::{DVec2, Vec2}};
+/// let pose = Pose2::new(DVec2::new(1e6, 0.25), Rotation2::new(0.0, 1.0)?)?;
+/// assert_eq!(pose.transform(Vec2::X).to_array(), [1e6, 1.25]);
+/// # Ok::<(), asunder_geometry::PoseError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose2 {
+    position: DVec2,
+    rotation: Rotation2,
+}
+
+impl Pose2 {
+    /// No translation, no rotation.
+    pub const IDENTITY: Self = Self { position: DVec2::ZERO, rotation: Rotation2::IDENTITY };
+
+    /// A pose from a position (`Vec2`, `DVec2`, or an array of f64) and a rotation.
+    ///
+    /// # Errors
+    /// A coordinate that is not finite, or beyond [`MAX_POSITION`](crate::tolerance::MAX_POSITION).
+    pub fn new(position: impl Into<DVec2>, rotation: Rotation2) -> Result<Self, PoseError> {
+        let position = position.into();
+        check_position(&position.to_array())?;
+        Ok(Self { position, rotation })
+    }
+
+    /// A pose without rotation.
+    ///
+    /// # Errors
+    /// As [`Pose2::new`].
+    pub fn at(position: impl Into<DVec2>) -> Result<Self, PoseError> {
+        Self::new(position, Rotation2::IDENTITY)
+    }
+
+    /// The position, in metres.
+    #[inline]
+    pub const fn position(&self) -> DVec2 {
+        self.position
+    }
+
+    /// The rotation.
+    #[inline]
+    pub const fn rotation(&self) -> Rotation2 {
+        self.rotation
+    }
+
+    /// A local point, in metres, taken to the world.
+    #[inline]
+    pub fn transform(&self, point: Vec2) -> DVec2 {
+        self.position + self.rotation.turn(point.as_dvec2())
+    }
+
+    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. What a world asks before it calls a body moved.
+    #[inline]
+    pub fn same_bits(&self, other: &Self) -> bool {
+        self.position.to_array().map(f64::to_bits) == other.position.to_array().map(f64::to_bits)
+            && self.rotation.cos.to_bits() == other.rotation.cos.to_bits()
+            && self.rotation.sin.to_bits() == other.rotation.sin.to_bits()
+    }
+}

@@ -1,0 +1,257 @@
+//! Where a body is in space, and the exact meaning of its rotation.
+
+use crate::tolerance::MAX_POSITION;
+use glam::{DVec3, Quat, Vec3};
+
+/// Why a pose was refused.
+///
+/// ```
+/// use asunder_geometry::{Pose3, PoseError, glam::{Quat, Vec3}};
+/// let refused = Pose3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0));
+/// assert_eq!(refused.unwrap_err(), PoseError::ZeroRotation);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PoseError {
+    /// A coordinate of the position is NaN or infinite.
+    PositionNotFinite {
+        /// Which axis, 0 for x.
+        axis: usize,
+        /// What was given.
+        value: f64,
+    },
+    /// A coordinate of the position is beyond [`MAX_POSITION`].
+    PositionTooFar {
+        /// Which axis, 0 for x.
+        axis: usize,
+        /// What was given, in metres.
+        value: f64,
+    },
+    /// A component of the rotation is NaN or infinite.
+    RotationNotFinite {
+        /// Which component: x, y, z, w of a quaternion; cosine, sine in the plane.
+        component: usize,
+        /// What was given.
+        value: f32,
+    },
+    /// The rotation is zero in every component, and so points nowhere.
+    ZeroRotation,
+}
+
+impl core::fmt::Display for PoseError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::PositionNotFinite { axis, value } => {
+                write!(f, "position {value} on axis {axis} is not finite: check the step that made it")
+            }
+            Self::PositionTooFar { axis, value } => {
+                write!(f, "position {value} m on axis {axis} is beyond {MAX_POSITION} m: move the origin")
+            }
+            Self::RotationNotFinite { component, value } => {
+                write!(f, "rotation component {component} is {value}: check the step that made it")
+            }
+            Self::ZeroRotation => write!(f, "the rotation is zero: use the identity for no rotation"),
+        }
+    }
+}
+
+impl core::error::Error for PoseError {}
+
+/// Refuses what is not finite or out of range, whichever the dimension.
+pub(crate) fn check_position(position: &[f64]) -> Result<(), PoseError> {
+    for (axis, &value) in position.iter().enumerate() {
+        if !value.is_finite() {
+            return Err(PoseError::PositionNotFinite { axis, value });
+        }
+        if value.abs() > MAX_POSITION {
+            return Err(PoseError::PositionTooFar { axis, value });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a rotation that is not finite or that is zero.
+pub(crate) fn check_rotation(components: &[f32]) -> Result<(), PoseError> {
+    for (component, &value) in components.iter().enumerate() {
+        if !value.is_finite() {
+            return Err(PoseError::RotationNotFinite { component, value });
+        }
+    }
+    if components.iter().all(|&value| value == 0.0) {
+        return Err(PoseError::ZeroRotation);
+    }
+    Ok(())
+}
+
+/// Where a body is in space: an f64 position in metres and an f32 rotation.
+///
+/// The quaternion is kept bit for bit and never renormalised: it *means* the matrix M(q)/|q|^2, which is an exact
+/// rotation for every q but zero. A quaternion that has drifted over ten thousand products is therefore as good
+/// as a fresh one.
+///
+/// ```
+/// use asunder_geometry::{Pose3, glam::{Quat, Vec3}};
+/// let drifted = Quat::from_xyzw(0.0, 0.0, 3.0, 3.0); // a quarter turn about z, far from unit length
+/// let pose = Pose3::new(Vec3::new(1e6, 0.0, 0.0), drifted)?;
+/// assert_eq!(pose.rotation(), drifted);
+/// assert_eq!(pose.transform(Vec3::X).to_array(), [1e6, 1.0, 0.0]);
+/// # Ok::<(), asunder_geometry::PoseError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose3 {
+    position: DVec3,
+    // Components x, y, z, w. Not a `Quat`, whose alignment would pad every pose to 48 bytes.
+    rotation: [f32; 4],
+}
+
+impl Pose3 {
+    /// No translation, no rotation.
+    pub const IDENTITY: Self = Self { position: DVec3::ZERO, rotation: [0.0, 0.0, 0.0, 1.0] };
+
+    /// A pose from a position (`Vec3`, `DVec3`, or an array of f64) and a rotation of any length but zero.
+    ///
+    /// # Errors
+    /// What is not finite, a coordinate beyond [`MAX_POSITION`], and a zero quaternion.
+    pub fn new(position: impl Into<DVec3>, rotation: Quat) -> Result<Self, PoseError> {
+        let position = position.into();
+        check_position(&position.to_array())?;
+        check_rotation(&rotation.to_array())?;
+        Ok(Self { position, rotation: rotation.to_array() })
+    }
+
+    /// A pose without rotation.
+    ///
+    /// # Errors
+    /// As [`Pose3::new`].
+    pub fn at(position: impl Into<DVec3>) -> Result<Self, PoseError> {
+        Self::new(position, Quat::IDENTITY)
+    }
+
+    /// The position, in metres.
+    #[inline]
+    pub const fn position(&self) -> DVec3 {
+        self.position
+    }
+
+    /// The rotation, bit for bit as it was given.
+    #[inline]
+    pub fn rotation(&self) -> Quat {
+        Quat::from_array(self.rotation)
+    }
+
+    /// The rotation's matrix M(q)/|q|^2, in f64. Cost: one division.
+    #[inline]
+    pub fn basis(&self) -> Basis3 {
+        let [x, y, z, w] = self.rotation.map(f64::from);
+        // The least f32 squared is 2e-90: no component can underflow here, and the largest cannot overflow.
+        let scale = 2.0 / (x * x + y * y + z * z + w * w);
+        let (sx, sy, sz) = (scale * x, scale * y, scale * z);
+        let (xx, xy, xz, xw) = (sx * x, sx * y, sx * z, sx * w);
+        let (yy, yz, yw) = (sy * y, sy * z, sy * w);
+        let (zz, zw) = (sz * z, sz * w);
+        Basis3 {
+            x: DVec3::new(1.0 - (yy + zz), xy + zw, xz - yw),
+            y: DVec3::new(xy - zw, 1.0 - (xx + zz), yz + xw),
+            z: DVec3::new(xz + yw, yz - xw, 1.0 - (xx + yy)),
+        }
+    }
+
+    /// A local point, in metres, taken to the world.
+    #[inline]
+    pub fn transform(&self, point: Vec3) -> DVec3 {
+        self.position + self.basis().turn(point.as_dvec3())
+    }
+
+    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. What a world asks before it calls a body moved.
+    #[inline]
+    pub fn same_bits(&self, other: &Self) -> bool {
+        self.position.to_array().map(f64::to_bits) == other.position.to_array().map(f64::to_bits)
+            && self.rotation.map(f32::to_bits) == other.rotation.map(f32::to_bits)
+    }
+}
+
+impl Default for Pose3 {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+/// A rotation as the three images of the coordinate axes, in f64.
+///
+/// Our own products, in a fixed order of summation: glam's matrix code sums in an order that depends on the
+/// processor.
+///
+/// ```
+/// use asunder_geometry::{Pose3, glam::DVec3};
+/// let basis = Pose3::IDENTITY.basis();
+/// assert_eq!(basis.turn(DVec3::X), DVec3::X);
+/// assert_eq!(basis.turn_back(DVec3::Y), DVec3::Y);
+/// assert_eq!(basis.relative_to(&basis), basis);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Basis3 {
+    /// Image of the x axis.
+    pub x: DVec3,
+    /// Image of the y axis.
+    pub y: DVec3,
+    /// Image of the z axis.
+    pub z: DVec3,
+}
+
+impl Basis3 {
+    /// A local vector turned into the outer frame.
+    #[inline]
+    pub fn turn(&self, v: DVec3) -> DVec3 {
+        self.x * v.x + self.y * v.y + self.z * v.z
+    }
+
+    /// A vector of the outer frame turned into the local one.
+    #[inline]
+    pub fn turn_back(&self, v: DVec3) -> DVec3 {
+        DVec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
+    }
+
+    /// This basis as seen from another one: `other`'s inverse times `self`.
+    #[inline]
+    pub fn relative_to(&self, other: &Self) -> Self {
+        Self { x: other.turn_back(self.x), y: other.turn_back(self.y), z: other.turn_back(self.z) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_refuse_what_is_not_a_place() {
+        let q = Quat::IDENTITY;
+        assert!(matches!(
+            Pose3::new(DVec3::new(0.0, f64::NAN, 0.0), q),
+            Err(PoseError::PositionNotFinite { axis: 1, .. })
+        ));
+        assert_eq!(
+            Pose3::new(DVec3::new(0.0, 0.0, -2e9), q),
+            Err(PoseError::PositionTooFar { axis: 2, value: -2e9 })
+        );
+        assert!(matches!(
+            Pose3::new(DVec3::ZERO, Quat::from_xyzw(0.0, f32::INFINITY, 0.0, 1.0)),
+            Err(PoseError::RotationNotFinite { component: 1, .. })
+        ));
+    }
+
+    #[test]
+    fn a_basis_is_a_rotation_however_long_the_quaternion() {
+        for length in [1e-38_f32, 1e-20, 0.5, 1.0, 1e20, 1e38] {
+            let q = Quat::from_xyzw(0.3 * length, -0.7 * length, 0.2 * length, 0.6 * length);
+            let basis = Pose3::new(DVec3::ZERO, q).unwrap().basis();
+            for (a, b, dot) in [
+                (basis.x, basis.x, 1.0),
+                (basis.x, basis.y, 0.0),
+                (basis.y, basis.z, 0.0),
+                (basis.z, basis.z, 1.0),
+            ] {
+                assert!((a.dot(b) - dot).abs() < 1e-15, "{length}: {}", a.dot(b));
+            }
+            assert!((basis.x.cross(basis.y) - basis.z).length() < 1e-15);
+        }
+    }
+}

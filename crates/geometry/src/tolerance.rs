@@ -1,0 +1,57 @@
+//! Every tolerance and limit of the engine, in one place.
+//!
+//! A tolerance is always relative: it is multiplied by the size of what it is applied to, so that a scene of
+//! pebbles and a scene of mountains are answered alike. Only the *limits* at the end carry a unit.
+
+/// Share of a hull's outer radius within which neighbouring facets count as one flat face.
+///
+/// f32 vertices of a truly flat face lie within 1.2e-7 of its plane, so this merges what rounding split. Larger
+/// values merge real facets and cost depth accuracy (the planarity error enters every reported error); smaller
+/// ones leave slivers whose normals jitter.
+pub const COPLANAR: f64 = 2.5e-7;
+
+/// Sine of the angle between two edges below which their cross product is not used as an axis.
+///
+/// At this angle the f64 cross product still points within 3e-8 rad of the truth. Below it the axis is noise, and
+/// the face normals beside the edges give the same depth within this share of the pair's size. A larger value
+/// loses depth accuracy on nearly parallel edges; a smaller one only wastes time, since every axis is verified by
+/// full projection.
+pub const PARALLEL_EDGES: f64 = 1e-8;
+
+/// Slack, in units of unit vectors' dot products, within which two arcs of the Gauss map are kept as crossing.
+///
+/// Derived normals are within 1e-7 of the true ones for well-shaped faces. A pair kept needlessly costs one
+/// verified axis; a pair dropped wrongly costs the true depth.
+pub const ARC_SLACK: f64 = 1e-6;
+
+/// Share of a pair's size by which another kind of axis must beat a face of A before the contact is built on it.
+///
+/// Keeps the reference face from flipping between ties; it is the largest regret of a reported normal.
+pub const FACE_PREFERENCE: f64 = 5e-7;
+
+/// Share of a pair's size that is always part of a reported separation's error.
+///
+/// Covers the axes that nearly parallel edges leave out, the noise of those just above it, and the rounding of the
+/// answer to f32. The derivation stands in `docs/accuracy.md`.
+pub const SEPARATION_ERROR: f64 = 1.5e-7;
+
+/// Share of a pair's size at which the distance iteration stops: the gap between its two certified bounds.
+pub const DISTANCE_GAP: f64 = 1e-12;
+
+/// The smallest bounding radius a shape may have, in metres.
+pub const MIN_RADIUS: f32 = 1e-6;
+
+/// The largest bounding radius a shape may have, and the furthest a vertex may lie from its origin, in metres.
+pub const MAX_RADIUS: f32 = 1e6;
+
+/// The furthest a position may lie from the origin on any axis, in metres.
+pub const MAX_POSITION: f64 = 1e9;
+
+/// The most vertices a hull may have. Hulls are meant for collision; simplify what is drawn.
+pub const MAX_HULL_VERTICES: usize = 256;
+
+/// The most points that a hull may be built from.
+pub const MAX_HULL_POINTS: usize = 65_535;
+
+/// The most vertices a polygon may have.
+pub const MAX_POLYGON_VERTICES: usize = 4096;

@@ -1,0 +1,119 @@
+//! Half-edges: which vertices, edges and faces of a polyhedron meet.
+
+/// A directed edge of a face, from its origin to the origin of the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HalfEdge {
+    /// The vertex it starts from.
+    pub origin: u16,
+    /// The half-edge that runs the other way, in the neighbouring face.
+    pub twin: u16,
+    /// The next one around the face, counter-clockwise seen from outside.
+    pub next: u16,
+    /// The face to its left.
+    pub face: u16,
+}
+
+/// The half-edges of a closed polyhedron. Immutable; indices are stable, and feature ids are made of them.
+///
+/// ```
+/// use asunder_geometry::Cuboid;
+/// let topology = Cuboid::topology();
+/// let (vertices, edges, faces) = (8, topology.edges().len(), topology.face_count());
+/// assert_eq!(vertices + faces - edges, 2, "Euler's formula");
+/// assert_eq!(topology.face_vertices(1).collect::<Vec<_>>(), [1, 3, 7, 5]);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Topology {
+    half_edges: Box<[HalfEdge]>,
+    first_of_face: Box<[u16]>,
+    edges: Box<[u16]>,
+}
+
+impl Topology {
+    /// Twin of a half-edge whose other side no loop named: only a surface that is not closed has one.
+    pub(crate) const NO_TWIN: u16 = u16::MAX;
+
+    /// Joins face loops, counter-clockwise seen from outside, into half-edges.
+    pub(crate) fn from_loops<'a>(loops: impl Iterator<Item = &'a [u16]>) -> Self {
+        let mut half_edges: Vec<HalfEdge> = Vec::new();
+        let mut first_of_face = Vec::new();
+        for (face, vertices) in loops.enumerate() {
+            let first = half_edges.len();
+            first_of_face.push(first as u16);
+            for (i, &origin) in vertices.iter().enumerate() {
+                let next = first + (i + 1) % vertices.len();
+                half_edges.push(HalfEdge {
+                    origin,
+                    twin: Self::NO_TWIN,
+                    next: next as u16,
+                    face: face as u16,
+                });
+            }
+        }
+        // Twins: sort half-edges by their undirected edge; the two of an edge come to stand side by side.
+        let ends = |h: &HalfEdge| (h.origin, half_edges[h.next as usize].origin);
+        let mut order: Vec<(u16, u16, u16)> = half_edges
+            .iter()
+            .enumerate()
+            .map(|(i, h)| {
+                let (from, to) = ends(h);
+                (from.min(to), from.max(to), i as u16)
+            })
+            .collect();
+        order.sort_unstable();
+        for two in order.windows(2) {
+            let ((a0, a1, first), (b0, b1, second)) = (two[0], two[1]);
+            if (a0, a1) == (b0, b1) {
+                half_edges[first as usize].twin = second;
+                half_edges[second as usize].twin = first;
+            }
+        }
+        let edges = (0..half_edges.len() as u16).filter(|&i| i < half_edges[i as usize].twin).collect();
+        Self { half_edges: half_edges.into(), first_of_face: first_of_face.into(), edges }
+    }
+
+    /// All half-edges, face after face.
+    #[inline]
+    pub fn half_edges(&self) -> &[HalfEdge] {
+        &self.half_edges
+    }
+
+    /// One half-edge index for each edge, the lower of the two, ascending. It is also the edge's feature index.
+    #[inline]
+    pub fn edges(&self) -> &[u16] {
+        &self.edges
+    }
+
+    /// Number of faces.
+    #[inline]
+    pub fn face_count(&self) -> usize {
+        self.first_of_face.len()
+    }
+
+    /// Half-edge indices around a face. The face must be below [`Topology::face_count`].
+    #[inline]
+    pub fn face_half_edges(&self, face: usize) -> core::ops::Range<usize> {
+        let first = self.first_of_face[face] as usize;
+        let end = self.first_of_face.get(face + 1).map_or(self.half_edges.len(), |&e| e as usize);
+        first..end
+    }
+
+    /// Vertex indices around a face, counter-clockwise seen from outside.
+    #[inline]
+    pub fn face_vertices(&self, face: usize) -> impl ExactSizeIterator<Item = usize> + Clone + '_ {
+        self.half_edges[self.face_half_edges(face)].iter().map(|h| h.origin as usize)
+    }
+
+    /// The two vertices of a half-edge: its origin and where it leads.
+    #[inline]
+    pub fn ends(&self, half_edge: usize) -> (usize, usize) {
+        let h = self.half_edges[half_edge];
+        (h.origin as usize, self.half_edges[h.next as usize].origin as usize)
+    }
+
+    /// The lower half-edge index of the edge that this half-edge belongs to: the edge's feature index.
+    #[inline]
+    pub fn edge_of(&self, half_edge: usize) -> usize {
+        half_edge.min(self.half_edges[half_edge].twin as usize)
+    }
+}
