@@ -1,1 +1,22 @@
-//! stub
+//! The judges of asunder's answers: slow, plain, and made without its algorithms.
+//!
+//! - [`brute_pairs`]: every overlapping pair of boxes, by a double loop
+//! - [`solid`]: facets and edges of a hull, from nothing but its vertices, decided exactly
+//! - [`placed`]: a shape where it is, in f64
+//! - [`exhaustive_sat`]: the separation along every candidate axis, without early outs
+//! - [`exhaustive_distance`]: the distance over every pair of features
+//! - [`exact_overlap`]: whether two shapes share a point, by linear programming over integers
+//! - [`cases`]: seeded shapes, poses and pairs, far apart, deep, and touching
+//!
+//! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
+//! against each other first (`tests/suite/oracles.rs`).
+#![deny(missing_docs)]
+
+pub mod brute_pairs;
+pub mod cases;
+pub mod exact_overlap;
+pub mod exhaustive_distance;
+pub mod exhaustive_sat;
+pub mod integers;
+pub mod placed;
+pub mod solid;

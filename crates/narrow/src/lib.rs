@@ -1,1 +1,43 @@
-//! stub
+//! Two posed convex shapes in, one answer out.
+//!
+//! Two convex sets are disjoint exactly when some axis separates their projections. For polygons the edge normals
+//! suffice as candidates, for polyhedra the face normals and the cross products of edge pairs. A narrow phase knows
+//! no keys and no world; it is asked about one pair ([`Pair2`], [`Pair3`]) or about a batch of jobs ([`collide2`],
+//! [`collide3`]).
+//!
+//! **Separation** is the maximum over unit n of (min over B of n.x - max over A of n.x): the Euclidean distance in a
+//! gap, minus the least translation in overlap. Shapes are closed: touching counts as overlapping. Every reported
+//! separation has an `error` with |true - reported| <= error.
+//!
+//! ```
+//! use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
+//! use asunder_narrow::{Pair3, Separation3};
+//!
+//! let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
+//! let (here, there) = (Pose3::IDENTITY, Pose3::at(Vec3::new(1.75, 0.0, 0.0))?);
+//! let pair = Pair3::new(&cube, &here, &cube, &there);
+//! assert!(pair.overlaps());
+//! let Separation3::Measured(found) = pair.separation(0.0) else { unreachable!("they overlap") };
+//! assert!((found.separation + 0.25).abs() <= found.error);
+//! assert_eq!(found.normal, Vec3::X, "from A to B");
+//! assert_eq!(pair.manifold(0.0).map(|manifold| manifold.points.len()), Some(4));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![deny(missing_docs)]
+
+mod answer;
+mod feature;
+mod pair2;
+mod pair3;
+mod polygon;
+mod polyhedron;
+mod precision;
+
+pub use answer::{
+    Answer, Closest2, Closest3, ContactPoint2, ContactPoint3, Manifold2, Manifold3, Measured2, Measured3,
+    Separation2, Separation3,
+};
+pub use arrayvec::ArrayVec;
+pub use feature::{Feature, FeatureId, Hint};
+pub use pair2::{Batch2, Job2, Pair2, collide2};
+pub use pair3::{Batch3, Job3, Pair3, collide3};

@@ -1,0 +1,157 @@
+//! What a narrow phase says: separations, closest points, manifolds. One set a dimension, alike in every name.
+
+use crate::feature::{FeatureId, Hint};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::{Vec2, Vec3};
+use core::ops::Range;
+
+/// The answer to one job of a batch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// The shapes are further apart than the margin.
+    Apart {
+        /// For the next frame: the axis that separates them.
+        hint: Hint,
+    },
+    /// The shapes are within the margin of each other.
+    Contact {
+        /// For the next frame.
+        hint: Hint,
+        /// Whether they share a point.
+        overlapping: bool,
+        /// Their manifolds, as a range of the batch's. Empty for a sensor.
+        manifolds: Range<u32>,
+    },
+}
+
+/// A separation in the plane, or a bound on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Separation2 {
+    /// Found, with its error and axis.
+    Measured(Measured2),
+    /// More than the caller's limit: the shapes are at least this far apart, in metres.
+    AtLeast(f32),
+}
+
+/// A separation in space, or a bound on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Separation3 {
+    /// Found, with its error and axis.
+    Measured(Measured3),
+    /// More than the caller's limit: the shapes are at least this far apart, in metres.
+    AtLeast(f32),
+}
+
+/// A separation in the plane and the axis that shows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured2 {
+    /// Metres: positive the distance, negative minus the least translation that parts them. Not positive exactly
+    /// when the shapes overlap.
+    pub separation: f32,
+    /// |true - reported| <= error, in metres.
+    pub error: f32,
+    /// Unit axis in world axes, from A to B.
+    pub normal: Vec2,
+}
+
+/// A separation in space and the axis that shows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured3 {
+    /// Metres: positive the distance, negative minus the least translation that parts them. Not positive exactly
+    /// when the shapes overlap.
+    pub separation: f32,
+    /// |true - reported| <= error, in metres.
+    pub error: f32,
+    /// Unit axis in world axes, from A to B.
+    pub normal: Vec3,
+}
+
+/// Closest points of two shapes in the plane that do not overlap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest2 {
+    /// The distance in metres, always positive.
+    pub distance: f32,
+    /// |true - reported| <= error, in metres.
+    pub error: f32,
+    /// Unit axis in world axes, from A to B.
+    pub normal: Vec2,
+    /// The point of A, in world axes, relative to A's position.
+    pub anchor_a: Vec2,
+    /// The point of B, in world axes, relative to B's position.
+    pub anchor_b: Vec2,
+}
+
+/// Closest points of two shapes in space that do not overlap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest3 {
+    /// The distance in metres, always positive.
+    pub distance: f32,
+    /// |true - reported| <= error, in metres.
+    pub error: f32,
+    /// Unit axis in world axes, from A to B.
+    pub normal: Vec3,
+    /// The point of A, in world axes, relative to A's position.
+    pub anchor_a: Vec3,
+    /// The point of B, in world axes, relative to B's position.
+    pub anchor_b: Vec3,
+}
+
+/// One point of a manifold in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint2 {
+    /// Distance along the normal from A's point to B's, in metres: negative where they overlap.
+    pub separation: f32,
+    /// The point on A, in world axes, relative to A's position.
+    pub anchor_a: Vec2,
+    /// The point on B, in world axes, relative to B's position.
+    pub anchor_b: Vec2,
+    /// What touches what.
+    pub feature: FeatureId,
+}
+
+/// One point of a manifold in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint3 {
+    /// Distance along the normal from A's point to B's, in metres: negative where they overlap.
+    pub separation: f32,
+    /// The point on A, in world axes, relative to A's position.
+    pub anchor_a: Vec3,
+    /// The point on B, in world axes, relative to B's position.
+    pub anchor_b: Vec3,
+    /// What touches what.
+    pub feature: FeatureId,
+}
+
+/// How two convex shapes in the plane touch: one normal, and one or two points, in order of their feature ids.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Manifold2 {
+    /// Which part of A, for shapes made of several; else 0.
+    pub part_a: u32,
+    /// Which part of B, for shapes made of several; else 0.
+    pub part_b: u32,
+    /// Unit normal in world axes, from A to B.
+    pub normal: Vec2,
+    /// Separation of the two parts, in metres. The least of the points' own, up to `error`.
+    pub separation: f32,
+    /// |true - reported| <= error, in metres.
+    pub error: f32,
+    /// Where they touch. Never empty.
+    pub points: ArrayVec<ContactPoint2, 2>,
+}
+
+/// How two convex shapes in space touch: one normal, and one to four points, in order of their feature ids.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Manifold3 {
+    /// Which part of A, for shapes made of several; else 0.
+    pub part_a: u32,
+    /// Which part of B, for shapes made of several; else 0.
+    pub part_b: u32,
+    /// Unit normal in world axes, from A to B.
+    pub normal: Vec3,
+    /// Separation of the two parts, in metres. The least of the points' own, up to `error`.
+    pub separation: f32,
+    /// |true - reported| <= error, in metres.
+    pub error: f32,
+    /// Where they touch. Never empty.
+    pub points: ArrayVec<ContactPoint3, 4>,
+}

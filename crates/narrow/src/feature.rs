@@ -1,0 +1,122 @@
+//! Names for vertices, edges and faces that stay the same from frame to frame.
+
+/// A feature of one shape, by the index that its topology gives it.
+///
+/// Vertices count as in `vertices()`. Edges of a polyhedron count by their lower half-edge
+/// ([`Topology::edge_of`](asunder_geometry::Topology::edge_of)), edges of a polygon by the vertex they start from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Feature {
+    /// A vertex.
+    Vertex(u32),
+    /// An edge.
+    Edge(u32),
+    /// A face; in the plane there is none.
+    Face(u32),
+}
+
+const INDEX_BITS: u32 = 30;
+const INDEX_MASK: u32 = (1 << INDEX_BITS) - 1;
+
+impl Feature {
+    const fn to_bits(self) -> u32 {
+        match self {
+            Self::Vertex(i) => i & INDEX_MASK,
+            Self::Edge(i) => 1 << INDEX_BITS | i & INDEX_MASK,
+            Self::Face(i) => 2 << INDEX_BITS | i & INDEX_MASK,
+        }
+    }
+
+    const fn from_bits(bits: u32) -> Self {
+        match bits >> INDEX_BITS {
+            0 => Self::Vertex(bits & INDEX_MASK),
+            1 => Self::Edge(bits & INDEX_MASK),
+            _ => Self::Face(bits & INDEX_MASK),
+        }
+    }
+}
+
+/// Which feature of A meets which feature of B, in 64 bits: the name by which a solver finds last frame's impulse.
+///
+/// Equal features have equal ids, whichever kernel found them and whichever shape was the reference.
+///
+/// ```
+/// use asunder_narrow::{Feature, FeatureId};
+/// let id = FeatureId::new(Feature::Face(3), Feature::Vertex(7));
+/// assert_eq!((id.a(), id.b()), (Feature::Face(3), Feature::Vertex(7)));
+/// assert_eq!(FeatureId::from_bits(id.to_bits()), id);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FeatureId(u64);
+
+impl FeatureId {
+    /// The id of a feature of A that meets a feature of B.
+    pub const fn new(a: Feature, b: Feature) -> Self {
+        Self((a.to_bits() as u64) << 32 | b.to_bits() as u64)
+    }
+
+    /// The feature of A.
+    pub const fn a(self) -> Feature {
+        Feature::from_bits((self.0 >> 32) as u32)
+    }
+
+    /// The feature of B.
+    pub const fn b(self) -> Feature {
+        Feature::from_bits(self.0 as u32)
+    }
+
+    /// All 64 bits, for storage.
+    pub const fn to_bits(self) -> u64 {
+        self.0
+    }
+
+    /// The id with these bits.
+    pub const fn from_bits(bits: u64) -> Self {
+        Self(bits)
+    }
+}
+
+/// What the last frame learnt about a pair: opaque, cheap to keep, and safe to lose.
+///
+/// It names the axis to try first. A stale hint, also one made for other shapes, costs one projection and can never
+/// change an answer: an axis is believed only after both shapes were projected on it.
+///
+/// ```
+/// use asunder_narrow::Hint;
+/// assert_eq!(Hint::default(), Hint::NONE);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Hint(Option<core::num::NonZeroU64>);
+
+impl Hint {
+    /// Nothing is known.
+    pub const NONE: Self = Self(None);
+
+    /// The axis that belongs to a feature of either shape: a face (or edge, in the plane) of one against a vertex of
+    /// the other, or two edges.
+    pub(crate) const fn axis(features: FeatureId) -> Self {
+        // One more than the id, so that vertex 0 against vertex 0 differs from none; no kind uses the top values.
+        Self(core::num::NonZeroU64::new(features.to_bits() + 1))
+    }
+
+    pub(crate) fn features(self) -> Option<FeatureId> {
+        self.0.map(|bits| FeatureId::from_bits(bits.get() - 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hint_names_any_axis() {
+        assert_eq!(Hint::NONE.features(), None);
+        for id in [
+            FeatureId::new(Feature::Vertex(0), Feature::Vertex(0)),
+            FeatureId::new(Feature::Edge(1523), Feature::Edge(7)),
+            FeatureId::new(Feature::Vertex(0), Feature::Face(507)),
+            FeatureId::new(Feature::Face(3), Feature::Vertex(0)),
+        ] {
+            assert_eq!(Hint::axis(id).features(), Some(id));
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The distance of two disjoint polygons, between two certified bounds.
+//!
+//! As in space (see `polyhedron/distance.rs`, Gilbert, Johnson and Keerthi 1988), with simplices of at most three
+//! corners.
+
+use super::outline::Outline;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::tolerance::DISTANCE_GAP;
+
+/// Steps after which the iteration gives up narrowing. A large polygon needs about as many as its vertex count has bits.
+const MAX_STEPS: usize = 64;
+
+/// Witness points and the bounds they leave.
+#[derive(Clone, Debug)]
+pub(crate) struct Witness {
+    /// Distance of the witness points: an upper bound.
+    pub(crate) distance: f64,
+    /// The best separation by projection that was met: a lower bound.
+    pub(crate) at_least: f64,
+    /// The unit axis of that projection, from A to B.
+    pub(crate) normal: DVec2,
+    pub(crate) point_a: DVec2,
+    pub(crate) point_b: DVec2,
+    /// Vertices of A and of B that carry the witness points, in pairs.
+    pub(crate) corners: ArrayVec<[usize; 2], 3>,
+}
+
+/// Corners of the difference A - B in use: their vertices, their places, their shares of the nearest point.
+type Simplex = ArrayVec<([usize; 2], DVec2, f64), 3>;
+
+/// Narrows the distance down; nothing where the shapes cannot be told apart. `size` is the size of the pair.
+pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, size: f64) -> Option<Witness> {
+    let corner = |direction: DVec2| {
+        let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
+        ([in_a, in_b], a.point(in_a) - b.point(in_b), 1.0)
+    };
+    let mut simplex = Simplex::new();
+    simplex.push(corner(towards_b));
+    let mut v = simplex[0].1;
+    let (mut at_least, mut normal) = (f64::NEG_INFINITY, towards_b);
+    for _ in 0..MAX_STEPS {
+        let length = v.length();
+        if length <= f64::EPSILON * size {
+            return None;
+        }
+        let direction = -v / length;
+        let found = corner(direction);
+        let bound = -direction.dot(found.1);
+        if bound > at_least {
+            (at_least, normal) = (bound, direction);
+        }
+        let brings_nothing = simplex.iter().any(|known| known.0 == found.0);
+        if length - at_least <= DISTANCE_GAP * size || brings_nothing || simplex.is_full() {
+            break;
+        }
+        let mut wider = simplex.clone();
+        wider.push(found);
+        let (nearest, place) = nearest_to_origin(&wider)?;
+        if place.length() >= length {
+            break;
+        }
+        (simplex, v) = (nearest, place);
+    }
+    let weighted = |outline: &Outline, which: usize| {
+        simplex.iter().map(|(vertices, _, weight)| outline.point(vertices[which]) * *weight).sum::<DVec2>()
+    };
+    let (point_a, point_b) = (weighted(a, 0), weighted(b, 1));
+    let corners = simplex.iter().map(|&(vertices, ..)| vertices).collect();
+    Some(Witness { distance: (point_b - point_a).length(), at_least, normal, point_a, point_b, corners })
+}
+
+/// The corners that carry the nearest point, and that point; nothing where a triangle holds the origin.
+fn nearest_to_origin(simplex: &Simplex) -> Option<(Simplex, DVec2)> {
+    if let [a, b, c] = simplex.as_slice() {
+        let sides = [a.1.perp_dot(b.1), b.1.perp_dot(c.1), c.1.perp_dot(a.1)];
+        if sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0) {
+            return None;
+        }
+    }
+    let mut best: Option<(Simplex, DVec2)> = None;
+    let mut offer = |corners: Simplex| {
+        let place = corners.iter().map(|&(_, point, weight)| point * weight).sum::<DVec2>();
+        if best.as_ref().is_none_or(|(_, known)| place.length_squared() < known.length_squared()) {
+            best = Some((corners, place));
+        }
+    };
+    for (i, &(vertices, point, _)) in simplex.iter().enumerate() {
+        offer(core::iter::once((vertices, point, 1.0)).collect());
+        for &(other_vertices, other, _) in &simplex[i + 1..] {
+            let along = other - point;
+            let t = -point.dot(along) / along.length_squared();
+            if t > 0.0 && t < 1.0 {
+                offer([(vertices, point, 1.0 - t), (other_vertices, other, t)].into_iter().collect());
+            }
+        }
+    }
+    best
+}

@@ -1,0 +1,8 @@
+//! Convex polygons: the separating axis test, the distance and the manifold, in plain f64.
+//!
+//! This is the definition. It is meant to be read, and to be what faster kernels are measured against.
+
+pub(crate) mod distance;
+pub(crate) mod manifold;
+pub(crate) mod outline;
+pub(crate) mod sat;

@@ -1,0 +1,263 @@
+//! Where two polyhedra touch: up to four points on one normal.
+//!
+//! ```text
+//! choose what touches: a face of A unless a face of B, or two edges, beat it by more than a relative preference
+//! two edges:  the nearest points of their lines
+//! a face:     the other shape's incident face is the one most opposed, of those at its deepest vertex
+//!             clip it against planes through the reference face's edges, along the normal
+//!             keep the points within the margin of the reference plane; at least the deepest vertex
+//! reduce to four
+//! ```
+//! Side planes are made from the reference face's own edges and not from neighbouring faces, so that a face which is
+//! flat only up to rounding clips like one that is flat. Every corner of the clipped polygon carries the features it
+//! comes from, which is what makes its id.
+
+use super::distance::Witness;
+use super::reduce::reduce_to_four;
+use super::sat::{Axes, Axis, AxisOf};
+use super::solid::Solid;
+use crate::feature::{Feature, FeatureId};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::FACE_PREFERENCE;
+
+/// The most corners a clipped face can have: those of both faces.
+const MAX_CORNERS: usize = 512;
+
+/// A contact point in the frame of the pair.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Point {
+    pub(crate) separation: f64,
+    pub(crate) on_a: DVec3,
+    pub(crate) on_b: DVec3,
+    pub(crate) feature: FeatureId,
+}
+
+/// A normal and its points, in the frame of the pair.
+pub(crate) struct Touch {
+    pub(crate) normal: DVec3,
+    pub(crate) points: ArrayVec<Point, 4>,
+}
+
+/// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
+pub(crate) fn touch(
+    a: &Solid,
+    b: &Solid,
+    axes: &Axes,
+    witness: Option<&Witness>,
+    margin: f64,
+    size: f64,
+) -> Touch {
+    let preference = FACE_PREFERENCE * size;
+    let face = prefer_face_a(axes, preference);
+    if let Some(witness) = witness {
+        // In a gap a face is what touches only where its axis is the shortest way across.
+        if face.separation < witness.distance - preference {
+            return Touch { normal: witness.normal, points: closest_point(a, b, witness) };
+        }
+    } else if axes.edges.separation > face.separation + preference
+        && let AxisOf::Edges(edge_a, edge_b) = axes.edges.of
+    {
+        let point = edge_point(a, b, (edge_a, edge_b), axes.edges.normal);
+        return Touch { normal: axes.edges.normal, points: core::iter::once(point).collect() };
+    }
+    // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no deeper
+    // than zero: a body that rests exactly on a face rests on all of its corners.
+    let within = margin.max(face.separation + preference);
+    let points = match face.of {
+        AxisOf::FaceB(index) => face_points(b, a, index, -face.normal, within, true),
+        AxisOf::FaceA(index) | AxisOf::Edges(index, _) => {
+            face_points(a, b, index, face.normal, within, false)
+        }
+    };
+    Touch { normal: face.normal, points }
+}
+
+fn prefer_face_a(axes: &Axes, preference: f64) -> &Axis {
+    if axes.face_b.separation > axes.face_a.separation + preference { &axes.face_b } else { &axes.face_a }
+}
+
+/// The nearest points of two edges that cross, each held to its edge.
+fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), normal: DVec3) -> Point {
+    let ((a0, a1), (b0, b1)) = (a.edge(edges.0), b.edge(edges.1));
+    let (along_a, along_b, between) = (a1 - a0, b1 - b0, b0 - a0);
+    let cross = along_a.cross(along_b);
+    // The axis came from this cross product, so it is not zero.
+    let inverse = 1.0 / cross.length_squared();
+    let s = (between.cross(along_b).dot(cross) * inverse).clamp(0.0, 1.0);
+    let t = (between.cross(along_a).dot(cross) * inverse).clamp(0.0, 1.0);
+    let (on_a, on_b) = (a0 + along_a * s, b0 + along_b * t);
+    let feature = FeatureId::new(Feature::Edge(edges.0 as u32), Feature::Edge(edges.1 as u32));
+    Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature }
+}
+
+/// The witness points of a gap, named by the features that carry them.
+fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> ArrayVec<Point, 4> {
+    let carrier = |solid: &Solid, which: usize| {
+        let mut vertices: ArrayVec<usize, 4> = witness.corners.iter().map(|corner| corner[which]).collect();
+        vertices.sort_unstable();
+        let mut last = None;
+        vertices.retain(|vertex| last.replace(*vertex) != Some(*vertex));
+        feature_of(solid, &vertices)
+    };
+    let point = Point {
+        separation: witness.distance,
+        on_a: witness.point_a,
+        on_b: witness.point_b,
+        feature: FeatureId::new(carrier(a, 0), carrier(b, 1)),
+    };
+    core::iter::once(point).collect()
+}
+
+/// The least feature that holds all of these vertices.
+fn feature_of(solid: &Solid, vertices: &[usize]) -> Feature {
+    if let &[vertex] = vertices {
+        return Feature::Vertex(vertex as u32);
+    }
+    if let &[one, other] = vertices
+        && let Some(edge) = solid.edge_between(one, other)
+    {
+        return Feature::Edge(edge as u32);
+    }
+    let holds_all =
+        |face: &usize| vertices.iter().all(|v| solid.topology.face_vertices(*face).any(|w| w == *v));
+    let face = (0..solid.topology.face_count()).find(holds_all);
+    face.map_or(Feature::Vertex(vertices.first().map_or(0, |&v| v as u32)), |face| Feature::Face(face as u32))
+}
+
+/// A corner of the polygon being clipped.
+#[derive(Clone, Copy)]
+struct Corner {
+    point: DVec3,
+    /// Of the reference shape and of the incident one.
+    features: (Feature, Feature),
+    /// What the polygon's edge from this corner to the next lies on.
+    leaving: Side,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    /// An edge of the incident face.
+    Incident(u32),
+    /// A side plane, by the reference half-edge it stands on.
+    Reference(usize),
+}
+
+/// A plane to measure contact points from: that of the reference face.
+struct Reference {
+    /// Its outward unit normal.
+    normal: DVec3,
+    /// The reference shape's reach along it.
+    reach: f64,
+    is_b: bool,
+}
+
+impl Reference {
+    /// The contact of a point of the incident shape with its foot on the plane. Features: the reference's first.
+    fn contact(&self, point: DVec3, (of_reference, of_incident): (Feature, Feature)) -> Point {
+        let separation = self.normal.dot(point) - self.reach;
+        let foot = point - self.normal * separation;
+        if self.is_b {
+            Point { separation, on_a: point, on_b: foot, feature: FeatureId::new(of_incident, of_reference) }
+        } else {
+            Point { separation, on_a: foot, on_b: point, feature: FeatureId::new(of_reference, of_incident) }
+        }
+    }
+}
+
+/// Contact points of a face of `solid` with outward normal `normal`, and the incident shape: those at most `within`
+/// outside the face's plane.
+fn face_points(
+    solid: &Solid,
+    incident: &Solid,
+    face: usize,
+    normal: DVec3,
+    within: f64,
+    is_b: bool,
+) -> ArrayVec<Point, 4> {
+    let reference = Reference { normal, reach: solid.support(normal).reach, is_b };
+    let deepest = incident.support(-normal).vertex;
+    let incident_face = opposed_face_at(incident, deepest, normal);
+    let mut points: ArrayVec<Point, MAX_CORNERS> = ArrayVec::new();
+    for corner in clip(solid, face, incident, incident_face, normal) {
+        let new = reference.contact(corner.point, corner.features);
+        let is_new = points.iter().all(|known| known.feature != new.feature);
+        if new.separation <= within && is_new {
+            points.push(new);
+        }
+    }
+    if points.is_empty() {
+        let features = (Feature::Face(face as u32), Feature::Vertex(deepest as u32));
+        points.push(reference.contact(incident.point(deepest), features));
+    }
+    reduce_to_four(&points, normal)
+}
+
+/// Of the faces around a vertex, the one that looks most against `normal`.
+fn opposed_face_at(solid: &Solid, vertex: usize, normal: DVec3) -> usize {
+    let mut best = (f64::INFINITY, 0);
+    for half_edge in solid.topology.half_edges().iter().filter(|h| h.origin as usize == vertex) {
+        let facing = solid.normal(half_edge.face as usize).dot(normal);
+        if (facing, half_edge.face as usize) < best {
+            best = (facing, half_edge.face as usize);
+        }
+    }
+    best.1
+}
+
+/// The incident face cut by the side planes of the reference face: Sutherland and Hodgman, "Reentrant polygon
+/// clipping" (1974).
+fn clip(
+    reference: &Solid,
+    face: usize,
+    incident: &Solid,
+    incident_face: usize,
+    normal: DVec3,
+) -> ArrayVec<Corner, MAX_CORNERS> {
+    let mut polygon: ArrayVec<Corner, MAX_CORNERS> = ArrayVec::new();
+    for half_edge in incident.topology.face_half_edges(incident_face) {
+        let vertex = incident.topology.ends(half_edge).0;
+        polygon.push(Corner {
+            point: incident.point(vertex),
+            features: (Feature::Face(face as u32), Feature::Vertex(vertex as u32)),
+            leaving: Side::Incident(incident.topology.edge_of(half_edge) as u32),
+        });
+    }
+    for half_edge in reference.topology.face_half_edges(face) {
+        let from = reference.point(reference.topology.ends(half_edge).0);
+        let outward = reference.edge_direction(half_edge).cross(normal);
+        let mut clipped: ArrayVec<Corner, MAX_CORNERS> = ArrayVec::new();
+        for (i, &here) in polygon.iter().enumerate() {
+            let there = polygon[(i + 1) % polygon.len()];
+            let (d_here, d_there) = (outward.dot(here.point - from), outward.dot(there.point - from));
+            if d_here <= 0.0 {
+                let _ = clipped.try_push(here);
+            }
+            if (d_here <= 0.0) != (d_there <= 0.0) {
+                let point = here.point + (there.point - here.point) * (d_here / (d_here - d_there));
+                let features = crossing(reference, here.leaving, half_edge, incident_face);
+                // Going out, the polygon follows the side plane from here; coming in, it follows its old edge.
+                let leaving = if d_here <= 0.0 { Side::Reference(half_edge) } else { here.leaving };
+                let _ = clipped.try_push(Corner { point, features, leaving });
+            }
+        }
+        polygon = clipped;
+    }
+    polygon
+}
+
+/// Features of the corner where a side of the polygon meets the side plane on `half_edge`.
+fn crossing(reference: &Solid, side: Side, half_edge: usize, incident_face: usize) -> (Feature, Feature) {
+    match side {
+        Side::Incident(edge) => {
+            (Feature::Edge(reference.topology.edge_of(half_edge) as u32), Feature::Edge(edge))
+        }
+        Side::Reference(other) => {
+            // Two side planes meet over a vertex of the reference face: the one that both edges have.
+            let (from, to) = reference.topology.ends(half_edge);
+            let (other_from, other_to) = reference.topology.ends(other);
+            let shared = if to == other_from || to == other_to { to } else { from };
+            (Feature::Vertex(shared as u32), Feature::Face(incident_face as u32))
+        }
+    }
+}
