@@ -1,1 +1,59 @@
-//! stub
+//! A collision engine for games: which bodies touch, how deep, and how sure it is.
+//!
+//! A world holds bodies, each a convex shape with a pose. Move them as your game pleases and call `update` once a frame:
+//! a broad phase sorts and sweeps their boxes, a narrow phase runs the separating axis test on the pairs left, and the
+//! world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]). It moves nothing itself.
+//!
+//! ```
+//! use asunder::{Collider3, Cuboid, Event3, Pose3, World3, glam::Vec3};
+//!
+//! let mut world = World3::new();
+//! let floor = world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::new(50.0, 0.5, 50.0))?).fixed());
+//! let crate_ = world.insert(
+//!     Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5))?).at(Pose3::at(Vec3::new(0.0, 2.0, 0.0))?),
+//! );
+//! world.update();
+//! assert!(!world.is_touching(floor, crate_));
+//!
+//! world.set_pose(crate_, Pose3::at(Vec3::new(0.0, 0.99, 0.0))?)?;
+//! world.update();
+//! assert!(matches!(world.events(), [Event3::Began { a, b, .. }] if (*a, *b) == (floor, crate_)));
+//! let contact = world.contact(floor, crate_).ok_or("they touch")?;
+//! let manifold = &contact.manifolds[0];
+//! assert_eq!((manifold.normal, manifold.points.len()), (Vec3::Y, 4));
+//! assert!((manifold.separation + 0.01).abs() <= manifold.error);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Feature flags
+//! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
+#![deny(missing_docs)]
+
+mod clock;
+mod collider;
+mod contact;
+mod event;
+mod frame;
+mod space;
+mod stats;
+mod world;
+mod world2;
+mod world3;
+
+pub use asunder_geometry::{
+    Aabb2, Aabb3, Basis3, Cuboid, ExtentError, HalfEdge, Hull, HullError, Polygon, PolygonError, Pose2,
+    Pose3, PoseError, Rect, Rotation2, Shape2, Shape3, Topology, glam,
+};
+pub use asunder_narrow::{
+    ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Manifold2, Manifold3,
+    Measured2, Measured3, Pair2, Pair3, Separation2, Separation3,
+};
+pub use collider::{Collider, Collider2, Collider3, Layers, MarginError};
+pub use contact::{Contact, Contact2, Contact3};
+pub use event::{Event, Event2, Event3};
+pub use slotmap;
+pub use space::{BodyKey2, BodyKey3, Plane, Space, Volume};
+pub use stats::Stats;
+pub use world::{StaleKey, World};
+pub use world2::World2;
+pub use world3::World3;

@@ -59,9 +59,11 @@ impl<'a> Pair2<'a> {
     /// searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
-        self.with_outlines(|a, b| match separating_axes(a, b, limit, Hint::NONE) {
-            Outcome::Beyond(axis) => Separation2::AtLeast(at_least(axis.separation, &self.precision())),
-            Outcome::Within(axes) => Separation2::Measured(self.measure(a, b, &axes).measured),
+        self.with_outlines(|a, b| {
+            match separating_axes(a, b, limit + self.precision().projection(), Hint::NONE) {
+                Outcome::Beyond(axis) => Separation2::AtLeast(at_least(axis.separation, &self.precision())),
+                Outcome::Within(axes) => Separation2::Measured(self.measure(a, b, &axes).measured),
+            }
         })
     }
 
@@ -92,7 +94,7 @@ impl<'a> Pair2<'a> {
     fn contact(&self, margin: f32, hint: Hint) -> Contact {
         let margin = f64::from(margin).max(0.0);
         self.with_outlines(|a, b| {
-            let axes = match separating_axes(a, b, margin, hint) {
+            let axes = match separating_axes(a, b, margin + self.precision().projection(), hint) {
                 Outcome::Beyond(axis) => return Contact { hint: hint_of(&axis), contact: None },
                 Outcome::Within(axes) => axes,
             };
@@ -124,7 +126,7 @@ impl<'a> Pair2<'a> {
     /// Whether the shapes are within the margin, for a sensor, which wants no points.
     fn senses(&self, margin: f32, hint: Hint) -> (Hint, Option<bool>) {
         let margin = f64::from(margin).max(0.0);
-        self.with_outlines(|a, b| match separating_axes(a, b, margin, hint) {
+        self.with_outlines(|a, b| match separating_axes(a, b, margin + self.precision().projection(), hint) {
             Outcome::Beyond(axis) => (hint_of(&axis), None),
             Outcome::Within(axes) => {
                 let found = self.measure(a, b, &axes);

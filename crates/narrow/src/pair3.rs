@@ -66,7 +66,7 @@ impl<'a> Pair3<'a> {
     /// the limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
-        self.with_solids(|a, b| match self.axes(a, b, limit, Hint::NONE) {
+        self.with_solids(|a, b| match self.axes(a, b, limit + self.precision().projection(), Hint::NONE) {
             Outcome::Beyond(axis) => Separation3::AtLeast(at_least(axis.separation, &self.precision())),
             Outcome::Within(axes) => Separation3::Measured(self.measure(a, b, &axes).measured),
         })
@@ -99,7 +99,7 @@ impl<'a> Pair3<'a> {
     fn contact(&self, margin: f32, hint: Hint) -> Contact {
         let margin = f64::from(margin).max(0.0);
         self.with_solids(|a, b| {
-            let axes = match self.axes(a, b, margin, hint) {
+            let axes = match self.axes(a, b, margin + self.precision().projection(), hint) {
                 Outcome::Beyond(axis) => return Contact { hint: hint_of(&axis), contact: None },
                 Outcome::Within(axes) => axes,
             };
@@ -131,7 +131,7 @@ impl<'a> Pair3<'a> {
     /// Whether the shapes are within the margin, for a sensor, which wants no points.
     fn senses(&self, margin: f32, hint: Hint) -> (Hint, Option<bool>) {
         let margin = f64::from(margin).max(0.0);
-        self.with_solids(|a, b| match self.axes(a, b, margin, hint) {
+        self.with_solids(|a, b| match self.axes(a, b, margin + self.precision().projection(), hint) {
             Outcome::Beyond(axis) => (hint_of(&axis), None),
             Outcome::Within(axes) => {
                 let found = self.measure(a, b, &axes);

@@ -1,0 +1,257 @@
+//! What a body is to the engine: shape, pose, and whom it may meet.
+
+use crate::space::{Plane, Space, Volume};
+use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
+
+/// Which groups a body is in, and which it meets. Two bodies pair only if each is in a group that the other meets.
+///
+/// ```
+/// use asunder::Layers;
+/// let player = Layers { member_of: 0b01, collides_with: 0b11 };
+/// let ghost = Layers { member_of: 0b10, collides_with: 0b10 };
+/// assert!(!player.meets(ghost), "both sides must agree");
+/// assert!(player.meets(Layers::default()));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Layers {
+    /// A bit a group that the body is in.
+    pub member_of: u32,
+    /// A bit a group that the body meets.
+    pub collides_with: u32,
+}
+
+impl Layers {
+    /// Whether both sides agree to meet.
+    #[inline]
+    pub const fn meets(self, other: Self) -> bool {
+        self.member_of & other.collides_with != 0 && other.member_of & self.collides_with != 0
+    }
+}
+
+impl Default for Layers {
+    /// In every group, and meeting every group.
+    fn default() -> Self {
+        Self { member_of: u32::MAX, collides_with: u32::MAX }
+    }
+}
+
+/// Why a margin was refused.
+///
+/// ```
+/// use asunder::{Collider2, MarginError, Rect, glam::Vec2};
+/// let body = Collider2::new(Rect::from_half_extents(Vec2::ONE)?);
+/// assert_eq!(body.margin(-0.5).unwrap_err(), MarginError { value: -0.5 });
+/// # Ok::<(), asunder::ExtentError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarginError {
+    /// What was given, in metres.
+    pub value: f32,
+}
+
+impl core::fmt::Display for MarginError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let most = asunder_geometry::tolerance::MAX_RADIUS;
+        write!(
+            f,
+            "margin {} is not between 0 and {most} m: give the gap at which contacts should appear",
+            self.value
+        )
+    }
+}
+
+impl core::error::Error for MarginError {}
+
+/// A body to be: what [`World3::insert`](crate::World3::insert) takes, and what `get` shows.
+///
+/// Shape and pose differ between [`Collider2`] and [`Collider3`]; all else is common. By default a body may move, is
+/// solid, in every layer, owned by nobody, without margin, and its `user_data` is 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Collider<S: Space> {
+    pub(crate) shape: S::Shape,
+    pub(crate) pose: S::Pose,
+    pub(crate) layers: Layers,
+    pub(crate) owner: Option<u64>,
+    pub(crate) user_data: u64,
+    pub(crate) margin: f32,
+    pub(crate) fixed: bool,
+    pub(crate) sensor: bool,
+}
+
+/// A body in the plane.
+///
+/// ```
+/// use asunder::{Collider2, Layers, Pose2, Rect, Rotation2, glam::Vec2};
+/// let door = Collider2::new(Rect::from_half_extents(Vec2::new(0.1, 1.0))?)
+///     .at(Pose2::new([4.0, 1.0], Rotation2::IDENTITY)?)
+///     .layers(Layers { member_of: 0b10, ..Layers::default() })
+///     .user_data(77);
+/// assert_eq!((door.get_user_data(), door.pose().position().x), (77, 4.0));
+/// assert!((door.shape().outer_radius() - 1.005).abs() < 1e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub type Collider2 = Collider<Plane>;
+
+/// A body in space.
+///
+/// ```
+/// use asunder::{Collider3, Cuboid, Pose3, glam::Vec3};
+/// let coin = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.1))?)
+///     .at(Pose3::at([0.0, 1.0, 0.0])?)
+///     .sensor()
+///     .fixed()
+///     .owner(3)
+///     .margin(0.05)?;
+/// assert!(coin.is_sensor() && coin.is_fixed());
+/// assert_eq!((coin.get_owner(), coin.get_margin()), (Some(3), 0.05));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub type Collider3 = Collider<Volume>;
+
+impl Collider<Plane> {
+    /// A body of this shape at the origin.
+    pub fn new(shape: impl Into<Shape2>) -> Self {
+        Self::with_shape(shape.into())
+    }
+
+    /// Puts the body somewhere.
+    #[must_use]
+    pub fn at(mut self, pose: Pose2) -> Self {
+        self.pose = pose;
+        self
+    }
+
+    /// The shape.
+    pub fn shape(&self) -> &Shape2 {
+        &self.shape
+    }
+
+    /// The pose.
+    pub fn pose(&self) -> &Pose2 {
+        &self.pose
+    }
+}
+
+impl Collider<Volume> {
+    /// A body of this shape at the origin.
+    pub fn new(shape: impl Into<Shape3>) -> Self {
+        Self::with_shape(shape.into())
+    }
+
+    /// Puts the body somewhere.
+    #[must_use]
+    pub fn at(mut self, pose: Pose3) -> Self {
+        self.pose = pose;
+        self
+    }
+
+    /// The shape.
+    pub fn shape(&self) -> &Shape3 {
+        &self.shape
+    }
+
+    /// The pose.
+    pub fn pose(&self) -> &Pose3 {
+        &self.pose
+    }
+}
+
+impl<S: Space> Collider<S> {
+    fn with_shape(shape: S::Shape) -> Self {
+        Self {
+            shape,
+            pose: S::Pose::default(),
+            layers: Layers::default(),
+            owner: None,
+            user_data: 0,
+            margin: 0.0,
+            fixed: false,
+            sensor: false,
+        }
+    }
+
+    /// Marks a body of the level: two fixed bodies never pair. It may still be moved by `set_pose`.
+    #[must_use]
+    pub fn fixed(mut self) -> Self {
+        self.fixed = true;
+        self
+    }
+
+    /// Marks a body that only senses: its contacts have no manifolds.
+    #[must_use]
+    pub fn sensor(mut self) -> Self {
+        self.sensor = true;
+        self
+    }
+
+    /// Sets which groups the body is in and which it meets.
+    #[must_use]
+    pub fn layers(mut self, layers: Layers) -> Self {
+        self.layers = layers;
+        self
+    }
+
+    /// Sets an owner: bodies of one owner never pair, as the parts of one character.
+    #[must_use]
+    pub fn owner(mut self, owner: u64) -> Self {
+        self.owner = Some(owner);
+        self
+    }
+
+    /// Attaches a number of your own; events carry it.
+    #[must_use]
+    pub fn user_data(mut self, user_data: u64) -> Self {
+        self.user_data = user_data;
+        self
+    }
+
+    /// Sets the gap, in metres, at which contacts appear: a pair has a contact while its separation is at most the
+    /// sum of both margins. Also the hysteresis between `Began` and `Ended`.
+    ///
+    /// # Errors
+    /// What is not finite, below zero, or above 1e6.
+    pub fn margin(mut self, margin: f32) -> Result<Self, MarginError> {
+        if !(0.0..=asunder_geometry::tolerance::MAX_RADIUS).contains(&margin) {
+            return Err(MarginError { value: margin });
+        }
+        self.margin = margin;
+        Ok(self)
+    }
+
+    /// Whether it belongs to the level.
+    pub fn is_fixed(&self) -> bool {
+        self.fixed
+    }
+
+    /// Whether it only senses.
+    pub fn is_sensor(&self) -> bool {
+        self.sensor
+    }
+
+    /// The layers.
+    pub fn get_layers(&self) -> Layers {
+        self.layers
+    }
+
+    /// The owner, if any.
+    pub fn get_owner(&self) -> Option<u64> {
+        self.owner
+    }
+
+    /// The number attached.
+    pub fn get_user_data(&self) -> u64 {
+        self.user_data
+    }
+
+    /// The margin, in metres.
+    pub fn get_margin(&self) -> f32 {
+        self.margin
+    }
+
+    /// Whether the two may pair at all, wherever they are.
+    pub(crate) fn may_meet(&self, other: &Self) -> bool {
+        !(self.fixed && other.fixed)
+            && self.layers.meets(other.layers)
+            && (self.owner.is_none() || self.owner != other.owner)
+    }
+}

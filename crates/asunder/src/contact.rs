@@ -1,0 +1,62 @@
+//! Contacts: what the world keeps of a pair, and what it shows.
+
+use crate::space::{BodyKey2, BodyKey3, Space};
+use asunder_broad::PairId;
+use asunder_narrow::{Hint, Manifold2, Manifold3};
+use core::ops::Range;
+
+/// Two bodies within their margins of each other, as of the last update.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact<'a, K, M> {
+    /// The body in the lower slot.
+    pub a: K,
+    /// The other body.
+    pub b: K,
+    /// Whether either is a sensor: then there are no manifolds.
+    pub sensor: bool,
+    /// Whether they share a point now; touching counts.
+    pub overlapping: bool,
+    /// Whether their `Began` is among this update's events.
+    pub is_new: bool,
+    /// One manifold for each pair of convex parts that touch. Normals point from `a` to `b`.
+    pub manifolds: &'a [M],
+}
+
+/// A contact in the plane.
+pub type Contact2<'a> = Contact<'a, BodyKey2, Manifold2>;
+
+/// A contact in space.
+pub type Contact3<'a> = Contact<'a, BodyKey3, Manifold3>;
+
+/// A pair of boxes that overlapped at the last update, and what was learnt about it.
+#[derive(Clone, Debug)]
+pub(crate) struct Candidate<K> {
+    pub(crate) pair: PairId,
+    pub(crate) keys: (K, K),
+    pub(crate) hint: Hint,
+}
+
+/// A contact as the world keeps it. Records are sorted by pair.
+#[derive(Clone, Debug)]
+pub(crate) struct Record<K> {
+    pub(crate) pair: PairId,
+    pub(crate) keys: (K, K),
+    pub(crate) user_data: (u64, u64),
+    pub(crate) manifolds: Range<u32>,
+    pub(crate) sensor: bool,
+    pub(crate) overlapping: bool,
+    /// Whether it has begun and not ended: its bodies overlapped at some update since the record appeared.
+    pub(crate) begun: bool,
+    pub(crate) is_new: bool,
+}
+
+impl<K: slotmap::Key> Record<K> {
+    pub(crate) fn show<'a, S: Space<Key = K>>(
+        &self,
+        manifolds: &'a [S::Manifold],
+    ) -> Contact<'a, K, S::Manifold> {
+        let Record { keys: (a, b), sensor, overlapping, is_new, .. } = *self;
+        let range = self.manifolds.start as usize..self.manifolds.end as usize;
+        Contact { a, b, sensor, overlapping, is_new, manifolds: &manifolds[range] }
+    }
+}

@@ -1,0 +1,38 @@
+//! Stage 1: moved poses to boxes, rounded outwards.
+
+use crate::space::Space;
+use crate::world::World;
+use slotmap::Key;
+
+/// Below this many bodies, handing them to other threads costs more than it saves.
+#[cfg(feature = "parallel")]
+const MIN_PARALLEL: usize = 4096;
+
+/// Makes the boxes of all bodies that moved, or came, since the last update.
+pub(super) fn refit<S: Space>(world: &mut World<S>) {
+    let World { bodies, keys, boxes, dirty, is_dirty, stats, scratch, .. } = world;
+    for &slot in dirty.iter() {
+        is_dirty[slot as usize] = false;
+    }
+    // A body that moved and was then removed has left its slot behind.
+    dirty.retain(|&slot| !keys[slot as usize].is_null());
+    stats.moved = dirty.len();
+
+    let bounds = |&slot: &u32| {
+        let body = bodies.get(keys[slot as usize]);
+        body.map_or(asunder_geometry::Bounds::NOTHING, |body| S::bounds(&body.shape, &body.pose, body.margin))
+    };
+    scratch.refitted.clear();
+    #[cfg(feature = "parallel")]
+    if dirty.len() >= MIN_PARALLEL {
+        use rayon::prelude::*;
+        dirty.par_iter().map(bounds).collect_into_vec(&mut scratch.refitted);
+    }
+    if scratch.refitted.is_empty() {
+        scratch.refitted.extend(dirty.iter().map(bounds));
+    }
+    for (&slot, &refitted) in dirty.iter().zip(&scratch.refitted) {
+        boxes[slot as usize] = refitted;
+    }
+    dirty.clear();
+}

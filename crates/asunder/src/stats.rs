@@ -1,0 +1,48 @@
+//! What the last update cost and found.
+
+use core::time::Duration;
+
+/// Times a stage and counts of the last update. Times are wall clock, zero where the platform has none; everything
+/// else is deterministic.
+///
+/// ```
+/// use asunder::World3;
+/// let mut world = World3::new();
+/// world.update();
+/// assert_eq!((world.stats().bodies, world.stats().candidates), (0, 0));
+/// assert!(world.stats().total() >= world.stats().sweep);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stats {
+    /// Stage 1: poses to boxes.
+    pub refit: Duration,
+    /// Stage 2: boxes to candidate pairs.
+    pub sweep: Duration,
+    /// Stage 3: candidate pairs to contacts.
+    pub collide: Duration,
+    /// Stage 4: last update's contacts beside this one's.
+    pub merge: Duration,
+    /// Stage 5: events, and the index by body.
+    pub report: Duration,
+    /// Bodies in the world.
+    pub bodies: usize,
+    /// Bodies whose box was made anew.
+    pub moved: usize,
+    /// Pairs whose boxes overlap and whose filters agree.
+    pub candidates: usize,
+    /// Pairs within their margins.
+    pub contacts: usize,
+    /// Pairs that share a point.
+    pub touching: usize,
+    /// Manifolds of all contacts.
+    pub manifolds: usize,
+    /// Whether there were more candidates than allowed: contacts are then last update's, and there are no events.
+    pub overflow: bool,
+}
+
+impl Stats {
+    /// The time of all stages.
+    pub fn total(&self) -> Duration {
+        self.refit + self.sweep + self.collide + self.merge + self.report
+    }
+}

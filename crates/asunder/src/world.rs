@@ -1,0 +1,243 @@
+//! The world: bodies, and what is known about them since the last update.
+
+use crate::collider::Collider;
+use crate::contact::{Candidate, Contact, Record};
+use crate::event::Event;
+use crate::space::Space;
+use crate::stats::Stats;
+use asunder_broad::{PairId, Sweep};
+use asunder_geometry::Bounds;
+use slotmap::{Key, SlotMap};
+
+/// A key whose body is gone, or that was made by another world.
+///
+/// ```
+/// use asunder::{Collider3, Cuboid, Pose3, StaleKey, World3, glam::Vec3};
+/// let mut world = World3::new();
+/// let body = world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?));
+/// world.remove(body);
+/// assert_eq!(world.set_pose(body, Pose3::IDENTITY), Err(StaleKey));
+/// # Ok::<(), asunder::ExtentError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StaleKey;
+
+impl core::fmt::Display for StaleKey {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "the key names no body of this world: it was removed, or belongs to another world")
+    }
+}
+
+impl core::error::Error for StaleKey {}
+
+/// A world of bodies in one dimension; use it as [`World2`](crate::World2) or [`World3`](crate::World3).
+///
+/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future.
+#[derive(Clone, Debug)]
+pub struct World<S: Space> {
+    pub(crate) bodies: SlotMap<S::Key, Collider<S>>,
+    /// Key of the body in each slot; null where the slot is empty.
+    pub(crate) keys: Vec<S::Key>,
+    /// Box of the body in each slot; a box that overlaps nothing where the slot is empty.
+    pub(crate) boxes: Vec<S::Aabb>,
+    /// Slots whose box is out of date, in the order in which they became so, and the same as a flag a slot.
+    pub(crate) dirty: Vec<u32>,
+    pub(crate) is_dirty: Vec<bool>,
+    pub(crate) max_pairs: usize,
+
+    pub(crate) candidates: Vec<Candidate<S::Key>>,
+    pub(crate) records: Vec<Record<S::Key>>,
+    pub(crate) manifolds: Vec<S::Manifold>,
+    pub(crate) events: Vec<Event<S::Key>>,
+    /// Records by their second body, then their first: with the records themselves, every body's contacts.
+    pub(crate) by_second: Vec<u32>,
+    pub(crate) stats: Stats,
+    pub(crate) scratch: Scratch<S>,
+}
+
+/// Memory that a frame needs and that holds nothing between frames.
+#[derive(Clone, Debug)]
+pub(crate) struct Scratch<S: Space> {
+    pub(crate) sweep: Sweep,
+    pub(crate) pairs: Vec<PairId>,
+    pub(crate) refitted: Vec<S::Aabb>,
+    pub(crate) batches: Vec<S::Batch>,
+    pub(crate) last_candidates: Vec<Candidate<S::Key>>,
+    pub(crate) last_records: Vec<Record<S::Key>>,
+    pub(crate) ended: Vec<Record<S::Key>>,
+}
+
+impl<S: Space> Default for World<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<S: Space> World<S> {
+    /// An empty world.
+    pub fn new() -> Self {
+        Self {
+            bodies: SlotMap::with_key(),
+            keys: Vec::new(),
+            boxes: Vec::new(),
+            dirty: Vec::new(),
+            is_dirty: Vec::new(),
+            max_pairs: 1 << 24,
+            candidates: Vec::new(),
+            records: Vec::new(),
+            manifolds: Vec::new(),
+            events: Vec::new(),
+            by_second: Vec::new(),
+            stats: Stats::default(),
+            scratch: Scratch {
+                sweep: Sweep::new(),
+                pairs: Vec::new(),
+                refitted: Vec::new(),
+                batches: Vec::new(),
+                last_candidates: Vec::new(),
+                last_records: Vec::new(),
+                ended: Vec::new(),
+            },
+        }
+    }
+
+    /// Number of bodies.
+    pub fn len(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Whether there is no body.
+    pub fn is_empty(&self) -> bool {
+        self.bodies.is_empty()
+    }
+
+    /// Removes every body. Contacts that had begun end at the next update.
+    pub fn clear(&mut self) {
+        self.bodies.clear();
+        self.keys.fill(S::Key::null());
+        self.boxes.fill(S::Aabb::NOTHING);
+        self.dirty.clear();
+        self.is_dirty.fill(false);
+    }
+
+    /// Sets how many candidate pairs an update may make; 2^24 at first. See [`Stats::overflow`].
+    ///
+    /// ```
+    /// use asunder::{Collider2, Rect, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// world.set_max_pairs(0);
+    /// for _ in 0..2 {
+    ///     world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?));
+    /// }
+    /// world.update();
+    /// assert!(world.stats().overflow && world.events().is_empty());
+    /// assert_eq!(world.len(), 2);
+    /// world.clear();
+    /// assert!(world.is_empty());
+    /// # Ok::<(), asunder::ExtentError>(())
+    /// ```
+    pub fn set_max_pairs(&mut self, max_pairs: usize) {
+        self.max_pairs = max_pairs;
+    }
+
+    /// What the last update cost and found.
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    pub(crate) fn insert_body(&mut self, collider: Collider<S>) -> S::Key {
+        let key = self.bodies.insert(collider);
+        let slot = slot_of(key);
+        let index = slot as usize;
+        if index >= self.keys.len() {
+            self.keys.resize(index + 1, S::Key::null());
+            self.boxes.resize(index + 1, S::Aabb::NOTHING);
+            self.is_dirty.resize(index + 1, false);
+        }
+        self.keys[index] = key;
+        self.mark_dirty(slot);
+        key
+    }
+
+    pub(crate) fn remove_body(&mut self, key: S::Key) -> Option<Collider<S>> {
+        let collider = self.bodies.remove(key)?;
+        let index = slot_of(key) as usize;
+        self.keys[index] = S::Key::null();
+        self.boxes[index] = S::Aabb::NOTHING;
+        Some(collider)
+    }
+
+    pub(crate) fn move_body(&mut self, key: S::Key, pose: S::Pose) -> Result<(), StaleKey> {
+        let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
+        if !S::same_bits(&body.pose, &pose) {
+            body.pose = pose;
+            self.mark_dirty(slot_of(key));
+        }
+        Ok(())
+    }
+
+    fn mark_dirty(&mut self, slot: u32) {
+        if !core::mem::replace(&mut self.is_dirty[slot as usize], true) {
+            self.dirty.push(slot);
+        }
+    }
+
+    pub(crate) fn show_contacts(
+        &self,
+    ) -> impl ExactSizeIterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone {
+        self.records.iter().map(|record| record.show::<S>(&self.manifolds))
+    }
+
+    pub(crate) fn record_of(&self, one: S::Key, other: S::Key) -> Option<&Record<S::Key>> {
+        if !self.bodies.contains_key(one) || !self.bodies.contains_key(other) {
+            return None;
+        }
+        let pair = PairId::new(slot_of(one), slot_of(other));
+        let index = self.records.binary_search_by_key(&pair, |record| record.pair).ok()?;
+        let record = &self.records[index];
+        // A slot may have had another tenant when the record was made.
+        (record.keys == (one, other) || record.keys == (other, one)).then_some(record)
+    }
+
+    /// Records of one body, in order of the other body's slot.
+    pub(crate) fn records_of(&self, key: S::Key) -> impl Iterator<Item = &Record<S::Key>> + Clone {
+        // A stale key gets an empty range, and so does a slot whose records were another tenant's.
+        let slot = if self.bodies.contains_key(key) { slot_of(key) } else { u32::MAX };
+        let second = |&index: &u32| self.records[index as usize].pair.b;
+        let start = self.by_second.partition_point(|index| second(index) < slot);
+        let as_second = self.by_second[start..].iter().take_while(move |index| second(index) == slot);
+        let start = self.records.partition_point(|record| record.pair.a < slot);
+        let as_first = self.records[start..].iter().take_while(move |record| record.pair.a == slot);
+        as_second
+            .map(|&index| &self.records[index as usize])
+            .chain(as_first)
+            .filter(move |record| record.keys.0 == key || record.keys.1 == key)
+    }
+}
+
+/// The slot of a key: small, stable while the body lives, and reused after it is removed.
+///
+/// slotmap keeps the slot in the low half of a key's bits and the version in the high half. It promises only that the
+/// bits lead back to the key; a test below holds it to the rest.
+pub(crate) fn slot_of<K: Key>(key: K) -> u32 {
+    key.data().as_ffi() as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::BodyKey3;
+
+    #[test]
+    fn slots_are_small_stable_and_reused() {
+        let mut map: SlotMap<BodyKey3, ()> = SlotMap::with_key();
+        let keys: Vec<BodyKey3> = (0..10).map(|_| map.insert(())).collect();
+        let slots: Vec<u32> = keys.iter().map(|&key| slot_of(key)).collect();
+        assert_eq!(slots, (1..=10).collect::<Vec<u32>>());
+        map.remove(keys[4]);
+        let reused = map.insert(());
+        assert_eq!(slot_of(reused), slots[4]);
+        assert_ne!(reused, keys[4]);
+        assert_ne!(slot_of(BodyKey3::null()), slots[0], "the null key shares no slot with a body");
+    }
+}

@@ -1,0 +1,108 @@
+//! The world in the plane: the engine's face, in plain types.
+
+use crate::collider::Collider2;
+use crate::contact::Contact2;
+use crate::event::Event2;
+use crate::space::{BodyKey2, Plane};
+use crate::world::{StaleKey, World};
+use asunder_geometry::Pose2;
+
+/// A world of bodies in the plane.
+///
+/// Insert bodies, move them, [`update`](World::update) once a frame, and read what touches. Everything that is read
+/// between two updates is as of the last one.
+///
+/// ```
+/// use asunder::{Collider2, Rect, Pose2, World2, glam::Vec2};
+/// let mut world = World2::new();
+/// let unit = Rect::from_half_extents(Vec2::ONE)?;
+/// let a = world.insert(Collider2::new(unit));
+/// let b = world.insert(Collider2::new(unit).at(Pose2::at([8.0, 0.0])?));
+/// world.update();
+/// assert_eq!(world.contacts().len(), 0);
+///
+/// world.set_pose(b, Pose2::IDENTITY)?;
+/// world.update();
+/// assert!(world.is_touching(a, b));
+/// assert_eq!(world.candidates().collect::<Vec<_>>(), [(a, b)]);
+/// assert_eq!(world.touching(b).collect::<Vec<_>>(), [a]);
+/// assert_eq!(world.contact(b, a), world.contacts_of(a).next());
+/// assert_eq!(world.events().len(), 1);
+///
+/// assert!(world.contains(b) && world.get(b).is_some() && world.iter().count() == 2);
+/// assert!(world.remove(b).is_some());
+/// assert!(!world.contains(b));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub type World2 = World<Plane>;
+
+impl World<Plane> {
+    /// Adds a body. It takes part from the next update on. Cost: constant.
+    pub fn insert(&mut self, collider: Collider2) -> BodyKey2 {
+        self.insert_body(collider)
+    }
+
+    /// Takes a body out and returns it; nothing for a stale key. Contacts of it that had begun end at the next update.
+    pub fn remove(&mut self, key: BodyKey2) -> Option<Collider2> {
+        self.remove_body(key)
+    }
+
+    /// The body of a key; nothing for a stale one.
+    pub fn get(&self, key: BodyKey2) -> Option<&Collider2> {
+        self.bodies.get(key)
+    }
+
+    /// Whether the key's body is in the world.
+    pub fn contains(&self, key: BodyKey2) -> bool {
+        self.bodies.contains_key(key)
+    }
+
+    /// All bodies, in order of their slots.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (BodyKey2, &Collider2)> {
+        self.bodies.iter()
+    }
+
+    /// Moves a body. The same pose again, bit for bit, is no move. Cost: constant.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_pose(&mut self, key: BodyKey2, pose: Pose2) -> Result<(), StaleKey> {
+        self.move_body(key, pose)
+    }
+
+    /// Pairs whose boxes overlapped and whose filters agreed, in pair order: what the narrow phase was asked.
+    pub fn candidates(&self) -> impl ExactSizeIterator<Item = (BodyKey2, BodyKey2)> + Clone {
+        self.candidates.iter().map(|candidate| candidate.keys)
+    }
+
+    /// Pairs within their margins of each other, in pair order.
+    pub fn contacts(&self) -> impl ExactSizeIterator<Item = Contact2<'_>> + Clone {
+        self.show_contacts()
+    }
+
+    /// Contacts of one body, in order of the other body's slot; none for a stale key. Cost: a binary search.
+    pub fn contacts_of(&self, key: BodyKey2) -> impl Iterator<Item = Contact2<'_>> + Clone {
+        self.records_of(key).map(|record| record.show::<Plane>(&self.manifolds))
+    }
+
+    /// The contact of two bodies, in either order, if they have one. Cost: a binary search.
+    pub fn contact(&self, one: BodyKey2, other: BodyKey2) -> Option<Contact2<'_>> {
+        self.record_of(one, other).map(|record| record.show::<Plane>(&self.manifolds))
+    }
+
+    /// Whether the two bodies touch: `Began` was reported and `Ended` was not. Cost: a binary search.
+    pub fn is_touching(&self, one: BodyKey2, other: BodyKey2) -> bool {
+        self.record_of(one, other).is_some_and(|record| record.begun)
+    }
+
+    /// The bodies that touch this one, sensors among them, in order of their slots. Cost: a binary search.
+    pub fn touching(&self, key: BodyKey2) -> impl Iterator<Item = BodyKey2> + Clone {
+        let begun = self.records_of(key).filter(|record| record.begun);
+        begun.map(move |record| if record.keys.0 == key { record.keys.1 } else { record.keys.0 })
+    }
+
+    /// What began and what ended at the last update, in pair order; where a slot was reused, what ended comes first.
+    pub fn events(&self) -> &[Event2] {
+        &self.events
+    }
+}
