@@ -1,0 +1,19 @@
+# What CI does.
+check:
+    bash .ci/run
+
+# README's test command.
+test:
+    cargo test
+
+# A heap of crates, and its picture.
+play:
+    cargo run --release --example play -- --svg target/play.svg
+
+# Our time beside parry3d's in one run: broad, narrow or world.
+compare what="narrow":
+    cargo run --release -p asunder-benches --bin compare -- {{ what }} --quick
+
+# Licences, advisories and sources of all dependencies (needs cargo-deny).
+deny:
+    cargo deny check
