@@ -24,7 +24,8 @@ pub const PARALLEL_EDGES: f64 = 1e-8;
 /// verified axis; a pair dropped wrongly costs the true depth.
 pub const ARC_SLACK: f64 = 1e-6;
 
-/// Share of a pair's size by which another kind of axis must beat a face of A before the contact is built on it.
+/// Share of the smaller shape's diameter by which another kind of axis must beat a face of A before the contact is
+/// built on it.
 ///
 /// Keeps the reference face from flipping between ties; it is the largest regret of a reported normal.
 pub const FACE_PREFERENCE: f64 = 5e-7;

@@ -8,6 +8,7 @@ use crate::polygon::outline::Outline;
 use crate::polygon::sat::{Axes, Axis, Outcome, hint_of, overlaps, separating_axes};
 use crate::precision::{Precision, at_least, signed};
 use asunder_geometry::glam::{DVec2, Vec2};
+use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Pose2, Rotation2, Shape2};
 
 /// Two posed shapes in the plane, ready to be asked about each other.
@@ -103,8 +104,8 @@ impl<'a> Pair2<'a> {
             if !overlapping && f64::from(measured.separation) > margin {
                 return Contact { hint, contact: None };
             }
-            let size = f64::from(self.size());
-            let touch = touch(a, b, &axes, witness.as_ref().filter(|_| !overlapping), margin, size);
+            let witness = witness.as_ref().filter(|_| !overlapping);
+            let touch = touch(a, b, &axes, witness, margin, self.preference());
             let points = touch.points.iter().map(|point| ContactPoint2 {
                 separation: point.separation as f32,
                 anchor_a: self.anchor_a(point.on_a),
@@ -190,6 +191,13 @@ impl<'a> Pair2<'a> {
         let a = Outline::new(self.shape_a, &mut corners_a, self.rotation_a, DVec2::ZERO);
         let b = Outline::new(self.shape_b, &mut corners_b, self.rotation_b, self.offset);
         ask(&a, &b)
+    }
+
+    /// How much another axis must beat a face of A by, in metres. Relative to the smaller shape: what is nothing to a
+    /// floor may be all of a pebble. Never below rounding.
+    fn preference(&self) -> f64 {
+        let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
+        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision().projection())
     }
 
     fn precision(&self) -> Precision {

@@ -9,6 +9,7 @@ use crate::polyhedron::sat::{Axes, Axis, Outcome, hint_of, overlaps, separating_
 use crate::polyhedron::solid::Solid;
 use crate::precision::{Precision, at_least, signed};
 use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Basis3, Hull, Pose3, Shape3};
 
 /// Two posed shapes in space, ready to be asked about each other.
@@ -108,8 +109,8 @@ impl<'a> Pair3<'a> {
             if !overlapping && f64::from(measured.separation) > margin {
                 return Contact { hint, contact: None };
             }
-            let size = f64::from(self.size());
-            let touch = touch(a, b, &axes, witness.as_ref().filter(|_| !overlapping), margin, size);
+            let witness = witness.as_ref().filter(|_| !overlapping);
+            let touch = touch(a, b, &axes, witness, margin, self.preference());
             let points = touch.points.iter().map(|point| ContactPoint3 {
                 separation: point.separation as f32,
                 anchor_a: self.anchor_a(point.on_a),
@@ -212,6 +213,13 @@ impl<'a> Pair3<'a> {
         let a = Solid::new(self.shape_a, &mut corners_a, IDENTITY, DVec3::ZERO);
         let b = Solid::new(self.shape_b, &mut corners_b, self.relative, self.offset);
         ask(&a, &b)
+    }
+
+    /// How much another axis must beat a face of A by, in metres. Relative to the smaller shape: what is nothing to a
+    /// floor may be all of a pebble. Never below rounding.
+    fn preference(&self) -> f64 {
+        let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
+        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision().projection())
     }
 
     fn precision(&self) -> Precision {

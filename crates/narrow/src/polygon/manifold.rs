@@ -13,7 +13,6 @@ use super::sat::{Axes, AxisOf};
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::tolerance::FACE_PREFERENCE;
 
 /// A contact point in the frame of the pair.
 #[derive(Clone, Copy, Debug)]
@@ -31,15 +30,15 @@ pub(crate) struct Touch {
 }
 
 /// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
+/// `preference` is how much another axis must beat a face of A by.
 pub(crate) fn touch(
     a: &Outline,
     b: &Outline,
     axes: &Axes,
     witness: Option<&Witness>,
     margin: f64,
-    size: f64,
+    preference: f64,
 ) -> Touch {
-    let preference = FACE_PREFERENCE * size;
     let edge = if axes.edge_b.separation > axes.edge_a.separation + preference {
         &axes.edge_b
     } else {

@@ -19,7 +19,6 @@ use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::FACE_PREFERENCE;
 
 /// The most corners a clipped face can have: those of both faces.
 const MAX_CORNERS: usize = 512;
@@ -40,15 +39,15 @@ pub(crate) struct Touch {
 }
 
 /// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
+/// `preference` is how much another axis must beat a face of A by.
 pub(crate) fn touch(
     a: &Solid,
     b: &Solid,
     axes: &Axes,
     witness: Option<&Witness>,
     margin: f64,
-    size: f64,
+    preference: f64,
 ) -> Touch {
-    let preference = FACE_PREFERENCE * size;
     let face = prefer_face_a(axes, preference);
     if let Some(witness) = witness {
         // In a gap a face is what touches only where its axis is the shortest way across.
@@ -179,7 +178,8 @@ fn face_points(
     let deepest = incident.support(-normal).vertex;
     let incident_face = opposed_face_at(incident, deepest, normal);
     let mut points: ArrayVec<Point, MAX_CORNERS> = ArrayVec::new();
-    for corner in clip(solid, face, incident, incident_face, normal) {
+    let mut rings = [Ring::new_const(), Ring::new_const()];
+    for corner in clip((solid, face), (incident, incident_face), normal, &mut rings) {
         let new = reference.contact(corner.point, corner.features);
         let is_new = points.iter().all(|known| known.feature != new.feature);
         if new.separation <= within && is_new {
@@ -205,16 +205,18 @@ fn opposed_face_at(solid: &Solid, vertex: usize, normal: DVec3) -> usize {
     best.1
 }
 
+/// A polygon being clipped. Large, so that any two faces fit: it is filled in place and never moved.
+type Ring = ArrayVec<Corner, MAX_CORNERS>;
+
 /// The incident face cut by the side planes of the reference face: Sutherland and Hodgman, "Reentrant polygon
-/// clipping" (1974).
-fn clip(
-    reference: &Solid,
-    face: usize,
-    incident: &Solid,
-    incident_face: usize,
+/// clipping" (1974). Returns whichever of the two rings holds the result.
+fn clip<'a>(
+    (reference, face): (&Solid, usize),
+    (incident, incident_face): (&Solid, usize),
     normal: DVec3,
-) -> ArrayVec<Corner, MAX_CORNERS> {
-    let mut polygon: ArrayVec<Corner, MAX_CORNERS> = ArrayVec::new();
+    rings: &'a mut [Ring; 2],
+) -> &'a Ring {
+    let [mut polygon, mut clipped] = rings.each_mut();
     for half_edge in incident.topology.face_half_edges(incident_face) {
         let vertex = incident.topology.ends(half_edge).0;
         polygon.push(Corner {
@@ -226,9 +228,9 @@ fn clip(
     for half_edge in reference.topology.face_half_edges(face) {
         let from = reference.point(reference.topology.ends(half_edge).0);
         let outward = reference.edge_direction(half_edge).cross(normal);
-        let mut clipped: ArrayVec<Corner, MAX_CORNERS> = ArrayVec::new();
+        clipped.clear();
         for (i, &here) in polygon.iter().enumerate() {
-            let there = polygon[(i + 1) % polygon.len()];
+            let there = polygon[if i + 1 == polygon.len() { 0 } else { i + 1 }];
             let (d_here, d_there) = (outward.dot(here.point - from), outward.dot(there.point - from));
             if d_here <= 0.0 {
                 let _ = clipped.try_push(here);
@@ -241,7 +243,7 @@ fn clip(
                 let _ = clipped.try_push(Corner { point, features, leaving });
             }
         }
-        polygon = clipped;
+        core::mem::swap(&mut polygon, &mut clipped);
     }
     polygon
 }

@@ -17,8 +17,12 @@
 
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId, Hint};
+use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::{ARC_SLACK, PARALLEL_EDGES};
+use asunder_geometry::tolerance::{ARC_SLACK, MAX_HULL_VERTICES, PARALLEL_EDGES};
+
+/// Edges of a hull with the most vertices, by Euler's formula.
+const MAX_EDGES: usize = 3 * MAX_HULL_VERTICES - 6;
 
 /// What an axis is the axis of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,11 +168,13 @@ pub(crate) struct Arc {
 
 /// Visits edge pairs whose arcs may cross until the visitor says to stop; returns whether it did.
 fn for_edge_pairs(a: &Solid, b: &Solid, mut visit: impl FnMut(usize, usize) -> bool) -> bool {
-    for edge_a in a.topology.edges().iter().map(|&e| e as usize) {
-        // Into B's local axes, once: the inner loop then reads B's data as it is stored.
-        let arc_a = b.arc_from_frame(a.arc(edge_a));
-        for edge_b in b.topology.edges().iter().map(|&e| e as usize) {
-            if arcs_may_cross(&arc_a, &b.local_arc(edge_b)) && visit(edge_a, edge_b) {
+    // B's arcs side by side, in B's own axes, so that only A's are turned.
+    let mut arcs_b: ArrayVec<Arc, MAX_EDGES> = ArrayVec::new();
+    arcs_b.extend(b.topology.edges().iter().map(|&edge| b.local_arc(edge as usize)));
+    for &edge_a in a.topology.edges() {
+        let arc_a = b.arc_from_frame(a.arc(edge_a as usize));
+        for (arc_b, &edge_b) in arcs_b.iter().zip(b.topology.edges()) {
+            if arcs_may_cross(&arc_a, arc_b) && visit(edge_a as usize, edge_b as usize) {
                 return true;
             }
         }
