@@ -1,18 +1,21 @@
 //! Convex hulls of points in space.
 //!
 //! ```text
-//! points -> unique -> exact facets (wrap) -> flat faces (merge) -> topology, normals, radii
+//! points -> unique -> exact facets (quick) -> flat faces (merge) -> topology, normals, radii
 //!                          ^                      |
 //!                          +-- without the vertices that ended up inside a flat face
 //! ```
 
 mod error;
 mod merge;
+mod predicate;
+mod quick;
+#[cfg(test)]
 mod wrap;
 
 pub use error::HullError;
 use merge::merge_facets;
-use wrap::enumerate_facets;
+use quick::hull_facets;
 
 use crate::aabb::Aabb3;
 use crate::outward::{interval, round_down, round_up};
@@ -55,7 +58,7 @@ struct HullData {
 }
 
 impl Hull {
-    /// The hull of up to 65,535 points. Cost: points times facets.
+    /// The hull of up to 65,535 points. Cost: about n log n.
     ///
     /// A point that lies inside a face that is flat up to rounding is no vertex; [`Hull::error`] says how far
     /// outside the hull any such point may lie.
@@ -68,7 +71,7 @@ impl Hull {
         let scale = kept.iter().map(|v| (v.as_dvec3() - kept[0].as_dvec3()).length()).fold(0.0, f64::max);
         let mut dropped: Vec<Vec3> = Vec::new();
         loop {
-            let facets = enumerate_facets(&kept)?;
+            let facets = hull_facets(&kept)?;
             let merged = merge_facets(&kept, &facets, COPLANAR * 0.5 * scale);
             if merged.inside.is_empty() {
                 return Self::from_faces(&kept, &merged.faces, &dropped);

@@ -113,3 +113,43 @@ fn bad_clouds_are_refused() {
     let many = cloud(70_000, 5, |v| v);
     assert_eq!(Hull::from_points(&many).unwrap_err(), HullError::TooManyPoints { count: 70_000 });
 }
+
+/// Clouds that break hull builders: coplanar, collinear, repeated, nearly flat, thin, and all of it at once.
+fn nasty_cloud(seed: u64) -> Vec<Vec3> {
+    let count = 4 + (seed as usize * 13) % 60;
+    let steps = |v: Vec3, n: f32| (v * n).round() / n;
+    cloud(count, seed, |v| match seed % 9 {
+        0 => v,
+        1 => v.normalize_or(Vec3::X),
+        2 => steps(v, 1.0),
+        3 => steps(v, 2.0),
+        4 => Vec3::new(v.x, v.y, v.z * 1e-7),
+        5 => Vec3::new(v.x, v.y * 1e-6, v.z * 1e-6),
+        6 => steps(v, 3.0) + v * 1e-7,
+        7 => Vec3::new(v.x, v.y, if v.z > 0.5 { v.z } else { 0.25 }),
+        _ => Vec3::splat(1e5) + steps(v, 4.0),
+    })
+}
+
+#[test]
+fn the_builder_finds_the_very_facets_that_wrapping_finds() {
+    let mut solid = 0;
+    for seed in 1..3000 {
+        let points = unique(&nasty_cloud(seed));
+        let (quick, wrapped) = (quick::hull_facets(&points), wrap::enumerate_facets(&points));
+        assert_eq!(quick, wrapped, "seed {seed}");
+        solid += usize::from(quick.is_ok());
+    }
+    assert!(solid > 2500, "only {solid} clouds had a volume");
+}
+
+#[test]
+fn nasty_clouds_are_valid_hulls() {
+    for seed in 1..3000 {
+        let points = nasty_cloud(seed);
+        match Hull::from_points(&points) {
+            Ok(hull) => check(&points, &hull),
+            Err(error) => assert!(matches!(error, HullError::Flat { .. }), "seed {seed}: {error}"),
+        }
+    }
+}
