@@ -208,7 +208,7 @@ impl<'a> Pair3<'a> {
         Some(Cuboids { half_a, half_b, basis: self.relative, offset: self.offset })
     }
 
-    fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
+    pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
         let (mut corners_a, mut corners_b) = ([Vec3::ZERO; 8], [Vec3::ZERO; 8]);
         let a = Solid::new(self.shape_a, &mut corners_a, IDENTITY, DVec3::ZERO);
         let b = Solid::new(self.shape_b, &mut corners_b, self.relative, self.offset);
@@ -222,7 +222,7 @@ impl<'a> Pair3<'a> {
         (FACE_PREFERENCE * 2.0 * smaller).max(self.precision().projection())
     }
 
-    fn precision(&self) -> Precision {
+    pub(crate) fn precision(&self) -> Precision {
         let planarity = |shape: &Shape3| match shape {
             Shape3::Cuboid(_) => 0.0,
             Shape3::Hull(hull) => f64::from(Hull::planarity_error(hull)),

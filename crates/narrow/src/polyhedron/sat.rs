@@ -229,3 +229,6 @@ pub(crate) fn hint_of(axis: &Axis) -> Hint {
         AxisOf::Edges(a, b) => FeatureId::new(Feature::Edge(a as u32), Feature::Edge(b as u32)),
     })
 }
+
+#[cfg(test)]
+mod tests;
