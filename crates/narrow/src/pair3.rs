@@ -191,10 +191,13 @@ impl<'a> Pair3<'a> {
         witness
     }
 
-    fn axes(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Outcome {
+    pub(crate) fn axes(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Outcome {
         match self.cuboids() {
             Some(cuboids) => cuboids.separating_axes(a, b, limit, hint),
-            None => separating_axes(a, b, limit, hint),
+            None => {
+                let slack = self.preference() + 4.0 * self.precision().planarity;
+                separating_axes(a, b, limit, hint, slack)
+            }
         }
     }
 

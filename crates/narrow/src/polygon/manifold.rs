@@ -4,12 +4,13 @@
 //! the reference edge is A's unless B's beats it by more than a relative preference
 //! the incident edge is, of the two at the other shape's deepest vertex, the one most opposed
 //! clip the incident edge to the reference edge's width
-//! keep the ends within the margin of the reference line; at least the deepest vertex
+//! keep the ends within the margin of the reference line
+//! if the deepest point was clipped away, ask the axis that is best of all; then the witness points of the gap
 //! ```
 
 use super::distance::Witness;
 use super::outline::Outline;
-use super::sat::{Axes, AxisOf};
+use super::sat::{Axes, Axis, AxisOf};
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
@@ -30,7 +31,10 @@ pub(crate) struct Touch {
 }
 
 /// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
-/// `preference` is how much another axis must beat a face of A by.
+/// `preference` is how much another axis must beat an edge of A by.
+///
+/// An axis that only nearly is the best may have its deepest point clipped away, because what touches lies just beside
+/// its edge. Then the best axis is asked in its place, and in a gap, the witness points.
 pub(crate) fn touch(
     a: &Outline,
     b: &Outline,
@@ -39,25 +43,40 @@ pub(crate) fn touch(
     margin: f64,
     preference: f64,
 ) -> Touch {
-    let edge = if axes.edge_b.separation > axes.edge_a.separation + preference {
-        &axes.edge_b
-    } else {
-        &axes.edge_a
-    };
-    if let Some(witness) = witness
-        && edge.separation < witness.distance - preference
-    {
-        // In a gap an edge is what touches only where its axis is the shortest way across.
-        return Touch { normal: witness.normal, points: closest_point(a, b, witness) };
+    let at_stake = witness.map_or(axes.best().separation, |witness| witness.distance);
+    let b_wins = axes.edge_b.separation > axes.edge_a.separation + preference;
+    for axis in [if b_wins { &axes.edge_b } else { &axes.edge_a }, axes.best()] {
+        if axis.separation < at_stake - preference {
+            continue;
+        }
+        // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
+        // deeper than zero: a body that rests exactly on an edge rests on both of its ends.
+        let within = margin.max(at_stake + preference);
+        let points = match axis.of {
+            AxisOf::EdgeA(edge) => edge_points(a, b, edge, axis.normal, within, false),
+            AxisOf::EdgeB(edge) => edge_points(b, a, edge, -axis.normal, within, true),
+        };
+        if points.iter().any(|point| point.separation <= at_stake + preference) {
+            return Touch { normal: axis.normal, points };
+        }
     }
-    // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no deeper
-    // than zero: a body that rests exactly on an edge rests on both of its ends.
-    let within = margin.max(edge.separation + preference);
-    let points = match edge.of {
-        AxisOf::EdgeA(index) => edge_points(a, b, index, edge.normal, within, false),
-        AxisOf::EdgeB(index) => edge_points(b, a, index, -edge.normal, within, true),
+    match witness {
+        Some(witness) => Touch { normal: witness.normal, points: closest_point(a, b, witness) },
+        None => Touch { normal: axes.best().normal, points: deepest_point(a, b, axes.best()) },
+    }
+}
+
+/// The deepest vertex of the shape whose edge the axis is not, and its foot on that edge's line: what is left where an
+/// edge looks past what touches it.
+fn deepest_point(a: &Outline, b: &Outline, axis: &Axis) -> ArrayVec<Point, 2> {
+    let (in_a, in_b) = (a.support(axis.normal), b.support(-axis.normal));
+    let point = match axis.of {
+        AxisOf::EdgeA(edge) => Reference { normal: axis.normal, reach: in_a.reach, is_b: false }
+            .contact(b.point(in_b.vertex), (Feature::Edge(edge as u32), Feature::Vertex(in_b.vertex as u32))),
+        AxisOf::EdgeB(edge) => Reference { normal: -axis.normal, reach: in_b.reach, is_b: true }
+            .contact(a.point(in_a.vertex), (Feature::Edge(edge as u32), Feature::Vertex(in_a.vertex as u32))),
     };
-    Touch { normal: edge.normal, points }
+    core::iter::once(point).collect()
 }
 
 /// The witness points of a gap, named by the features that carry them.
@@ -124,10 +143,6 @@ fn edge_points(
         .map(|(point, features)| reference.contact(point, features))
         .filter(|contact| contact.separation <= within)
         .collect();
-    if points.is_empty() {
-        let features = (Feature::Edge(edge as u32), Feature::Vertex(deepest as u32));
-        points.push(reference.contact(incident.point(deepest), features));
-    }
     points.sort_unstable_by_key(|point| point.feature);
     points
 }

@@ -5,7 +5,8 @@
 //! two edges:  the nearest points of their lines
 //! a face:     the other shape's incident face is the one most opposed, of those at its deepest vertex
 //!             clip it against planes through the reference face's edges, along the normal
-//!             keep the points within the margin of the reference plane; at least the deepest vertex
+//!             keep the points within the margin of the reference plane
+//! if the deepest point was clipped away, ask the axis that is best of all; then the witness points of the gap
 //! reduce to four
 //! ```
 //! Side planes are made from the reference face's own edges and not from neighbouring faces, so that a face which is
@@ -40,6 +41,9 @@ pub(crate) struct Touch {
 
 /// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
 /// `preference` is how much another axis must beat a face of A by.
+///
+/// An axis that only nearly is the best may have its deepest point clipped away, because what touches lies just beside
+/// its face. Then the best axis is asked in its place, and in a gap, the witness points.
 pub(crate) fn touch(
     a: &Solid,
     b: &Solid,
@@ -48,36 +52,57 @@ pub(crate) fn touch(
     margin: f64,
     preference: f64,
 ) -> Touch {
-    let face = prefer_face_a(axes, preference);
-    if let Some(witness) = witness {
-        // In a gap a face is what touches only where its axis is the shortest way across.
-        if face.separation < witness.distance - preference {
-            return Touch { normal: witness.normal, points: closest_point(a, b, witness) };
+    let overlapping = witness.is_none();
+    let at_stake = witness.map_or(axes.best().separation, |witness| witness.distance);
+    for axis in [preferred(axes, overlapping, preference), axes.best()] {
+        if axis.separation < at_stake - preference {
+            continue;
         }
-    } else if axes.edges.separation > face.separation + preference
-        && let AxisOf::Edges(edge_a, edge_b) = axes.edges.of
-    {
-        let point = edge_point(a, b, (edge_a, edge_b), axes.edges.normal);
-        return Touch { normal: axes.edges.normal, points: core::iter::once(point).collect() };
+        // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
+        // deeper than zero: a body that rests exactly on a face rests on all of its corners.
+        let within = margin.max(at_stake + preference);
+        let points = match axis.of {
+            AxisOf::FaceA(face) => face_points(a, b, face, axis.normal, within, false),
+            AxisOf::FaceB(face) => face_points(b, a, face, -axis.normal, within, true),
+            AxisOf::Edges(..) if !overlapping => continue,
+            AxisOf::Edges(edge_a, edge_b) => edge_point(a, b, (edge_a, edge_b), axis.normal),
+        };
+        if points.iter().any(|point| point.separation <= at_stake + preference) {
+            return Touch { normal: axis.normal, points };
+        }
     }
-    // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no deeper
-    // than zero: a body that rests exactly on a face rests on all of its corners.
-    let within = margin.max(face.separation + preference);
-    let points = match face.of {
-        AxisOf::FaceB(index) => face_points(b, a, index, -face.normal, within, true),
-        AxisOf::FaceA(index) | AxisOf::Edges(index, _) => {
-            face_points(a, b, index, face.normal, within, false)
-        }
-    };
-    Touch { normal: face.normal, points }
+    match witness {
+        Some(witness) => Touch { normal: witness.normal, points: closest_point(a, b, witness) },
+        None => Touch { normal: axes.best().normal, points: deepest_point(a, b, axes.best()) },
+    }
 }
 
-fn prefer_face_a(axes: &Axes, preference: f64) -> &Axis {
-    if axes.face_b.separation > axes.face_a.separation + preference { &axes.face_b } else { &axes.face_a }
+fn preferred(axes: &Axes, overlapping: bool, preference: f64) -> &Axis {
+    let face = if axes.face_b.separation > axes.face_a.separation + preference {
+        &axes.face_b
+    } else {
+        &axes.face_a
+    };
+    if overlapping && axes.edges.separation > face.separation + preference { &axes.edges } else { face }
+}
+
+/// The deepest vertex of the shape whose face the axis is not, and its foot on the other's supporting plane: what is
+/// left where a face looks past what touches it.
+fn deepest_point(a: &Solid, b: &Solid, axis: &Axis) -> ArrayVec<Point, 4> {
+    let (in_a, in_b) = (a.support(axis.normal), b.support(-axis.normal));
+    let point = match axis.of {
+        AxisOf::FaceB(face) => Reference { normal: -axis.normal, reach: in_b.reach, is_b: true }
+            .contact(a.point(in_a.vertex), (Feature::Face(face as u32), Feature::Vertex(in_a.vertex as u32))),
+        AxisOf::FaceA(face) => Reference { normal: axis.normal, reach: in_a.reach, is_b: false }
+            .contact(b.point(in_b.vertex), (Feature::Face(face as u32), Feature::Vertex(in_b.vertex as u32))),
+        AxisOf::Edges(edge, _) => Reference { normal: axis.normal, reach: in_a.reach, is_b: false }
+            .contact(b.point(in_b.vertex), (Feature::Edge(edge as u32), Feature::Vertex(in_b.vertex as u32))),
+    };
+    core::iter::once(point).collect()
 }
 
 /// The nearest points of two edges that cross, each held to its edge.
-fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), normal: DVec3) -> Point {
+fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), normal: DVec3) -> ArrayVec<Point, 4> {
     let ((a0, a1), (b0, b1)) = (a.edge(edges.0), b.edge(edges.1));
     let (along_a, along_b, between) = (a1 - a0, b1 - b0, b0 - a0);
     let cross = along_a.cross(along_b);
@@ -87,7 +112,7 @@ fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), normal: DVec3) -> Poi
     let t = (between.cross(along_a).dot(cross) * inverse).clamp(0.0, 1.0);
     let (on_a, on_b) = (a0 + along_a * s, b0 + along_b * t);
     let feature = FeatureId::new(Feature::Edge(edges.0 as u32), Feature::Edge(edges.1 as u32));
-    Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature }
+    core::iter::once(Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature }).collect()
 }
 
 /// The witness points of a gap, named by the features that carry them.
@@ -185,10 +210,6 @@ fn face_points(
         if new.separation <= within && is_new {
             points.push(new);
         }
-    }
-    if points.is_empty() {
-        let features = (Feature::Face(face as u32), Feature::Vertex(deepest as u32));
-        points.push(reference.contact(incident.point(deepest), features));
     }
     reduce_to_four(&points, normal)
 }

@@ -10,8 +10,8 @@
 //! An edge pair bounds the Minkowski difference exactly when the arc between the normals at A's edge crosses the arc
 //! between the (negated) normals at B's (Gregorius, "The separating axis test between convex polyhedra", GDC 2013).
 //! The arc test here only saves time, and errs towards keeping a pair: what it keeps is verified by full projection,
-//! so noise in a cross product can make an axis useless but never wrong. Both directions of a cross product are
-//! tried, which needs no centre to tell outward from inward and so holds at coincident centres.
+//! so noise in a cross product can make an axis useless but never wrong. Which way a cross product points is told by the
+//! arc of A's edge, and not by the centres, which may coincide.
 //!
 //! Cost: faces times vertices, plus edge pairs, plus kept edge pairs times vertices.
 
@@ -86,8 +86,9 @@ pub(crate) enum Outcome {
     Within(Axes),
 }
 
-/// Runs the test; `hint` is tried first. The outcome within the limit does not depend on the hint.
-pub(crate) fn separating_axes(a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Outcome {
+/// Runs the test; `hint` is tried first. The outcome within the limit does not depend on the hint. `slack` is how far
+/// edges may lie from the supporting planes of the axis that is theirs.
+pub(crate) fn separating_axes(a: &Solid, b: &Solid, limit: f64, hint: Hint, slack: f64) -> Outcome {
     if let Some(axis) = hinted_axis(a, b, hint)
         && axis.separation > limit
     {
@@ -106,13 +107,17 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, limit: f64, hint: Hint) -> O
             return Outcome::Beyond(axes.face_b);
         }
     }
+    let mut beyond = None;
     for_edge_pairs(a, b, |edge_a, edge_b| {
-        if let Some(axis) = edge_axis(a, b, edge_a, edge_b) {
+        let Some(axis) = edge_axis(a, b, edge_a, edge_b) else { return false };
+        if axis.separation > limit {
+            beyond = Some(axis);
+        } else if axis.separation > axes.edges.separation && supports(a, b, &axis, slack) {
             axes.offer(axis);
         }
-        axes.edges.separation > limit
+        beyond.is_some()
     });
-    if axes.edges.separation > limit { Outcome::Beyond(axes.edges) } else { Outcome::Within(axes) }
+    beyond.map_or(Outcome::Within(axes), Outcome::Beyond)
 }
 
 /// Whether no candidate axis parts the shapes. Asks for a yes or no only, so no axis is normalised.
@@ -146,10 +151,21 @@ fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
 
 fn edge_axis(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Option<Axis> {
     let axis = cross_of_edges(a.edge_direction(edge_a), b.edge_direction(edge_b))?.normalize();
-    let ((low_a, high_a), (low_b, high_b)) = (a.project(axis), b.project(axis));
-    let (ahead, behind) = (low_b - high_a, low_a - high_b);
-    let (separation, normal) = if ahead >= behind { (ahead, axis) } else { (behind, -axis) };
+    // Outwards as seen from A's edge: between the normals of its two faces.
+    let [one, other] = a.arc(edge_a).ends;
+    let normal = if axis.dot(one + other) < 0.0 { -axis } else { axis };
+    let separation = -b.support(-normal).reach - a.support(normal).reach;
     Some(Axis { separation, normal, of: AxisOf::Edges(edge_a, edge_b) })
+}
+
+/// Whether an axis' edges lie where both shapes reach furthest along it.
+///
+/// An arc that was kept because it was a close call need not: its axis is a true axis, but not that of its edges, and
+/// some other pair of the same direction is the one that touches.
+fn supports(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> bool {
+    let AxisOf::Edges(edge_a, edge_b) = axis.of else { return true };
+    let between = b.edge(edge_b).0 - a.edge(edge_a).0;
+    axis.normal.dot(between) - axis.separation <= slack
 }
 
 /// The cross product of two edges, or nothing where they are so nearly parallel that it would be noise.
@@ -160,7 +176,7 @@ fn cross_of_edges(along_a: DVec3, along_b: DVec3) -> Option<DVec3> {
 }
 
 /// An edge on the Gauss map: its direction, of any length, and the unit normals that its arc runs between.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Arc {
     pub(crate) along: DVec3,
     pub(crate) ends: [DVec3; 2],

@@ -52,12 +52,16 @@ impl Random {
     }
 }
 
+/// The greatest separation along any cross product of edges, whichever way it points.
 fn all_edge_pairs(a: &Solid, b: &Solid) -> f64 {
     let mut best = f64::NEG_INFINITY;
     for &edge_a in a.topology.edges() {
         for &edge_b in b.topology.edges() {
-            let axis = edge_axis(a, b, edge_a as usize, edge_b as usize);
-            best = best.max(axis.map_or(best, |axis| axis.separation));
+            let cross = cross_of_edges(a.edge_direction(edge_a as usize), b.edge_direction(edge_b as usize));
+            if let Some(axis) = cross.map(DVec3::normalize) {
+                let ((low_a, high_a), (low_b, high_b)) = (a.project(axis), b.project(axis));
+                best = best.max(low_b - high_a).max(low_a - high_b);
+            }
         }
     }
     best
@@ -75,9 +79,7 @@ fn pruned_and_exhaustive_agree_within_the_reported_error() {
             (Pose3::new(Vec3::ZERO, turns[0]).unwrap(), Pose3::new(offset, turns[1]).unwrap());
         let pair = Pair3::new(&shape_a, &pose_a, &shape_b, &pose_b);
         pair.with_solids(|a, b| {
-            let Outcome::Within(axes) = separating_axes(a, b, f64::INFINITY, Hint::NONE) else {
-                unreachable!()
-            };
+            let Outcome::Within(axes) = pair.axes(a, b, f64::INFINITY, Hint::NONE) else { unreachable!() };
             let faces = axes.face_a.separation.max(axes.face_b.separation);
             let exhaustive = faces.max(all_edge_pairs(a, b));
             let pruned = axes.best().separation;
