@@ -1,1 +1,20 @@
-//! stub
+//! The judge: our time beside parry3d's, in one process, on the same scenes.
+//!
+//! Machines are shared, and only ratios inside one run count. Therefore variants of a row take turns, frame by frame or
+//! block by block; time is that of the thread's CPU; figures are medians. A row stops after about a second a variant
+//! and says how far it came.
+//!
+//! - [`broad`]: all overlapping pairs of moving boxes, beside parry3d's `Bvh`.
+//! - [`narrow`]: one question about many pairs of shapes, beside parry3d's queries; [`flat`] is its twin in the plane,
+//!   which has no peer here.
+//! - [`world`]: whole frames, beside the [`lean`] pipeline over parry3d.
+#![deny(missing_docs)]
+
+pub mod broad;
+pub mod clock;
+pub mod flat;
+pub mod lean;
+pub mod narrow;
+pub mod parry;
+pub mod row;
+pub mod world;

@@ -1,1 +1,17 @@
-//! stub
+//! Seeded, named scenes, shared by tests, benches and examples.
+//!
+//! A scene is a function of its name, its size and its seed, and of nothing else: the generator is PCG by `oorandom`,
+//! trigonometry is by `libm`, sums run in a fixed order. Equal arguments give equal bits on every machine.
+//!
+//! - [`boxes`]: moving boxes for a broad phase.
+//! - [`level`]: scene files.
+//! - [`pairs`]: posed pairs of shapes for a narrow phase.
+//! - [`worlds`]: bodies with simple motion for a whole frame.
+#![deny(missing_docs)]
+
+pub mod boxes;
+pub mod level;
+pub mod pairs;
+pub mod random;
+mod turn;
+pub mod worlds;

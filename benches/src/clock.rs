@@ -1,0 +1,97 @@
+//! Thread CPU time, and medians of it.
+
+use cpu_time::ThreadTime;
+
+/// The CPU time of this thread that a call takes, in nanoseconds, and what the call returned.
+///
+/// ```
+/// let (ns, sum) = asunder_benches::clock::time(|| (0..1000_u64).sum::<u64>());
+/// assert!(ns >= 0.0 && sum == 499_500);
+/// ```
+pub fn time<T>(call: impl FnOnce() -> T) -> (f64, T) {
+    let start = ThreadTime::now();
+    let result = core::hint::black_box(call());
+    (start.elapsed().as_nanos() as f64, result)
+}
+
+/// Samples of one variant, in nanoseconds.
+///
+/// ```
+/// use asunder_benches::clock::Samples;
+/// let mut samples = Samples::default();
+/// for ns in [3.0, 1.0, 2.0] {
+///     samples.push(ns, 6.0);
+/// }
+/// assert_eq!(samples.median(), Some(2.0));
+/// assert_eq!((samples.spent(), samples.len()), (18.0, 3));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Samples {
+    ns: Vec<f64>,
+    spent: f64,
+}
+
+impl Samples {
+    /// Adds one sample, and the time that it took to get it.
+    pub fn push(&mut self, ns: f64, spent: f64) {
+        self.ns.push(ns);
+        self.spent += spent;
+    }
+
+    /// The middle sample; the lower of two. Nothing before the first. Cost: a sort.
+    pub fn median(&self) -> Option<f64> {
+        let mut sorted = self.ns.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        sorted.get(sorted.len().saturating_sub(1) / 2).copied()
+    }
+
+    /// The time that all samples took, in nanoseconds.
+    pub fn spent(&self) -> f64 {
+        self.spent
+    }
+
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.ns.len()
+    }
+
+    /// Whether there is no sample yet.
+    pub fn is_empty(&self) -> bool {
+        self.ns.is_empty()
+    }
+}
+
+/// How much a row may cost.
+///
+/// ```
+/// use asunder_benches::clock::Effort;
+/// assert!(Effort::quick().seconds < Effort::full().seconds);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// CPU seconds a variant of a row.
+    pub seconds: f64,
+    /// Most frames or rounds, where the time allows more.
+    pub rounds: usize,
+    /// Pairs in a set of the narrow phase.
+    pub pairs: usize,
+    /// Whether to leave out the largest sizes.
+    pub is_quick: bool,
+}
+
+impl Effort {
+    /// What a published figure takes: about a second a variant.
+    pub const fn full() -> Self {
+        Self { seconds: 1.0, rounds: 60, pairs: 10_000, is_quick: false }
+    }
+
+    /// A look: some tenths of a second a variant, smaller sets.
+    pub const fn quick() -> Self {
+        Self { seconds: 0.15, rounds: 12, pairs: 2000, is_quick: true }
+    }
+
+    /// The same time in nanoseconds.
+    pub fn nanoseconds(&self) -> f64 {
+        self.seconds * 1e9
+    }
+}

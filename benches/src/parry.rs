@@ -1,0 +1,66 @@
+//! Our types as parry3d's.
+
+use asunder_geometry::{Aabb3, Pose3, Shape3};
+use glam::Vec3;
+use parry3d::bounding_volume::Aabb;
+use parry3d::math::Pose;
+use parry3d::shape::SharedShape;
+
+/// Turns shapes into parry3d's, each different one once.
+///
+/// ```
+/// use asunder_benches::parry::Shapes;
+/// use asunder_geometry::{Cuboid, Shape3};
+/// use glam::Vec3;
+/// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
+/// let mut shapes = Shapes::default();
+/// let (one, other) = (shapes.convert(&cube).ok_or("no shape")?, shapes.convert(&cube).ok_or("no shape")?);
+/// assert!(std::sync::Arc::ptr_eq(&one.0, &other.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Default)]
+pub struct Shapes {
+    known: Vec<(Shape3, SharedShape)>,
+}
+
+impl Shapes {
+    /// The same shape for parry3d; nothing where it refuses the hull. Cost: a search among the different shapes.
+    pub fn convert(&mut self, shape: &Shape3) -> Option<SharedShape> {
+        if let Some((_, known)) = self.known.iter().find(|(known, _)| known == shape) {
+            return Some(known.clone());
+        }
+        let converted = match shape {
+            Shape3::Cuboid(cuboid) => {
+                let half = cuboid.half_extents();
+                SharedShape::cuboid(half.x, half.y, half.z)
+            }
+            Shape3::Hull(hull) => SharedShape::convex_hull(hull.vertices())?,
+        };
+        self.known.push((shape.clone(), converted.clone()));
+        Some(converted)
+    }
+}
+
+/// The same pose in f32, its rotation of unit length, as parry3d wants it.
+///
+/// ```
+/// use asunder_geometry::Pose3;
+/// assert_eq!(asunder_benches::parry::pose(&Pose3::at([1.0, 2.0, 3.0])?).translation.y, 2.0);
+/// # Ok::<(), asunder_geometry::PoseError>(())
+/// ```
+pub fn pose(pose: &Pose3) -> Pose {
+    Pose::from_parts(pose.position().as_vec3(), pose.rotation().normalize())
+}
+
+/// The same box.
+///
+/// ```
+/// use asunder_geometry::Aabb3;
+/// use glam::Vec3;
+/// let bounds = Aabb3::new(Vec3::ZERO, Vec3::ONE);
+/// assert_eq!(asunder_benches::parry::bounds(&bounds).maxs, Vec3::ONE);
+/// ```
+pub fn bounds(bounds: &Aabb3) -> Aabb {
+    let (mins, maxs): (Vec3, Vec3) = (bounds.min, bounds.max);
+    Aabb::new(mins, maxs)
+}

@@ -1,0 +1,117 @@
+//! One line of results, for people or for programs.
+
+use serde::Serialize;
+
+/// The result of one case.
+///
+/// ```
+/// use asunder_benches::row::Row;
+/// let mut row = Row::new("gas/1k", "frame", 1000);
+/// (row.ours_ns, row.peer, row.peer_ns) = (Some(50.0), Some("parry3d Bvh, incremental"), Some(200.0));
+/// row.finish();
+/// assert_eq!(row.ratio, Some(4.0));
+/// assert!(row.to_json().starts_with(r#"{"row":"gas/1k""#));
+/// assert!(row.to_text().contains("4.00"));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Row {
+    /// The case: scene and size, or shape, set and operation.
+    pub row: String,
+    /// Our time, in nanoseconds per [`Row::per`].
+    pub ours_ns: Option<f64>,
+    /// What stands beside us; nothing where there is no peer.
+    pub peer: Option<&'static str>,
+    /// The peer's time, in nanoseconds per [`Row::per`].
+    pub peer_ns: Option<f64>,
+    /// The peer's time over ours: above 1 we are faster.
+    pub ratio: Option<f64>,
+    /// What the times are for: a `frame` or a `pair`.
+    pub per: &'static str,
+    /// Boxes, pairs or bodies in the case.
+    pub n: usize,
+    /// Frames or pairs that were measured before the time was up.
+    pub done: usize,
+    /// Broad phase: our sweep alone, pairs in no order, in nanoseconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sweep_ns: Option<f64>,
+    /// Broad phase: putting the pairs in order, in nanoseconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub order_ns: Option<f64>,
+    /// Narrow phase: pairs where the yes or no differs although the shapes are not within 1e-4 of size of touching.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub disagree: Option<usize>,
+    /// What a reader should know: how far a row came, what was found.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub note: String,
+}
+
+impl Row {
+    /// A row without figures yet.
+    pub fn new(row: impl Into<String>, per: &'static str, n: usize) -> Self {
+        Self { row: row.into(), per, n, ..Self::default() }
+    }
+
+    /// Fills in what follows from the figures.
+    pub fn finish(&mut self) {
+        self.ratio = match (self.ours_ns, self.peer_ns) {
+            (Some(ours), Some(peer)) if ours > 0.0 => Some(peer / ours),
+            _ => None,
+        };
+    }
+
+    /// Appends a sentence to the note.
+    pub fn remark(&mut self, text: &str) {
+        if !self.note.is_empty() {
+            self.note.push_str("; ");
+        }
+        self.note.push_str(text);
+    }
+
+    /// One line of JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).unwrap_or_else(|error| format!("{{\"row\":\"{}: {error}\"}}", self.row))
+    }
+
+    /// One line of a table, under [`heading`].
+    pub fn to_text(&self) -> String {
+        let ratio = self.ratio.map_or(String::new(), |ratio| format!("{ratio:.2}"));
+        let mut note = self.note.clone();
+        if let (Some(sweep), Some(order)) = (self.sweep_ns, self.order_ns) {
+            note = format!("sweep {} order {}; {note}", duration(Some(sweep)), duration(Some(order)));
+        }
+        if let Some(disagree) = self.disagree.filter(|&count| count > 0) {
+            note = format!("{disagree} DISAGREE; {note}");
+        }
+        let line = format!(
+            "{:<28} {:>10} {:>10} {:>8}  {:>7} {:<26} {note}",
+            self.row,
+            duration(self.ours_ns),
+            duration(self.peer_ns),
+            ratio,
+            self.done,
+            self.peer.unwrap_or("-"),
+        );
+        line.trim_end().to_string()
+    }
+}
+
+/// The first line of a table.
+///
+/// ```
+/// assert!(asunder_benches::row::heading().contains("ratio"));
+/// ```
+pub fn heading() -> String {
+    format!(
+        "{:<28} {:>10} {:>10} {:>8}  {:>7} {:<26} note",
+        "row", "ours", "peer", "ratio", "done", "peer is"
+    )
+}
+
+fn duration(ns: Option<f64>) -> String {
+    match ns {
+        None => "-".to_string(),
+        Some(ns) if ns < 1e4 => format!("{ns:.0} ns"),
+        Some(ns) if ns < 1e7 => format!("{:.1} us", ns * 1e-3),
+        Some(ns) => format!("{:.1} ms", ns * 1e-6),
+    }
+}

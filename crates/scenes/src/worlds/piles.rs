@@ -1,0 +1,124 @@
+//! Heaps, pyramids, and a cloud of mixed shapes.
+
+use super::Replay3;
+use super::motion::Motion3;
+use crate::pairs::{SolidKind, cuboid, solids};
+use crate::random::Random;
+use crate::turn::Turn;
+use asunder_geometry::Shape3;
+use glam::{DVec3, Vec3};
+
+/// How far a resting body strays, in metres: what a solver leaves.
+const TREMBLE: f64 = 2e-5;
+
+/// Boxes of 1 m in a pit, layer on layer.
+pub(super) fn boxes(count: usize, seed: u64) -> Replay3 {
+    let shape = cuboid(Vec3::splat(0.5));
+    // Just higher than a layer is, the boxes overlap those below by half a millimetre. With this much room at the sides
+    // some touch their neighbours, and two of three candidates do not touch.
+    let spacing = DVec3::new(1.035, 0.9995, 1.035);
+    heap(count, seed, spacing, 0.03, |_, random| {
+        (shape.clone(), Turn::about(DVec3::Y, random.range(-0.035, 0.035)))
+    })
+}
+
+/// Hulls of 32 points in a pit, turned anyhow.
+pub(super) fn hulls(count: usize, seed: u64) -> Replay3 {
+    let shapes = solids(SolidKind::Hull32, 64, seed);
+    heap(count, seed, DVec3::splat(0.93), 0.02, |i, random| (shapes[i % shapes.len()].clone(), random.turn()))
+}
+
+/// A lattice of bodies, about a cube of them, in a pit of a floor and four walls.
+fn heap(
+    count: usize,
+    seed: u64,
+    spacing: DVec3,
+    jitter: f64,
+    mut draw: impl FnMut(usize, &mut Random) -> (Shape3, Turn),
+) -> Replay3 {
+    let mut random = Random::new(seed ^ 0x9117e);
+    let mut replay = Replay3::default();
+    let inside = count.saturating_sub(5);
+    let side = (libm::cbrt(inside as f64).ceil() as usize).max(1);
+    pit(&mut replay, spacing * side as f64, spacing);
+    for i in 0..inside {
+        let cell = DVec3::new((i % side) as f64, (i / (side * side)) as f64, (i / side % side) as f64);
+        let stray = random.within(DVec3::splat(-jitter), DVec3::splat(jitter));
+        let middle = cell + DVec3::new(0.5 - 0.5 * side as f64, 0.5, 0.5 - 0.5 * side as f64);
+        // A layer is level: bodies stray sideways.
+        let place = middle * spacing + DVec3::new(stray.x, 0.0, stray.z);
+        let (shape, turn) = draw(i, &mut random);
+        replay.moving(shape, Motion3::still(place).turned(turn).swaying(TREMBLE, &mut random), None);
+    }
+    replay
+}
+
+fn pit(replay: &mut Replay3, inside: DVec3, spacing: DVec3) {
+    let (half, slack) = (inside * 0.5, spacing * 0.02);
+    let floor = Vec3::new(half.x as f32 + 3.0, 1.0, half.z as f32 + 3.0);
+    replay.fixed(cuboid(floor), Motion3::still(DVec3::new(0.0, -0.9999, 0.0)));
+    for side in [-1.0, 1.0] {
+        let across_x = Vec3::new(1.0, half.y as f32 + 2.0, floor.z);
+        let at_x = DVec3::new(side * (half.x + slack.x + 1.0), half.y, 0.0);
+        replay.fixed(cuboid(across_x), Motion3::still(at_x));
+        let across_z = Vec3::new(half.x as f32, half.y as f32 + 2.0, 1.0);
+        let at_z = DVec3::new(0.0, half.y, side * (half.z + slack.z + 1.0));
+        replay.fixed(cuboid(across_z), Motion3::still(at_z));
+    }
+}
+
+/// Boxes in one pyramid, and in its lowest row.
+pub(super) const PYRAMID: (usize, usize) = (210, 20);
+
+/// As many whole pyramids as there are boxes for, in rows on one floor.
+pub(super) fn pyramids(count: usize, seed: u64) -> Replay3 {
+    let mut random = Random::new(seed ^ 0x97a);
+    let mut replay = Replay3::default();
+    let pyramids = (count.saturating_sub(1) / PYRAMID.0).max(1);
+    let shape = cuboid(Vec3::splat(0.5));
+    let depth = pyramids as f32 * 2.0;
+    replay.fixed(cuboid(Vec3::new(20.0, 1.0, depth)), Motion3::still(DVec3::new(0.0, -1.0, 0.0)));
+    for pyramid in 0..pyramids {
+        let z = (pyramid as f64 - 0.5 * (pyramids as f64 - 1.0)) * 4.0;
+        for (x, y) in pyramid_places() {
+            // All yaws are nearly equal, so that neighbours are a pair of boxes and not a contact.
+            let turn = Turn::about(DVec3::Y, random.range(0.006, 0.010));
+            let motion = Motion3::still(DVec3::new(x, y, z)).turned(turn).swaying(TREMBLE, &mut random);
+            replay.moving(shape.clone(), motion, None);
+        }
+    }
+    replay
+}
+
+/// Centres of a pyramid's boxes of 1 m: each sunk into those below by half a millimetre, 26 mm from its neighbours.
+pub(super) fn pyramid_places() -> impl Iterator<Item = (f64, f64)> {
+    (0..PYRAMID.1).flat_map(|row| {
+        let wide = PYRAMID.1 - row;
+        let y = 0.4995 + row as f64 * 0.9995;
+        (0..wide).map(move |i| ((i as f64 - 0.5 * (wide as f64 - 1.0)) * 1.026, y))
+    })
+}
+
+/// Shapes in the air on a loose lattice. Every other one turns, and drifts to and fro.
+pub(super) fn mixed(count: usize, seed: u64) -> Replay3 {
+    let mut random = Random::new(seed ^ 0x313d);
+    let kinds = [SolidKind::Box, SolidKind::Hull8, SolidKind::Hull16, SolidKind::Hull32];
+    let shapes: Vec<Shape3> = kinds.iter().flat_map(|&kind| solids(kind, 16, seed)).collect();
+    let mut replay = Replay3::default();
+    let side = (libm::cbrt(count as f64).ceil() as usize).max(1);
+    for i in 0..count {
+        let cell = DVec3::new((i % side) as f64, (i / (side * side)) as f64, (i / side % side) as f64);
+        let stray = random.within(DVec3::splat(-0.05), DVec3::splat(0.05));
+        let shape = shapes[random.below(shapes.len())].clone();
+        let mut motion = Motion3::still(cell * 1.17 + stray).turned(random.turn());
+        if i % 2 == 0 {
+            motion = motion.swaying(0.15, &mut random);
+            motion.axis = random.direction();
+            motion.spin = random.range(0.2, 2.0);
+            replay.moving(shape, motion, None);
+        } else {
+            replay.resting(shape, motion);
+        }
+    }
+    replay
+}
