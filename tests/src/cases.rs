@@ -4,7 +4,7 @@
 //! differs between platforms, and a failing seed must fail everywhere.
 
 use crate::exhaustive_distance::{exhaustive_distance2, exhaustive_distance3};
-use crate::exhaustive_sat::{exhaustive_sat2, exhaustive_sat3};
+use crate::exhaustive_sat::{exhaustive_sat2, exhaustive_sat3, gap2, gap3};
 use crate::placed::{Placed2, Placed3};
 use crate::solid::Solid;
 use asunder_geometry::{Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
@@ -311,7 +311,10 @@ pub fn truth3(a: &Placed3, b: &Placed3) -> Truth<DVec3> {
         return Truth { separation: best.gap, normal: best.normal };
     }
     let nearest = exhaustive_distance3(a, b);
-    Truth { separation: nearest.distance, normal: (nearest.on_b - nearest.on_a) / nearest.distance }
+    // The line between two points that almost meet has a poor direction; the best axis may then be the better one.
+    let line = (nearest.on_b - nearest.on_a) / nearest.distance;
+    let normal = if nearest.distance > 0.0 && gap3(a, b, line) > best.gap { line } else { best.normal };
+    Truth { separation: nearest.distance, normal }
 }
 
 /// The distance where a gap shows, the best axis of the test elsewhere.
@@ -321,5 +324,8 @@ pub fn truth2(a: &Placed2, b: &Placed2) -> Truth<DVec2> {
         return Truth { separation: best.gap, normal: best.normal };
     }
     let nearest = exhaustive_distance2(a, b);
-    Truth { separation: nearest.distance, normal: (nearest.on_b - nearest.on_a) / nearest.distance }
+    // The line between two points that almost meet has a poor direction; the best axis may then be the better one.
+    let line = (nearest.on_b - nearest.on_a) / nearest.distance;
+    let normal = if nearest.distance > 0.0 && gap2(a, b, line) > best.gap { line } else { best.normal };
+    Truth { separation: nearest.distance, normal }
 }

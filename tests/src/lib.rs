@@ -1,5 +1,6 @@
 //! The judges of asunder's answers: slow, plain, and made without its algorithms.
 //!
+//! - [`answers`]: what the narrow phase says of a case, measured by full projections of our own
 //! - [`brute_pairs`]: every overlapping pair of boxes, by a double loop
 //! - [`solid`]: facets and edges of a hull, from nothing but its vertices, decided exactly
 //! - [`placed`]: a shape where it is, in f64
@@ -7,16 +8,21 @@
 //! - [`exhaustive_distance`]: the distance over every pair of features
 //! - [`exact_overlap`]: whether two shapes share a point, by linear programming over integers
 //! - [`cases`]: seeded shapes, poses and pairs, far apart, deep, and touching
+//! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
 //!
 //! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
 //! against each other first (`tests/suite/oracles.rs`).
 #![deny(missing_docs)]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a judge that cannot judge must stop the test")]
 
+pub mod answers;
 pub mod brute_pairs;
 pub mod cases;
+pub mod engine;
 pub mod exact_overlap;
 pub mod exhaustive_distance;
 pub mod exhaustive_sat;
 pub mod integers;
+pub mod naive_world;
 pub mod placed;
 pub mod solid;

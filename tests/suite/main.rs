@@ -1,2 +1,44 @@
-//! What asunder guarantees. One line a guarantee; the module of that name proves it.
+//! What asunder guarantees, by the module that proves it.
+//!
+//! The judges
+//! - [`oracles`]: the slow oracles of `tests/src` agree with each other and with cases known beforehand
+//!
+//! Geometry
+//! - [`refusals`]: what is no convex shape and no pose is refused, by an error that names the place
+//! - [`bounds`]: the box around a posed shape holds it, and is no wider than rounding needs
+//!
+//! Broad phase
+//! - [`broad`]: exactly the pairs of a double loop, each once, in order, for any boxes whatever
+//!
+//! Narrow phase
+//! - [`separation`]: every separation and distance is right within its own error; closest points lie on the shapes
+//! - [`exactness`]: yes or no agrees with exact arithmetic up to the rounding of f64, and on short numbers exactly
+//! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair, with names that stay
+//! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
+//! - [`theory`]: the textbook's own examples
+//! - [`peer`]: parry3d says the same on 160,000 pairs
+//!
+//! World
+//! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
+//! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
+//! - [`world_threads`]: every output has the same bits at any number of threads
+//!
+//! Workspace
+//! - [`architecture`]: who may know whom, and paths that exist
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests stop the test, as tests do")]
+
+mod architecture;
+mod bounds;
+mod broad;
+mod exactness;
+mod invariance;
+mod manifolds;
 mod oracles;
+mod peer;
+mod refusals;
+mod separation;
+mod theory;
+mod world_events;
+mod world_model;
+mod world_threads;

@@ -126,8 +126,8 @@ pub(crate) fn overlaps(a: &Solid, b: &Solid) -> bool {
         let ((low_a, high_a), (low_b, high_b)) = (a.project(axis), b.project(axis));
         low_b > high_a || low_a > high_b
     };
-    if (0..a.topology.face_count()).any(|face| parts(a.normal(face)))
-        || (0..b.topology.face_count()).any(|face| parts(b.normal(face)))
+    if (0..a.topology.face_count()).any(|face| parts(a.outward(face)))
+        || (0..b.topology.face_count()).any(|face| parts(b.outward(face)))
     {
         return false;
     }

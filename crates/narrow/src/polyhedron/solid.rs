@@ -48,6 +48,21 @@ impl<'a> Solid<'a> {
         self.basis.turn(self.normals[face])
     }
 
+    /// Outward normal of a face, of any length: enough for a yes or no, and rounded less. Newell's area vector, about the
+    /// first corner; for coordinates of few digits it is exact.
+    #[inline]
+    pub(crate) fn outward(&self, face: usize) -> DVec3 {
+        let mut corners = self.topology.face_vertices(face).map(|vertex| self.vertices[vertex].as_dvec3());
+        let origin = corners.next().unwrap_or_default();
+        let (mut area, mut last) = (DVec3::ZERO, DVec3::ZERO);
+        for corner in corners {
+            let arm = corner - origin;
+            area += last.cross(arm);
+            last = arm;
+        }
+        self.basis.turn(area)
+    }
+
     /// Where an edge starts and where it leads, from its lower half-edge.
     #[inline]
     pub(crate) fn edge(&self, half_edge: usize) -> (DVec3, DVec3) {

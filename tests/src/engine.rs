@@ -1,0 +1,278 @@
+//! One face for both worlds, so that the model and the operation lists are written once.
+
+use crate::cases::Random;
+use asunder::slotmap::Key;
+use asunder::{
+    Collider, Contact, Cuboid, Event, Hull, Layers, Pair2, Pair3, Plane, Polygon, Pose2, Pose3, Rect, Shape2,
+    Shape3, Space, Volume, World,
+};
+use glam::{Vec2, Vec3};
+
+/// A dimension's world, by the calls that both have.
+pub trait Engine: Space + Clone + core::fmt::Debug {
+    /// `World::insert`.
+    fn insert(world: &mut World<Self>, body: Collider<Self>) -> Self::Key;
+    /// `World::remove`.
+    fn remove(world: &mut World<Self>, key: Self::Key) -> Option<Collider<Self>>;
+    /// `World::get`.
+    fn get(world: &World<Self>, key: Self::Key) -> Option<&Collider<Self>>;
+    /// `World::set_pose`: whether the key was fresh.
+    fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose) -> bool;
+    /// `World::iter`.
+    fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)>;
+    /// `World::candidates`.
+    fn candidates(world: &World<Self>) -> Vec<(Self::Key, Self::Key)>;
+    /// `World::contacts`.
+    fn contacts(world: &World<Self>) -> Vec<Contact<'_, Self::Key, Self::Manifold>>;
+    /// `World::contacts_of`.
+    fn contacts_of(world: &World<Self>, key: Self::Key) -> Vec<Contact<'_, Self::Key, Self::Manifold>>;
+    /// `World::contact`.
+    fn contact(
+        world: &World<Self>,
+        one: Self::Key,
+        other: Self::Key,
+    ) -> Option<Contact<'_, Self::Key, Self::Manifold>>;
+    /// `World::is_touching`.
+    fn is_touching(world: &World<Self>, one: Self::Key, other: Self::Key) -> bool;
+    /// `World::touching`.
+    fn touching(world: &World<Self>, key: Self::Key) -> Vec<Self::Key>;
+    /// `World::events`.
+    fn events(world: &World<Self>) -> &[Event<Self::Key>];
+    /// `Collider::at`.
+    fn moved(body: Collider<Self>, pose: Self::Pose) -> Collider<Self>;
+    /// `Collider::pose`.
+    fn pose_of(body: &Collider<Self>) -> Self::Pose;
+    /// Whether the boxes of two bodies, grown by their margins, share a point.
+    fn boxes_overlap(a: &Collider<Self>, b: &Collider<Self>) -> bool;
+    /// What the narrow phase says of two bodies: whether they overlap, and their manifold within the margin.
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Self::Manifold)>;
+    /// A unit cube or square, of side 1, at `x` on the first axis.
+    fn unit_at(x: f64) -> Collider<Self>;
+    /// The pose of [`Engine::unit_at`].
+    fn pose_at(x: f64) -> Self::Pose;
+    /// A pose within `reach` of the origin on each axis.
+    fn random_pose(random: &mut Random, reach: f64) -> Self::Pose;
+    /// A body of about a metre, of any kind, within `reach` of the origin on each axis.
+    fn random_body(random: &mut Random, reach: f64) -> Collider<Self>;
+}
+
+/// The slot of a key, by which pairs are ordered: the low half of a slotmap key's bits.
+pub fn slot_of(key: impl Key) -> u32 {
+    key.data().as_ffi() as u32
+}
+
+/// Gives a body some of the traits that decide whom it meets.
+fn with_random_traits<S: Space>(mut body: Collider<S>, random: &mut Random) -> Collider<S> {
+    if random.below(6) == 0 {
+        body = body.fixed();
+    }
+    if random.below(6) == 0 {
+        body = body.sensor();
+    }
+    if random.below(4) == 0 {
+        let groups = [0b01, 0b10, 0b11, 0];
+        body = body.layers(Layers { member_of: random.pick(&groups), collides_with: random.pick(&groups) });
+    }
+    if random.below(4) == 0 {
+        body = body.owner(random.below(3) as u64);
+    }
+    if random.below(3) == 0 {
+        body = body.margin(random.pick(&[0.01, 0.1, 0.5])).unwrap();
+    }
+    body.user_data(random.below(1 << 20) as u64)
+}
+
+impl Engine for Volume {
+    fn insert(world: &mut World<Self>, body: Collider<Self>) -> Self::Key {
+        world.insert(body)
+    }
+
+    fn remove(world: &mut World<Self>, key: Self::Key) -> Option<Collider<Self>> {
+        world.remove(key)
+    }
+
+    fn get(world: &World<Self>, key: Self::Key) -> Option<&Collider<Self>> {
+        assert_eq!(world.contains(key), world.get(key).is_some());
+        world.get(key)
+    }
+
+    fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose) -> bool {
+        world.set_pose(key, pose).is_ok()
+    }
+
+    fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)> {
+        world.iter().map(|(key, body)| (key, body.clone())).collect()
+    }
+
+    fn candidates(world: &World<Self>) -> Vec<(Self::Key, Self::Key)> {
+        world.candidates().collect()
+    }
+
+    fn contacts(world: &World<Self>) -> Vec<Contact<'_, Self::Key, Self::Manifold>> {
+        world.contacts().collect()
+    }
+
+    fn contacts_of(world: &World<Self>, key: Self::Key) -> Vec<Contact<'_, Self::Key, Self::Manifold>> {
+        world.contacts_of(key).collect()
+    }
+
+    fn contact(
+        world: &World<Self>,
+        one: Self::Key,
+        other: Self::Key,
+    ) -> Option<Contact<'_, Self::Key, Self::Manifold>> {
+        world.contact(one, other)
+    }
+
+    fn is_touching(world: &World<Self>, one: Self::Key, other: Self::Key) -> bool {
+        world.is_touching(one, other)
+    }
+
+    fn touching(world: &World<Self>, key: Self::Key) -> Vec<Self::Key> {
+        world.touching(key).collect()
+    }
+
+    fn events(world: &World<Self>) -> &[Event<Self::Key>] {
+        world.events()
+    }
+
+    fn moved(body: Collider<Self>, pose: Self::Pose) -> Collider<Self> {
+        body.at(pose)
+    }
+
+    fn pose_of(body: &Collider<Self>) -> Self::Pose {
+        *body.pose()
+    }
+
+    fn boxes_overlap(a: &Collider<Self>, b: &Collider<Self>) -> bool {
+        let bounds = |body: &Collider<Self>| body.shape().bounds(body.pose(), body.get_margin());
+        bounds(a).overlaps(&bounds(b))
+    }
+
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Self::Manifold)> {
+        let pair = Pair3::new(a.shape(), a.pose(), b.shape(), b.pose());
+        Some((pair.overlaps(), pair.manifold(margin)?))
+    }
+
+    fn unit_at(x: f64) -> Collider<Self> {
+        let unit = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap();
+        Collider::<Self>::new(unit).at(Self::pose_at(x))
+    }
+
+    fn pose_at(x: f64) -> Self::Pose {
+        Pose3::at([x, 0.0, 0.0]).unwrap()
+    }
+
+    fn random_pose(random: &mut Random, reach: f64) -> Self::Pose {
+        Pose3::new(random.vector() * reach, random.quaternion()).unwrap()
+    }
+
+    fn random_body(random: &mut Random, reach: f64) -> Collider<Self> {
+        let wedge =
+            [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::new(0.6, 0.7, 0.2), Vec3::new(0.4, 0.1, -0.3)];
+        let shape: Shape3 = match random.below(3) {
+            0 => Hull::from_points(&wedge).unwrap().into(),
+            1 => Cuboid::from_half_extents(Vec3::new(0.6, 0.3, 0.2)).unwrap().into(),
+            _ => Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap().into(),
+        };
+        let pose = Self::random_pose(random, reach);
+        with_random_traits(Collider::<Self>::new(shape).at(pose), random)
+    }
+}
+
+impl Engine for Plane {
+    fn insert(world: &mut World<Self>, body: Collider<Self>) -> Self::Key {
+        world.insert(body)
+    }
+
+    fn remove(world: &mut World<Self>, key: Self::Key) -> Option<Collider<Self>> {
+        world.remove(key)
+    }
+
+    fn get(world: &World<Self>, key: Self::Key) -> Option<&Collider<Self>> {
+        assert_eq!(world.contains(key), world.get(key).is_some());
+        world.get(key)
+    }
+
+    fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose) -> bool {
+        world.set_pose(key, pose).is_ok()
+    }
+
+    fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)> {
+        world.iter().map(|(key, body)| (key, body.clone())).collect()
+    }
+
+    fn candidates(world: &World<Self>) -> Vec<(Self::Key, Self::Key)> {
+        world.candidates().collect()
+    }
+
+    fn contacts(world: &World<Self>) -> Vec<Contact<'_, Self::Key, Self::Manifold>> {
+        world.contacts().collect()
+    }
+
+    fn contacts_of(world: &World<Self>, key: Self::Key) -> Vec<Contact<'_, Self::Key, Self::Manifold>> {
+        world.contacts_of(key).collect()
+    }
+
+    fn contact(
+        world: &World<Self>,
+        one: Self::Key,
+        other: Self::Key,
+    ) -> Option<Contact<'_, Self::Key, Self::Manifold>> {
+        world.contact(one, other)
+    }
+
+    fn is_touching(world: &World<Self>, one: Self::Key, other: Self::Key) -> bool {
+        world.is_touching(one, other)
+    }
+
+    fn touching(world: &World<Self>, key: Self::Key) -> Vec<Self::Key> {
+        world.touching(key).collect()
+    }
+
+    fn events(world: &World<Self>) -> &[Event<Self::Key>] {
+        world.events()
+    }
+
+    fn moved(body: Collider<Self>, pose: Self::Pose) -> Collider<Self> {
+        body.at(pose)
+    }
+
+    fn pose_of(body: &Collider<Self>) -> Self::Pose {
+        *body.pose()
+    }
+
+    fn boxes_overlap(a: &Collider<Self>, b: &Collider<Self>) -> bool {
+        let bounds = |body: &Collider<Self>| body.shape().bounds(body.pose(), body.get_margin());
+        bounds(a).overlaps(&bounds(b))
+    }
+
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Self::Manifold)> {
+        let pair = Pair2::new(a.shape(), a.pose(), b.shape(), b.pose());
+        Some((pair.overlaps(), pair.manifold(margin)?))
+    }
+
+    fn unit_at(x: f64) -> Collider<Self> {
+        let unit = Rect::from_half_extents(Vec2::splat(0.5)).unwrap();
+        Collider::<Self>::new(unit).at(Self::pose_at(x))
+    }
+
+    fn pose_at(x: f64) -> Self::Pose {
+        Pose2::at([x, 0.0]).unwrap()
+    }
+
+    fn random_pose(random: &mut Random, reach: f64) -> Self::Pose {
+        Pose2::new(random.vector().truncate() * reach, random.rotation2()).unwrap()
+    }
+
+    fn random_body(random: &mut Random, reach: f64) -> Collider<Self> {
+        let kite = [Vec2::ZERO, Vec2::X, Vec2::new(0.8, 0.7), Vec2::new(-0.2, 0.4)];
+        let shape: Shape2 = match random.below(3) {
+            0 => Polygon::new(&kite).unwrap().into(),
+            1 => Rect::from_half_extents(Vec2::new(0.6, 0.2)).unwrap().into(),
+            _ => Rect::from_half_extents(Vec2::splat(0.4)).unwrap().into(),
+        };
+        let pose = Self::random_pose(random, reach);
+        with_random_traits(Collider::<Self>::new(shape).at(pose), random)
+    }
+}

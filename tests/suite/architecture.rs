@@ -1,0 +1,142 @@
+//! Invariants of absence: who may know whom, read from `cargo metadata`; and paths that ARCHITECTURE.md names.
+
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What a user of asunder builds; tests, benches and examples are not among it.
+const LIBRARY: [&str; 5] =
+    ["asunder", "asunder-geometry", "asunder-broad", "asunder-narrow", "asunder-scenes"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_path_buf()
+}
+
+/// The workspace as cargo resolves it: names by package id, and the resolved edges.
+struct Graph {
+    names: BTreeMap<String, String>,
+    edges: BTreeMap<String, Vec<(String, BTreeSet<String>)>>,
+    /// Dependencies that each workspace member declares, of every kind.
+    declared: BTreeMap<String, Vec<String>>,
+}
+
+impl Graph {
+    fn read() -> Self {
+        // For this platform alone: other platforms' packages need not have been downloaded to run the tests.
+        let metadata =
+            cargo(&["metadata", "--format-version", "1", "--locked", "--filter-platform", &host_platform()]);
+        let metadata: Value = serde_json::from_str(&metadata).unwrap();
+        let members: Vec<&str> = list(&metadata["workspace_members"]).iter().map(text).collect();
+        let (mut names, mut declared) = (BTreeMap::new(), BTreeMap::new());
+        for package in list(&metadata["packages"]) {
+            let (id, name) = (text(&package["id"]), text(&package["name"]));
+            names.insert(id.to_owned(), name.to_owned());
+            if members.contains(&id) {
+                let dependencies = list(&package["dependencies"]).iter();
+                declared.insert(name.to_owned(), dependencies.map(|d| text(&d["name"]).to_owned()).collect());
+            }
+        }
+        let mut edges = BTreeMap::new();
+        for node in list(&metadata["resolve"]["nodes"]) {
+            let leads = list(&node["deps"]).iter().map(|dep| {
+                // A kind of null is a normal dependency.
+                let kinds = list(&dep["dep_kinds"]).iter();
+                let kinds = kinds.map(|kind| kind["kind"].as_str().unwrap_or("normal").to_owned());
+                (text(&dep["pkg"]).to_owned(), kinds.collect())
+            });
+            edges.insert(text(&node["id"]).to_owned(), leads.collect());
+        }
+        Self { names, edges, declared }
+    }
+
+    /// Names of all packages that a package's build needs, itself among them. Its tests may need more.
+    fn reachable(&self, name: &str) -> BTreeSet<String> {
+        let start = self.names.iter().find(|(_, known)| *known == name);
+        let mut open: Vec<String> = vec![start.unwrap_or_else(|| panic!("no package {name}")).0.clone()];
+        let mut seen: BTreeSet<String> = open.iter().cloned().collect();
+        while let Some(id) = open.pop() {
+            for (to, kinds) in &self.edges[&id] {
+                let is_built = kinds.contains("normal") || kinds.contains("build");
+                if is_built && seen.insert(to.clone()) {
+                    open.push(to.clone());
+                }
+            }
+        }
+        seen.iter().map(|id| self.names[id].clone()).collect()
+    }
+}
+
+/// What cargo prints in the workspace root.
+fn cargo(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn host_platform() -> String {
+    let version = cargo(&["-vV"]);
+    version.lines().find_map(|line| line.strip_prefix("host: ")).unwrap().to_owned()
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap_or_else(|| panic!("no text: {value}"))
+}
+
+#[test]
+fn no_library_crate_can_reach_parry() {
+    let graph = Graph::read();
+    // The walk must be able to find it at all.
+    assert!(graph.reachable("asunder-tests").contains("parry3d"));
+    for name in LIBRARY {
+        assert!(!graph.reachable(name).contains("parry3d"), "{name} reaches parry3d");
+    }
+}
+
+#[test]
+fn only_tests_and_benches_name_parry() {
+    let graph = Graph::read();
+    let naming: Vec<&str> = graph
+        .declared
+        .iter()
+        .filter(|(_, dependencies)| dependencies.iter().any(|name| name.starts_with("parry")))
+        .map(|(name, _)| name.as_str())
+        .collect();
+    let allowed = ["asunder-benches", "asunder-tests"];
+    assert!(naming.contains(&"asunder-tests") && naming.iter().all(|n| allowed.contains(n)), "{naming:?}");
+}
+
+#[test]
+fn dependencies_point_one_way() {
+    let graph = Graph::read();
+    let reach = |name: &str| -> BTreeSet<String> {
+        let mut names = graph.reachable(name);
+        names.retain(|known| known.starts_with("asunder") && known != name);
+        names
+    };
+    let of = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<BTreeSet<_>>();
+    assert_eq!(reach("asunder-geometry"), of(&[]), "geometry knows nobody");
+    assert_eq!(reach("asunder-broad"), of(&["asunder-geometry"]), "broad never sees narrow");
+    assert_eq!(reach("asunder-narrow"), of(&["asunder-geometry"]), "narrow never sees broad");
+    assert_eq!(reach("asunder"), of(&["asunder-geometry", "asunder-broad", "asunder-narrow"]));
+}
+
+#[test]
+fn paths_in_the_architecture_page_exist() {
+    let page = std::fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let is_path = |span: &&str| {
+        let ends = [".rs", ".toml", ".md"].iter().any(|end| span.ends_with(end));
+        let is_plain = span.chars().all(|c| c.is_ascii_alphanumeric() || "/._-".contains(c));
+        is_plain && (span.contains('/') || ends)
+    };
+    // Between backticks: every second piece of a line.
+    let spans = page.lines().flat_map(|line| line.split('`').skip(1).step_by(2));
+    let paths: Vec<&str> = spans.filter(is_path).collect();
+    assert!(paths.len() >= 5, "a code map names paths: {paths:?}");
+    let missing: Vec<&&str> = paths.iter().filter(|path| !root().join(path).exists()).collect();
+    assert!(missing.is_empty(), "named in ARCHITECTURE.md and not there: {missing:?}");
+}

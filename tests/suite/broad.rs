@@ -1,0 +1,226 @@
+//! The broad phase against a double loop: random boxes, nasty boxes, filters, and limits.
+
+use asunder_broad::{PairId, Sweep, TooManyPairs};
+use asunder_geometry::{Aabb2, Aabb3, Bounds};
+use asunder_tests::brute_pairs::{Sides, brute_pairs};
+use asunder_tests::cases::Random;
+use core::ops::ControlFlow;
+use glam::{Vec2, Vec3};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+fn swept<B: Bounds>(boxes: &[B], admit: impl Fn(u32, u32) -> bool) -> Vec<(u32, u32)> {
+    let mut pairs = vec![PairId { a: 7, b: 9 }];
+    Sweep::new().pairs(boxes, admit, usize::MAX, &mut pairs).unwrap();
+    pairs.iter().map(|pair| (pair.a, pair.b)).collect()
+}
+
+/// Same pairs as the double loop, as a list and to a visitor, with and without a filter; returns how many.
+fn check<B: Bounds + Sides>(boxes: &[B]) -> usize {
+    let everything = brute_pairs(boxes, |_, _| true);
+    assert_eq!(swept(boxes, |_, _| true), everything);
+    let admit = |a: u32, b: u32| !(a ^ b).is_multiple_of(3);
+    let filtered = brute_pairs(boxes, admit);
+    // The filter is asked with the lower number first, and only about boxes that overlap.
+    let asked = |a: u32, b: u32| {
+        assert!(everything.binary_search(&(a, b)).is_ok(), "asked about {a}, {b}, which are apart");
+        admit(a, b)
+    };
+    assert_eq!(swept(boxes, asked), filtered);
+    let mut visited = Vec::new();
+    let outcome = Sweep::new().visit(boxes, admit, |pair| {
+        visited.push((pair.a, pair.b));
+        ControlFlow::Continue(())
+    });
+    assert!(outcome.is_continue());
+    visited.sort_unstable();
+    assert_eq!(visited, filtered, "each pair once to the visitor");
+    everything.len()
+}
+
+fn random_box3(random: &mut Random, room: Vec3, size: f64) -> Aabb3 {
+    let center = random.vector().as_vec3() * room;
+    let half = Vec3::from_array([0; 3].map(|_| random.between(0.0, size) as f32));
+    Aabb3::new(center - half, center + half)
+}
+
+fn random_box2(random: &mut Random, room: Vec2, size: f64) -> Aabb2 {
+    let flat = random_box3(random, room.extend(0.0), size);
+    Aabb2::new(flat.min.truncate(), flat.max.truncate())
+}
+
+#[test]
+fn random_boxes_of_every_density() {
+    let mut random = Random::new(700);
+    let mut counts = Vec::new();
+    for size in [0.002, 0.02, 0.1, 0.5, 2.0] {
+        // Cubic rooms, a flat one, and a shaft: the widest axis is each of the three.
+        for room in [Vec3::ONE, Vec3::new(1.0, 0.02, 1.0), Vec3::new(0.01, 0.01, 5.0), Vec3::X, Vec3::Y] {
+            let boxes: Vec<_> = (0..500).map(|_| random_box3(&mut random, room, size)).collect();
+            counts.push(check(&boxes));
+            let boxes: Vec<_> = (0..500)
+                .map(|_| random_box2(&mut random, room.truncate() + Vec2::splat(0.01), size))
+                .collect();
+            counts.push(check(&boxes));
+        }
+    }
+    let all_pairs = 500 * 499 / 2;
+    assert!(counts.iter().any(|&count| count < 20), "sparse: {counts:?}");
+    assert!(counts.iter().any(|&count| count > all_pairs * 9 / 10), "dense: {counts:?}");
+}
+
+/// Coordinates that break sorts, quantisers and comparisons.
+const NASTY: [f32; 18] = [
+    f32::NAN,
+    f32::NEG_INFINITY,
+    f32::INFINITY,
+    f32::MIN,
+    f32::MAX,
+    -1.0,
+    -0.0,
+    0.0,
+    1.0,
+    1.000_000_1,
+    2.0,
+    1e-45,
+    -1e-45,
+    1e-40,
+    f32::MIN_POSITIVE,
+    1e9,
+    -1e9,
+    0.5,
+];
+
+#[test]
+fn nasty_boxes() {
+    let mut random = Random::new(701);
+    let mut pairs = 0;
+    for round in 0..400 {
+        // NaN in every tenth round only, or few boxes would be left that are boxes.
+        let skip = usize::from(round % 10 != 0);
+        let mut corner = || Vec3::from_array([0; 3].map(|_| NASTY[skip + random.below(NASTY.len() - skip)]));
+        let boxes: Vec<Aabb3> = (0..60)
+            .map(|i| {
+                let (p, q) = (corner(), corner());
+                // Every fourth box stays inverted if it came so.
+                if i % 4 == 0 { Aabb3::new(p, q) } else { Aabb3::new(p.min(q), p.max(q)) }
+            })
+            .collect();
+        pairs += check(&boxes);
+        let flat: Vec<Aabb2> = boxes.iter().map(|b| Aabb2::new(b.min.truncate(), b.max.truncate())).collect();
+        pairs += check(&flat);
+    }
+    assert!(pairs > 100_000, "{pairs} pairs");
+}
+
+#[test]
+fn no_box_one_box_two_boxes() {
+    let unit = Aabb3::new(Vec3::ZERO, Vec3::ONE);
+    assert_eq!(swept::<Aabb3>(&[], |_, _| true), []);
+    assert_eq!(swept(&[unit], |_, _| true), []);
+    assert_eq!(swept(&[unit, unit], |_, _| true), [(0, 1)]);
+    let beside = Aabb3::new(Vec3::new(1.0, 0.0, 0.0), Vec3::new(2.0, 1.0, 1.0));
+    assert_eq!(swept(&[beside, unit], |_, _| true), [(0, 1)], "touching counts");
+    let mut apart = beside;
+    apart.min.x = 1.0_f32.next_up();
+    assert_eq!(swept(&[apart, unit], |_, _| true), [], "one rounding parts them");
+}
+
+#[test]
+fn identical_touching_and_flat_boxes() {
+    let unit = Aabb2::new(Vec2::ZERO, Vec2::ONE);
+    assert_eq!(check(&[unit; 100]), 100 * 99 / 2, "identical boxes all meet");
+    let point = Aabb2::new(Vec2::ONE, Vec2::ONE);
+    assert_eq!(check(&[point; 50]), 50 * 49 / 2, "so do points");
+    let grid: Vec<Aabb3> = (0..1000)
+        .map(|i| {
+            let low = Vec3::new((i % 10) as f32, (i / 10 % 10) as f32, (i / 100) as f32);
+            Aabb3::new(low, low + Vec3::ONE)
+        })
+        .collect();
+    // Cells touch where no axis is more than one step apart: 28 of 100 pairs an axis, both ways and with itself.
+    assert_eq!(check(&grid), (28_usize.pow(3) - 1000) / 2);
+    let segments: Vec<Aabb2> =
+        (0..100).map(|i| Aabb2::new(Vec2::new(i as f32, 0.0), Vec2::new(i as f32 + 1.0, 0.0))).collect();
+    assert_eq!(check(&segments), 99, "a chain of flat boxes");
+}
+
+#[test]
+fn too_many_pairs_is_an_error_and_leaves_nothing() {
+    let boxes = [Aabb3::new(Vec3::ZERO, Vec3::ONE); 20];
+    let count = 20 * 19 / 2;
+    let mut sweep = Sweep::new();
+    let mut pairs = vec![PairId { a: 0, b: 1 }];
+    let mut limited = |limit: usize| {
+        let outcome = sweep.pairs(&boxes, |_, _| true, limit, &mut pairs);
+        (outcome, pairs.len())
+    };
+    for limit in [0, 1, count - 1] {
+        assert_eq!(limited(limit), (Err(TooManyPairs { limit }), 0));
+    }
+    assert_eq!(limited(count), (Ok(()), count), "the limit itself is allowed");
+    // What the filter drops does not count.
+    let kept = sweep.pairs(&boxes, |a, _| a == 0, 19, &mut pairs);
+    assert_eq!((kept, pairs.len()), (Ok(()), 19));
+}
+
+#[test]
+fn a_visitor_may_break_off() {
+    let boxes = [Aabb3::new(Vec3::ZERO, Vec3::ONE); 20];
+    let mut seen = 0;
+    let outcome = Sweep::new().visit(
+        &boxes,
+        |_, _| true,
+        |_| {
+            seen += 1;
+            if seen == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+    );
+    assert!(outcome.is_break() && seen == 5);
+}
+
+/// Scratch memory holds no history: after any other boxes, the answer is that of a new sweep.
+#[test]
+fn a_sweep_remembers_nothing() {
+    let mut random = Random::new(702);
+    let mut sweep = Sweep::new();
+    let mut pairs = Vec::new();
+    for count in [300, 2, 0, 150, 1, 299] {
+        let boxes: Vec<_> = (0..count).map(|_| random_box3(&mut random, Vec3::ONE, 0.2)).collect();
+        sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut pairs).unwrap();
+        let found: Vec<_> = pairs.iter().map(|pair| (pair.a, pair.b)).collect();
+        assert_eq!(found, brute_pairs(&boxes, |_, _| true));
+    }
+}
+
+fn coordinate() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        6 => (-8_i8..8).prop_map(|step| f32::from(step) * 0.25),
+        2 => any::<f32>(),
+        1 => prop::sample::select(NASTY.to_vec()),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 500,
+        rng_seed: RngSeed::Fixed(0xB0C5),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn any_boxes(corners in prop::collection::vec(prop::array::uniform6(coordinate()), 0..40)) {
+        let boxes: Vec<Aabb3> = corners
+            .iter()
+            .map(|&[ax, ay, az, bx, by, bz]| Aabb3::new(Vec3::new(ax, ay, az), Vec3::new(bx, by, bz)))
+            .collect();
+        check(&boxes);
+        let sorted: Vec<Aabb2> = boxes
+            .iter()
+            .map(|b| (b.min.truncate(), b.max.truncate()))
+            .map(|(p, q)| Aabb2::new(p.min(q), p.max(q)))
+            .collect();
+        check(&sorted);
+    }
+}

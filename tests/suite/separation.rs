@@ -1,0 +1,110 @@
+//! Separations and distances against the judges: an exhaustive separating axis test and an exhaustive distance.
+
+use asunder_tests::answers::{Asked, Asked2, Asked3, Measured};
+use asunder_tests::cases::Random;
+
+/// Rounding of the judges themselves, as a share of the pair's size: some forty roundings in f64.
+const JUDGES: f64 = 2e-14;
+
+/// A normal is reported in f32: its direction is off by up to 1e-7, and turns a pair's reach by that much.
+const NORMAL: f64 = 2e-7;
+
+/// Gaps that pairs are moved to, as shares of their size: clear ones, and ones that f32 and then f64 cannot tell.
+const GAPS: [f64; 12] = [0.3, 1e-2, 1e-4, 1e-6, 1e-8, 1e-11, -1e-11, -1e-8, -1e-6, -1e-4, -1e-2, -0.2];
+
+fn check_measured(measured: &Measured, truth: f64, size: f64, what: &str) {
+    let Measured { separation, error, normal_length, gap_along_normal } = *measured;
+    assert!(
+        (separation - truth).abs() <= error + JUDGES * size,
+        "{what}: reported {separation} +- {error}, true {truth}"
+    );
+    assert!((normal_length - 1.0).abs() <= 2e-7, "{what}: a normal of length {normal_length}");
+    assert!(
+        gap_along_normal >= separation - error - NORMAL * size,
+        "{what}: the normal shows {gap_along_normal}, reported {separation}"
+    );
+    // An error that says nothing would make every other claim here empty.
+    assert!(error <= 4e-6 * size + 1e-7 * separation.abs(), "{what}: error {error} of {size}");
+}
+
+/// Every claim about one pair; returns its true separation.
+fn check(asked: &impl Asked) -> f64 {
+    let (truth, size) = (asked.true_separation(), asked.size());
+    let overlaps = asked.overlaps();
+    if truth.abs() > JUDGES * size {
+        assert_eq!(overlaps, truth < 0.0, "true separation {truth}: {asked:?}");
+    }
+    let Ok(measured) = asked.separation(f32::INFINITY) else { panic!("no limit, yet no measure: {asked:?}") };
+    check_measured(&measured, truth, size, &format!("separation of {asked:?}"));
+    assert_eq!(measured.separation <= 0.0, overlaps, "the sign is the decision's: {asked:?}");
+
+    let distance = asked.distance();
+    assert_eq!(distance.is_none(), overlaps, "closest points exactly where there is a gap: {asked:?}");
+    if let Some(nearest) = distance {
+        check_measured(&nearest.measured, truth, size, &format!("distance of {asked:?}"));
+        assert!(nearest.measured.separation > 0.0);
+        // Points are rounded to f32 once; in a hair's gap their line is noise, so only their lengths are held.
+        let (on, error) = (NORMAL * size, nearest.measured.error);
+        let points = nearest.points;
+        assert!(
+            points.beyond_a <= on && points.beyond_b <= on,
+            "points on the shapes: {points:?} of {asked:?}"
+        );
+        let apart = points.along_normal.hypot(points.across_normal);
+        assert!((apart - truth).abs() <= error + 2.0 * on, "points {apart} apart, true {truth}: {asked:?}");
+    }
+    check_limits(asked, truth, size);
+    truth
+}
+
+/// With a limit, what is measured is as good as without, and a bound is one.
+fn check_limits(asked: &impl Asked, truth: f64, size: f64) {
+    for share in [0.0, 1e-3, 0.1] {
+        let limit = (share * size) as f32;
+        match asked.separation(limit) {
+            Ok(measured) => {
+                check_measured(&measured, truth, size, &format!("separation({limit}) of {asked:?}"));
+            }
+            Err(bound) => {
+                assert!(
+                    f64::from(bound) <= truth + JUDGES * size,
+                    "at least {bound}, true {truth}: {asked:?}"
+                );
+                // Rounded down to f32, a bound may come to rest on the limit.
+                assert!(bound >= limit, "at least {bound} says less than the limit {limit}: {asked:?}");
+                assert!(!asked.overlaps(), "a bound above zero, yet they overlap: {asked:?}");
+            }
+        }
+    }
+}
+
+/// Each sign of the true separation must have come up often enough for the test to mean something.
+fn tally(truths: impl Iterator<Item = f64>, least: usize) {
+    let (mut apart, mut overlapping) = (0, 0);
+    truths.for_each(|truth| *if truth > 0.0 { &mut apart } else { &mut overlapping } += 1);
+    assert!(apart >= least && overlapping >= least, "{apart} apart, {overlapping} in overlap");
+}
+
+#[test]
+fn random_solids() {
+    let mut random = Random::new(100);
+    tally((0..6000).map(|_| check(&Asked3::new(random.case3()))), 1500);
+}
+
+#[test]
+fn random_polygons() {
+    let mut random = Random::new(101);
+    tally((0..10_000).map(|_| check(&Asked2::new(random.case2()))), 2500);
+}
+
+#[test]
+fn solids_that_almost_touch() {
+    let mut random = Random::new(102);
+    tally((0..3000).map(|i| check(&Asked3::new(random.near_case3(GAPS[i % GAPS.len()])))), 1000);
+}
+
+#[test]
+fn polygons_that_almost_touch() {
+    let mut random = Random::new(103);
+    tally((0..6000).map(|i| check(&Asked2::new(random.near_case2(GAPS[i % GAPS.len()])))), 2000);
+}

@@ -1,0 +1,235 @@
+//! Lists of operations on both worlds, against the model and against a fresh world with the same bodies.
+
+use asunder::slotmap::Key;
+use asunder::{Plane, Volume, World};
+use asunder_tests::cases::Random;
+use asunder_tests::engine::Engine;
+use asunder_tests::naive_world::NaiveWorld;
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+/// One thing done to a world. Bodies are named by the order in which they came, gone ones included.
+#[derive(Clone, Debug)]
+enum Operation {
+    Insert {
+        seed: u64,
+    },
+    Move {
+        body: usize,
+        seed: u64,
+    },
+    /// Moves a body to where it is.
+    Stay {
+        body: usize,
+    },
+    Remove {
+        body: usize,
+    },
+    Clear,
+    Update,
+}
+
+/// Half of the side of the room, in metres: bodies of a metre meet often in it.
+const ROOM: f64 = 1.6;
+
+/// A world and its model, told the same.
+struct Twins<S: Engine> {
+    world: World<S>,
+    model: NaiveWorld<S>,
+    keys: Vec<S::Key>,
+}
+
+impl<S: Engine> Twins<S> {
+    fn new() -> Self {
+        Self { world: World::new(), model: NaiveWorld::default(), keys: Vec::new() }
+    }
+
+    fn key(&self, body: usize) -> S::Key {
+        // Before there is any body, the null key stands for one that never was.
+        if self.keys.is_empty() { S::Key::null() } else { self.keys[body % self.keys.len()] }
+    }
+
+    fn apply(&mut self, operation: &Operation) {
+        match *operation {
+            Operation::Insert { seed } => {
+                let body = S::random_body(&mut Random::new(seed.into()), ROOM);
+                let key = S::insert(&mut self.world, body.clone());
+                assert!(!self.keys.contains(&key), "a key that an earlier body had");
+                self.model.insert(key, body);
+                self.keys.push(key);
+            }
+            Operation::Move { body, seed } => {
+                let (key, pose) = (self.key(body), S::random_pose(&mut Random::new(seed.into()), ROOM));
+                let was_there = self.model.set_pose(key, pose);
+                assert_eq!(S::set_pose(&mut self.world, key, pose), was_there, "a stale key moves nobody");
+            }
+            Operation::Stay { body } => {
+                let key = self.key(body);
+                if let Some(body) = S::get(&self.world, key).cloned() {
+                    let pose = S::pose_of(&body);
+                    assert!(S::set_pose(&mut self.world, key, pose));
+                }
+            }
+            Operation::Remove { body } => {
+                let key = self.key(body);
+                let was_there = self.model.remove(key);
+                assert_eq!(
+                    S::remove(&mut self.world, key).is_some(),
+                    was_there,
+                    "a stale key removes nobody"
+                );
+            }
+            Operation::Clear => {
+                self.world.clear();
+                self.model.clear();
+            }
+            Operation::Update => {
+                self.world.update();
+                self.model.update();
+                self.model.check(&self.world);
+                check_fresh(&self.world);
+            }
+        }
+        for &key in &self.keys {
+            let is_fresh = self.model.is_fresh(key);
+            assert_eq!(
+                S::get(&self.world, key).is_some(),
+                is_fresh,
+                "keys of gone bodies are stale for ever"
+            );
+            if !is_fresh {
+                assert!(
+                    S::contacts_of(&self.world, key).is_empty() && S::touching(&self.world, key).is_empty()
+                );
+            }
+        }
+    }
+}
+
+/// A fresh world with the same bodies in the same order has the same contacts, bit for bit: history leaves nothing
+/// behind but which contacts are new.
+fn check_fresh<S: Engine>(world: &World<S>) {
+    let bodies = S::bodies(world);
+    let mut fresh = World::new();
+    let keys: Vec<_> = bodies.iter().map(|(_, body)| S::insert(&mut fresh, body.clone())).collect();
+    fresh.update();
+    let rank = |key: S::Key| bodies.iter().position(|(known, _)| *known == key).unwrap();
+    let (contacts, others) = (S::contacts(world), S::contacts(&fresh));
+    assert_eq!(contacts.len(), others.len(), "contacts of a fresh world");
+    for (contact, other) in contacts.iter().zip(&others) {
+        assert_eq!((keys[rank(contact.a)], keys[rank(contact.b)]), (other.a, other.b));
+        assert_eq!((contact.sensor, contact.overlapping), (other.sensor, other.overlapping));
+        assert_eq!(format!("{:?}", contact.manifolds), format!("{:?}", other.manifolds), "in every bit");
+        assert_eq!(other.is_new, other.overlapping, "in a fresh world every touch is new");
+    }
+}
+
+fn run<S: Engine>(operations: &[Operation]) {
+    let mut twins = Twins::<S>::new();
+    operations.iter().for_each(|operation| twins.apply(operation));
+    twins.apply(&Operation::Update);
+}
+
+fn operation() -> impl Strategy<Value = Operation> {
+    prop_oneof![
+        4 => any::<u64>().prop_map(|seed| Operation::Insert { seed }),
+        4 => (0..40_usize, any::<u64>()).prop_map(|(body, seed)| Operation::Move { body, seed }),
+        1 => (0..40_usize).prop_map(|body| Operation::Stay { body }),
+        2 => (0..40_usize).prop_map(|body| Operation::Remove { body }),
+        3 => Just(Operation::Update),
+    ]
+}
+
+proptest! {
+    // The seed is fixed: a failure here must be one everywhere. Widen the net with PROPTEST_CASES and another seed.
+    #![proptest_config(ProptestConfig {
+        cases: 600,
+        rng_seed: RngSeed::Fixed(0x0A5D),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn short_lists(operations in prop::collection::vec(operation(), 1..60)) {
+        run::<Volume>(&operations);
+        run::<Plane>(&operations);
+    }
+}
+
+/// A long life: bodies come and go for thousands of operations, so that every slot has had many tenants.
+fn long_list<S: Engine>(seed: u128) {
+    let mut random = Random::new(seed);
+    let mut twins = Twins::<S>::new();
+    let mut alive = Vec::new();
+    let (mut updates, mut events) = (0, 0);
+    for _ in 0..3000 {
+        let seed = random.below(1 << 30) as u64;
+        let operation = match random.below(20) {
+            0..4 if alive.len() < 30 => {
+                alive.push(twins.keys.len());
+                Operation::Insert { seed }
+            }
+            4..12 if !alive.is_empty() => Operation::Move { body: random.pick(&alive), seed },
+            12..15 if !alive.is_empty() => {
+                let place = random.below(alive.len());
+                Operation::Remove { body: alive.swap_remove(place) }
+            }
+            15 if !twins.keys.is_empty() => Operation::Move { body: random.below(twins.keys.len()), seed },
+            16 if random.below(40) == 0 => {
+                alive.clear();
+                Operation::Clear
+            }
+            _ => {
+                updates += 1;
+                Operation::Update
+            }
+        };
+        twins.apply(&operation);
+        if matches!(operation, Operation::Update) {
+            events += S::events(&twins.world).len();
+        }
+    }
+    assert!(updates > 500 && events > 1000, "{updates} updates, {events} events");
+}
+
+#[test]
+fn a_long_list_in_space() {
+    long_list::<Volume>(600);
+}
+
+#[test]
+fn a_long_list_in_the_plane() {
+    long_list::<Plane>(601);
+}
+
+/// A clone of a world has the same future, and does not touch the original's.
+#[test]
+fn clones_have_equal_futures() {
+    fn futures<S: Engine>(seed: u128) {
+        let mut random = Random::new(seed);
+        let mut world = World::<S>::new();
+        let keys: Vec<_> =
+            (0..40).map(|_| S::insert(&mut world, S::random_body(&mut random, ROOM))).collect();
+        world.update();
+        let mut clone = world.clone();
+        for frame in 0..20 {
+            for &key in &keys {
+                let pose = S::random_pose(&mut random, ROOM);
+                S::set_pose(&mut world, key, pose);
+                S::set_pose(&mut clone, key, pose);
+            }
+            let gone = keys[frame];
+            assert_eq!(S::remove(&mut world, gone).is_some(), S::remove(&mut clone, gone).is_some());
+            let came = S::random_body(&mut random, ROOM);
+            let both = (S::insert(&mut world, came.clone()), S::insert(&mut clone, came));
+            assert_eq!(both.0, both.1, "a clone gives the same keys");
+            world.update();
+            clone.update();
+            assert_eq!(S::events(&world), S::events(&clone));
+            assert_eq!(format!("{:?}", S::contacts(&world)), format!("{:?}", S::contacts(&clone)));
+            assert!(!S::contacts(&world).is_empty());
+        }
+    }
+    futures::<Volume>(602);
+    futures::<Plane>(603);
+}
