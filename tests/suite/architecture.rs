@@ -140,3 +140,15 @@ fn paths_in_the_architecture_page_exist() {
     let missing: Vec<&&str> = paths.iter().filter(|path| !root().join(path).exists()).collect();
     assert!(missing.is_empty(), "named in ARCHITECTURE.md and not there: {missing:?}");
 }
+
+#[test]
+fn the_readme_shows_the_hello_example_and_names_paths_that_exist() {
+    let page = std::fs::read_to_string(root().join("README.md")).unwrap();
+    let hello = std::fs::read_to_string(root().join("examples/hello.rs")).unwrap();
+    assert!(page.contains(&format!("```rust\n{hello}```")), "README's code is not examples/hello.rs");
+    let links = page.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    let local: Vec<&str> = links.filter(|link| !link.contains("://")).collect();
+    assert!(local.len() >= 4, "README links to pages and a picture: {local:?}");
+    let missing: Vec<&&str> = local.iter().filter(|link| !root().join(link).exists()).collect();
+    assert!(missing.is_empty(), "named in README.md and not there: {missing:?}");
+}

@@ -1,0 +1,89 @@
+//! The default scene: a tower of mixed bodies that falls into a heap.
+
+use asunder::glam::{DVec3, Vec3};
+use asunder::{Cuboid, Hull, Pose3, Shape3};
+use asunder_scenes::level::{Level3, LevelBody3};
+use asunder_scenes::random::Random;
+use core::f64::consts::TAU;
+use std::error::Error;
+
+/// Metres between neighbours in the tower: no two bodies of it touch.
+const SPACING: f64 = 1.05;
+/// Half of the kerb's height and width, in metres.
+const KERB: f64 = 0.2;
+/// Shapes are shared: a third of the bodies are cuboids, a third hulls, a third prisms.
+const VARIANTS: usize = 96;
+
+/// A floor with a kerb, and bodies in a tower about four times as tall as it is wide.
+pub(crate) fn heap(count: usize, seed: u64) -> Result<Level3, Box<dyn Error>> {
+    let mut random = Random::new(seed);
+    let shapes: Vec<Shape3> =
+        (0..VARIANTS).map(|number| shape(number, &mut random)).collect::<Result<_, _>>()?;
+    let width = libm::ceil(libm::cbrt(count as f64 / 1.4)).max(1.0) as usize;
+    let mut bodies = tray(0.5 * SPACING * (2 * width + 3) as f64)?;
+    for number in 0..count {
+        let cell = [number % width, number / (width * width), number / width % width].map(|i| i as f64);
+        let middle = (width as f64 - 1.0) / 2.0;
+        let jitter = random.within(DVec3::splat(-0.03), DVec3::splat(0.03));
+        let position = DVec3::new(cell[0] - middle, cell[1] + 1.0, cell[2] - middle) * SPACING + jitter;
+        let pose = Pose3::new(position, random.rotation())?;
+        bodies.push(body(shapes[random.below(VARIANTS)].clone(), pose, false));
+    }
+    Ok(Level3 { name: "heap".to_owned(), gravity: DVec3::new(0.0, -9.81, 0.0), bodies })
+}
+
+/// A floor with its top at zero, and a kerb around it that keeps what rolls.
+fn tray(reach: f64) -> Result<Vec<LevelBody3>, Box<dyn Error>> {
+    let slab = |x: f64, y: f64, z: f64| Cuboid::from_half_extents(DVec3::new(x, y, z).as_vec3());
+    let floor = slab(reach + 2.0 * KERB, 1.0, reach + 2.0 * KERB)?;
+    let mut bodies = vec![body(floor.into(), Pose3::at([0.0, -1.0, 0.0])?, true)];
+    let (long, short) = (slab(reach + 2.0 * KERB, KERB, KERB)?, slab(KERB, KERB, reach)?);
+    for side in [-1.0, 1.0] {
+        bodies.push(body(long.into(), Pose3::at([0.0, KERB, side * (reach + KERB)])?, true));
+        bodies.push(body(short.into(), Pose3::at([side * (reach + KERB), KERB, 0.0])?, true));
+    }
+    Ok(bodies)
+}
+
+fn body(shape: Shape3, pose: Pose3, fixed: bool) -> LevelBody3 {
+    LevelBody3 {
+        shape,
+        pose,
+        linear_velocity: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
+        fixed,
+        sensor: false,
+        layers: None,
+        user_data: 0,
+    }
+}
+
+/// No vertex further than half a metre from the origin.
+fn shape(number: usize, random: &mut Random) -> Result<Shape3, Box<dyn Error>> {
+    Ok(match number % 3 {
+        0 => {
+            let edge = random.range(0.18, 0.28);
+            let stretch = random.within(DVec3::splat(0.8), DVec3::splat(1.0));
+            Cuboid::from_half_extents((stretch * edge).as_vec3())?.into()
+        }
+        1 => {
+            let (size, stretch) =
+                (random.range(0.3, 0.46), random.within(DVec3::splat(0.7), DVec3::splat(1.0)));
+            let points: Vec<Vec3> =
+                (0..16).map(|_| (random.direction() * stretch * size).as_vec3()).collect();
+            Hull::from_points(&points)?.into()
+        }
+        _ => {
+            let sides = 5 + random.below(8);
+            let (radius, half_height) = (random.range(0.2, 0.32), random.range(0.2, 0.36));
+            let corners: Vec<Vec3> = (0..2 * sides)
+                .map(|i| {
+                    let angle = TAU * (i / 2) as f64 / sides as f64;
+                    let y = if i % 2 == 0 { -half_height } else { half_height };
+                    DVec3::new(libm::cos(angle) * radius, y, libm::sin(angle) * radius).as_vec3()
+                })
+                .collect();
+            Hull::from_points(&corners)?.into()
+        }
+    })
+}

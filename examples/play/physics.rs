@@ -1,0 +1,97 @@
+//! What a game needs of a dimension beyond what the engine gives: vectors, turning, mass.
+
+use asunder::slotmap::Key;
+use asunder::{Collider, Event, Space, World};
+use core::ops::{Add, AddAssign, Mul, Sub, SubAssign};
+
+/// Vectors, and what bodies spin by: a number in the plane, a vector in space.
+pub(crate) trait Linear:
+    Copy
+    + Default
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<f64, Output = Self>
+    + AddAssign
+    + SubAssign
+{
+}
+
+impl<T> Linear for T where
+    T: Copy
+        + Default
+        + PartialEq
+        + Add<Output = T>
+        + Sub<Output = T>
+        + Mul<f64, Output = T>
+        + AddAssign
+        + SubAssign
+{
+}
+
+/// A dimension that the game can be played in.
+pub(crate) trait Physics: Space {
+    type Vector: Linear;
+    type Spin: Linear;
+    /// A rotation in f64: the poses' own f32 would drift over many small turns.
+    type Turn: Copy;
+    /// An inverse inertia about the centre of mass.
+    type Inertia: Copy;
+    /// Of what no torque turns.
+    const IMMOVABLE: Self::Inertia;
+
+    fn dot(a: Self::Vector, b: Self::Vector) -> f64;
+    /// The spin that a push at the end of an arm gives.
+    fn torque(arm: Self::Vector, push: Self::Vector) -> Self::Spin;
+    /// The velocity that a spin gives the end of an arm.
+    fn sweep(spin: Self::Spin, arm: Self::Vector) -> Self::Vector;
+    fn respond(inertia: &Self::Inertia, torque: Self::Spin) -> Self::Spin;
+    /// The inverse inertia of a turned body, in world axes.
+    fn turned_inertia(inertia: &Self::Inertia, turn: Self::Turn) -> Self::Inertia;
+    fn turned_by(turn: Self::Turn, spin: Self::Spin) -> Self::Turn;
+    fn turned(turn: Self::Turn, local: Self::Vector) -> Self::Vector;
+
+    fn mass(shape: &Self::Shape) -> Mass<Self>;
+    /// The place of a body's own origin, and its rotation.
+    fn place(pose: &Self::Pose) -> (Self::Vector, Self::Turn);
+    /// Nothing where the numbers are no pose: the body has left every level that there can be.
+    fn pose(position: Self::Vector, turn: Self::Turn) -> Option<Self::Pose>;
+
+    fn insert(world: &mut World<Self>, collider: Collider<Self>) -> Self::Key;
+    fn remove(world: &mut World<Self>, key: Self::Key);
+    fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose);
+    fn pose_of(world: &World<Self>, key: Self::Key) -> Option<Self::Pose>;
+    fn events(world: &World<Self>) -> &[Event<Self::Key>];
+    /// Every point of every contact, in the world's order.
+    fn touches(world: &World<Self>) -> Vec<Touch<Self>>;
+    /// Numbers that differ wherever two poses do.
+    fn pose_bits(pose: &Self::Pose) -> Vec<u64>;
+}
+
+/// Mass at unit density, and how it is spread.
+pub(crate) struct Mass<S: Physics> {
+    pub(crate) mass: f64,
+    pub(crate) center: S::Vector,
+    pub(crate) inverse_inertia: S::Inertia,
+}
+
+/// One point of a contact.
+pub(crate) struct Touch<S: Physics> {
+    pub(crate) id: TouchId<S::Key>,
+    /// From the first body to the second.
+    pub(crate) normal: S::Vector,
+    pub(crate) separation: f64,
+    /// Relative to the first body's position.
+    pub(crate) anchor_a: S::Vector,
+    /// Relative to the second body's position.
+    pub(crate) anchor_b: S::Vector,
+}
+
+/// What stays the same of a contact point from frame to frame.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct TouchId<K: Key> {
+    pub(crate) a: K,
+    pub(crate) b: K,
+    pub(crate) parts: (u32, u32),
+    pub(crate) feature: u64,
+}

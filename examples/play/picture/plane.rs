@@ -1,0 +1,102 @@
+//! A picture of a world in the plane: its shapes, contact points and normals.
+
+use super::{Canvas, Color, GOLD, INK, MARK, METAL, Pen, STONE, WOOD, middle, varied};
+use crate::plane::outline;
+use asunder::glam::{DVec2, DVec3, Vec2};
+use asunder::{Collider2, Shape2, World2};
+
+const EARTH: Color = DVec3::new(0.43, 0.34, 0.27);
+const GRASS: Color = DVec3::new(0.40, 0.62, 0.27);
+const WATER: Color = DVec3::new(0.25, 0.55, 0.85);
+
+/// Draws the world as of its last update.
+pub(crate) fn draw(world: &World2) -> String {
+    let bodies: Vec<(&Collider2, Vec<DVec2>)> = world.iter().map(|(_, body)| (body, placed(body))).collect();
+    let mut canvas = Canvas::around(bodies.iter().flat_map(|(_, points)| points.iter().copied()));
+    // Scenery last but for the solid bodies: what stands on the ground hides the grass, and water hides nothing.
+    let layers: [fn(&Collider2) -> bool; 3] = [
+        |body| body.is_fixed() && !body.is_sensor(),
+        |body| body.is_sensor(),
+        |body| !body.is_fixed() && !body.is_sensor(),
+    ];
+    for is_in_layer in layers {
+        for (number, (body, points)) in bodies.iter().enumerate().filter(|(_, (body, _))| is_in_layer(body)) {
+            draw_body(&mut canvas, body, points, number);
+        }
+    }
+    draw_contacts(&mut canvas, world);
+    canvas.finish(DVec3::new(0.62, 0.80, 0.93), DVec3::new(0.95, 0.96, 0.92))
+}
+
+fn placed(body: &Collider2) -> Vec<DVec2> {
+    let pose = body.pose();
+    outline(body.shape()).into_iter().map(|local| pose.position() + pose.rotation().turn(local)).collect()
+}
+
+fn draw_body(canvas: &mut Canvas, body: &Collider2, points: &[DVec2], number: usize) {
+    let is_round = points.len() >= 7;
+    if body.is_sensor() {
+        let color = if is_round { GOLD } else { WATER };
+        let opacity = if is_round { 0.95 } else { 0.35 };
+        canvas.polygon(points, Pen::fill(color).edged(color * 0.7, 1.5).faint(opacity));
+    } else if body.is_fixed() {
+        draw_ground(canvas, points);
+    } else if let Shape2::Rect(_) = body.shape() {
+        draw_crate(canvas, points, varied(WOOD, number));
+    } else if is_round {
+        let color = varied(METAL, number);
+        canvas.polygon(points, Pen::fill(color).edged(color * 0.55, 1.2));
+        // A spoke shows how far the ball has rolled.
+        canvas.line(middle(points), points[0], Pen::line(color * 0.55, 1.2));
+        canvas.dot(middle(points), 2.0, Pen::fill(color * 0.55));
+    } else {
+        let color = varied(STONE, number);
+        canvas.polygon(points, Pen::fill(color).edged(color * 0.6, 1.2));
+    }
+}
+
+fn draw_ground(canvas: &mut Canvas, points: &[DVec2]) {
+    canvas.polygon(points, Pen::fill(EARTH).edged(EARTH * 0.8, 0.8));
+    for (i, &from) in points.iter().enumerate() {
+        let to = points[(i + 1) % points.len()];
+        let along = (to - from).normalize_or_zero();
+        // Counter-clockwise, so an edge that runs leftwards faces up; grass keeps off what is too steep.
+        if -along.x > 0.6 {
+            canvas.line(from, to, Pen::line(GRASS, 4.0));
+        }
+    }
+}
+
+fn draw_crate(canvas: &mut Canvas, points: &[DVec2], color: Color) {
+    canvas.polygon(points, Pen::fill(color).edged(color * 0.5, 1.2));
+    let center = middle(points);
+    let reach = points.windows(2).map(|two| (two[1] - two[0]).length()).fold(f64::INFINITY, f64::min);
+    let inner: Vec<DVec2> = points
+        .iter()
+        .map(|&corner| {
+            // As far from every side, however long the crate is.
+            let (x, y) = (points[1] - points[0], points[3] - points[0]);
+            let toward = center - corner;
+            let frame = 0.16 * reach;
+            corner
+                + x.normalize_or_zero() * frame * toward.dot(x).signum()
+                + y.normalize_or_zero() * frame * toward.dot(y).signum()
+        })
+        .collect();
+    canvas.polygon(&inner, Pen::fill(color * 0.88).edged(color * 0.6, 0.8));
+    canvas.line(inner[0], inner[2], Pen::line(color * 0.6, 0.8));
+}
+
+fn draw_contacts(canvas: &mut Canvas, world: &World2) {
+    for contact in world.contacts() {
+        let Some(a) = world.get(contact.a) else { continue };
+        for manifold in contact.manifolds {
+            for point in &manifold.points {
+                let place = a.pose().position() + Vec2::as_dvec2(point.anchor_a);
+                let tip = place + manifold.normal.as_dvec2() * (9.0 / canvas.pixels);
+                canvas.line(place, tip, Pen::line(INK, 1.0));
+                canvas.dot(place, 2.2, Pen::fill(MARK));
+            }
+        }
+    }
+}

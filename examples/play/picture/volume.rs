@@ -1,0 +1,182 @@
+//! A picture of a world in space: an orthographic view from above, nearer bodies over further ones.
+
+use super::order::far_to_near;
+use super::{Canvas, Color, GOLD, MARK, METAL, Pen, SCENERY, STONE, WOOD, varied};
+use crate::volume::mesh;
+use asunder::glam::{DVec2, DVec3, Vec3};
+use asunder::{Collider3, Shape3, World3};
+use std::collections::BTreeMap;
+
+/// Metres between the lines that are drawn on large faces of the scenery.
+const TILE: f64 = 1.0;
+/// A contact point is shown if no more than this much of its own two bodies, in metres, lies in front of it.
+const SEEN_THROUGH: f64 = 0.01;
+
+struct View {
+    right: DVec3,
+    up: DVec3,
+    toward_viewer: DVec3,
+    light: DVec3,
+}
+
+/// A body's faces in world space.
+struct Solid<'a> {
+    body: &'a Collider3,
+    faces: Vec<Face>,
+}
+
+struct Face {
+    normal: DVec3,
+    corners: Vec<DVec3>,
+}
+
+/// Draws the world as of its last update.
+pub(crate) fn draw(world: &World3) -> String {
+    let view = View::new(DVec3::new(0.60, 0.62, 0.90));
+    let solids: Vec<Solid<'_>> = world.iter().map(|(_, body)| Solid::new(body)).collect();
+    let numbers: BTreeMap<_, usize> = world.iter().enumerate().map(|(i, (key, _))| (key, i)).collect();
+    let outlines: Vec<Vec<DVec2>> = solids.iter().map(|solid| view.outline(solid)).collect();
+    let bodies: Vec<&Collider3> = solids.iter().map(|solid| solid.body).collect();
+    let order = far_to_near(&bodies, &outlines, view.toward_viewer);
+    let mut turn = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(i, &number)| turn[number] = i);
+
+    // A point is drawn right after the later of its two bodies, so that whatever hides them hides it.
+    let mut points: BTreeMap<usize, Vec<DVec3>> = BTreeMap::new();
+    for contact in world.contacts() {
+        let (Some(&a), Some(&b)) = (numbers.get(&contact.a), numbers.get(&contact.b)) else { continue };
+        for point in contact.manifolds.iter().flat_map(|manifold| &manifold.points) {
+            let place = bodies[a].pose().position() + Vec3::as_dvec3(point.anchor_a);
+            let is_seen = [a, b].iter().all(|&number| solids[number].depth_over(place, &view) < SEEN_THROUGH);
+            if is_seen {
+                points.entry(turn[a].max(turn[b])).or_default().push(place);
+            }
+        }
+    }
+    let mut canvas = Canvas::around(outlines.iter().flatten().copied());
+    for (i, &number) in order.iter().enumerate() {
+        solids[number].draw(&mut canvas, &view, number);
+        for &place in points.get(&i).into_iter().flatten() {
+            let radius = (0.035 * canvas.pixels).clamp(0.8, 3.0);
+            canvas.dot(view.project(place), radius, Pen::fill(MARK));
+        }
+    }
+    canvas.finish(DVec3::new(0.93, 0.95, 0.97), DVec3::new(0.84, 0.87, 0.90))
+}
+
+impl View {
+    fn new(toward_viewer: DVec3) -> Self {
+        let toward_viewer = toward_viewer.normalize();
+        let right = DVec3::Y.cross(toward_viewer).normalize();
+        Self {
+            right,
+            up: toward_viewer.cross(right),
+            toward_viewer,
+            light: DVec3::new(-0.25, 1.0, 0.55).normalize(),
+        }
+    }
+
+    fn project(&self, point: DVec3) -> DVec2 {
+        DVec2::new(point.dot(self.right), point.dot(self.up))
+    }
+
+    fn outline(&self, solid: &Solid<'_>) -> Vec<DVec2> {
+        solid.faces.iter().flat_map(|face| &face.corners).map(|&corner| self.project(corner)).collect()
+    }
+
+    fn shade(&self, color: Color, normal: DVec3) -> Color {
+        color * (0.48 + 0.56 * normal.dot(self.light).max(0.0))
+    }
+}
+
+impl<'a> Solid<'a> {
+    fn new(body: &'a Collider3) -> Self {
+        let (pose, basis) = (body.pose(), body.pose().basis());
+        let (vertices, topology) = mesh(body.shape());
+        let place = |i: usize| pose.position() + basis.turn(vertices[i]);
+        let faces = (0..topology.face_count()).map(|face| {
+            let corners: Vec<DVec3> = topology.face_vertices(face).map(place).collect();
+            Face { normal: normal(&corners), corners }
+        });
+        Self { body, faces: faces.collect() }
+    }
+
+    /// How much of the body, in metres, lies between a point and the viewer.
+    fn depth_over(&self, point: DVec3, view: &View) -> f64 {
+        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+        for face in &self.faces {
+            let (height, rise) =
+                (face.normal.dot(point - face.corners[0]), face.normal.dot(view.toward_viewer));
+            if rise > 1e-9 {
+                leave = leave.min(-height / rise);
+            } else if rise < -1e-9 {
+                enter = enter.max(-height / rise);
+            } else if height > 0.0 {
+                return 0.0;
+            }
+        }
+        (leave - enter).max(0.0)
+    }
+
+    fn draw(&self, canvas: &mut Canvas, view: &View, number: usize) {
+        let color = self.color(number);
+        for face in self.faces.iter().filter(|face| face.normal.dot(view.toward_viewer) > 0.0) {
+            let shaded = view.shade(color, face.normal);
+            let corners: Vec<DVec2> = face.corners.iter().map(|&corner| view.project(corner)).collect();
+            let mut pen = Pen::fill(shaded).edged(shaded * 0.62, 0.6);
+            if self.body.is_sensor() {
+                pen = pen.faint(0.4);
+            }
+            canvas.polygon(&corners, pen);
+            if self.body.is_fixed() && !self.body.is_sensor() {
+                draw_tiles(canvas, view, face, Pen::line(shaded * 0.85, 0.5));
+            } else if let Shape3::Cuboid(_) = self.body.shape() {
+                draw_boards(canvas, &corners, Pen::line(shaded * 0.72, 0.6));
+            }
+        }
+    }
+
+    fn color(&self, number: usize) -> Color {
+        if self.body.is_sensor() {
+            return GOLD;
+        }
+        if self.body.is_fixed() {
+            return SCENERY;
+        }
+        // Prisms have two faces that all their other faces touch; rocks don't.
+        let corners = self.faces.iter().map(|face| face.corners.len());
+        let most = corners.max().unwrap_or(0);
+        let base = match self.body.shape() {
+            Shape3::Cuboid(_) => WOOD,
+            Shape3::Hull(_) if most + 2 == self.faces.len() => METAL,
+            Shape3::Hull(_) => STONE,
+        };
+        varied(base, number)
+    }
+}
+
+fn draw_tiles(canvas: &mut Canvas, view: &View, face: &Face, pen: Pen) {
+    let [a, b, c, d] = face.corners[..] else { return };
+    for [from, along, far, far_along] in [[a, b, d, c], [b, c, a, d]] {
+        let count = ((along - from).length() / TILE).round().min(400.0) as usize;
+        for i in 1..count {
+            let share = i as f64 / count as f64;
+            canvas.line(view.project(from.lerp(along, share)), view.project(far.lerp(far_along, share)), pen);
+        }
+    }
+}
+
+/// The frame of a crate's side.
+fn draw_boards(canvas: &mut Canvas, corners: &[DVec2], pen: Pen) {
+    let [a, b, c, d] = corners[..] else { return };
+    let middle = (a + b + c + d) / 4.0;
+    let inner = [a, b, c, d].map(|corner| corner.lerp(middle, 0.28));
+    canvas.polygon(&inner, pen);
+}
+
+/// Newell's normal: right for any flat loop.
+fn normal(corners: &[DVec3]) -> DVec3 {
+    let origin = corners[0];
+    let sum: DVec3 = corners[1..].windows(2).map(|two| (two[0] - origin).cross(two[1] - origin)).sum();
+    sum.normalize_or_zero()
+}
