@@ -34,6 +34,16 @@ pub(crate) struct Counts {
     pub(crate) deepest: f64,
 }
 
+/// A shape that is too thin for its mass to be told from zero.
+#[derive(Debug)]
+pub(crate) struct NoMass;
+
+impl std::fmt::Display for NoMass {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the shape is too thin to have a mass: make it thicker")
+    }
+}
+
 struct Body<S: Physics> {
     key: S::Key,
     center: S::Vector,
@@ -58,7 +68,10 @@ impl<S: Physics> Game<S> {
         }
     }
 
-    /// Adds a body at a pose of its own.
+    /// Adds a body.
+    ///
+    /// # Errors
+    /// A shape that has no mass to speak of.
     pub(crate) fn add(
         &mut self,
         collider: Collider<S>,
@@ -66,9 +79,9 @@ impl<S: Physics> Game<S> {
         pose: &S::Pose,
         velocity: S::Vector,
         spin: S::Spin,
-    ) {
+    ) -> Result<(), NoMass> {
         let (position, turn) = S::place(pose);
-        let mass = S::mass(shape);
+        let mass = S::mass(shape).ok_or(NoMass)?;
         let center = position + S::turned(turn, mass.center);
         let is_fixed = collider.is_fixed();
         let is_sensor = collider.is_sensor();
@@ -87,6 +100,7 @@ impl<S: Physics> Game<S> {
         });
         let inverse_mass = if is_fixed { 0.0 } else { 1.0 / mass.mass };
         self.motions.push(Motion::new(velocity, spin, inverse_mass));
+        Ok(())
     }
 
     /// One step: the contacts of the last update push, bodies move, and the world finds the next contacts.

@@ -89,20 +89,22 @@ fn read_level(file: &Path) -> Result<Level, Box<dyn Error>> {
 
 fn plane_game(level: &Level2) -> Result<Game<Plane>, Box<dyn Error>> {
     let mut game = Game::new(level.gravity);
-    for body in &level.bodies {
+    for (number, body) in level.bodies.iter().enumerate() {
         let collider = Collider2::new(body.shape.clone()).at(body.pose).margin(margin(body.sensor))?;
         let collider = with_flags(collider, body.fixed, body.sensor, body.layers).user_data(body.user_data);
-        game.add(collider, &body.shape, &body.pose, body.linear_velocity, body.angular_velocity);
+        game.add(collider, &body.shape, &body.pose, body.linear_velocity, body.angular_velocity)
+            .map_err(|error| format!("bodies[{number}].shape: {error}"))?;
     }
     Ok(game)
 }
 
 fn volume_game(level: &Level3) -> Result<Game<Volume>, Box<dyn Error>> {
     let mut game = Game::new(level.gravity);
-    for body in &level.bodies {
+    for (number, body) in level.bodies.iter().enumerate() {
         let collider = Collider3::new(body.shape.clone()).at(body.pose).margin(margin(body.sensor))?;
         let collider = with_flags(collider, body.fixed, body.sensor, body.layers).user_data(body.user_data);
-        game.add(collider, &body.shape, &body.pose, body.linear_velocity, body.angular_velocity);
+        game.add(collider, &body.shape, &body.pose, body.linear_velocity, body.angular_velocity)
+            .map_err(|error| format!("bodies[{number}].shape: {error}"))?;
     }
     Ok(game)
 }

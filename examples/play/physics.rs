@@ -51,7 +51,8 @@ pub(crate) trait Physics: Space {
     fn turned_by(turn: Self::Turn, spin: Self::Spin) -> Self::Turn;
     fn turned(turn: Self::Turn, local: Self::Vector) -> Self::Vector;
 
-    fn mass(shape: &Self::Shape) -> Mass<Self>;
+    /// Nothing where the shape is too thin for its mass to be told from zero.
+    fn mass(shape: &Self::Shape) -> Option<Mass<Self>>;
     /// The place of a body's own origin, and its rotation.
     fn place(pose: &Self::Pose) -> (Self::Vector, Self::Turn);
     /// Nothing where the numbers are no pose: the body has left every level that there can be.

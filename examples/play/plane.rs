@@ -40,7 +40,7 @@ impl Physics for Plane {
         turn.rotate(local)
     }
 
-    fn mass(shape: &Shape2) -> Mass<Self> {
+    fn mass(shape: &Shape2) -> Option<Mass<Self>> {
         let vertices = outline(shape);
         let (mut area, mut moment, mut spread) = (0.0, DVec2::ZERO, 0.0);
         // Triangles from the origin; those on its far side count negative.
@@ -53,7 +53,8 @@ impl Physics for Plane {
         }
         let center = moment / area;
         let inverse_inertia = 1.0 / (spread - area * center.length_squared());
-        Mass { mass: area, center, inverse_inertia }
+        let is_sound = area > 0.0 && inverse_inertia > 0.0 && (inverse_inertia + 1.0 / area).is_finite();
+        is_sound.then_some(Mass { mass: area, center, inverse_inertia })
     }
 
     fn place(pose: &Pose2) -> (DVec2, DVec2) {

@@ -41,7 +41,7 @@ impl Physics for Volume {
         turn * local
     }
 
-    fn mass(shape: &Shape3) -> Mass<Self> {
+    fn mass(shape: &Shape3) -> Option<Mass<Self>> {
         let (vertices, topology) = mesh(shape);
         let (mut volume, mut moment, mut spread) = (0.0, DVec3::ZERO, DMat3::ZERO);
         // Tetrahedra from the origin over each face's fan; those on its far side count negative.
@@ -59,7 +59,12 @@ impl Physics for Volume {
         let central = spread - outer(center) * volume;
         let trace = central.x_axis.x + central.y_axis.y + central.z_axis.z;
         let inertia = DMat3::from_diagonal(DVec3::splat(trace)) - central;
-        Mass { mass: volume, center, inverse_inertia: inertia.inverse() }
+        if volume <= 0.0 || inertia.determinant() <= 0.0 {
+            return None;
+        }
+        let inverse_inertia = inertia.inverse();
+        let is_sound = inverse_inertia.is_finite() && (1.0 / volume).is_finite();
+        is_sound.then_some(Mass { mass: volume, center, inverse_inertia })
     }
 
     fn place(pose: &Pose3) -> (DVec3, DQuat) {

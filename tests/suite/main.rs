@@ -23,6 +23,9 @@
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
 //! - [`world_threads`]: every output has the same bits at any number of threads
 //!
+//! Stories
+//! - [`regressions`]: what went wrong once
+//!
 //! Workspace
 //! - [`architecture`]: who may know whom, and paths that exist
 
@@ -37,6 +40,7 @@ mod manifolds;
 mod oracles;
 mod peer;
 mod refusals;
+mod regressions;
 mod separation;
 mod theory;
 mod world_events;

@@ -41,8 +41,8 @@ mod world2;
 mod world3;
 
 pub use asunder_geometry::{
-    Aabb2, Aabb3, Basis3, Cuboid, ExtentError, HalfEdge, Hull, HullError, Polygon, PolygonError, Pose2,
-    Pose3, PoseError, Rect, Rotation2, Shape2, Shape3, Topology, glam,
+    Aabb2, Aabb3, Basis3, Bounds, Cuboid, ExtentError, HalfEdge, Hull, HullError, Polygon, PolygonError,
+    Pose2, Pose3, PoseError, Rect, Rotation2, Shape2, Shape3, Topology, glam, tolerance,
 };
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Manifold2, Manifold3,

@@ -9,7 +9,10 @@ use asunder_broad::{PairId, Sweep};
 use asunder_geometry::Bounds;
 use slotmap::{Key, SlotMap};
 
-/// A key whose body is gone, or that was made by another world.
+/// A key whose body is gone.
+///
+/// A key means something in its own world only. Another world of the same dimension cannot tell it from one of its own,
+/// and may have a body by that key: keep keys with their worlds.
 ///
 /// ```
 /// use asunder::{Collider3, Cuboid, Pose3, StaleKey, World3, glam::Vec3};
@@ -24,7 +27,7 @@ pub struct StaleKey;
 
 impl core::fmt::Display for StaleKey {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "the key names no body of this world: it was removed, or belongs to another world")
+        write!(f, "the key names no body of this world: its body was removed")
     }
 }
 
@@ -212,6 +215,10 @@ impl<S: Space> World<S> {
             .map(|&index| &self.records[index as usize])
             .chain(as_first)
             .filter(move |record| record.keys.0 == key || record.keys.1 == key)
+            // The other body may have been removed since.
+            .filter(|record| {
+                self.bodies.contains_key(record.keys.0) && self.bodies.contains_key(record.keys.1)
+            })
     }
 }
 

@@ -9,8 +9,8 @@ use asunder_geometry::Pose2;
 
 /// A world of bodies in the plane.
 ///
-/// Insert bodies, move them, [`update`](World::update) once a frame, and read what touches. Everything that is read
-/// between two updates is as of the last one.
+/// Insert bodies, move them, [`update`](World::update) once a frame, and read what touches. What is read between
+/// two updates is as of the last one; what is asked about a body leaves out bodies removed since.
 ///
 /// ```
 /// use asunder::{Collider2, Rect, Pose2, World2, glam::Vec2};
@@ -75,12 +75,13 @@ impl World<Plane> {
         self.candidates.iter().map(|candidate| candidate.keys)
     }
 
-    /// Pairs within their margins of each other, in pair order.
+    /// Pairs within their margins of each other at the last update, in pair order. A body removed since is still among them.
     pub fn contacts(&self) -> impl ExactSizeIterator<Item = Contact2<'_>> + Clone {
         self.show_contacts()
     }
 
-    /// Contacts of one body, in order of the other body's slot; none for a stale key. Cost: a binary search.
+    /// Contacts of one body with bodies that are still there, in order of the other's slot; none for a stale key. Cost: a
+    /// binary search.
     pub fn contacts_of(&self, key: BodyKey2) -> impl Iterator<Item = Contact2<'_>> + Clone {
         self.records_of(key).map(|record| record.show::<Plane>(&self.manifolds))
     }
@@ -95,7 +96,8 @@ impl World<Plane> {
         self.record_of(one, other).is_some_and(|record| record.begun)
     }
 
-    /// The bodies that touch this one, sensors among them, in order of their slots. Cost: a binary search.
+    /// The bodies that touch this one and are still there, sensors among them, in order of their slots. Cost: a binary
+    /// search.
     pub fn touching(&self, key: BodyKey2) -> impl Iterator<Item = BodyKey2> + Clone {
         let begun = self.records_of(key).filter(|record| record.begun);
         begun.map(move |record| if record.keys.0 == key { record.keys.1 } else { record.keys.0 })

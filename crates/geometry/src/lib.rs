@@ -11,9 +11,9 @@
 mod aabb;
 mod cuboid;
 mod extent;
-pub mod hull;
+mod hull;
 mod outward;
-pub mod polygon;
+mod polygon;
 mod pose2;
 mod pose3;
 mod rect;

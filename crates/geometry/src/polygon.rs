@@ -32,7 +32,7 @@ pub enum PolygonError {
         /// Index of the point.
         index: usize,
     },
-    /// A coordinate is beyond [`MAX_RADIUS`].
+    /// A point is further than [`MAX_RADIUS`] from the shape's origin.
     TooLarge {
         /// Index of the point.
         index: usize,
@@ -293,7 +293,7 @@ fn check_points(points: &[Vec2]) -> Result<(), PolygonError> {
         if !point.is_finite() {
             return Err(PolygonError::NotFinite { index });
         }
-        if point.abs().max_element() > MAX_RADIUS {
+        if point.as_dvec2().length() > f64::from(MAX_RADIUS) {
             return Err(PolygonError::TooLarge { index });
         }
     }

@@ -10,6 +10,13 @@
 /// ones leave slivers whose normals jitter.
 pub const COPLANAR: f64 = 2.5e-7;
 
+/// Inscribed over bounding radius below which a hull is thin, and a pair of it asks for the distance too before it is
+/// called overlapping.
+///
+/// At this ratio facets still show a gap along the plate at a thousandth of its width, far above rounding. A larger value costs time; a smaller
+/// one lets gaps drown in rounding.
+pub const THIN: f32 = 1e-3;
+
 /// Sine of the angle between two edges below which their cross product is not used as an axis.
 ///
 /// At this angle the f64 cross product still points within 3e-8 rad of the truth. Below it the axis is noise, and
@@ -42,7 +49,7 @@ pub const DISTANCE_GAP: f64 = 1e-12;
 /// The smallest bounding radius a shape may have, in metres.
 pub const MIN_RADIUS: f32 = 1e-6;
 
-/// The largest bounding radius a shape may have, and the furthest a vertex may lie from its origin, in metres.
+/// The furthest that any point of a shape may lie from the shape's origin, in metres.
 pub const MAX_RADIUS: f32 = 1e6;
 
 /// The furthest a position may lie from the origin on any axis, in metres.

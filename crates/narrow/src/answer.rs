@@ -29,7 +29,8 @@ pub enum Answer {
 pub enum Separation2 {
     /// Found, with its error and axis.
     Measured(Measured2),
-    /// More than the caller's limit: the shapes are at least this far apart, in metres.
+    /// Beyond the caller's limit: the shapes are at least this far apart, in metres. Rounded down, so that it may equal
+    /// the limit.
     AtLeast(f32),
 }
 
@@ -38,7 +39,8 @@ pub enum Separation2 {
 pub enum Separation3 {
     /// Found, with its error and axis.
     Measured(Measured3),
-    /// More than the caller's limit: the shapes are at least this far apart, in metres.
+    /// Beyond the caller's limit: the shapes are at least this far apart, in metres. Rounded down, so that it may equal
+    /// the limit.
     AtLeast(f32),
 }
 
@@ -131,7 +133,8 @@ pub struct Manifold2 {
     pub part_b: u32,
     /// Unit normal in world axes, from A to B.
     pub normal: Vec2,
-    /// Separation of the two parts, in metres. The least of the points' own, up to `error`.
+    /// Separation of the two parts, in metres. The least of the points' own is within `error` of it, plus 2e-6 of the
+    /// smaller bounding radius: what a steady choice of the reference may cost.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -148,7 +151,8 @@ pub struct Manifold3 {
     pub part_b: u32,
     /// Unit normal in world axes, from A to B.
     pub normal: Vec3,
-    /// Separation of the two parts, in metres. The least of the points' own, up to `error`.
+    /// Separation of the two parts, in metres. The least of the points' own is within `error` of it, plus 2e-6 of the
+    /// smaller bounding radius: what a steady choice of the reference may cost.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,

@@ -56,7 +56,7 @@ impl<'a> Pair2<'a> {
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as
-    /// no limit. Cost: the product of the vertex counts; in a gap within the limit a few support
+    /// no limit, and a negative limit as zero. Cost: the product of the vertex counts; in a gap within the limit a few support
     /// searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
@@ -104,8 +104,7 @@ impl<'a> Pair2<'a> {
             if !overlapping && f64::from(measured.separation) > margin {
                 return Contact { hint, contact: None };
             }
-            let witness = witness.as_ref().filter(|_| !overlapping);
-            let touch = touch(a, b, &axes, witness, margin, self.preference());
+            let touch = touch(a, b, &axes, witness.as_ref(), margin, self.preference());
             let points = touch.points.iter().map(|point| ContactPoint2 {
                 separation: point.separation as f32,
                 anchor_a: self.anchor_a(point.on_a),
@@ -141,19 +140,16 @@ impl<'a> Pair2<'a> {
     fn measure(&self, a: &Outline, b: &Outline, axes: &Axes) -> Found {
         let precision = self.precision();
         let best = axes.best();
-        // A sign within rounding of zero is decided by axes that were not normalised, which rounds less.
-        let overlapping = if best.separation.abs() > precision.projection() {
-            best.separation < 0.0
-        } else {
-            overlaps(a, b)
-        };
-        let in_gap = Measured2 {
+        // Within its error of zero a sign is not the number's to tell: `overlaps` decides, so that both always agree.
+        let is_clear = best.separation.abs() > f64::from(precision.of_separation(0.0));
+        let overlapping = if is_clear { best.separation < 0.0 } else { overlaps(a, b) };
+        let in_overlap = Measured2 {
             separation: signed(best.separation, overlapping),
             error: precision.of_separation(best.separation),
             normal: best.normal.as_vec2(),
         };
         if overlapping {
-            return Found { overlapping, measured: in_gap, witness: None };
+            return Found { overlapping, measured: in_overlap, witness: None };
         }
         let witness = self.witness(a, b, best);
         let measured = Measured2 {

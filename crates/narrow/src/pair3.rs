@@ -9,7 +9,7 @@ use crate::polyhedron::sat::{Axes, Axis, Outcome, hint_of, overlaps, separating_
 use crate::polyhedron::solid::Solid;
 use crate::precision::{Precision, at_least, signed};
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::tolerance::FACE_PREFERENCE;
+use asunder_geometry::tolerance::{FACE_PREFERENCE, THIN};
 use asunder_geometry::{Basis3, Hull, Pose3, Shape3};
 
 /// Two posed shapes in space, ready to be asked about each other.
@@ -63,7 +63,7 @@ impl<'a> Pair3<'a> {
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as
-    /// no limit. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes for cuboids; in a gap within
+    /// no limit, and a negative limit as zero. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes for cuboids; in a gap within
     /// the limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
@@ -109,8 +109,7 @@ impl<'a> Pair3<'a> {
             if !overlapping && f64::from(measured.separation) > margin {
                 return Contact { hint, contact: None };
             }
-            let witness = witness.as_ref().filter(|_| !overlapping);
-            let touch = touch(a, b, &axes, witness, margin, self.preference());
+            let touch = touch(a, b, &axes, witness.as_ref(), margin, self.preference());
             let points = touch.points.iter().map(|point| ContactPoint3 {
                 separation: point.separation as f32,
                 anchor_a: self.anchor_a(point.on_a),
@@ -146,19 +145,16 @@ impl<'a> Pair3<'a> {
     fn measure(&self, a: &Solid, b: &Solid, axes: &Axes) -> Found {
         let precision = self.precision();
         let best = axes.best();
-        // A sign within rounding of zero is decided by axes that were not normalised, which rounds less.
-        let overlapping = if best.separation.abs() > precision.projection() {
-            best.separation < 0.0
-        } else {
-            self.decide(a, b)
-        };
-        let in_gap = Measured3 {
+        // Within its error of zero a sign is not the number's to tell: `overlaps` decides, so that both always agree.
+        let is_clear = best.separation.abs() > f64::from(precision.of_separation(0.0)) && !self.is_thin();
+        let overlapping = if is_clear { best.separation < 0.0 } else { self.decide(a, b) };
+        let in_overlap = Measured3 {
             separation: signed(best.separation, overlapping),
             error: precision.of_separation(best.separation),
             normal: self.basis_a.turn(best.normal).as_vec3(),
         };
         if overlapping {
-            return Found { overlapping, measured: in_gap, witness: None };
+            return Found { overlapping, measured: in_overlap, witness: None };
         }
         let witness = self.witness(a, b, best);
         let measured = Measured3 {
@@ -202,7 +198,30 @@ impl<'a> Pair3<'a> {
     }
 
     fn decide(&self, a: &Solid, b: &Solid) -> bool {
-        self.cuboids().map_or_else(|| overlaps(a, b), |cuboids| cuboids.overlaps())
+        match self.cuboids() {
+            Some(cuboids) => cuboids.overlaps(),
+            None => overlaps(a, b) && !(self.is_thin() && self.is_parted(a, b)),
+        }
+    }
+
+    /// Whether a shape is so thin that its faces are all but antipodal. The directions along a plate or across a needle
+    /// are then no normals of its own, and face and edge axes show a gap in them only scaled by the thickness: too
+    /// little to tell from rounding.
+    fn is_thin(&self) -> bool {
+        let thin = |shape: &Shape3| match shape {
+            // A cuboid has the normals of its sides, however thin it is.
+            Shape3::Cuboid(_) => false,
+            Shape3::Hull(hull) => hull.inner_radius() < THIN * hull.outer_radius(),
+        };
+        thin(self.shape_a) || thin(self.shape_b)
+    }
+
+    /// Whether the distance iteration finds an axis that parts the shapes. It needs no normals, and its axis is
+    /// believed only after full projection.
+    fn is_parted(&self, a: &Solid, b: &Solid) -> bool {
+        let precision = self.precision();
+        let witness = distance(a, b, DVec3::X, precision.size);
+        witness.is_some_and(|witness| witness.at_least > precision.projection())
     }
 
     fn cuboids(&self) -> Option<Cuboids> {

@@ -36,8 +36,11 @@ fn placed(body: &Collider2) -> Vec<DVec2> {
 fn draw_body(canvas: &mut Canvas, body: &Collider2, points: &[DVec2], number: usize) {
     let is_round = points.len() >= 7;
     if body.is_sensor() {
-        let color = if is_round { GOLD } else { WATER };
-        let opacity = if is_round { 0.95 } else { 0.35 };
+        let (color, opacity) = match body.shape() {
+            Shape2::Rect(_) => (GOLD, 0.35),
+            Shape2::Polygon(_) if is_round => (GOLD, 0.95),
+            Shape2::Polygon(_) => (WATER, 0.35),
+        };
         canvas.polygon(points, Pen::fill(color).edged(color * 0.7, 1.5).faint(opacity));
     } else if body.is_fixed() {
         draw_ground(canvas, points);
@@ -94,7 +97,7 @@ fn draw_contacts(canvas: &mut Canvas, world: &World2) {
             for point in &manifold.points {
                 let place = a.pose().position() + Vec2::as_dvec2(point.anchor_a);
                 let tip = place + manifold.normal.as_dvec2() * (9.0 / canvas.pixels);
-                canvas.line(place, tip, Pen::line(INK, 1.0));
+                canvas.line(place, tip, Pen::line(INK, 1.0).faint(0.6));
                 canvas.dot(place, 2.2, Pen::fill(MARK));
             }
         }

@@ -128,7 +128,10 @@ impl<'a> Solid<'a> {
                 pen = pen.faint(0.4);
             }
             canvas.polygon(&corners, pen);
-            if self.body.is_fixed() && !self.body.is_sensor() {
+            if self.body.is_sensor() {
+                continue;
+            }
+            if self.body.is_fixed() {
                 draw_tiles(canvas, view, face, Pen::line(shaded * 0.85, 0.5));
             } else if let Shape3::Cuboid(_) = self.body.shape() {
                 draw_boards(canvas, &corners, Pen::line(shaded * 0.72, 0.6));

@@ -3,7 +3,6 @@
 use crate::contact::Record;
 use crate::space::Space;
 use crate::world::World;
-use core::cmp::Ordering;
 use slotmap::Key;
 
 /// Carries over what has begun, and sets aside what is gone. Two lists sorted by pair, walked once.
@@ -20,7 +19,7 @@ pub(super) fn merge<S: Space>(world: &mut World<S>) {
         while let Some(gone) = last.next_if(|last| last.pair < record.pair) {
             set_aside(gone, &mut scratch.ended);
         }
-        let before = last.next_if(|last| last.pair.cmp(&record.pair) == Ordering::Equal);
+        let before = last.next_if(|last| last.pair == record.pair);
         let had_begun = match before {
             // A reused slot is a new body: its predecessor's contact ended.
             Some(before) if before.keys != record.keys => {

@@ -26,7 +26,7 @@ pub enum HullError {
         /// Index of the point.
         index: usize,
     },
-    /// A coordinate is beyond [`MAX_RADIUS`].
+    /// A point is further than [`MAX_RADIUS`] from the shape's origin.
     TooLarge {
         /// Index of the point.
         index: usize,

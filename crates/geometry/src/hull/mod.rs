@@ -240,7 +240,7 @@ fn check_points(points: &[Vec3]) -> Result<(), HullError> {
         if !point.is_finite() {
             return Err(HullError::NotFinite { index });
         }
-        if point.abs().max_element() > MAX_RADIUS {
+        if point.as_dvec3().length() > f64::from(MAX_RADIUS) {
             return Err(HullError::TooLarge { index });
         }
     }

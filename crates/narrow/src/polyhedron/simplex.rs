@@ -1,7 +1,7 @@
 //! The point of a simplex that is nearest to the origin.
 //!
 //! Every face of the simplex of one to three corners is tried: its affine nearest point counts if it lies inside
-//! that face, and the nearest of those wins. Fifteen small cases in place of a tree of regions; exhaustive, so that
+//! that face, and the nearest of those wins. Fourteen small cases in place of a tree of regions; exhaustive, so that
 //! no rounding can lead down a wrong branch.
 
 use asunder_geometry::glam::DVec3;

@@ -258,3 +258,13 @@ fn deep_nesting_is_refused() {
     let deeper = PLANE.replacen("0.25", &"[".repeat(100_000), 1);
     assert!(message(&deeper).contains("line 11"));
 }
+
+#[test]
+fn the_levels_of_the_examples_are_right() {
+    let platformer = include_str!("../../../../examples/scenes/platformer.json");
+    let Level::Plane(level) = Level::from_json(platformer).unwrap() else { panic!("it is in the plane") };
+    assert!(level.bodies.len() > 100 && level.bodies.iter().any(|body| body.sensor));
+    let courtyard = include_str!("../../../../examples/scenes/courtyard.json");
+    let Level::Volume(level) = Level::from_json(courtyard).unwrap() else { panic!("it is in space") };
+    assert!(level.bodies.len() > 200 && level.bodies.iter().any(|body| body.sensor));
+}

@@ -1,0 +1,74 @@
+//! What went wrong once, as the smallest scene that shows it: symptom, cause, scene.
+
+use asunder::{BodyKey3, Collider3, World3};
+use asunder_geometry::{Cuboid, Hull, Pose3, Shape3};
+use asunder_narrow::{Pair3, Separation3};
+use glam::{DVec3, Quat, Vec3};
+
+fn hull(points: &[[f32; 3]]) -> Shape3 {
+    let points: Vec<Vec3> = points.iter().copied().map(Vec3::from).collect();
+    Hull::from_points(&points).unwrap().into()
+}
+
+fn separation(pair: &Pair3) -> f32 {
+    match pair.separation(f32::INFINITY) {
+        Separation3::Measured(measured) => measured.separation,
+        Separation3::AtLeast(_) => panic!("there is no limit"),
+    }
+}
+
+/// Symptom: two flat quads side by side, metres apart, were called overlapping. Cause: four turned corners of a quad
+/// are coplanar up to rounding only; their hull has two antipodal faces, and no normal that shows a gap in the plane.
+#[test]
+fn flat_quads_side_by_side_are_apart() {
+    let corners = [
+        [19.962526, 12.806735, 3.323101],
+        [-5.968866, 13.98994, -9.552985],
+        [-13.7152405, 13.523953, 6.0047646],
+        [12.216152, 12.340749, 18.880852],
+    ];
+    let quad = hull(&corners);
+    let along = Vec3::from(corners[1]).as_dvec3() - Vec3::from(corners[0]).as_dvec3();
+    let there = Pose3::at(along * 1.1).unwrap();
+    let pair = Pair3::new(&quad, &Pose3::IDENTITY, &quad, &there);
+    assert!(!pair.overlaps());
+    // A tenth of the side; the quad is a rectangle up to rounding.
+    assert!((f64::from(separation(&pair)) - 0.1 * along.length()).abs() < 1e-3);
+    let mut world = World3::new();
+    world.insert(Collider3::new(quad.clone()));
+    world.insert(Collider3::new(quad).at(there));
+    world.update();
+    assert!(world.events().is_empty());
+}
+
+/// Symptom: `overlaps` said no and `separation` was negative. Cause: each had its own idea of which edge axes count.
+#[test]
+fn ridges_a_hair_apart_have_one_answer() {
+    let wedge = |up: f32| {
+        let foot = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]].map(|[x, y]| [x, y, -up]);
+        hull(&[[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]].as_slice(), &foot].concat())
+    };
+    let (below, above) = (wedge(1.0), wedge(-1.0));
+    for angle in [0.0, 1e-9, 4.5e-9, 1e-8, 1e-6] {
+        for gap in [-5e-9, 0.0, 5e-9, 1e-7] {
+            let pose = Pose3::new(DVec3::new(0.0, 0.0, gap), Quat::from_xyzw(0.0, 0.0, angle, 1.0)).unwrap();
+            let pair = Pair3::new(&below, &Pose3::IDENTITY, &above, &pose);
+            assert_eq!(pair.overlaps(), separation(&pair) <= 0.0, "angle {angle}, gap {gap}");
+            assert_eq!(pair.overlaps(), pair.distance().is_none(), "angle {angle}, gap {gap}");
+        }
+    }
+}
+
+/// Symptom: `touching` named a body that `is_touching` denied. Cause: only one of them looked whether it was still there.
+#[test]
+fn a_removed_body_is_touched_by_nobody() {
+    let mut world = World3::new();
+    let cube = Cuboid::from_half_extents(Vec3::ONE).unwrap();
+    let keys: Vec<BodyKey3> = (0..3).map(|_| world.insert(Collider3::new(cube))).collect();
+    world.update();
+    world.remove(keys[1]);
+    assert_eq!(world.touching(keys[0]).collect::<Vec<_>>(), [keys[2]]);
+    assert_eq!(world.contacts_of(keys[2]).count(), 1);
+    assert!(!world.is_touching(keys[0], keys[1]) && world.contact(keys[0], keys[1]).is_none());
+    assert_eq!(world.contacts().len(), 3, "the record of the last update stands until the next");
+}
