@@ -59,6 +59,30 @@ fn ridges_a_hair_apart_have_one_answer() {
     }
 }
 
+/// Symptom: crates in a stack sank into each other by centimetres. Cause: boxes tilted by a hair touch where two edges
+/// cross, a single point that jumped from corner to corner, on which nothing can stand.
+#[test]
+fn a_slightly_tilted_box_stands_on_a_patch() {
+    let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap());
+    let mut on_edges = 0;
+    for step in 1..40 {
+        let (x, y, z) = (1e-4 * step as f32, 0.3, 7e-5 * (step * 7 % 11) as f32);
+        let above = Pose3::new(DVec3::new(0.2, 0.998, -0.1), Quat::from_xyzw(x, y, z, 1.0)).unwrap();
+        let manifold = Pair3::new(&cube, &Pose3::IDENTITY, &cube, &above).manifold(0.02).unwrap();
+        assert!(manifold.points.len() >= 3, "step {step}: {} points", manifold.points.len());
+        let area: Vec<Vec3> = manifold.points.iter().map(|point| point.anchor_a).collect();
+        let doubled = (area[1] - area[0]).cross(area[2] - area[0]).length();
+        assert!(doubled > 0.05, "step {step}: the points are all but in line");
+        let deepest = manifold.points.iter().map(|point| point.separation).fold(f32::INFINITY, f32::min);
+        assert!((deepest - manifold.separation).abs() <= manifold.error + 1e-6, "step {step}");
+        // Neither box has a face with this normal: two edges decide the depth.
+        let is_face = manifold.normal == Vec3::Y
+            || above.basis().turn(DVec3::Y).dot(manifold.normal.as_dvec3()) > 1.0 - 1e-13;
+        on_edges += usize::from(!is_face);
+    }
+    assert!(on_edges > 10, "only {on_edges} poses were decided by edges");
+}
+
 /// Symptom: `touching` named a body that `is_touching` denied. Cause: only one of them looked whether it was still there.
 #[test]
 fn a_removed_body_is_touched_by_nobody() {

@@ -37,6 +37,12 @@ pub const ARC_SLACK: f64 = 1e-6;
 /// Keeps the reference face from flipping between ties; it is the largest regret of a reported normal.
 pub const FACE_PREFERENCE: f64 = 5e-7;
 
+/// Cosine of the angle up to which two faces beside a pair of touching edges count as resting on each other: 0.1 rad.
+///
+/// Only the choice of contact points depends on it, never an axis or a depth. A smaller angle leaves slightly tilted
+/// boxes standing on one point; at a larger one the far corners are out of any useful margin.
+pub const ALIGNED_FACES: f64 = 0.995;
+
 /// Share of a pair's size that is always part of a reported separation's error.
 ///
 /// Covers the axes that nearly parallel edges leave out, the noise of those just above it, and the rounding of the

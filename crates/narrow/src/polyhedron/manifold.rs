@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! choose what touches: a face of A unless a face of B, or two edges, beat it by more than a relative preference
-//! two edges:  the nearest points of their lines
+//! two edges:  the faces beside them, if they nearly look at each other; else the nearest points of their lines
 //! a face:     the other shape's incident face is the one most opposed, of those at its deepest vertex
 //!             clip it against planes through the reference face's edges, along the normal
 //!             keep the points within the margin of the reference plane
@@ -20,6 +20,7 @@ use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::ALIGNED_FACES;
 
 /// The most corners a clipped face can have: those of both faces.
 const MAX_CORNERS: usize = 512;
@@ -54,6 +55,8 @@ pub(crate) fn touch(
 ) -> Touch {
     let overlapping = witness.is_none();
     let at_stake = witness.map_or(axes.best().separation, |witness| witness.distance);
+    let is_deep =
+        |points: &ArrayVec<Point, 4>| points.iter().any(|point| point.separation <= at_stake + preference);
     for axis in [preferred(axes, overlapping, preference), axes.best()] {
         if axis.separation < at_stake - preference {
             continue;
@@ -65,11 +68,18 @@ pub(crate) fn touch(
             AxisOf::FaceA(face) => face_points(a, b, face, axis.normal, within, false),
             AxisOf::FaceB(face) => face_points(b, a, face, -axis.normal, within, true),
             AxisOf::Edges(..) if !overlapping => continue,
-            AxisOf::Edges(edge_a, edge_b) => edge_point(a, b, (edge_a, edge_b), axis.normal),
+            AxisOf::Edges(edge_a, edge_b) => aligned_faces(a, b, axis.normal, within)
+                .filter(|points| is_deep(points))
+                .unwrap_or_else(|| edge_point(a, b, (edge_a, edge_b), axis.normal)),
         };
-        if points.iter().any(|point| point.separation <= at_stake + preference) {
+        if is_deep(&points) {
             return Touch { normal: axis.normal, points };
         }
+    }
+    if let Some(witness) = witness
+        && let Some(points) = aligned_faces(a, b, witness.normal, margin).filter(|points| is_deep(points))
+    {
+        return Touch { normal: witness.normal, points };
     }
     match witness {
         Some(witness) => Touch { normal: witness.normal, points: closest_point(a, b, witness) },
@@ -86,19 +96,36 @@ fn preferred(axes: &Axes, overlapping: bool, preference: f64) -> &Axis {
     if overlapping && axes.edges.separation > face.separation + preference { &axes.edges } else { face }
 }
 
-/// The deepest vertex of the shape whose face the axis is not, and its foot on the other's supporting plane: what is
-/// left where a face looks past what touches it.
+/// The deepest vertex of one shape, and its foot on the other's supporting plane: what is left where a face looks past
+/// what touches it.
 fn deepest_point(a: &Solid, b: &Solid, axis: &Axis) -> ArrayVec<Point, 4> {
     let (in_a, in_b) = (a.support(axis.normal), b.support(-axis.normal));
+    let (on_a, on_b) = (Feature::Vertex(in_a.vertex as u32), Feature::Vertex(in_b.vertex as u32));
+    let a_is_foot = Reference { along: axis.normal, facing: axis.normal, reach: in_a.reach, is_b: false };
+    let b_is_foot = Reference { along: -axis.normal, facing: -axis.normal, reach: in_b.reach, is_b: true };
     let point = match axis.of {
-        AxisOf::FaceB(face) => Reference { normal: -axis.normal, reach: in_b.reach, is_b: true }
-            .contact(a.point(in_a.vertex), (Feature::Face(face as u32), Feature::Vertex(in_a.vertex as u32))),
-        AxisOf::FaceA(face) => Reference { normal: axis.normal, reach: in_a.reach, is_b: false }
-            .contact(b.point(in_b.vertex), (Feature::Face(face as u32), Feature::Vertex(in_b.vertex as u32))),
-        AxisOf::Edges(edge, _) => Reference { normal: axis.normal, reach: in_a.reach, is_b: false }
-            .contact(b.point(in_b.vertex), (Feature::Edge(edge as u32), Feature::Vertex(in_b.vertex as u32))),
+        AxisOf::FaceA(face) => a_is_foot.contact(b.point(in_b.vertex), (Feature::Face(face as u32), on_b)),
+        AxisOf::FaceB(face) => b_is_foot.contact(a.point(in_a.vertex), (Feature::Face(face as u32), on_a)),
+        AxisOf::Edges(edge, _) => a_is_foot.contact(b.point(in_b.vertex), (Feature::Edge(edge as u32), on_b)),
     };
     core::iter::once(point).collect()
+}
+
+/// Contact points of two faces that look at each other along an axis that is neither's own, if they nearly do.
+///
+/// A box that rests on a box, tilted by a hair, touches it where two edges cross: one point, which jumps to another
+/// corner with the next hair, and on which nothing can stand. The crossing is also a corner of the patch that both
+/// faces share as seen along the axis. The patch holds, and keeps the axis and the depth exact.
+fn aligned_faces(a: &Solid, b: &Solid, normal: DVec3, within: f64) -> Option<ArrayVec<Point, 4>> {
+    let face_a = opposed_face_at(a, a.support(normal).vertex, -normal);
+    let face_b = opposed_face_at(b, b.support(-normal).vertex, normal);
+    let (facing_a, facing_b) = (a.normal(face_a), b.normal(face_b));
+    if facing_a.dot(normal) < ALIGNED_FACES || facing_b.dot(normal) > -ALIGNED_FACES {
+        return None;
+    }
+    let reference =
+        Reference { along: normal, facing: facing_a, reach: a.support(facing_a).reach, is_b: false };
+    Some(clipped_points((a, face_a), (b, face_b), &reference, within))
 }
 
 /// The nearest points of two edges that cross, each held to its edge.
@@ -169,9 +196,11 @@ enum Side {
 
 /// A plane to measure contact points from: that of the reference face.
 struct Reference {
-    /// Its outward unit normal.
-    normal: DVec3,
-    /// The reference shape's reach along it.
+    /// Unit direction out of the reference shape along which separations are measured.
+    along: DVec3,
+    /// The plane's outward unit normal: most often the same.
+    facing: DVec3,
+    /// The reference shape's reach along `facing`.
     reach: f64,
     is_b: bool,
 }
@@ -179,8 +208,8 @@ struct Reference {
 impl Reference {
     /// The contact of a point of the incident shape with its foot on the plane. Features: the reference's first.
     fn contact(&self, point: DVec3, (of_reference, of_incident): (Feature, Feature)) -> Point {
-        let separation = self.normal.dot(point) - self.reach;
-        let foot = point - self.normal * separation;
+        let separation = (self.facing.dot(point) - self.reach) / self.facing.dot(self.along);
+        let foot = point - self.along * separation;
         if self.is_b {
             Point { separation, on_a: point, on_b: foot, feature: FeatureId::new(of_incident, of_reference) }
         } else {
@@ -199,19 +228,30 @@ fn face_points(
     within: f64,
     is_b: bool,
 ) -> ArrayVec<Point, 4> {
-    let reference = Reference { normal, reach: solid.support(normal).reach, is_b };
+    let reference = Reference { along: normal, facing: normal, reach: solid.support(normal).reach, is_b };
     let deepest = incident.support(-normal).vertex;
     let incident_face = opposed_face_at(incident, deepest, normal);
+    clipped_points((solid, face), (incident, incident_face), &reference, within)
+}
+
+/// Corners of the patch that two faces share as seen along the reference's direction, at most `within` outside its
+/// plane, and at most four of them.
+fn clipped_points(
+    (solid, face): (&Solid, usize),
+    (incident, incident_face): (&Solid, usize),
+    reference: &Reference,
+    within: f64,
+) -> ArrayVec<Point, 4> {
     let mut points: ArrayVec<Point, MAX_CORNERS> = ArrayVec::new();
     let mut rings = [Ring::new_const(), Ring::new_const()];
-    for corner in clip((solid, face), (incident, incident_face), normal, &mut rings) {
+    for corner in clip((solid, face), (incident, incident_face), reference.along, &mut rings) {
         let new = reference.contact(corner.point, corner.features);
         let is_new = points.iter().all(|known| known.feature != new.feature);
         if new.separation <= within && is_new {
             points.push(new);
         }
     }
-    reduce_to_four(&points, normal)
+    reduce_to_four(&points, reference.along)
 }
 
 /// Of the faces around a vertex, the one that looks most against `normal`.
