@@ -2,7 +2,7 @@
 
 use crate::collider::Collider;
 use asunder_geometry::{Aabb2, Aabb3, Bounds, Pose2, Pose3, Shape2, Shape3};
-use asunder_narrow::{Answer, Batch2, Batch3, Hint, Job2, Job3, Manifold2, Manifold3, collide2, collide3};
+use asunder_narrow::{Batch, Batch2, Batch3, Hint, Job2, Job3, Manifold2, Manifold3, collide2, collide3};
 use core::fmt::Debug;
 
 slotmap::new_key_type! {
@@ -42,9 +42,6 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     /// One pair for the narrow phase.
     #[doc(hidden)]
     type Job<'a>: Send + Sync;
-    /// Answers of the narrow phase, as scratch memory.
-    #[doc(hidden)]
-    type Batch: Default + Clone + Debug + Send;
 
     /// Whether two poses are equal in every bit.
     #[doc(hidden)]
@@ -60,15 +57,7 @@ pub trait Space: sealed::Sealed + Sized + 'static {
 
     /// Appends the answers to a slice of jobs.
     #[doc(hidden)]
-    fn collide(jobs: &[Self::Job<'_>], batch: &mut Self::Batch);
-
-    /// Empties a batch and keeps its memory.
-    #[doc(hidden)]
-    fn clear(batch: &mut Self::Batch);
-
-    /// Answers and manifolds of a batch, the manifolds to be taken out.
-    #[doc(hidden)]
-    fn answers(batch: &mut Self::Batch) -> (&[Answer], &mut Vec<Self::Manifold>);
+    fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
 }
 
 impl Space for Plane {
@@ -78,7 +67,6 @@ impl Space for Plane {
     type Aabb = Aabb2;
     type Manifold = Manifold2;
     type Job<'a> = Job2<'a>;
-    type Batch = Batch2;
 
     fn same_bits(one: &Pose2, other: &Pose2) -> bool {
         one.same_bits(other)
@@ -103,14 +91,6 @@ impl Space for Plane {
     fn collide(jobs: &[Job2<'_>], batch: &mut Batch2) {
         collide2(jobs, batch);
     }
-
-    fn clear(batch: &mut Batch2) {
-        batch.clear();
-    }
-
-    fn answers(batch: &mut Batch2) -> (&[Answer], &mut Vec<Manifold2>) {
-        (&batch.answers, &mut batch.manifolds)
-    }
 }
 
 impl Space for Volume {
@@ -120,7 +100,6 @@ impl Space for Volume {
     type Aabb = Aabb3;
     type Manifold = Manifold3;
     type Job<'a> = Job3<'a>;
-    type Batch = Batch3;
 
     fn same_bits(one: &Pose3, other: &Pose3) -> bool {
         one.same_bits(other)
@@ -144,13 +123,5 @@ impl Space for Volume {
 
     fn collide(jobs: &[Job3<'_>], batch: &mut Batch3) {
         collide3(jobs, batch);
-    }
-
-    fn clear(batch: &mut Batch3) {
-        batch.clear();
-    }
-
-    fn answers(batch: &mut Batch3) -> (&[Answer], &mut Vec<Manifold3>) {
-        (&batch.answers, &mut batch.manifolds)
     }
 }

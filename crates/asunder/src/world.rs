@@ -7,6 +7,7 @@ use crate::space::Space;
 use crate::stats::Stats;
 use asunder_broad::{PairId, Sweep};
 use asunder_geometry::Bounds;
+use asunder_narrow::Batch;
 use slotmap::{Key, SlotMap};
 
 /// A key whose body is gone.
@@ -64,7 +65,7 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) sweep: Sweep,
     pub(crate) pairs: Vec<PairId>,
     pub(crate) refitted: Vec<S::Aabb>,
-    pub(crate) batches: Vec<S::Batch>,
+    pub(crate) batches: Vec<Batch<S::Manifold>>,
     pub(crate) last_candidates: Vec<Candidate<S::Key>>,
     pub(crate) last_records: Vec<Record<S::Key>>,
     pub(crate) ended: Vec<Record<S::Key>>,

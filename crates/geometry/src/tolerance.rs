@@ -13,8 +13,8 @@ pub const COPLANAR: f64 = 2.5e-7;
 /// Inscribed over bounding radius below which a hull is thin, and a pair of it asks for the distance too before it is
 /// called overlapping.
 ///
-/// At this ratio facets still show a gap along the plate at a thousandth of its width, far above rounding. A larger value costs time; a smaller
-/// one lets gaps drown in rounding.
+/// At this ratio facets still show a thousandth of a gap along the plate, far above rounding. A larger value costs
+/// time; a smaller one lets gaps drown in rounding.
 pub const THIN: f32 = 1e-3;
 
 /// Sine of the angle between two edges below which their cross product is not used as an axis.
@@ -34,7 +34,8 @@ pub const ARC_SLACK: f64 = 1e-6;
 /// Share of the smaller shape's diameter by which another kind of axis must beat a face of A before the contact is
 /// built on it.
 ///
-/// Keeps the reference face from flipping between ties; it is the largest regret of a reported normal.
+/// Keeps the reference face from flipping between ties. It is also the largest regret of a reported normal, rounding
+/// apart, for which it is raised where positions are far apart and shapes small.
 pub const FACE_PREFERENCE: f64 = 5e-7;
 
 /// Cosine of the angle up to which two faces beside a pair of touching edges count as resting on each other: 0.1 rad.
@@ -45,8 +46,7 @@ pub const ALIGNED_FACES: f64 = 0.995;
 
 /// Share of a pair's size that is always part of a reported separation's error.
 ///
-/// Covers the axes that nearly parallel edges leave out, the noise of those just above it, and the rounding of the
-/// answer to f32. The derivation stands in `docs/accuracy.md`.
+/// Covers the axes that nearly parallel edges leave out, and the noise of those just above that limit. The derivation stands in `docs/accuracy.md`.
 pub const SEPARATION_ERROR: f64 = 1.5e-7;
 
 /// Share of a pair's size at which the distance iteration stops: the gap between its two certified bounds.

@@ -26,6 +26,7 @@
 #![deny(missing_docs)]
 
 mod answer;
+mod batch;
 mod feature;
 mod pair2;
 mod pair3;
@@ -38,6 +39,7 @@ pub use answer::{
     Separation2, Separation3,
 };
 pub use arrayvec::ArrayVec;
+pub use batch::{Batch, Batch2, Batch3};
 pub use feature::{Feature, FeatureId, Hint};
-pub use pair2::{Batch2, Job2, Pair2, collide2};
-pub use pair3::{Batch3, Job3, Pair3, collide3};
+pub use pair2::{Job2, Pair2, collide2};
+pub use pair3::{Job3, Pair3, collide3};

@@ -1,6 +1,7 @@
 //! One pair in the plane, and batches of them.
 
-use crate::answer::{Answer, Closest2, ContactPoint2, Manifold2, Measured2, Separation2};
+use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2};
+use crate::batch::{Batch2, Touch};
 use crate::feature::Hint;
 use crate::polygon::distance::{Witness, distance};
 use crate::polygon::manifold::touch;
@@ -88,21 +89,21 @@ impl<'a> Pair2<'a> {
     ///
     /// A point may lie up to the margin outside. Cost: as the separation, plus clipping two edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
-        self.contact(margin, Hint::NONE).contact.map(|contact| contact.1)
+        self.contact(margin, Hint::NONE).1?.1
     }
 
     /// The hint for the next frame, and a manifold where the shapes are within the margin, with the decision.
-    fn contact(&self, margin: f32, hint: Hint) -> Contact {
+    fn contact(&self, margin: f32, hint: Hint) -> (Hint, Option<Touch<Manifold2>>) {
         let margin = f64::from(margin).max(0.0);
         self.with_outlines(|a, b| {
             let axes = match separating_axes(a, b, margin + self.precision().projection(), hint) {
-                Outcome::Beyond(axis) => return Contact { hint: hint_of(&axis), contact: None },
+                Outcome::Beyond(axis) => return (hint_of(&axis), None),
                 Outcome::Within(axes) => axes,
             };
             let hint = hint_of(axes.best());
             let Found { overlapping, measured, witness } = self.measure(a, b, &axes);
             if !overlapping && f64::from(measured.separation) > margin {
-                return Contact { hint, contact: None };
+                return (hint, None);
             }
             let touch = touch(a, b, &axes, witness.as_ref(), margin, self.preference());
             let points = touch.points.iter().map(|point| ContactPoint2 {
@@ -119,19 +120,19 @@ impl<'a> Pair2<'a> {
                 error: measured.error,
                 points: points.collect(),
             };
-            Contact { hint, contact: Some((overlapping, manifold)) }
+            (hint, Some((overlapping, Some(manifold))))
         })
     }
 
     /// Whether the shapes are within the margin, for a sensor, which wants no points.
-    fn senses(&self, margin: f32, hint: Hint) -> (Hint, Option<bool>) {
+    fn senses(&self, margin: f32, hint: Hint) -> (Hint, Option<Touch<Manifold2>>) {
         let margin = f64::from(margin).max(0.0);
         self.with_outlines(|a, b| match separating_axes(a, b, margin + self.precision().projection(), hint) {
             Outcome::Beyond(axis) => (hint_of(&axis), None),
             Outcome::Within(axes) => {
                 let found = self.measure(a, b, &axes);
                 let within = found.overlapping || f64::from(found.measured.separation) <= margin;
-                (hint_of(axes.best()), within.then_some(found.overlapping))
+                (hint_of(axes.best()), within.then_some((found.overlapping, None)))
             }
         })
     }
@@ -219,11 +220,6 @@ struct Found {
     witness: Option<Witness>,
 }
 
-struct Contact {
-    hint: Hint,
-    contact: Option<(bool, Manifold2)>,
-}
-
 /// One question of a batch: are these within the margin of each other, and how do they touch?
 #[derive(Clone, Copy, Debug)]
 pub struct Job2<'a> {
@@ -241,23 +237,6 @@ pub struct Job2<'a> {
     pub hint: Hint,
     /// Whether to leave out manifolds.
     pub sensor: bool,
-}
-
-/// Answers to a batch of jobs, and the manifolds they refer to. Keep one between frames: it is scratch memory.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Batch2 {
-    /// One answer a job, in order.
-    pub answers: Vec<Answer>,
-    /// What the answers' ranges point into.
-    pub manifolds: Vec<Manifold2>,
-}
-
-impl Batch2 {
-    /// Empties both lists and keeps their memory.
-    pub fn clear(&mut self) {
-        self.answers.clear();
-        self.manifolds.clear();
-    }
 }
 
 /// Answers a slice of jobs, appending to the batch. Jobs do not influence each other.
@@ -279,24 +258,8 @@ impl Batch2 {
 pub fn collide2(jobs: &[Job2<'_>], batch: &mut Batch2) {
     for job in jobs {
         let pair = Pair2::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
-        let first = batch.manifolds.len() as u32;
-        let (hint, overlapping) = if job.sensor {
-            pair.senses(job.margin, job.hint)
-        } else {
-            let Contact { hint, contact } = pair.contact(job.margin, job.hint);
-            (
-                hint,
-                contact.map(|(overlapping, manifold)| {
-                    batch.manifolds.push(manifold);
-                    overlapping
-                }),
-            )
-        };
-        batch.answers.push(match overlapping {
-            None => Answer::Apart { hint },
-            Some(overlapping) => {
-                Answer::Contact { hint, overlapping, manifolds: first..batch.manifolds.len() as u32 }
-            }
-        });
+        let (hint, touch) =
+            if job.sensor { pair.senses(job.margin, job.hint) } else { pair.contact(job.margin, job.hint) };
+        batch.push(hint, touch);
     }
 }

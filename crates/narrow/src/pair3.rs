@@ -1,6 +1,7 @@
 //! One pair in space, and batches of them.
 
-use crate::answer::{Answer, Closest3, ContactPoint3, Manifold3, Measured3, Separation3};
+use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3};
+use crate::batch::{Batch3, Touch};
 use crate::feature::Hint;
 use crate::polyhedron::cuboids::Cuboids;
 use crate::polyhedron::distance::{Witness, distance};
@@ -63,7 +64,8 @@ impl<'a> Pair3<'a> {
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as
-    /// no limit, and a negative limit as zero. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes for cuboids; in a gap within
+    /// no limit, and a negative limit as zero. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes
+    /// for cuboids; in a gap within
     /// the limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
@@ -93,21 +95,21 @@ impl<'a> Pair3<'a> {
     ///
     /// A point may lie up to the margin outside. Cost: as the separation, plus clipping two faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
-        self.contact(margin, Hint::NONE).contact.map(|contact| contact.1)
+        self.contact(margin, Hint::NONE).1?.1
     }
 
     /// The hint for the next frame, and a manifold where the shapes are within the margin, with the decision.
-    fn contact(&self, margin: f32, hint: Hint) -> Contact {
+    fn contact(&self, margin: f32, hint: Hint) -> (Hint, Option<Touch<Manifold3>>) {
         let margin = f64::from(margin).max(0.0);
         self.with_solids(|a, b| {
             let axes = match self.axes(a, b, margin + self.precision().projection(), hint) {
-                Outcome::Beyond(axis) => return Contact { hint: hint_of(&axis), contact: None },
+                Outcome::Beyond(axis) => return (hint_of(&axis), None),
                 Outcome::Within(axes) => axes,
             };
             let hint = hint_of(axes.best());
             let Found { overlapping, measured, witness } = self.measure(a, b, &axes);
             if !overlapping && f64::from(measured.separation) > margin {
-                return Contact { hint, contact: None };
+                return (hint, None);
             }
             let touch = touch(a, b, &axes, witness.as_ref(), margin, self.preference());
             let points = touch.points.iter().map(|point| ContactPoint3 {
@@ -124,19 +126,19 @@ impl<'a> Pair3<'a> {
                 error: measured.error,
                 points: points.collect(),
             };
-            Contact { hint, contact: Some((overlapping, manifold)) }
+            (hint, Some((overlapping, Some(manifold))))
         })
     }
 
     /// Whether the shapes are within the margin, for a sensor, which wants no points.
-    fn senses(&self, margin: f32, hint: Hint) -> (Hint, Option<bool>) {
+    fn senses(&self, margin: f32, hint: Hint) -> (Hint, Option<Touch<Manifold3>>) {
         let margin = f64::from(margin).max(0.0);
         self.with_solids(|a, b| match self.axes(a, b, margin + self.precision().projection(), hint) {
             Outcome::Beyond(axis) => (hint_of(&axis), None),
             Outcome::Within(axes) => {
                 let found = self.measure(a, b, &axes);
                 let within = found.overlapping || f64::from(found.measured.separation) <= margin;
-                (hint_of(axes.best()), within.then_some(found.overlapping))
+                (hint_of(axes.best()), within.then_some((found.overlapping, None)))
             }
         })
     }
@@ -275,11 +277,6 @@ struct Found {
     witness: Option<Witness>,
 }
 
-struct Contact {
-    hint: Hint,
-    contact: Option<(bool, Manifold3)>,
-}
-
 /// One question of a batch: are these within the margin of each other, and how do they touch?
 #[derive(Clone, Copy, Debug)]
 pub struct Job3<'a> {
@@ -297,23 +294,6 @@ pub struct Job3<'a> {
     pub hint: Hint,
     /// Whether to leave out manifolds.
     pub sensor: bool,
-}
-
-/// Answers to a batch of jobs, and the manifolds they refer to. Keep one between frames: it is scratch memory.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Batch3 {
-    /// One answer a job, in order.
-    pub answers: Vec<Answer>,
-    /// What the answers' ranges point into.
-    pub manifolds: Vec<Manifold3>,
-}
-
-impl Batch3 {
-    /// Empties both lists and keeps their memory.
-    pub fn clear(&mut self) {
-        self.answers.clear();
-        self.manifolds.clear();
-    }
 }
 
 /// Answers a slice of jobs, appending to the batch. Jobs do not influence each other.
@@ -335,24 +315,8 @@ impl Batch3 {
 pub fn collide3(jobs: &[Job3<'_>], batch: &mut Batch3) {
     for job in jobs {
         let pair = Pair3::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
-        let first = batch.manifolds.len() as u32;
-        let (hint, overlapping) = if job.sensor {
-            pair.senses(job.margin, job.hint)
-        } else {
-            let Contact { hint, contact } = pair.contact(job.margin, job.hint);
-            (
-                hint,
-                contact.map(|(overlapping, manifold)| {
-                    batch.manifolds.push(manifold);
-                    overlapping
-                }),
-            )
-        };
-        batch.answers.push(match overlapping {
-            None => Answer::Apart { hint },
-            Some(overlapping) => {
-                Answer::Contact { hint, overlapping, manifolds: first..batch.manifolds.len() as u32 }
-            }
-        });
+        let (hint, touch) =
+            if job.sensor { pair.senses(job.margin, job.hint) } else { pair.contact(job.margin, job.hint) };
+        batch.push(hint, touch);
     }
 }

@@ -5,7 +5,7 @@ use crate::contact::{Candidate, Record};
 use crate::space::Space;
 use crate::world::World;
 use asunder_broad::PairId;
-use asunder_narrow::{Answer, ArrayVec, Hint};
+use asunder_narrow::{Answer, ArrayVec, Batch, Hint};
 use slotmap::SlotMap;
 
 /// Pairs in one batch. Fixed, so that where batches are cut does not depend on the threads.
@@ -28,7 +28,7 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
 
     let batch_count = scratch.pairs.len().div_ceil(BATCH);
     if scratch.batches.len() < batch_count {
-        scratch.batches.resize_with(batch_count, S::Batch::default);
+        scratch.batches.resize_with(batch_count, Batch::default);
     }
     let asker = Asker { bodies, keys, last: &scratch.last_candidates };
     let (pairs, batches) = (&scratch.pairs, &mut scratch.batches[..batch_count]);
@@ -48,9 +48,8 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     pairs.chunks(BATCH).zip(batches.iter_mut()).for_each(|(pairs, batch)| asker.ask(pairs, batch));
 
     for (pairs, batch) in pairs.chunks(BATCH).zip(batches) {
-        let (answers, batch_manifolds) = S::answers(batch);
         let offset = manifolds.len() as u32;
-        for (&pair, answer) in pairs.iter().zip(answers) {
+        for (&pair, answer) in pairs.iter().zip(&batch.answers) {
             let keys = (keys[pair.a as usize], keys[pair.b as usize]);
             let (hint, contact) = match answer {
                 Answer::Apart { hint } => (*hint, None),
@@ -72,7 +71,7 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
                 });
             }
         }
-        manifolds.append(batch_manifolds);
+        manifolds.append(&mut batch.manifolds);
     }
 }
 
@@ -85,8 +84,8 @@ struct Asker<'a, S: Space> {
 
 impl<S: Space> Asker<'_, S> {
     /// Answers the pairs of one batch. They are sorted, and so are last update's: one walk finds all hints.
-    fn ask(&self, pairs: &[PairId], batch: &mut S::Batch) {
-        S::clear(batch);
+    fn ask(&self, pairs: &[PairId], batch: &mut Batch<S::Manifold>) {
+        batch.clear();
         let first = pairs.first().map_or(0, |first| self.last.partition_point(|known| known.pair < *first));
         let mut last = self.last[first..].iter().peekable();
         for slice in pairs.chunks(SLICE) {

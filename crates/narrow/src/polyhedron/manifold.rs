@@ -6,7 +6,8 @@
 //! a face:     the other shape's incident face is the one most opposed, of those at its deepest vertex
 //!             clip it against planes through the reference face's edges, along the normal
 //!             keep the points within the margin of the reference plane
-//! if the deepest point was clipped away, ask the axis that is best of all; then the witness points of the gap
+//! if the deepest point was clipped away, ask the axis that is best of all; then, in a gap, the faces that nearly look at
+//! each other across it; then the witness points
 //! reduce to four
 //! ```
 //! Side planes are made from the reference face's own edges and not from neighbouring faces, so that a face which is
@@ -44,7 +45,8 @@ pub(crate) struct Touch {
 /// `preference` is how much another axis must beat a face of A by.
 ///
 /// An axis that only nearly is the best may have its deepest point clipped away, because what touches lies just beside
-/// its face. Then the best axis is asked in its place, and in a gap, the witness points.
+/// its face. Then the best axis is asked in its place; in a gap, faces that nearly look at each other across it, and at
+/// last the witness points.
 pub(crate) fn touch(
     a: &Solid,
     b: &Solid,
