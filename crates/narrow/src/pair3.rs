@@ -65,8 +65,7 @@ impl<'a> Pair3<'a> {
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as
     /// no limit, and a negative limit as zero. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes
-    /// for cuboids; in a gap within
-    /// the limit a few support searches more, for the Euclidean distance.
+    /// for cuboids; in a gap within the limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
         self.with_solids(|a, b| match self.axes(a, b, limit + self.precision().projection(), Hint::NONE) {
