@@ -35,6 +35,22 @@ impl Shapes {
                 SharedShape::cuboid(half.x, half.y, half.z)
             }
             Shape3::Hull(hull) => SharedShape::convex_hull(hull.vertices())?,
+            Shape3::Sphere(sphere) => SharedShape::ball(sphere.radius()),
+            Shape3::Capsule(capsule) => {
+                let [from, to] = capsule.segment().ends();
+                SharedShape::capsule(from, to, capsule.radius())
+            }
+            Shape3::HalfSpace(half_space) => SharedShape::halfspace(half_space.normal().normalize()),
+            Shape3::Triangle(triangle) => {
+                let [a, b, c] = triangle.vertices();
+                SharedShape::triangle(a, b, c)
+            }
+            Shape3::Segment(segment) => {
+                let [from, to] = segment.ends();
+                SharedShape::segment(from, to)
+            }
+            // No scene here has one.
+            Shape3::Compound(_) => return None,
         };
         self.known.push((shape.clone(), converted.clone()));
         Some(converted)

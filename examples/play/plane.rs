@@ -116,8 +116,5 @@ impl Physics for Plane {
 
 /// A shape's vertices, counter-clockwise.
 pub(crate) fn outline(shape: &Shape2) -> Vec<DVec2> {
-    match shape {
-        Shape2::Rect(rect) => rect.vertices().iter().copied().map(Vec2::as_dvec2).collect(),
-        Shape2::Polygon(polygon) => polygon.vertices().iter().copied().map(Vec2::as_dvec2).collect(),
-    }
+    shape.core().vertices().iter().copied().map(Vec2::as_dvec2).collect()
 }

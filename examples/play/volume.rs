@@ -2,7 +2,7 @@
 
 use crate::physics::{Mass, Physics, Touch, TouchId};
 use asunder::glam::{DMat3, DQuat, DVec3, Vec3};
-use asunder::{BodyKey3, Collider3, Cuboid, Event3, Pose3, Shape3, Topology, Volume, World3};
+use asunder::{BodyKey3, Collider3, Event3, Pose3, Shape3, Topology, Volume, World3};
 
 impl Physics for Volume {
     type Vector = DVec3;
@@ -125,14 +125,8 @@ impl Physics for Volume {
 
 /// A shape's vertices, and how they make faces.
 pub(crate) fn mesh(shape: &Shape3) -> (Vec<DVec3>, &Topology) {
-    match shape {
-        Shape3::Cuboid(cuboid) => {
-            (cuboid.vertices().iter().copied().map(Vec3::as_dvec3).collect(), Cuboid::topology())
-        }
-        Shape3::Hull(hull) => {
-            (hull.vertices().iter().copied().map(Vec3::as_dvec3).collect(), hull.topology())
-        }
-    }
+    let core = shape.core();
+    (core.vertices().iter().copied().map(Vec3::as_dvec3).collect(), core.topology())
 }
 
 fn outer(v: DVec3) -> DMat3 {

@@ -124,10 +124,7 @@ fn pivot(rows: &mut [Vec<BigInt>], leaving: usize, entering: usize, denominator:
 }
 
 fn stored_vertices3(shape: &Shape3) -> Vec<Vec3> {
-    match shape {
-        Shape3::Cuboid(cuboid) => cuboid.vertices().to_vec(),
-        Shape3::Hull(hull) => hull.vertices().to_vec(),
-    }
+    shape.core().vertices().to_vec()
 }
 
 /// M(q) times a vector, for integers: |q|^2 times as long as the turned vector.

@@ -92,10 +92,7 @@ impl Placed2 {
 
 /// The stored vertices of a shape in the plane.
 pub fn stored_vertices2(shape: &Shape2) -> Vec<glam::Vec2> {
-    match shape {
-        Shape2::Rect(rect) => rect.vertices().to_vec(),
-        Shape2::Polygon(polygon) => polygon.vertices().to_vec(),
-    }
+    shape.core().vertices().to_vec()
 }
 
 /// A vector turned by M(q)/|q|^2, by the sandwich product: the library multiplies matrices.

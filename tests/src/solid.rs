@@ -34,10 +34,7 @@ pub struct Facet {
 impl Solid {
     /// The solid of a shape's stored vertices.
     pub fn of(shape: &Shape3) -> Self {
-        match shape {
-            Shape3::Cuboid(cuboid) => Self::of_vertices(&cuboid.vertices()),
-            Shape3::Hull(hull) => Self::of_vertices(hull.vertices()),
-        }
+        Self::of_vertices(shape.core().vertices())
     }
 
     /// The hull of vertices that span space. Cost: the fourth power of their number at worst.

@@ -159,6 +159,7 @@ fn scaled3(shape: &Shape3, factor: f32) -> Shape3 {
             let points: Vec<_> = hull.vertices().iter().map(|&v| v * factor).collect();
             Hull::from_points(&points).unwrap().into()
         }
+        other => unreachable!("made of cuboids and hulls, not {other:?}"),
     }
 }
 
@@ -169,6 +170,7 @@ fn scaled2(shape: &Shape2, factor: f32) -> Shape2 {
             let points: Vec<_> = polygon.vertices().iter().map(|&v| v * factor).collect();
             Polygon::new(&points).unwrap().into()
         }
+        other => unreachable!("made of rectangles and polygons, not {other:?}"),
     }
 }
 

@@ -34,6 +34,7 @@ fn twin3(shape: Shape3) -> Twin<Shape3> {
             Box::new(Cuboid::new(Vector::new(half.x, half.y, half.z)))
         }
         Shape3::Hull(hull) => hull_of(hull.vertices()),
+        other => unreachable!("made of cuboids and hulls, not {other:?}"),
     };
     Twin { ours: shape, theirs }
 }

@@ -41,8 +41,11 @@ mod world2;
 mod world3;
 
 pub use asunder_geometry::{
-    Aabb2, Aabb3, Basis3, Bounds, Cuboid, ExtentError, HalfEdge, Hull, HullError, Polygon, PolygonError,
-    Pose2, Pose3, PoseError, Rect, Rotation2, Shape2, Shape3, Topology, glam, tolerance,
+    Aabb2, Aabb3, Basis3, Bounds, Capsule2, Capsule3, CapsuleError, Circle, Compound2, Compound3,
+    CompoundError, Core2, Core3, Cuboid, DirectionError, ExtentError, HalfEdge, HalfPlane, HalfSpace, Hull,
+    HullError, Part2, Part3, Polygon, PolygonError, Pose2, Pose3, PoseError, RadiusError, Ray2, Ray3,
+    RayError, Rect, Rotation2, Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, VertexError,
+    glam, tolerance,
 };
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Manifold2, Manifold3,

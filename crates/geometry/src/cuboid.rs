@@ -2,8 +2,9 @@
 
 use crate::aabb::Aabb3;
 use crate::extent::{ExtentError, bounding_radius};
-use crate::outward::interval;
+use crate::outward::{interval, round_down};
 use crate::pose3::Pose3;
+use crate::radius::{RadiusError, check_rounding, grown};
 use crate::topology::Topology;
 use glam::{DVec3, Vec3};
 use std::sync::LazyLock;
@@ -23,7 +24,8 @@ use std::sync::LazyLock;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
     half_extents: Vec3,
-    outer_radius: f32,
+    core_radius: f32,
+    radius: f32,
 }
 
 static TOPOLOGY: LazyLock<Topology> = LazyLock::new(|| {
@@ -41,17 +43,40 @@ impl Cuboid {
     /// # Errors
     /// A half extent that is not finite or not positive, and a bounding radius outside 1e-6 to 1e6 m.
     pub fn from_half_extents(half_extents: Vec3) -> Result<Self, ExtentError> {
-        let outer_radius = bounding_radius(&half_extents.to_array())?;
-        Ok(Self { half_extents, outer_radius })
+        let core_radius = bounding_radius(&half_extents.to_array())?;
+        Ok(Self { half_extents, core_radius, radius: 0.0 })
     }
 
-    /// Half of the size on each axis, in metres.
+    /// The same cuboid with everything within `radius` metres added: round corners and edges, and larger by the radius
+    /// on every side. Zero takes the rounding away.
+    ///
+    /// ```
+    /// use asunder_geometry::{Cuboid, glam::{DVec3, Vec3}};
+    /// let rounded = Cuboid::from_half_extents(Vec3::ONE)?.rounded(0.5)?;
+    /// assert!(rounded.contains(DVec3::new(1.5, 0.0, 0.0)) && !rounded.contains(DVec3::new(1.4, 1.4, 0.0)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A radius that is negative or not finite, or with which the shape would reach further than 1e6 m.
+    pub fn rounded(self, radius: f32) -> Result<Self, RadiusError> {
+        check_rounding(radius, f64::from(self.core_radius))?;
+        Ok(Self { radius, ..self })
+    }
+
+    /// Radius of the rounding, in metres; zero for sharp edges.
+    #[inline]
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// Half of the size on each axis, in metres, without the rounding.
     #[inline]
     pub const fn half_extents(&self) -> Vec3 {
         self.half_extents
     }
 
-    /// The eight corners.
+    /// The eight corners; of a rounded cuboid, those of its core.
     #[inline]
     pub fn vertices(&self) -> [Vec3; 8] {
         let h = self.half_extents;
@@ -69,14 +94,20 @@ impl Cuboid {
 
     /// Radius of the bounding sphere about the origin, in metres, rounded up.
     #[inline]
-    pub const fn outer_radius(&self) -> f32 {
-        self.outer_radius
+    pub fn outer_radius(&self) -> f32 {
+        grown(self.core_radius, self.radius)
     }
 
-    /// Radius of the inscribed sphere about the origin, in metres.
+    /// Radius of the inscribed sphere about the origin, in metres, rounded down.
     #[inline]
     pub fn inner_radius(&self) -> f32 {
-        self.half_extents.min_element()
+        round_down(f64::from(self.half_extents.min_element()) + f64::from(self.radius))
+    }
+
+    /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding.
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        let beyond = (point.into().abs() - self.half_extents.as_dvec3()).max(DVec3::ZERO);
+        beyond.length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.
@@ -85,9 +116,10 @@ impl Cuboid {
         let basis = pose.basis();
         let reach = basis.x.abs() * h.x + basis.y.abs() * h.y + basis.z.abs() * h.z;
         let p = pose.position();
-        let x = interval(p.x, -reach.x, reach.x, f64::from(margin));
-        let y = interval(p.y, -reach.y, reach.y, f64::from(margin));
-        let z = interval(p.z, -reach.z, reach.z, f64::from(margin));
+        let grow = f64::from(margin) + f64::from(self.radius);
+        let x = interval(p.x, -reach.x, reach.x, grow);
+        let y = interval(p.y, -reach.y, reach.y, grow);
+        let z = interval(p.z, -reach.z, reach.z, grow);
         Aabb3::new(Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
     }
 }

@@ -9,29 +9,53 @@
 #![deny(missing_docs)]
 
 mod aabb;
+mod circle;
+mod compound;
+mod cores;
 mod cuboid;
+mod decompose;
+mod direction;
 mod extent;
+mod half_space;
 mod hull;
+mod mass;
 mod outward;
 mod polygon;
 mod pose2;
 mod pose3;
+mod radius;
+mod ray;
 mod rect;
+mod segment;
 mod shape;
+mod sphere;
 pub mod tolerance;
 mod topology;
+mod triangle;
+mod vertex;
 
 pub use aabb::{Aabb2, Aabb3, Bounds};
+pub use circle::Circle;
+pub use compound::{Compound2, Compound3, CompoundError, Part2, Part3};
+pub use cores::{Core2, Core3};
 pub use cuboid::Cuboid;
+pub use decompose::{DecomposeError, decompose};
+pub use direction::DirectionError;
 pub use extent::ExtentError;
+pub use half_space::{HalfPlane, HalfSpace};
 pub use hull::{Hull, HullError};
+pub use mass::{MassError, MassProperties2, MassProperties3};
 pub use polygon::{Polygon, PolygonError};
 pub use pose2::{Pose2, Rotation2};
-pub use pose3::{Basis3, Pose3};
+pub use pose3::{Basis3, Pose3, PoseError};
+pub use radius::RadiusError;
+pub use ray::{Ray2, Ray3, RayError};
 pub use rect::Rect;
+pub use segment::{Capsule2, Capsule3, CapsuleError, Segment2, Segment3};
 pub use shape::{Shape2, Shape3};
+pub use sphere::Sphere;
 pub use topology::{HalfEdge, Topology};
-
-pub use pose3::PoseError;
+pub use triangle::Triangle3;
+pub use vertex::VertexError;
 
 pub use glam;

@@ -1,5 +1,10 @@
 //! Rounding an f64 interval outwards to f32, so that a box never loses the shape inside it.
 
+use crate::aabb::{Aabb2, Aabb3};
+use crate::pose2::Pose2;
+use crate::pose3::Pose3;
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
 /// The largest f32 that is not above `value`.
 #[inline]
 pub(crate) fn round_down(value: f64) -> f32 {
@@ -22,6 +27,34 @@ pub(crate) fn interval(position: f64, low: f64, high: f64, margin: f64) -> (f32,
     // A projection is a sum of three products of entries with a handful of roundings each: 32 units cover them.
     let slack = 32.0 * f64::EPSILON * (position.abs() + low.abs().max(high.abs()) + margin);
     (round_down(position + low - margin - slack), round_up(position + high + margin + slack))
+}
+
+/// The box around points in the plane, posed, grown by `grow` metres. There must be a point.
+pub(crate) fn around2(points: impl Iterator<Item = DVec2>, pose: &Pose2, grow: f64) -> Aabb2 {
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for point in points {
+        let turned = pose.rotation().turn(point);
+        (low, high) = (low.min(turned), high.max(turned));
+    }
+    let p = pose.position();
+    let x = interval(p.x, low.x, high.x, grow);
+    let y = interval(p.y, low.y, high.y, grow);
+    Aabb2::new(Vec2::new(x.0, y.0), Vec2::new(x.1, y.1))
+}
+
+/// The box around points in space, posed, grown by `grow` metres. There must be a point.
+pub(crate) fn around3(points: impl Iterator<Item = DVec3>, pose: &Pose3, grow: f64) -> Aabb3 {
+    let basis = pose.basis();
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for point in points {
+        let turned = basis.turn(point);
+        (low, high) = (low.min(turned), high.max(turned));
+    }
+    let p = pose.position();
+    let x = interval(p.x, low.x, high.x, grow);
+    let y = interval(p.y, low.y, high.y, grow);
+    let z = interval(p.z, low.z, high.z, grow);
+    Aabb3::new(Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
 }
 
 #[cfg(test)]

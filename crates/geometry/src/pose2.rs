@@ -1,7 +1,7 @@
 //! Where a body is in the plane, and the exact meaning of its rotation.
 
 use crate::pose3::{PoseError, check_position, check_rotation};
-use glam::{DVec2, Vec2};
+use glam::DVec2;
 
 /// A rotation in the plane, stored as its cosine and sine.
 ///
@@ -124,8 +124,21 @@ impl Pose2 {
 
     /// A local point, in metres, taken to the world.
     #[inline]
-    pub fn transform(&self, point: Vec2) -> DVec2 {
-        self.position + self.rotation.turn(point.as_dvec2())
+    pub fn transform(&self, point: impl Into<DVec2>) -> DVec2 {
+        self.position + self.rotation.turn(point.into())
+    }
+
+    /// A point of the world, in metres, taken to local axes: what [`Pose2::transform`] undoes, up to rounding.
+    #[inline]
+    pub fn transform_back(&self, point: DVec2) -> DVec2 {
+        self.turn_back(point - self.position)
+    }
+
+    /// A direction of the world taken to local axes, by the inverse of the stored matrix.
+    #[inline]
+    pub fn turn_back(&self, direction: DVec2) -> DVec2 {
+        let (c, s) = (f64::from(self.rotation.cos), f64::from(self.rotation.sin));
+        DVec2::new(c * direction.x + s * direction.y, c * direction.y - s * direction.x) / (c * c + s * s)
     }
 
     /// Whether every stored bit is equal: `0.0` and `-0.0` differ. What a world asks before it calls a body moved.

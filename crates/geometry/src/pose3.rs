@@ -1,7 +1,7 @@
 //! Where a body is in space, and the exact meaning of its rotation.
 
 use crate::tolerance::MAX_POSITION;
-use glam::{DVec3, Quat, Vec3};
+use glam::{DVec3, Quat};
 
 /// Why a pose was refused.
 ///
@@ -157,8 +157,20 @@ impl Pose3 {
 
     /// A local point, in metres, taken to the world.
     #[inline]
-    pub fn transform(&self, point: Vec3) -> DVec3 {
-        self.position + self.basis().turn(point.as_dvec3())
+    pub fn transform(&self, point: impl Into<DVec3>) -> DVec3 {
+        self.position + self.basis().turn(point.into())
+    }
+
+    /// A point of the world, in metres, taken to local axes: what [`Pose3::transform`] undoes, up to rounding.
+    #[inline]
+    pub fn transform_back(&self, point: DVec3) -> DVec3 {
+        self.basis().turn_back(point - self.position)
+    }
+
+    /// A direction of the world taken to local axes.
+    #[inline]
+    pub fn turn_back(&self, direction: DVec3) -> DVec3 {
+        self.basis().turn_back(direction)
     }
 
     /// Whether every stored bit is equal: `0.0` and `-0.0` differ. What a world asks before it calls a body moved.

@@ -2,8 +2,9 @@
 
 use crate::aabb::Aabb2;
 use crate::extent::{ExtentError, bounding_radius};
-use crate::outward::interval;
+use crate::outward::{interval, round_down};
 use crate::pose2::Pose2;
+use crate::radius::{RadiusError, check_rounding, grown};
 use glam::{DVec2, Vec2};
 
 /// A rectangle about its own origin, given by its half extents in metres.
@@ -20,7 +21,8 @@ use glam::{DVec2, Vec2};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
     half_extents: Vec2,
-    outer_radius: f32,
+    core_radius: f32,
+    radius: f32,
 }
 
 impl Rect {
@@ -32,17 +34,40 @@ impl Rect {
     /// # Errors
     /// A half extent that is not finite or not positive, and a bounding radius outside 1e-6 to 1e6 m.
     pub fn from_half_extents(half_extents: Vec2) -> Result<Self, ExtentError> {
-        let outer_radius = bounding_radius(&half_extents.to_array())?;
-        Ok(Self { half_extents, outer_radius })
+        let core_radius = bounding_radius(&half_extents.to_array())?;
+        Ok(Self { half_extents, core_radius, radius: 0.0 })
     }
 
-    /// Half of the width and height, in metres.
+    /// The same rectangle with everything within `radius` metres added: round corners, and larger by the radius on every
+    /// side. Zero takes the rounding away.
+    ///
+    /// ```
+    /// use asunder_geometry::{Rect, glam::{DVec2, Vec2}};
+    /// let rounded = Rect::from_half_extents(Vec2::ONE)?.rounded(0.5)?;
+    /// assert!(rounded.contains(DVec2::new(1.5, 0.0)) && !rounded.contains(DVec2::new(1.4, 1.4)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A radius that is negative or not finite, or with which the shape would reach further than 1e6 m.
+    pub fn rounded(self, radius: f32) -> Result<Self, RadiusError> {
+        check_rounding(radius, f64::from(self.core_radius))?;
+        Ok(Self { radius, ..self })
+    }
+
+    /// Radius of the rounding, in metres; zero for sharp corners.
+    #[inline]
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// Half of the width and height, in metres, without the rounding.
     #[inline]
     pub const fn half_extents(&self) -> Vec2 {
         self.half_extents
     }
 
-    /// The four corners, counter-clockwise from the least.
+    /// The four corners, counter-clockwise from the least; of a rounded rectangle, those of its core.
     #[inline]
     pub fn vertices(&self) -> [Vec2; 4] {
         let h = self.half_extents;
@@ -51,14 +76,20 @@ impl Rect {
 
     /// Radius of the bounding circle about the origin, in metres, rounded up.
     #[inline]
-    pub const fn outer_radius(&self) -> f32 {
-        self.outer_radius
+    pub fn outer_radius(&self) -> f32 {
+        grown(self.core_radius, self.radius)
     }
 
-    /// Radius of the inscribed circle about the origin, in metres.
+    /// Radius of the inscribed circle about the origin, in metres, rounded down.
     #[inline]
     pub fn inner_radius(&self) -> f32 {
-        self.half_extents.x.min(self.half_extents.y)
+        round_down(f64::from(self.half_extents.x.min(self.half_extents.y)) + f64::from(self.radius))
+    }
+
+    /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding.
+    pub fn contains(&self, point: impl Into<DVec2>) -> bool {
+        let beyond = (point.into().abs() - self.half_extents.as_dvec2()).max(DVec2::ZERO);
+        beyond.length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.
@@ -67,8 +98,9 @@ impl Rect {
         let (c, s) = (f64::from(pose.rotation().cos()).abs(), f64::from(pose.rotation().sin()).abs());
         let reach = DVec2::new(c * h.x + s * h.y, s * h.x + c * h.y);
         let p = pose.position();
-        let x = interval(p.x, -reach.x, reach.x, f64::from(margin));
-        let y = interval(p.y, -reach.y, reach.y, f64::from(margin));
+        let grow = f64::from(margin) + f64::from(self.radius);
+        let x = interval(p.x, -reach.x, reach.x, grow);
+        let y = interval(p.y, -reach.y, reach.y, grow);
         Aabb2::new(Vec2::new(x.0, y.0), Vec2::new(x.1, y.1))
     }
 }

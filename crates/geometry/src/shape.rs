@@ -1,71 +1,171 @@
 //! The closed sets of shapes a body can have, one a dimension.
+//!
+//! Every bounded convex shape is a *core* (point, segment, polygon, polyhedron) with everything within a *radius* of it
+//! added. The narrow phase knows no other kinds.
 
 use crate::aabb::{Aabb2, Aabb3};
+use crate::circle::Circle;
+use crate::compound::{Compound2, Compound3};
+use crate::cores::{Core2, Core3};
 use crate::cuboid::Cuboid;
+use crate::half_space::{HalfPlane, HalfSpace};
 use crate::hull::Hull;
 use crate::polygon::Polygon;
 use crate::pose2::Pose2;
 use crate::pose3::Pose3;
 use crate::rect::Rect;
-use glam::{Vec2, Vec3};
+use crate::segment::{Capsule2, Capsule3, Segment2, Segment3};
+use crate::sphere::Sphere;
+use crate::triangle::Triangle3;
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// A convex shape in the plane. Cloning is cheap: large data is shared.
+/// A shape in the plane. Cloning is cheap: large data is shared.
 ///
 /// ```
-/// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
+/// use asunder_geometry::{Rect, Pose2, Shape2, glam::{DVec2, Vec2}};
 /// let shape = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
 /// assert!(shape.outer_radius() >= 2_f32.sqrt());
-/// assert!(shape.bounds(&Pose2::IDENTITY, 0.0).contains(Vec2::ONE));
+/// assert!(shape.bounds(&Pose2::IDENTITY, 0.0).contains(Vec2::ONE) && shape.contains(Vec2::ONE));
+/// assert_eq!(shape.support(DVec2::ONE), Some(DVec2::ONE));
+/// assert_eq!((shape.radius(), shape.core().vertices().len()), (0.0, 4));
 /// # Ok::<(), asunder_geometry::ExtentError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape2 {
-    /// A rectangle.
+    /// A disc.
+    Circle(Circle),
+    /// Everything within a radius of a segment.
+    Capsule(Capsule2),
+    /// A rectangle, with or without round corners.
     Rect(Rect),
-    /// A convex polygon.
+    /// A convex polygon, with or without round corners.
     Polygon(Polygon),
+    /// Everything on one side of a line.
+    HalfPlane(HalfPlane),
+    /// A segment, without thickness.
+    Segment(Segment2),
+    /// Several convex parts.
+    Compound(Compound2),
 }
 
-/// A convex shape in space. Cloning is cheap: large data is shared.
+/// A shape in space. Cloning is cheap: large data is shared.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
+/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::{DVec3, Vec3}};
 /// let shape = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// assert!(shape.outer_radius() >= 3_f32.sqrt());
-/// assert!(shape.bounds(&Pose3::IDENTITY, 0.0).contains(Vec3::ONE));
+/// assert!(shape.bounds(&Pose3::IDENTITY, 0.0).contains(Vec3::ONE) && shape.contains(Vec3::ONE));
+/// assert_eq!(shape.support(DVec3::ONE), Some(DVec3::ONE));
+/// assert_eq!((shape.radius(), shape.core().vertices().len()), (0.0, 8));
 /// # Ok::<(), asunder_geometry::ExtentError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape3 {
-    /// A rectangular box.
+    /// A ball.
+    Sphere(Sphere),
+    /// Everything within a radius of a segment.
+    Capsule(Capsule3),
+    /// A rectangular box, with or without round edges.
     Cuboid(Cuboid),
-    /// The convex hull of points.
+    /// The convex hull of points, with or without round edges.
     Hull(Hull),
+    /// Everything on one side of a plane.
+    HalfSpace(HalfSpace),
+    /// A triangle, without thickness.
+    Triangle(Triangle3),
+    /// A segment, without thickness.
+    Segment(Segment3),
+    /// Several convex parts.
+    Compound(Compound3),
 }
 
 impl Shape2 {
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.
     pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
         match self {
+            Self::Circle(circle) => circle.bounds(pose, margin),
+            Self::Capsule(capsule) => capsule.bounds(pose, margin),
             Self::Rect(rect) => rect.bounds(pose, margin),
             Self::Polygon(polygon) => polygon.bounds(pose, margin),
+            Self::HalfPlane(half_plane) => half_plane.bounds(pose, margin),
+            Self::Segment(segment) => segment.bounds(pose, margin),
+            Self::Compound(compound) => compound.bounds(pose, margin),
         }
     }
 
     /// Local centre of the bounding circle.
     pub fn center(&self) -> Vec2 {
         match self {
-            Self::Rect(_) => Vec2::ZERO,
+            Self::Capsule(capsule) => capsule.segment().center(),
             Self::Polygon(polygon) => polygon.center(),
+            Self::Segment(segment) => segment.center(),
+            Self::Compound(compound) => compound.center(),
+            Self::Circle(_) | Self::Rect(_) | Self::HalfPlane(_) => Vec2::ZERO,
         }
     }
 
     /// Bounding radius about [`Shape2::center`], in metres, rounded up. Tolerances of a pair are relative to the sum of two.
+    /// Infinite for a half-plane.
     pub fn outer_radius(&self) -> f32 {
         match self {
+            Self::Circle(circle) => circle.radius(),
+            Self::Capsule(capsule) => capsule.outer_radius(),
             Self::Rect(rect) => rect.outer_radius(),
             Self::Polygon(polygon) => polygon.outer_radius(),
+            Self::HalfPlane(_) => f32::INFINITY,
+            Self::Segment(segment) => segment.outer_radius(),
+            Self::Compound(compound) => compound.outer_radius(),
         }
+    }
+
+    /// Radius of the rounding, in metres: how far the shape reaches beyond its core.
+    #[inline]
+    pub fn radius(&self) -> f32 {
+        match self {
+            Self::Circle(circle) => circle.radius(),
+            Self::Capsule(capsule) => capsule.radius(),
+            Self::Rect(rect) => rect.radius(),
+            Self::Polygon(polygon) => polygon.radius(),
+            Self::HalfPlane(_) | Self::Segment(_) | Self::Compound(_) => 0.0,
+        }
+    }
+
+    /// What is left without the rounding. A half-plane and a compound have none: their core has no vertices.
+    #[inline]
+    pub fn core(&self) -> Core2<'_> {
+        Core2::of(self)
+    }
+
+    /// Whether the closed shape holds a local point, in metres (`Vec2`, `DVec2`). Nothing holds a NaN. Cost: linear in
+    /// the vertices.
+    pub fn contains(&self, point: impl Into<DVec2>) -> bool {
+        let point = point.into();
+        match self {
+            Self::Circle(circle) => circle.contains(point),
+            Self::Capsule(capsule) => capsule.contains(point),
+            Self::Rect(rect) => rect.contains(point),
+            Self::Polygon(polygon) => polygon.contains(point),
+            Self::HalfPlane(half_plane) => half_plane.contains(point),
+            Self::Segment(segment) => segment.contains(point),
+            Self::Compound(compound) => compound.contains(point),
+        }
+    }
+
+    /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first vertex.
+    /// Nothing for a half-plane, or a direction that is zero or not finite. Cost: linear in the vertices.
+    pub fn support(&self, direction: impl Into<DVec2>) -> Option<DVec2> {
+        let direction = direction.into();
+        let along = direction.try_normalize()?;
+        if let Self::Compound(compound) = self {
+            let points = compound.parts().iter().filter_map(|part| {
+                let local = part.shape().support(part.pose().turn_back(along))?;
+                Some(part.pose().transform(local))
+            });
+            return furthest(points, |point| point.dot(along));
+        }
+        let core = self.core();
+        let vertex = furthest(core.vertices().iter().map(|vertex| vertex.as_dvec2()), |v| v.dot(along))?;
+        Some(vertex + along * f64::from(self.radius()))
     }
 }
 
@@ -73,25 +173,117 @@ impl Shape3 {
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         match self {
+            Self::Sphere(sphere) => sphere.bounds(pose, margin),
+            Self::Capsule(capsule) => capsule.bounds(pose, margin),
             Self::Cuboid(cuboid) => cuboid.bounds(pose, margin),
             Self::Hull(hull) => hull.bounds(pose, margin),
+            Self::HalfSpace(half_space) => half_space.bounds(pose, margin),
+            Self::Triangle(triangle) => triangle.bounds(pose, margin),
+            Self::Segment(segment) => segment.bounds(pose, margin),
+            Self::Compound(compound) => compound.bounds(pose, margin),
         }
     }
 
     /// Local centre of the bounding sphere.
     pub fn center(&self) -> Vec3 {
         match self {
-            Self::Cuboid(_) => Vec3::ZERO,
+            Self::Capsule(capsule) => capsule.segment().center(),
             Self::Hull(hull) => hull.center(),
+            Self::Triangle(triangle) => triangle.center(),
+            Self::Segment(segment) => segment.center(),
+            Self::Compound(compound) => compound.center(),
+            Self::Sphere(_) | Self::Cuboid(_) | Self::HalfSpace(_) => Vec3::ZERO,
         }
     }
 
     /// Bounding radius about [`Shape3::center`], in metres, rounded up. Tolerances of a pair are relative to the sum of two.
+    /// Infinite for a half-space.
     pub fn outer_radius(&self) -> f32 {
         match self {
+            Self::Sphere(sphere) => sphere.radius(),
+            Self::Capsule(capsule) => capsule.outer_radius(),
             Self::Cuboid(cuboid) => cuboid.outer_radius(),
             Self::Hull(hull) => hull.outer_radius(),
+            Self::HalfSpace(_) => f32::INFINITY,
+            Self::Triangle(triangle) => triangle.outer_radius(),
+            Self::Segment(segment) => segment.outer_radius(),
+            Self::Compound(compound) => compound.outer_radius(),
         }
+    }
+
+    /// Radius of the rounding, in metres: how far the shape reaches beyond its core.
+    #[inline]
+    pub fn radius(&self) -> f32 {
+        match self {
+            Self::Sphere(sphere) => sphere.radius(),
+            Self::Capsule(capsule) => capsule.radius(),
+            Self::Cuboid(cuboid) => cuboid.radius(),
+            Self::Hull(hull) => hull.radius(),
+            Self::HalfSpace(_) | Self::Triangle(_) | Self::Segment(_) | Self::Compound(_) => 0.0,
+        }
+    }
+
+    /// What is left without the rounding. A half-space and a compound have none: their core has no vertices.
+    #[inline]
+    pub fn core(&self) -> Core3<'_> {
+        Core3::of(self)
+    }
+
+    /// Whether the closed shape holds a local point, in metres (`Vec3`, `DVec3`). Nothing holds a NaN. Cost: linear in
+    /// the vertices.
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        let point = point.into();
+        match self {
+            Self::Sphere(sphere) => sphere.contains(point),
+            Self::Capsule(capsule) => capsule.contains(point),
+            Self::Cuboid(cuboid) => cuboid.contains(point),
+            Self::Hull(hull) => hull.contains(point),
+            Self::HalfSpace(half_space) => half_space.contains(point),
+            Self::Triangle(triangle) => triangle.contains(point),
+            Self::Segment(segment) => segment.contains(point),
+            Self::Compound(compound) => compound.contains(point),
+        }
+    }
+
+    /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first vertex.
+    /// Nothing for a half-space, or a direction that is zero or not finite. Cost: linear in the vertices.
+    pub fn support(&self, direction: impl Into<DVec3>) -> Option<DVec3> {
+        let direction = direction.into();
+        let along = direction.try_normalize()?;
+        if let Self::Compound(compound) = self {
+            let points = compound.parts().iter().filter_map(|part| {
+                let local = part.shape().support(part.pose().turn_back(along))?;
+                Some(part.pose().transform(local))
+            });
+            return furthest(points, |point| point.dot(along));
+        }
+        let core = self.core();
+        let vertex = furthest(core.vertices().iter().map(|vertex| vertex.as_dvec3()), |v| v.dot(along))?;
+        Some(vertex + along * f64::from(self.radius()))
+    }
+}
+
+/// The first of the points with the greatest reach.
+fn furthest<V: Copy>(points: impl Iterator<Item = V>, reach: impl Fn(V) -> f64) -> Option<V> {
+    let mut best: Option<(f64, V)> = None;
+    for point in points {
+        let found = reach(point);
+        if best.is_none_or(|(known, _)| found > known) {
+            best = Some((found, point));
+        }
+    }
+    best.map(|(_, point)| point)
+}
+
+impl From<Circle> for Shape2 {
+    fn from(circle: Circle) -> Self {
+        Self::Circle(circle)
+    }
+}
+
+impl From<Capsule2> for Shape2 {
+    fn from(capsule: Capsule2) -> Self {
+        Self::Capsule(capsule)
     }
 }
 
@@ -107,6 +299,36 @@ impl From<Polygon> for Shape2 {
     }
 }
 
+impl From<HalfPlane> for Shape2 {
+    fn from(half_plane: HalfPlane) -> Self {
+        Self::HalfPlane(half_plane)
+    }
+}
+
+impl From<Segment2> for Shape2 {
+    fn from(segment: Segment2) -> Self {
+        Self::Segment(segment)
+    }
+}
+
+impl From<Compound2> for Shape2 {
+    fn from(compound: Compound2) -> Self {
+        Self::Compound(compound)
+    }
+}
+
+impl From<Sphere> for Shape3 {
+    fn from(sphere: Sphere) -> Self {
+        Self::Sphere(sphere)
+    }
+}
+
+impl From<Capsule3> for Shape3 {
+    fn from(capsule: Capsule3) -> Self {
+        Self::Capsule(capsule)
+    }
+}
+
 impl From<Cuboid> for Shape3 {
     fn from(cuboid: Cuboid) -> Self {
         Self::Cuboid(cuboid)
@@ -116,5 +338,29 @@ impl From<Cuboid> for Shape3 {
 impl From<Hull> for Shape3 {
     fn from(hull: Hull) -> Self {
         Self::Hull(hull)
+    }
+}
+
+impl From<HalfSpace> for Shape3 {
+    fn from(half_space: HalfSpace) -> Self {
+        Self::HalfSpace(half_space)
+    }
+}
+
+impl From<Triangle3> for Shape3 {
+    fn from(triangle: Triangle3) -> Self {
+        Self::Triangle(triangle)
+    }
+}
+
+impl From<Segment3> for Shape3 {
+    fn from(segment: Segment3) -> Self {
+        Self::Segment(segment)
+    }
+}
+
+impl From<Compound3> for Shape3 {
+    fn from(compound: Compound3) -> Self {
+        Self::Compound(compound)
     }
 }

@@ -69,3 +69,6 @@ pub const MAX_HULL_POINTS: usize = 65_535;
 
 /// The most vertices a polygon may have.
 pub const MAX_POLYGON_VERTICES: usize = 4096;
+
+/// The most parts a compound may have.
+pub const MAX_PARTS: usize = 4096;

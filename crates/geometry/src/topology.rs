@@ -1,5 +1,7 @@
 //! Half-edges: which vertices, edges and faces of a polyhedron meet.
 
+use std::sync::LazyLock;
+
 /// A directed edge of a face, from its origin to the origin of the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HalfEdge {
@@ -70,6 +72,23 @@ impl Topology {
         }
         let edges = (0..half_edges.len() as u16).filter(|&i| i < half_edges[i as usize].twin).collect();
         Self { half_edges: half_edges.into(), first_of_face: first_of_face.into(), edges }
+    }
+
+    /// One vertex, whose face loop never leaves it.
+    pub(crate) fn point() -> &'static Self {
+        static POINT: LazyLock<Topology> = LazyLock::new(|| Topology {
+            half_edges: Box::new([HalfEdge { origin: 0, twin: 0, next: 0, face: 0 }]),
+            first_of_face: Box::new([0]),
+            edges: Box::new([]),
+        });
+        &POINT
+    }
+
+    /// Two vertices and the edge between them, with one face loop there and back.
+    pub(crate) fn segment() -> &'static Self {
+        static SEGMENT: LazyLock<Topology> =
+            LazyLock::new(|| Topology::from_loops(core::iter::once([0, 1].as_slice())));
+        &SEGMENT
     }
 
     /// All half-edges, face after face.

@@ -18,9 +18,6 @@ pub type Batch2 = Batch<Manifold2>;
 /// Answers in space.
 pub type Batch3 = Batch<Manifold3>;
 
-/// What a pair within its margin has to say: whether it overlaps, and how it touches unless a sensor asked.
-pub(crate) type Touch<M> = (bool, Option<M>);
-
 impl<M> Default for Batch<M> {
     fn default() -> Self {
         Self { answers: Vec::new(), manifolds: Vec::new() }
@@ -34,12 +31,11 @@ impl<M> Batch<M> {
         self.manifolds.clear();
     }
 
-    pub(crate) fn push(&mut self, hint: Hint, touch: Option<Touch<M>>) {
-        let first = self.manifolds.len() as u32;
-        self.answers.push(match touch {
+    /// Appends an answer: whether the shapes overlap, if they are within the margin, and the manifolds from `first` on.
+    pub(crate) fn push(&mut self, hint: Hint, overlapping: Option<bool>, first: u32) {
+        self.answers.push(match overlapping {
             None => Answer::Apart { hint },
-            Some((overlapping, manifold)) => {
-                self.manifolds.extend(manifold);
+            Some(overlapping) => {
                 Answer::Contact { hint, overlapping, manifolds: first..self.manifolds.len() as u32 }
             }
         });

@@ -1,23 +1,30 @@
 //! One pair in the plane, and batches of them.
 
 use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2};
-use crate::batch::{Batch2, Touch};
+use crate::batch::Batch2;
 use crate::feature::Hint;
-use crate::polygon::distance::{Witness, distance};
-use crate::polygon::manifold::touch;
-use crate::polygon::outline::Outline;
-use crate::polygon::sat::{Axes, Axis, Outcome, hint_of, overlaps, separating_axes};
-use crate::precision::{Precision, at_least, signed};
+use crate::polygon::convex::{Convex, Near, Probe};
+use crate::polygon::outline::Turn;
 use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::tolerance::FACE_PREFERENCE;
-use asunder_geometry::{Pose2, Rotation2, Shape2};
+use asunder_geometry::{Pose2, Shape2};
 
 /// Two posed shapes in the plane, ready to be asked about each other.
 ///
-/// Positions are subtracted in f64 before anything else, so that nothing degrades far from the origin.
+/// Positions are subtracted in f64 before anything is turned, so that nothing degrades far from the origin.
+///
+/// | | separation | closest points in a gap | contact points |
+/// |---|---|---|---|
+/// | half-plane, anything | its line's normal alone: one dot product a vertex | lowest vertex | lowest vertex and its neighbour |
+/// | half-plane, half-plane | lines that look exactly away from each other; else they overlap without end | half way | one, or none |
+/// | circle, circle | the line through both centres | the same | one |
+/// | rectangle, polygon, capsule, segment, circle, with each other | edge normals | GJK | clipped edges |
+/// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
+///
+/// Radii (of circles, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off. A segment has
+/// two edges, back to back.
 ///
 /// ```
-/// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
+/// use asunder_geometry::{Rect, Pose2, Shape2, glam::Vec2};
 /// use asunder_narrow::Pair2;
 /// let square = Shape2::from(Rect::from_half_extents(Vec2::splat(0.5))?);
 /// let (left, right) = (Pose2::at([1e9 - 2.0, 0.0])?, Pose2::at([1e9, 0.0])?);
@@ -30,20 +37,45 @@ use asunder_geometry::{Pose2, Rotation2, Shape2};
 pub struct Pair2<'a> {
     shape_a: &'a Shape2,
     shape_b: &'a Shape2,
-    rotation_a: Rotation2,
-    rotation_b: Rotation2,
+    turn_a: Turn,
+    turn_b: Turn,
     /// B's position less A's.
-    offset: DVec2,
+    between: DVec2,
+}
+
+/// A convex part of a body, as the body stands.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    index: u32,
+    shape: &'a Shape2,
+    /// Its rotation in the world.
+    turn: Turn,
+    /// Its origin less the body's position, in world axes.
+    shift: DVec2,
+}
+
+/// Two convex parts in the frame of the pair, and the way back from there.
+struct Parts<'a> {
+    a: Part<'a>,
+    b: Part<'a>,
+    convex: Convex<'a>,
 }
 
 impl<'a> Pair2<'a> {
-    /// A pair of posed shapes.
+    /// A pair of posed shapes. Cost: constant.
     pub fn new(shape_a: &'a Shape2, pose_a: &Pose2, shape_b: &'a Shape2, pose_b: &Pose2) -> Self {
-        let (rotation_a, rotation_b) = (pose_a.rotation(), pose_b.rotation());
-        Self { shape_a, shape_b, rotation_a, rotation_b, offset: pose_b.position() - pose_a.position() }
+        let between = pose_b.position() - pose_a.position();
+        Self {
+            shape_a,
+            shape_b,
+            turn_a: Turn::of(pose_a.rotation()),
+            turn_b: Turn::of(pose_b.rotation()),
+            between,
+        }
     }
 
-    /// The sum of the two bounding radii, in metres: what tolerances of this pair are relative to.
+    /// The sum of the two bounding radii, in metres: what tolerances of this pair are relative to. Infinite with a
+    /// half-plane, whose pairs have tolerances relative to the other shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
@@ -51,173 +83,211 @@ impl<'a> Pair2<'a> {
     /// Whether the shapes share a point; touching counts. Decided in f64 for now. Cost: as the separation, but the
     /// first separating axis ends it.
     pub fn overlaps(&self) -> bool {
-        self.with_outlines(overlaps)
+        self.any(0.0, |parts| parts.convex.overlaps())
     }
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as
-    /// no limit, and a negative limit as zero. Cost: the product of the vertex counts; in a gap within the limit a few support
-    /// searches more, for the Euclidean distance.
+    /// no limit, and a negative limit as zero. Two half-planes have separation -inf unless they look exactly away from each
+    /// other. Cost: the product of the vertex counts; in a gap within the limit a few support searches more, for the
+    /// Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
-        self.with_outlines(|a, b| {
-            match separating_axes(a, b, limit + self.precision().projection(), Hint::NONE) {
-                Outcome::Beyond(axis) => Separation2::AtLeast(at_least(axis.separation, &self.precision())),
-                Outcome::Within(axes) => Separation2::Measured(self.measure(a, b, &axes).measured),
-            }
-        })
+        match self.nearest(limit) {
+            Ok((_, near)) => Separation2::Measured(Measured2 {
+                separation: near.separation,
+                error: near.error,
+                normal: near.normal.as_vec2(),
+            }),
+            Err(at_least) => Separation2::AtLeast(at_least),
+        }
     }
 
     /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a limit.
     pub fn distance(&self) -> Option<Closest2> {
-        self.with_outlines(|a, b| {
-            let Outcome::Within(axes) = separating_axes(a, b, f64::INFINITY, Hint::NONE) else { return None };
-            let Found { measured, witness, .. } = self.measure(a, b, &axes);
-            let witness = witness?;
-            Some(Closest2 {
-                distance: measured.separation,
-                error: measured.error,
-                normal: measured.normal,
-                anchor_a: self.anchor_a(witness.point_a),
-                anchor_b: self.anchor_b(witness.point_b),
-            })
+        let (parts, near) = self.nearest(f64::INFINITY).ok()?;
+        let [on_a, on_b] = near.closest?;
+        Some(Closest2 {
+            distance: near.separation,
+            error: near.error,
+            normal: near.normal.as_vec2(),
+            anchor_a: parts.anchor_a(on_a),
+            anchor_b: parts.anchor_b(on_b),
         })
     }
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
     ///
-    /// A point may lie up to the margin outside. Cost: as the separation, plus clipping two edges.
+    /// A point may lie up to the margin outside. Of compounds, the deepest pair of parts; [`Pair2::manifolds`] has them all.
+    /// Nothing for two half-planes that overlap without end. Cost: as the separation, plus clipping two edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
-        self.contact(margin, Hint::NONE).1?.1
+        let manifolds = self.manifolds(margin);
+        manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
     }
 
-    /// The hint for the next frame, and a manifold where the shapes are within the margin, with the decision.
-    fn contact(&self, margin: f32, hint: Hint) -> (Hint, Option<Touch<Manifold2>>) {
+    /// One manifold for each pair of convex parts at most `margin` metres apart, in order of the parts: at most one
+    /// unless a shape is a compound.
+    ///
+    /// ```
+    /// use asunder_geometry::{Compound2, HalfPlane, Pose2, Shape2, Circle, glam::Vec2};
+    /// use asunder_narrow::Pair2;
+    /// let ball = Shape2::from(Circle::new(0.5)?);
+    /// let dumbbell: Shape2 =
+    ///     Compound2::new([(Pose2::at(Vec2::X)?, ball.clone()), (Pose2::at(Vec2::NEG_X)?, ball)])?.into();
+    /// let floor = Shape2::from(HalfPlane::new(Vec2::Y)?);
+    /// let (here, above) = (Pose2::IDENTITY, Pose2::at([0.0, 0.5])?);
+    /// let manifolds = Pair2::new(&floor, &here, &dumbbell, &above).manifolds(0.0);
+    /// assert_eq!(manifolds.iter().map(|manifold| manifold.part_b).collect::<Vec<_>>(), [0, 1]);
+    /// assert_eq!(manifolds[1].points[0].anchor_b, Vec2::new(-1.0, -0.5));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn manifolds(&self, margin: f32) -> Vec<Manifold2> {
+        let mut manifolds = Vec::new();
+        self.contact(margin, Hint::NONE, Some(&mut manifolds));
+        manifolds
+    }
+
+    /// The hint for the next frame, and whether they overlap if they are within the margin. Manifolds go where they
+    /// are wanted.
+    fn contact(
+        &self,
+        margin: f32,
+        hint: Hint,
+        mut manifolds: Option<&mut Vec<Manifold2>>,
+    ) -> (Hint, Option<bool>) {
         let margin = f64::from(margin).max(0.0);
-        self.with_outlines(|a, b| {
-            let axes = match separating_axes(a, b, margin + self.precision().projection(), hint) {
-                Outcome::Beyond(axis) => return (hint_of(&axis), None),
-                Outcome::Within(axes) => axes,
+        let (mut next_hint, mut touch) = (Hint::NONE, None);
+        self.any(margin, |parts| {
+            let near = match parts.convex.probe(margin, hint) {
+                Probe::Beyond(_, hint) => {
+                    next_hint = hint;
+                    return false;
+                }
+                Probe::Near(near) => near,
             };
-            let hint = hint_of(axes.best());
-            let Found { overlapping, measured, witness } = self.measure(a, b, &axes);
-            if !overlapping && f64::from(measured.separation) > margin {
-                return (hint, None);
+            next_hint = near.hint;
+            if near.overlapping || f64::from(near.separation) <= margin {
+                touch = Some(touch.unwrap_or(false) || near.overlapping);
+                if let Some(manifolds) = &mut manifolds {
+                    manifolds.extend(parts.manifold(&near, margin));
+                }
             }
-            let touch = touch(a, b, &axes, witness.as_ref(), margin, self.preference());
-            let points = touch.points.iter().map(|point| ContactPoint2 {
-                separation: point.separation as f32,
-                anchor_a: self.anchor_a(point.on_a),
-                anchor_b: self.anchor_b(point.on_b),
-                feature: point.feature,
-            });
-            let manifold = Manifold2 {
-                part_a: 0,
-                part_b: 0,
-                normal: touch.normal.as_vec2(),
-                separation: measured.separation,
-                error: measured.error,
-                points: points.collect(),
-            };
-            (hint, Some((overlapping, Some(manifold))))
-        })
-    }
-
-    /// Whether the shapes are within the margin, for a sensor, which wants no points.
-    fn senses(&self, margin: f32, hint: Hint) -> (Hint, Option<Touch<Manifold2>>) {
-        let margin = f64::from(margin).max(0.0);
-        self.with_outlines(|a, b| match separating_axes(a, b, margin + self.precision().projection(), hint) {
-            Outcome::Beyond(axis) => (hint_of(&axis), None),
-            Outcome::Within(axes) => {
-                let found = self.measure(a, b, &axes);
-                let within = found.overlapping || f64::from(found.measured.separation) <= margin;
-                (hint_of(axes.best()), within.then_some((found.overlapping, None)))
-            }
-        })
-    }
-
-    /// Turns the best axes into the reported separation: the decision first, then the number that agrees with it.
-    fn measure(&self, a: &Outline, b: &Outline, axes: &Axes) -> Found {
-        let precision = self.precision();
-        let best = axes.best();
-        // Within its error of zero a sign is not the number's to tell: `overlaps` decides, so that both always agree.
-        let is_clear = best.separation.abs() > f64::from(precision.of_separation(0.0));
-        let overlapping = if is_clear { best.separation < 0.0 } else { overlaps(a, b) };
-        let in_overlap = Measured2 {
-            separation: signed(best.separation, overlapping),
-            error: precision.of_separation(best.separation),
-            normal: best.normal.as_vec2(),
-        };
-        if overlapping {
-            return Found { overlapping, measured: in_overlap, witness: None };
-        }
-        let witness = self.witness(a, b, best);
-        let measured = Measured2 {
-            separation: signed(witness.distance, false),
-            error: precision.of_distance(witness.distance, witness.distance - witness.at_least),
-            normal: witness.normal.as_vec2(),
-        };
-        Found { overlapping, measured, witness: Some(witness) }
-    }
-
-    /// Witness points of a gap, with the better of the two lower bounds: the iteration's, and the best axis'.
-    fn witness(&self, a: &Outline, b: &Outline, best: &Axis) -> Witness {
-        let size = f64::from(self.size());
-        let mut witness = distance(a, b, best.normal, size).unwrap_or_else(|| {
-            // Too close to tell apart by points: the support vertices along the axis are as good as any.
-            let (in_a, in_b) = (a.support(best.normal).vertex, b.support(-best.normal).vertex);
-            let on_a = a.point(in_a);
-            Witness {
-                distance: best.separation.max(0.0),
-                at_least: best.separation,
-                normal: best.normal,
-                point_a: on_a,
-                point_b: on_a + best.normal * best.separation.max(0.0),
-                corners: core::iter::once([in_a, in_b]).collect(),
-            }
+            false
         });
-        if best.separation >= witness.at_least {
-            (witness.at_least, witness.normal) = (best.separation, best.normal);
-        }
-        witness
+        // A hint is one axis of one pair of parts: of no use where there are several.
+        (if self.is_compound() { Hint::NONE } else { next_hint }, touch)
     }
 
-    fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
-        let (mut corners_a, mut corners_b) = ([Vec2::ZERO; 4], [Vec2::ZERO; 4]);
-        let a = Outline::new(self.shape_a, &mut corners_a, self.rotation_a, DVec2::ZERO);
-        let b = Outline::new(self.shape_b, &mut corners_b, self.rotation_b, self.offset);
-        ask(&a, &b)
+    /// The pair of parts with the least separation, or a bound where all are beyond the limit.
+    fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
+        let mut best: Option<(Parts<'a>, Near)> = None;
+        let (mut at_least, mut beyond) = (limit, f32::INFINITY);
+        for_parts(self.shape_a, &self.turn_a, |a| {
+            for_parts(self.shape_b, &self.turn_b, |b| {
+                if let Some(bound) =
+                    self.is_compound().then(|| self.gap(&a, &b)).filter(|gap| *gap > at_least)
+                {
+                    beyond = beyond.min((bound as f32).next_down());
+                    return false;
+                }
+                let parts = self.parts(a, b);
+                match parts.convex.probe(at_least, Hint::NONE) {
+                    Probe::Beyond(bound, _) => beyond = beyond.min(bound),
+                    Probe::Near(near) => {
+                        if best.as_ref().is_none_or(|(_, known)| near.separation < known.separation) {
+                            at_least = at_least.min(f64::from(near.separation).max(0.0));
+                            best = Some((parts, near));
+                        }
+                    }
+                }
+                false
+            })
+        });
+        best.ok_or(beyond)
     }
 
-    /// How much another axis must beat a face of A by, in metres. Relative to the smaller shape: what is nothing to a
-    /// floor may be all of a pebble. Never below rounding.
-    fn preference(&self) -> f64 {
-        let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
-        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision().projection())
+    /// Whether the answer is yes for any pair of parts whose bounding circles are at most `within` apart.
+    fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
+        for_parts(self.shape_a, &self.turn_a, |a| {
+            for_parts(self.shape_b, &self.turn_b, |b| {
+                !(self.is_compound() && self.gap(&a, &b) > within) && ask(&self.parts(a, b))
+            })
+        })
     }
 
-    fn precision(&self) -> Precision {
-        let size = f64::from(self.size());
-        let off_center =
-            self.shape_a.center().as_dvec2().length() + self.shape_b.center().as_dvec2().length();
-        Precision { size, reach: size + off_center + self.offset.length(), planarity: 0.0 }
+    fn is_compound(&self) -> bool {
+        matches!(self.shape_a, Shape2::Compound(_)) || matches!(self.shape_b, Shape2::Compound(_))
     }
 
-    fn anchor_a(&self, point: DVec2) -> Vec2 {
-        point.as_vec2()
+    /// A lower bound on the separation of two parts: the gap between their bounding circles, less what it may have lost to
+    /// rounding.
+    fn gap(&self, a: &Part, b: &Part) -> f64 {
+        let center = |part: &Part| part.shift + part.turn.turn(part.shape.center().as_dvec2());
+        let apart = (self.between + center(b) - center(a)).length();
+        let radii = f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius());
+        let reach = self.between.length() + a.shift.length() + b.shift.length() + radii;
+        apart - radii - 64.0 * f64::EPSILON * reach
     }
 
-    fn anchor_b(&self, point: DVec2) -> Vec2 {
-        (point - self.offset).as_vec2()
+    fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
+        // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
+        let between = self.between + (b.shift - a.shift);
+        let convex = Convex {
+            shape_a: a.shape,
+            shape_b: b.shape,
+            turn_a: a.turn,
+            turn_b: b.turn,
+            offset: between,
+            summed: if self.is_compound() {
+                self.between.length() + a.shift.length() + b.shift.length()
+            } else {
+                0.0
+            },
+        };
+        Parts { a, b, convex }
     }
 }
 
-struct Found {
-    overlapping: bool,
-    measured: Measured2,
-    /// Of shapes that do not overlap.
-    witness: Option<Witness>,
+/// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
+fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
+    let Shape2::Compound(compound) = shape else {
+        return visit(Part { index: 0, shape, turn: *turn, shift: DVec2::ZERO });
+    };
+    compound.parts().iter().zip(0..).any(|(part, index)| {
+        let shift = turn.turn(part.pose().position());
+        visit(Part { index, shape: part.shape(), turn: turn.of_part(part.pose().rotation()), shift })
+    })
+}
+
+impl Parts<'_> {
+    fn manifold(&self, near: &Near, margin: f64) -> Option<Manifold2> {
+        let touch = self.convex.touch(near, margin)?;
+        let points = touch.points.iter().map(|point| ContactPoint2 {
+            separation: point.separation as f32,
+            anchor_a: self.anchor_a(point.on_a),
+            anchor_b: self.anchor_b(point.on_b),
+            feature: point.feature,
+        });
+        Some(Manifold2 {
+            part_a: self.a.index,
+            part_b: self.b.index,
+            normal: touch.normal.as_vec2(),
+            separation: near.separation,
+            error: near.error,
+            points: points.collect(),
+        })
+    }
+
+    /// From the frame of the pair to a world vector from A's position.
+    fn anchor_a(&self, point: DVec2) -> Vec2 {
+        (point + self.a.shift).as_vec2()
+    }
+
+    /// From the frame of the pair to a world vector from B's position.
+    fn anchor_b(&self, point: DVec2) -> Vec2 {
+        (point - self.convex.offset + self.b.shift).as_vec2()
+    }
 }
 
 /// One question of a batch: are these within the margin of each other, and how do they touch?
@@ -258,8 +328,9 @@ pub struct Job2<'a> {
 pub fn collide2(jobs: &[Job2<'_>], batch: &mut Batch2) {
     for job in jobs {
         let pair = Pair2::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
-        let (hint, touch) =
-            if job.sensor { pair.senses(job.margin, job.hint) } else { pair.contact(job.margin, job.hint) };
-        batch.push(hint, touch);
+        let first = batch.manifolds.len() as u32;
+        let wanted = (!job.sensor).then_some(&mut batch.manifolds);
+        let (hint, overlapping) = pair.contact(job.margin, job.hint, wanted);
+        batch.push(hint, overlapping, first);
     }
 }

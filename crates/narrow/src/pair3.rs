@@ -1,22 +1,27 @@
 //! One pair in space, and batches of them.
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3};
-use crate::batch::{Batch3, Touch};
+use crate::batch::Batch3;
 use crate::feature::Hint;
-use crate::polyhedron::cuboids::Cuboids;
-use crate::polyhedron::distance::{Witness, distance};
-use crate::polyhedron::manifold::touch;
-use crate::polyhedron::sat::{Axes, Axis, Outcome, hint_of, overlaps, separating_axes};
-use crate::polyhedron::solid::Solid;
-use crate::precision::{Precision, at_least, signed};
+use crate::polyhedron::convex::{Convex, Near, Probe};
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::tolerance::{FACE_PREFERENCE, THIN};
-use asunder_geometry::{Basis3, Hull, Pose3, Shape3};
+use asunder_geometry::{Basis3, Pose3, Shape3};
 
 /// Two posed shapes in space, ready to be asked about each other.
 ///
-/// The relative pose is computed once, in f64: positions are subtracted before anything is turned, so that nothing
-/// degrades far from the origin.
+/// Positions are subtracted in f64 before anything is turned, so that nothing degrades far from the origin.
+///
+/// | | separation | closest points in a gap | contact points |
+/// |---|---|---|---|
+/// | half-space, anything | its plane's normal alone: one dot product a vertex | lowest vertex | face that looks at the plane |
+/// | half-space, half-space | planes that look exactly away from each other; else they overlap without end | half way | one, or none |
+/// | sphere, capsule, segment among themselves | closest points of segments, in closed form | the same | one, or two where they lie side by side |
+/// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, or crossing edges |
+/// | cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | clipped faces, or crossing edges |
+/// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
+///
+/// Radii (of spheres, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off. Triangles and
+/// flat hulls have two faces, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -32,25 +37,39 @@ use asunder_geometry::{Basis3, Hull, Pose3, Shape3};
 pub struct Pair3<'a> {
     shape_a: &'a Shape3,
     shape_b: &'a Shape3,
-    /// A's axes in the world.
     basis_a: Basis3,
-    /// B's axes seen from A.
-    relative: Basis3,
-    /// B's position seen from A.
-    offset: DVec3,
+    basis_b: Basis3,
+    /// B's position less A's.
+    between: DVec3,
 }
 
-const IDENTITY: Basis3 = Basis3 { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
+/// A convex part of a body, as the body stands.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    index: u32,
+    shape: &'a Shape3,
+    /// Its axes in the world.
+    basis: Basis3,
+    /// Its origin less the body's position, in world axes.
+    shift: DVec3,
+}
+
+/// Two convex parts in the frame of the first, and the way back from there.
+struct Parts<'a> {
+    a: Part<'a>,
+    b: Part<'a>,
+    convex: Convex<'a>,
+}
 
 impl<'a> Pair3<'a> {
-    /// A pair of posed shapes. Cost: two rotations to matrices and their product.
+    /// A pair of posed shapes. Cost: two rotations to matrices.
     pub fn new(shape_a: &'a Shape3, pose_a: &Pose3, shape_b: &'a Shape3, pose_b: &Pose3) -> Self {
-        let (basis_a, basis_b) = (pose_a.basis(), pose_b.basis());
-        let offset = basis_a.turn_back(pose_b.position() - pose_a.position());
-        Self { shape_a, shape_b, basis_a, relative: basis_b.relative_to(&basis_a), offset }
+        let between = pose_b.position() - pose_a.position();
+        Self { shape_a, shape_b, basis_a: pose_a.basis(), basis_b: pose_b.basis(), between }
     }
 
-    /// The sum of the two bounding radii, in metres: what tolerances of this pair are relative to.
+    /// The sum of the two bounding radii, in metres: what tolerances of this pair are relative to. Infinite with a
+    /// half-space, whose pairs have tolerances relative to the other shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
@@ -58,222 +77,212 @@ impl<'a> Pair3<'a> {
     /// Whether the shapes share a point; touching counts. Decided in f64 for now. Cost: as the separation, but the
     /// first separating axis ends it.
     pub fn overlaps(&self) -> bool {
-        self.with_solids(|a, b| self.decide(a, b))
+        self.any(0.0, |parts| parts.convex.overlaps())
     }
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as
-    /// no limit, and a negative limit as zero. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes
-    /// for cuboids; in a gap within the limit a few support searches more, for the Euclidean distance.
+    /// no limit, and a negative limit as zero. Two half-spaces have separation -inf unless they look exactly away from each
+    /// other. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes for cuboids; in a gap within the limit
+    /// a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
-        self.with_solids(|a, b| match self.axes(a, b, limit + self.precision().projection(), Hint::NONE) {
-            Outcome::Beyond(axis) => Separation3::AtLeast(at_least(axis.separation, &self.precision())),
-            Outcome::Within(axes) => Separation3::Measured(self.measure(a, b, &axes).measured),
-        })
+        match self.nearest(limit) {
+            Ok((parts, near)) => Separation3::Measured(Measured3 {
+                separation: near.separation,
+                error: near.error,
+                normal: parts.a.basis.turn(near.normal).as_vec3(),
+            }),
+            Err(at_least) => Separation3::AtLeast(at_least),
+        }
     }
 
     /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a limit.
     pub fn distance(&self) -> Option<Closest3> {
-        self.with_solids(|a, b| {
-            let Outcome::Within(axes) = self.axes(a, b, f64::INFINITY, Hint::NONE) else { return None };
-            let Found { measured, witness, .. } = self.measure(a, b, &axes);
-            let witness = witness?;
-            Some(Closest3 {
-                distance: measured.separation,
-                error: measured.error,
-                normal: measured.normal,
-                anchor_a: self.anchor_a(witness.point_a),
-                anchor_b: self.anchor_b(witness.point_b),
-            })
+        let (parts, near) = self.nearest(f64::INFINITY).ok()?;
+        let [on_a, on_b] = near.closest?;
+        Some(Closest3 {
+            distance: near.separation,
+            error: near.error,
+            normal: parts.a.basis.turn(near.normal).as_vec3(),
+            anchor_a: parts.anchor_a(on_a),
+            anchor_b: parts.anchor_b(on_b),
         })
     }
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
     ///
-    /// A point may lie up to the margin outside. Cost: as the separation, plus clipping two faces.
+    /// A point may lie up to the margin outside. Of compounds, the deepest pair of parts; [`Pair3::manifolds`] has them all.
+    /// Nothing for two half-spaces that overlap without end. Cost: as the separation, plus clipping two faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
-        self.contact(margin, Hint::NONE).1?.1
+        let manifolds = self.manifolds(margin);
+        manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
     }
 
-    /// The hint for the next frame, and a manifold where the shapes are within the margin, with the decision.
-    fn contact(&self, margin: f32, hint: Hint) -> (Hint, Option<Touch<Manifold3>>) {
+    /// One manifold for each pair of convex parts at most `margin` metres apart, in order of the parts: at most one
+    /// unless a shape is a compound.
+    ///
+    /// ```
+    /// use asunder_geometry::{Compound3, HalfSpace, Pose3, Shape3, Sphere, glam::Vec3};
+    /// use asunder_narrow::Pair3;
+    /// let ball = Shape3::from(Sphere::new(0.5)?);
+    /// let dumbbell: Shape3 =
+    ///     Compound3::new([(Pose3::at(Vec3::X)?, ball.clone()), (Pose3::at(Vec3::NEG_X)?, ball)])?.into();
+    /// let floor = Shape3::from(HalfSpace::new(Vec3::Y)?);
+    /// let (here, above) = (Pose3::IDENTITY, Pose3::at([0.0, 0.5, 0.0])?);
+    /// let manifolds = Pair3::new(&floor, &here, &dumbbell, &above).manifolds(0.0);
+    /// assert_eq!(manifolds.iter().map(|manifold| manifold.part_b).collect::<Vec<_>>(), [0, 1]);
+    /// assert_eq!(manifolds[1].points[0].anchor_b, Vec3::new(-1.0, -0.5, 0.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn manifolds(&self, margin: f32) -> Vec<Manifold3> {
+        let mut manifolds = Vec::new();
+        self.contact(margin, Hint::NONE, Some(&mut manifolds));
+        manifolds
+    }
+
+    /// The hint for the next frame, and whether they overlap if they are within the margin. Manifolds go where they
+    /// are wanted.
+    fn contact(
+        &self,
+        margin: f32,
+        hint: Hint,
+        mut manifolds: Option<&mut Vec<Manifold3>>,
+    ) -> (Hint, Option<bool>) {
         let margin = f64::from(margin).max(0.0);
-        self.with_solids(|a, b| {
-            let axes = match self.axes(a, b, margin + self.precision().projection(), hint) {
-                Outcome::Beyond(axis) => return (hint_of(&axis), None),
-                Outcome::Within(axes) => axes,
+        let (mut next_hint, mut touch) = (Hint::NONE, None);
+        self.any(margin, |parts| {
+            let near = match parts.convex.probe(margin, hint) {
+                Probe::Beyond(_, hint) => {
+                    next_hint = hint;
+                    return false;
+                }
+                Probe::Near(near) => near,
             };
-            let hint = hint_of(axes.best());
-            let Found { overlapping, measured, witness } = self.measure(a, b, &axes);
-            if !overlapping && f64::from(measured.separation) > margin {
-                return (hint, None);
+            next_hint = near.hint;
+            if near.overlapping || f64::from(near.separation) <= margin {
+                touch = Some(touch.unwrap_or(false) || near.overlapping);
+                if let Some(manifolds) = &mut manifolds {
+                    manifolds.extend(parts.manifold(&near, margin));
+                }
             }
-            let touch = touch(a, b, &axes, witness.as_ref(), margin, self.preference());
-            let points = touch.points.iter().map(|point| ContactPoint3 {
-                separation: point.separation as f32,
-                anchor_a: self.anchor_a(point.on_a),
-                anchor_b: self.anchor_b(point.on_b),
-                feature: point.feature,
-            });
-            let manifold = Manifold3 {
-                part_a: 0,
-                part_b: 0,
-                normal: self.basis_a.turn(touch.normal).as_vec3(),
-                separation: measured.separation,
-                error: measured.error,
-                points: points.collect(),
-            };
-            (hint, Some((overlapping, Some(manifold))))
-        })
-    }
-
-    /// Whether the shapes are within the margin, for a sensor, which wants no points.
-    fn senses(&self, margin: f32, hint: Hint) -> (Hint, Option<Touch<Manifold3>>) {
-        let margin = f64::from(margin).max(0.0);
-        self.with_solids(|a, b| match self.axes(a, b, margin + self.precision().projection(), hint) {
-            Outcome::Beyond(axis) => (hint_of(&axis), None),
-            Outcome::Within(axes) => {
-                let found = self.measure(a, b, &axes);
-                let within = found.overlapping || f64::from(found.measured.separation) <= margin;
-                (hint_of(axes.best()), within.then_some((found.overlapping, None)))
-            }
-        })
-    }
-
-    /// Turns the best axes into the reported separation: the decision first, then the number that agrees with it.
-    fn measure(&self, a: &Solid, b: &Solid, axes: &Axes) -> Found {
-        let precision = self.precision();
-        let best = axes.best();
-        // Within its error of zero a sign is not the number's to tell: `overlaps` decides, so that both always agree.
-        let is_clear = best.separation.abs() > f64::from(precision.of_separation(0.0)) && !self.is_thin();
-        let overlapping = if is_clear { best.separation < 0.0 } else { self.decide(a, b) };
-        let in_overlap = Measured3 {
-            separation: signed(best.separation, overlapping),
-            error: precision.of_separation(best.separation),
-            normal: self.basis_a.turn(best.normal).as_vec3(),
-        };
-        if overlapping {
-            return Found { overlapping, measured: in_overlap, witness: None };
-        }
-        let witness = self.witness(a, b, best);
-        let measured = Measured3 {
-            separation: signed(witness.distance, false),
-            error: precision.of_distance(witness.distance, witness.distance - witness.at_least),
-            normal: self.basis_a.turn(witness.normal).as_vec3(),
-        };
-        Found { overlapping, measured, witness: Some(witness) }
-    }
-
-    /// Witness points of a gap, with the better of the two lower bounds: the iteration's, and the best axis'.
-    fn witness(&self, a: &Solid, b: &Solid, best: &Axis) -> Witness {
-        let size = f64::from(self.size());
-        let mut witness = distance(a, b, best.normal, size).unwrap_or_else(|| {
-            // Too close to tell apart by points: the support vertices along the axis are as good as any.
-            let (in_a, in_b) = (a.support(best.normal).vertex, b.support(-best.normal).vertex);
-            let on_a = a.point(in_a);
-            Witness {
-                distance: best.separation.max(0.0),
-                at_least: best.separation,
-                normal: best.normal,
-                point_a: on_a,
-                point_b: on_a + best.normal * best.separation.max(0.0),
-                corners: core::iter::once([in_a, in_b]).collect(),
-            }
+            false
         });
-        if best.separation >= witness.at_least {
-            (witness.at_least, witness.normal) = (best.separation, best.normal);
-        }
-        witness
+        // A hint is one axis of one pair of parts: of no use where there are several.
+        (if self.is_compound() { Hint::NONE } else { next_hint }, touch)
     }
 
-    pub(crate) fn axes(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Outcome {
-        match self.cuboids() {
-            Some(cuboids) => cuboids.separating_axes(a, b, limit, hint),
-            None => {
-                let slack = self.preference() + 4.0 * self.precision().planarity;
-                separating_axes(a, b, limit, hint, slack)
-            }
-        }
+    /// The pair of parts with the least separation, or a bound where all are beyond the limit.
+    fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
+        let mut best: Option<(Parts<'a>, Near)> = None;
+        let (mut at_least, mut beyond) = (limit, f32::INFINITY);
+        for_parts(self.shape_a, &self.basis_a, |a| {
+            for_parts(self.shape_b, &self.basis_b, |b| {
+                if let Some(bound) =
+                    self.is_compound().then(|| self.gap(&a, &b)).filter(|gap| *gap > at_least)
+                {
+                    beyond = beyond.min((bound as f32).next_down());
+                    return false;
+                }
+                let parts = self.parts(a, b);
+                match parts.convex.probe(at_least, Hint::NONE) {
+                    Probe::Beyond(bound, _) => beyond = beyond.min(bound),
+                    Probe::Near(near) => {
+                        if best.as_ref().is_none_or(|(_, known)| near.separation < known.separation) {
+                            at_least = at_least.min(f64::from(near.separation).max(0.0));
+                            best = Some((parts, near));
+                        }
+                    }
+                }
+                false
+            })
+        });
+        best.ok_or(beyond)
     }
 
-    fn decide(&self, a: &Solid, b: &Solid) -> bool {
-        match self.cuboids() {
-            Some(cuboids) => cuboids.overlaps(),
-            None => overlaps(a, b) && !(self.is_thin() && self.is_parted(a, b)),
-        }
+    /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.
+    fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
+        for_parts(self.shape_a, &self.basis_a, |a| {
+            for_parts(self.shape_b, &self.basis_b, |b| {
+                !(self.is_compound() && self.gap(&a, &b) > within) && ask(&self.parts(a, b))
+            })
+        })
     }
 
-    /// Whether a shape is so thin that its faces are all but antipodal. The directions along a plate or across a needle
-    /// are then no normals of its own, and face and edge axes show a gap in them only scaled by the thickness: too
-    /// little to tell from rounding.
-    fn is_thin(&self) -> bool {
-        let thin = |shape: &Shape3| match shape {
-            // A cuboid has the normals of its sides, however thin it is.
-            Shape3::Cuboid(_) => false,
-            Shape3::Hull(hull) => hull.inner_radius() < THIN * hull.outer_radius(),
+    fn is_compound(&self) -> bool {
+        matches!(self.shape_a, Shape3::Compound(_)) || matches!(self.shape_b, Shape3::Compound(_))
+    }
+
+    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have lost to
+    /// rounding.
+    fn gap(&self, a: &Part, b: &Part) -> f64 {
+        let center = |part: &Part| part.shift + part.basis.turn(part.shape.center().as_dvec3());
+        let apart = (self.between + center(b) - center(a)).length();
+        let radii = f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius());
+        let reach = self.between.length() + a.shift.length() + b.shift.length() + radii;
+        apart - radii - 64.0 * f64::EPSILON * reach
+    }
+
+    fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
+        // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
+        let between = self.between + (b.shift - a.shift);
+        let convex = Convex {
+            shape_a: a.shape,
+            shape_b: b.shape,
+            relative: b.basis.relative_to(&a.basis),
+            offset: a.basis.turn_back(between),
+            summed: if self.is_compound() {
+                self.between.length() + a.shift.length() + b.shift.length()
+            } else {
+                0.0
+            },
         };
-        thin(self.shape_a) || thin(self.shape_b)
-    }
-
-    /// Whether the distance iteration finds an axis that parts the shapes. It needs no normals, and its axis is
-    /// believed only after full projection.
-    fn is_parted(&self, a: &Solid, b: &Solid) -> bool {
-        let precision = self.precision();
-        let witness = distance(a, b, DVec3::X, precision.size);
-        witness.is_some_and(|witness| witness.at_least > precision.projection())
-    }
-
-    fn cuboids(&self) -> Option<Cuboids> {
-        let (Shape3::Cuboid(a), Shape3::Cuboid(b)) = (self.shape_a, self.shape_b) else { return None };
-        let (half_a, half_b) = (a.half_extents().as_dvec3(), b.half_extents().as_dvec3());
-        Some(Cuboids { half_a, half_b, basis: self.relative, offset: self.offset })
-    }
-
-    pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
-        let (mut corners_a, mut corners_b) = ([Vec3::ZERO; 8], [Vec3::ZERO; 8]);
-        let a = Solid::new(self.shape_a, &mut corners_a, IDENTITY, DVec3::ZERO);
-        let b = Solid::new(self.shape_b, &mut corners_b, self.relative, self.offset);
-        ask(&a, &b)
-    }
-
-    /// How much another axis must beat a face of A by, in metres. Relative to the smaller shape: what is nothing to a
-    /// floor may be all of a pebble. Never below rounding.
-    fn preference(&self) -> f64 {
-        let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
-        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision().projection())
-    }
-
-    pub(crate) fn precision(&self) -> Precision {
-        let planarity = |shape: &Shape3| match shape {
-            Shape3::Cuboid(_) => 0.0,
-            Shape3::Hull(hull) => f64::from(Hull::planarity_error(hull)),
-        };
-        let size = f64::from(self.size());
-        let off_center =
-            self.shape_a.center().as_dvec3().length() + self.shape_b.center().as_dvec3().length();
-        Precision {
-            size,
-            reach: size + off_center + self.offset.length(),
-            planarity: planarity(self.shape_a) + planarity(self.shape_b),
-        }
-    }
-
-    fn anchor_a(&self, point: DVec3) -> Vec3 {
-        self.basis_a.turn(point).as_vec3()
-    }
-
-    fn anchor_b(&self, point: DVec3) -> Vec3 {
-        self.basis_a.turn(point - self.offset).as_vec3()
+        Parts { a, b, convex }
     }
 }
 
-struct Found {
-    overlapping: bool,
-    measured: Measured3,
-    /// Of shapes that do not overlap.
-    witness: Option<Witness>,
+/// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
+fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
+    let Shape3::Compound(compound) = shape else {
+        return visit(Part { index: 0, shape, basis: *basis, shift: DVec3::ZERO });
+    };
+    compound.parts().iter().zip(0..).any(|(part, index)| {
+        let local = part.pose().basis();
+        let basis_of_part = Basis3 { x: basis.turn(local.x), y: basis.turn(local.y), z: basis.turn(local.z) };
+        let shift = basis.turn(part.pose().position());
+        visit(Part { index, shape: part.shape(), basis: basis_of_part, shift })
+    })
+}
+
+impl Parts<'_> {
+    fn manifold(&self, near: &Near, margin: f64) -> Option<Manifold3> {
+        let touch = self.convex.touch(near, margin)?;
+        let points = touch.points.iter().map(|point| ContactPoint3 {
+            separation: point.separation as f32,
+            anchor_a: self.anchor_a(point.on_a),
+            anchor_b: self.anchor_b(point.on_b),
+            feature: point.feature,
+        });
+        Some(Manifold3 {
+            part_a: self.a.index,
+            part_b: self.b.index,
+            normal: self.a.basis.turn(touch.normal).as_vec3(),
+            separation: near.separation,
+            error: near.error,
+            points: points.collect(),
+        })
+    }
+
+    /// From the frame of the pair to a world vector from A's position.
+    fn anchor_a(&self, point: DVec3) -> Vec3 {
+        (self.a.basis.turn(point) + self.a.shift).as_vec3()
+    }
+
+    /// From the frame of the pair to a world vector from B's position.
+    fn anchor_b(&self, point: DVec3) -> Vec3 {
+        (self.a.basis.turn(point - self.convex.offset) + self.b.shift).as_vec3()
+    }
 }
 
 /// One question of a batch: are these within the margin of each other, and how do they touch?
@@ -314,8 +323,9 @@ pub struct Job3<'a> {
 pub fn collide3(jobs: &[Job3<'_>], batch: &mut Batch3) {
     for job in jobs {
         let pair = Pair3::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
-        let (hint, touch) =
-            if job.sensor { pair.senses(job.margin, job.hint) } else { pair.contact(job.margin, job.hint) };
-        batch.push(hint, touch);
+        let first = batch.manifolds.len() as u32;
+        let wanted = (!job.sensor).then_some(&mut batch.manifolds);
+        let (hint, overlapping) = pair.contact(job.margin, job.hint, wanted);
+        batch.push(hint, overlapping, first);
     }
 }

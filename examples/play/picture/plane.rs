@@ -38,8 +38,8 @@ fn draw_body(canvas: &mut Canvas, body: &Collider2, points: &[DVec2], number: us
     if body.is_sensor() {
         let (color, opacity) = match body.shape() {
             Shape2::Rect(_) => (GOLD, 0.35),
-            Shape2::Polygon(_) if is_round => (GOLD, 0.95),
-            Shape2::Polygon(_) => (WATER, 0.35),
+            _ if is_round => (GOLD, 0.95),
+            _ => (WATER, 0.35),
         };
         canvas.polygon(points, Pen::fill(color).edged(color * 0.7, 1.5).faint(opacity));
     } else if body.is_fixed() {

@@ -152,7 +152,7 @@ impl<'a> Solid<'a> {
         let base = match self.body.shape() {
             Shape3::Cuboid(_) => WOOD,
             Shape3::Hull(_) if most + 2 == self.faces.len() => METAL,
-            Shape3::Hull(_) => STONE,
+            _ => STONE,
         };
         varied(base, number)
     }

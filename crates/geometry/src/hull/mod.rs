@@ -18,9 +18,10 @@ use merge::merge_facets;
 use quick::hull_facets;
 
 use crate::aabb::Aabb3;
-use crate::outward::{interval, round_down, round_up};
+use crate::outward::{around3, round_down, round_up};
 use crate::pose3::Pose3;
-use crate::tolerance::{COPLANAR, MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIUS};
+use crate::radius::{RadiusError, check_rounding, grown};
+use crate::tolerance::{COPLANAR, MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIUS, THIN};
 use crate::topology::Topology;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
@@ -43,6 +44,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hull {
     data: Arc<HullData>,
+    radius: f32,
 }
 
 #[derive(Debug, PartialEq)]
@@ -131,11 +133,11 @@ impl Hull {
             planarity_error: round_up(planarity),
             error: 0.0,
         };
-        let error = dropped.iter().map(|&p| hull.distance_outside(p)).fold(0.0, f64::max);
+        let error = dropped.iter().map(|&p| hull.distance_outside(p.as_dvec3())).fold(0.0, f64::max);
         if error > 0.0 {
             hull.error = round_up(error + 8.0 * f64::EPSILON * outer);
         }
-        Ok(Self { data: Arc::new(hull) })
+        Ok(Self { data: Arc::new(hull), radius: 0.0 })
     }
 
     /// The vertices, in the order of the points they were.
@@ -162,16 +164,54 @@ impl Hull {
         self.data.center
     }
 
+    /// The same hull with everything within `radius` metres added: round corners and edges, and larger by the radius on
+    /// every side. Zero takes the rounding away.
+    ///
+    /// ```
+    /// use asunder_geometry::{Hull, glam::{DVec3, Vec3}};
+    /// let rounded = Hull::from_points(&[Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z])?.rounded(0.5)?;
+    /// assert!(rounded.contains(DVec3::new(0.2, 0.2, -0.5)) && !rounded.contains(DVec3::new(-0.4, -0.4, 0.2)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A radius that is negative or not finite, or with which the shape would reach further than 1e6 m.
+    pub fn rounded(mut self, radius: f32) -> Result<Self, RadiusError> {
+        let reach = self.vertices().iter().map(|v| v.as_dvec3().length()).fold(0.0, f64::max);
+        check_rounding(radius, reach)?;
+        self.radius = radius;
+        Ok(self)
+    }
+
+    /// Radius of the rounding, in metres; zero for sharp edges.
+    #[inline]
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
     /// Radius of a sphere about [`Hull::center`] that holds the shape, in metres, rounded up.
     #[inline]
     pub fn outer_radius(&self) -> f32 {
-        self.data.outer_radius
+        grown(self.data.outer_radius, self.radius)
     }
 
     /// Radius of a sphere about [`Hull::center`] that lies inside the shape, in metres, rounded down.
     #[inline]
     pub fn inner_radius(&self) -> f32 {
-        self.data.inner_radius
+        round_down(f64::from(self.data.inner_radius) + f64::from(self.radius))
+    }
+
+    /// Whether the inscribed radius of the vertices' hull is below [`THIN`] of its bounding one.
+    #[inline]
+    pub fn is_thin(&self) -> bool {
+        self.data.inner_radius < THIN * self.data.outer_radius
+    }
+
+    /// Whether the closed shape holds a local point, in metres: without rounding, whether no face has it outside. Cost:
+    /// linear in the faces' corners.
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        let point = point.into();
+        point.is_finite() && self.data.distance_outside(point) <= f64::from(self.radius)
     }
 
     /// How far any vertex lies beyond the lowest vertex of any face, along that face's normal, in metres: what
@@ -190,25 +230,15 @@ impl Hull {
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards. Cost: linear in the vertices.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
-        let basis = pose.basis();
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for vertex in self.vertices() {
-            let turned = basis.turn(vertex.as_dvec3());
-            (low, high) = (low.min(turned), high.max(turned));
-        }
-        let p = pose.position();
-        let x = interval(p.x, low.x, high.x, f64::from(margin));
-        let y = interval(p.y, low.y, high.y, f64::from(margin));
-        let z = interval(p.z, low.z, high.z, f64::from(margin));
-        Aabb3::new(Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
+        let vertices = self.vertices().iter().map(|vertex| vertex.as_dvec3());
+        around3(vertices, pose, f64::from(margin) + f64::from(self.radius))
     }
 }
 
 impl HullData {
     /// An upper bound on a point's distance from the hull: its distance to the nearest triangle of any face, or zero
     /// where no face has it outside.
-    fn distance_outside(&self, point: Vec3) -> f64 {
-        let p = point.as_dvec3();
+    fn distance_outside(&self, p: DVec3) -> f64 {
         let vertex = |i: usize| self.vertices[i].as_dvec3();
         let is_outside = self.normals.iter().enumerate().any(|(face, normal)| {
             self.topology.face_vertices(face).map(|i| normal.dot(p - vertex(i))).fold(f64::INFINITY, f64::min)

@@ -81,11 +81,13 @@ fn deepest_point(a: &Outline, b: &Outline, axis: &Axis) -> ArrayVec<Point, 2> {
 
 /// The witness points of a gap, named by the features that carry them.
 fn closest_point(a: &Outline, b: &Outline, witness: &Witness) -> ArrayVec<Point, 2> {
-    let carrier = |outline: &Outline, which: usize| {
+    let carrier = |outline: &Outline, which: usize, towards: DVec2| {
         let first = witness.corners[0][which];
         let other = witness.corners.iter().map(|corner| corner[which]).find(|&vertex| vertex != first);
         match other {
             None => Feature::Vertex(first as u32),
+            // Both edges of a segment have both its ends: the one that looks at the other shape.
+            Some(_) if outline.is_flat() => Feature::Edge(u32::from(outline.normal(0).dot(towards) < 0.0)),
             Some(other) if outline.after(first) == other => Feature::Edge(first as u32),
             Some(other) => Feature::Edge(other as u32),
         }
@@ -94,7 +96,7 @@ fn closest_point(a: &Outline, b: &Outline, witness: &Witness) -> ArrayVec<Point,
         separation: witness.distance,
         on_a: witness.point_a,
         on_b: witness.point_b,
-        feature: FeatureId::new(carrier(a, 0), carrier(b, 1)),
+        feature: FeatureId::new(carrier(a, 0, witness.normal), carrier(b, 1, -witness.normal)),
     };
     core::iter::once(point).collect()
 }
@@ -133,6 +135,13 @@ fn edge_points(
 ) -> ArrayVec<Point, 2> {
     let reference = Reference { normal, reach: outline.support(normal).reach, is_b };
     let deepest = incident.support(-normal).vertex;
+    if incident.edge_count() == 0 {
+        let point = incident.point(deepest);
+        let (from, to) = (outline.point(edge), outline.point(outline.after(edge)));
+        let is_beside = (point - from).dot(to - from) >= 0.0 && (point - to).dot(from - to) >= 0.0;
+        let contact = reference.contact(point, (Feature::Edge(edge as u32), Feature::Vertex(deepest as u32)));
+        return (is_beside && contact.separation <= within).then_some(contact).into_iter().collect();
+    }
     let previous = incident.before(deepest);
     // Ties go to the edge before the deepest vertex.
     let facing = |edge: usize| incident.normal(edge).dot(normal);

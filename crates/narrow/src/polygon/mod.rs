@@ -2,7 +2,9 @@
 //!
 //! This is the definition. It is meant to be read, and to be what faster kernels are measured against.
 
-pub(crate) mod distance;
-pub(crate) mod manifold;
+pub(crate) mod convex;
+mod distance;
+mod half_plane;
+mod manifold;
 pub(crate) mod outline;
-pub(crate) mod sat;
+mod sat;

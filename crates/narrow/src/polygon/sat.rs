@@ -34,6 +34,12 @@ pub(crate) struct Axes {
 }
 
 impl Axes {
+    /// No axis was looked at: separation -inf.
+    const NONE: Self = Self {
+        edge_a: Axis { separation: f64::NEG_INFINITY, normal: DVec2::X, of: AxisOf::EdgeA(0) },
+        edge_b: Axis { separation: f64::NEG_INFINITY, normal: DVec2::X, of: AxisOf::EdgeB(0) },
+    };
+
     /// The greater separation of the two. Ties: A's.
     pub(crate) fn best(&self) -> &Axis {
         if self.edge_b.separation > self.edge_a.separation { &self.edge_b } else { &self.edge_a }
@@ -53,7 +59,7 @@ pub(crate) fn separating_axes(a: &Outline, b: &Outline, limit: f64, hint: Hint) 
     {
         return Outcome::Beyond(axis);
     }
-    let mut best = Axes { edge_a: axis_a(a, b, 0), edge_b: axis_b(a, b, 0) };
+    let mut best = Axes::NONE;
     for edge in 0..a.edge_count() {
         let axis = axis_a(a, b, edge);
         if axis.separation > limit {

@@ -119,6 +119,9 @@ fn deepest_point(a: &Solid, b: &Solid, axis: &Axis) -> ArrayVec<Point, 4> {
 /// corner with the next hair, and on which nothing can stand. The crossing is also a corner of the patch that both
 /// faces share as seen along the axis. The patch holds, and keeps the axis and the depth exact.
 fn aligned_faces(a: &Solid, b: &Solid, normal: DVec3, within: f64) -> Option<ArrayVec<Point, 4>> {
+    if a.is_slender() || b.is_slender() {
+        return None;
+    }
     let face_a = opposed_face_at(a, a.support(normal).vertex, -normal);
     let face_b = opposed_face_at(b, b.support(-normal).vertex, normal);
     let (facing_a, facing_b) = (a.normal(face_a), b.normal(face_b));
@@ -256,8 +259,11 @@ fn clipped_points(
     reduce_to_four(&points, reference.along)
 }
 
-/// Of the faces around a vertex, the one that looks most against `normal`.
-fn opposed_face_at(solid: &Solid, vertex: usize, normal: DVec3) -> usize {
+/// Of the faces around a vertex, the one that looks most against `normal`. A point or segment has one loop, which is it.
+pub(super) fn opposed_face_at(solid: &Solid, vertex: usize, normal: DVec3) -> usize {
+    if solid.is_slender() {
+        return 0;
+    }
     let mut best = (f64::INFINITY, 0);
     for half_edge in solid.topology.half_edges().iter().filter(|h| h.origin as usize == vertex) {
         let facing = solid.normal(half_edge.face as usize).dot(normal);

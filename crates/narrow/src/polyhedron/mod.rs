@@ -2,10 +2,13 @@
 //!
 //! This is the definition. It is meant to be read, and to be what faster kernels are measured against.
 
-pub(crate) mod cuboids;
-pub(crate) mod distance;
-pub(crate) mod manifold;
+pub(crate) mod convex;
+mod cuboids;
+mod distance;
+mod half_space;
+mod manifold;
 mod reduce;
-pub(crate) mod sat;
+mod sat;
 mod simplex;
-pub(crate) mod solid;
+mod slender;
+mod solid;

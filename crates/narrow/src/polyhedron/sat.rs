@@ -95,13 +95,13 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, limit: f64, hint: Hint, slac
         return Outcome::Beyond(axis);
     }
     let mut axes = Axes::NONE;
-    for face in 0..a.topology.face_count() {
+    for face in 0..a.face_count() {
         axes.offer(face_axis_a(a, b, face));
         if axes.face_a.separation > limit {
             return Outcome::Beyond(axes.face_a);
         }
     }
-    for face in 0..b.topology.face_count() {
+    for face in 0..b.face_count() {
         axes.offer(face_axis_b(a, b, face));
         if axes.face_b.separation > limit {
             return Outcome::Beyond(axes.face_b);
@@ -126,8 +126,8 @@ pub(crate) fn overlaps(a: &Solid, b: &Solid) -> bool {
         let ((low_a, high_a), (low_b, high_b)) = (a.project(axis), b.project(axis));
         low_b > high_a || low_a > high_b
     };
-    if (0..a.topology.face_count()).any(|face| parts(a.outward(face)))
-        || (0..b.topology.face_count()).any(|face| parts(b.outward(face)))
+    if (0..a.face_count()).any(|face| parts(a.outward(face)))
+        || (0..b.face_count()).any(|face| parts(b.outward(face)))
     {
         return false;
     }
@@ -151,9 +151,12 @@ fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
 
 fn edge_axis(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Option<Axis> {
     let axis = cross_of_edges(a.edge_direction(edge_a), b.edge_direction(edge_b))?.normalize();
-    // Outwards as seen from A's edge: between the normals of its two faces.
-    let [one, other] = a.arc(edge_a).ends;
-    let normal = if axis.dot(one + other) < 0.0 { -axis } else { axis };
+    // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's edge tells.
+    let outwards = match a.arc(edge_a).middle {
+        DVec3::ZERO => -b.arc(edge_b).middle,
+        middle => middle,
+    };
+    let normal = if axis.dot(outwards) < 0.0 { -axis } else { axis };
     let separation = -b.support(-normal).reach - a.support(normal).reach;
     Some(Axis { separation, normal, of: AxisOf::Edges(edge_a, edge_b) })
 }
@@ -176,10 +179,21 @@ fn cross_of_edges(along_a: DVec3, along_b: DVec3) -> Option<DVec3> {
 }
 
 /// An edge on the Gauss map: its direction, of any length, and the unit normals that its arc runs between.
+///
+/// The edge of a flat polygon has a half circle, from one side's normal over the outward direction in the plane to the
+/// other's; a segment has its whole great circle, and zero for ends and middle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arc {
     pub(crate) along: DVec3,
     pub(crate) ends: [DVec3; 2],
+    /// A direction, of any length, in the middle of the arc.
+    pub(crate) middle: DVec3,
+}
+
+impl Arc {
+    pub(crate) fn map(&self, turn: impl Fn(DVec3) -> DVec3) -> Self {
+        Self { along: turn(self.along), ends: self.ends.map(&turn), middle: turn(self.middle) }
+    }
 }
 
 /// Visits edge pairs whose arcs may cross until the visitor says to stop; returns whether it did.
@@ -212,10 +226,10 @@ fn arcs_may_cross(a: &Arc, b: &Arc) -> bool {
     if same_side(b.along.dot(a.ends[0]), b.along.dot(a.ends[1]), slack_b) {
         return false;
     }
-    // An arc is shorter than a half circle, so the middle of its ends tells which of the two points it passes.
+    // An arc is no longer than a half circle, so its middle tells which of the two points it passes.
     let meeting = a.along.cross(b.along);
-    let passes_a = meeting.dot(a.ends[0] + a.ends[1]);
-    let passes_b = -meeting.dot(b.ends[0] + b.ends[1]);
+    let passes_a = meeting.dot(a.middle);
+    let passes_b = -meeting.dot(b.middle);
     let slack = slack_a * slack_b / ARC_SLACK;
     !((passes_a > slack && passes_b < -slack) || (passes_a < -slack && passes_b > slack))
 }

@@ -2,9 +2,10 @@
 
 use super::sat::Arc;
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Basis3, Cuboid, Shape3, Topology};
+use asunder_geometry::{Basis3, Core3, Topology};
 
-/// A polyhedron in the frame of a pair: A's axes, about A's position.
+/// A core in the frame of a pair: A's axes, about A's position. Most often a polyhedron; a triangle or flat hull has two
+/// faces back to back, a segment or point none.
 ///
 /// Vertices are not transformed: a direction is turned into local axes instead, once a projection. That leaves A's
 /// coordinates exact and B's with one rounding step less.
@@ -24,16 +25,32 @@ pub(crate) struct Support {
 }
 
 impl<'a> Solid<'a> {
-    /// `corners` is room for the corners of a cuboid, which stores none.
-    pub(crate) fn new(shape: &'a Shape3, corners: &'a mut [Vec3; 8], basis: Basis3, position: DVec3) -> Self {
-        let (vertices, topology, normals) = match shape {
-            Shape3::Cuboid(cuboid) => {
-                *corners = cuboid.vertices();
-                (corners.as_slice(), Cuboid::topology(), Cuboid::NORMALS.as_slice())
-            }
-            Shape3::Hull(hull) => (hull.vertices(), hull.topology(), hull.normals()),
-        };
-        Self { vertices, topology, normals, basis, position }
+    pub(crate) fn new(core: &'a Core3<'a>, basis: Basis3, position: DVec3) -> Self {
+        Self {
+            vertices: core.vertices(),
+            topology: core.topology(),
+            normals: core.normals(),
+            basis,
+            position,
+        }
+    }
+
+    /// Number of faces that have a normal.
+    #[inline]
+    pub(crate) fn face_count(&self) -> usize {
+        self.normals.len()
+    }
+
+    /// Whether it is a point or a segment.
+    #[inline]
+    pub(crate) fn is_slender(&self) -> bool {
+        self.normals.is_empty()
+    }
+
+    /// Whether it has no inside.
+    #[inline]
+    pub(crate) fn is_flat(&self) -> bool {
+        self.normals.len() <= 2
     }
 
     /// A vertex in the frame of the pair.
@@ -83,23 +100,25 @@ impl<'a> Solid<'a> {
         let edge = self.topology.half_edges()[half_edge];
         let twin = self.topology.half_edges()[edge.twin as usize];
         let (from, to) = (self.vertices[edge.origin as usize], self.vertices[twin.origin as usize]);
-        Arc {
-            along: to.as_dvec3() - from.as_dvec3(),
-            ends: [self.normals[edge.face as usize], self.normals[twin.face as usize]],
+        let along = to.as_dvec3() - from.as_dvec3();
+        if self.is_slender() {
+            return Arc { along, ends: [DVec3::ZERO; 2], middle: DVec3::ZERO };
         }
+        let ends = [self.normals[edge.face as usize], self.normals[twin.face as usize]];
+        let middle = if self.is_flat() { along.cross(ends[0]).normalize() } else { ends[0] + ends[1] };
+        Arc { along, ends, middle }
     }
 
     /// An edge's arc on the Gauss map, in the frame of the pair.
     #[inline]
     pub(crate) fn arc(&self, half_edge: usize) -> Arc {
-        let local = self.local_arc(half_edge);
-        Arc { along: self.basis.turn(local.along), ends: local.ends.map(|end| self.basis.turn(end)) }
+        self.local_arc(half_edge).map(|v| self.basis.turn(v))
     }
 
     /// An arc of the other shape, turned into this one's own axes.
     #[inline]
     pub(crate) fn arc_from_frame(&self, arc: Arc) -> Arc {
-        Arc { along: self.basis.turn_back(arc.along), ends: arc.ends.map(|end| self.basis.turn_back(end)) }
+        arc.map(|v| self.basis.turn_back(v))
     }
 
     /// The vertex furthest along a direction; ties go to the lowest index. Cost: linear in the vertices.

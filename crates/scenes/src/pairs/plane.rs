@@ -197,7 +197,6 @@ impl<'a> Track<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asunder_geometry::Rect;
 
     fn is_apart(pair: &PosedPair2) -> bool {
         let points = |shape: &Shape2, pose: &Pose2| -> Vec<DVec3> {
@@ -229,10 +228,7 @@ mod tests {
     fn resting_pairs_are_sunk_by_a_thousandth_at_most() {
         for kind in [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly64] {
             for pair in pairs2(kind, PairSet::Rest, 200, 1) {
-                let normals: Vec<DVec2> = match &pair.shape_a {
-                    Shape2::Rect(_) => Rect::NORMALS.to_vec(),
-                    Shape2::Polygon(polygon) => polygon.normals().to_vec(),
-                };
+                let normals = pair.shape_a.core().normals().to_vec();
                 let turn = pair.pose_a.rotation();
                 let best =
                     normals.iter().map(|n| gap(&pair, turn.turn(*n))).fold(f64::NEG_INFINITY, f64::max);

@@ -118,16 +118,10 @@ fn ellipse(count: usize, jitter: f64, random: &mut Random) -> Shape2 {
 
 /// Every vertex of a solid, in its own axes.
 pub(crate) fn vertices3(shape: &Shape3) -> Vec<DVec3> {
-    match shape {
-        Shape3::Cuboid(cuboid) => cuboid.vertices().iter().map(|v| v.as_dvec3()).collect(),
-        Shape3::Hull(hull) => hull.vertices().iter().map(|v| v.as_dvec3()).collect(),
-    }
+    shape.core().vertices().iter().map(|v| v.as_dvec3()).collect()
 }
 
 /// Every vertex of a shape in the plane, counter-clockwise, in its own axes.
 pub(crate) fn vertices2(shape: &Shape2) -> Vec<glam::DVec2> {
-    match shape {
-        Shape2::Rect(rect) => rect.vertices().iter().map(|v| v.as_dvec2()).collect(),
-        Shape2::Polygon(polygon) => polygon.vertices().iter().map(|v| v.as_dvec2()).collect(),
-    }
+    shape.core().vertices().iter().map(|v| v.as_dvec2()).collect()
 }

@@ -5,7 +5,7 @@ use super::shapes::{solids, vertices3};
 use super::{DISTINCT, FRAMES, PairSet, PosedPair3, SolidKind};
 use crate::random::Random;
 use crate::turn::{Turn, unit};
-use asunder_geometry::{Cuboid, Pose3, Shape3, Topology};
+use asunder_geometry::{Pose3, Shape3, Topology};
 use core::f64::consts::TAU;
 use glam::DVec3;
 
@@ -51,13 +51,9 @@ struct Face {
 impl Solid {
     fn new(shape: Shape3) -> Self {
         let vertices = vertices3(&shape);
-        let faces_of = |topology: &Topology, normals: &[DVec3]| -> Vec<Face> {
-            (0..normals.len()).map(|i| face(topology, i, normals[i], &vertices)).collect()
-        };
-        let mut faces = match &shape {
-            Shape3::Cuboid(_) => faces_of(Cuboid::topology(), &Cuboid::NORMALS),
-            Shape3::Hull(hull) => faces_of(hull.topology(), hull.normals()),
-        };
+        let core = shape.core();
+        let mut faces: Vec<Face> =
+            core.normals().iter().zip(0..).map(|(&n, i)| face(core.topology(), i, n, &vertices)).collect();
         faces.sort_by(|a, b| b.radius.total_cmp(&a.radius));
         faces.truncate(faces.len().div_ceil(2));
         Self { shape, vertices, faces }
@@ -237,10 +233,7 @@ mod tests {
 
     /// The widest gap along a face normal of A, as a part of the size.
     fn best_gap(pair: &PosedPair3) -> f64 {
-        let normals: Vec<DVec3> = match &pair.shape_a {
-            Shape3::Cuboid(_) => Cuboid::NORMALS.to_vec(),
-            Shape3::Hull(hull) => hull.normals().to_vec(),
-        };
+        let normals = pair.shape_a.core().normals().to_vec();
         let turn = pair.pose_a.basis();
         let best = normals.iter().map(|n| gap(pair, turn.turn(*n))).fold(f64::NEG_INFINITY, f64::max);
         best / f64::from(pair.shape_a.outer_radius() + pair.shape_b.outer_radius())
@@ -271,10 +264,7 @@ mod tests {
         for kind in SolidKind::ALL {
             for pair in pairs3(kind, PairSet::Rest, 200, 1) {
                 // The common normal is a face normal of A: the one with the least overlap.
-                let normals: Vec<DVec3> = match &pair.shape_a {
-                    Shape3::Cuboid(_) => Cuboid::NORMALS.to_vec(),
-                    Shape3::Hull(hull) => hull.normals().to_vec(),
-                };
+                let normals = pair.shape_a.core().normals().to_vec();
                 let turn = pair.pose_a.basis();
                 let best =
                     normals.iter().map(|n| gap(&pair, turn.turn(*n))).fold(f64::NEG_INFINITY, f64::max);

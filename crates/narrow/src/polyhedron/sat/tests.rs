@@ -1,9 +1,9 @@
 //! Pruning by arcs must not lose the axis that decides.
 
 use super::*;
-use crate::pair3::Pair3;
+use crate::polyhedron::convex::Convex;
 use asunder_geometry::glam::{Quat, Vec3};
-use asunder_geometry::{Hull, Pose3, Shape3};
+use asunder_geometry::{Capsule3, Hull, Pose3, Shape3, Triangle3};
 
 /// xorshift, for cases without a dependency.
 struct Random(u64);
@@ -52,6 +52,17 @@ impl Random {
     }
 }
 
+/// A pair in A's axes.
+fn convex<'a>(shape_a: &'a Shape3, pose_a: Pose3, shape_b: &'a Shape3, pose_b: Pose3) -> Convex<'a> {
+    Convex {
+        shape_a,
+        shape_b,
+        relative: pose_b.basis().relative_to(&pose_a.basis()),
+        offset: pose_a.transform_back(pose_b.position()),
+        summed: 0.0,
+    }
+}
+
 /// The greatest separation along any cross product of edges, whichever way it points.
 fn all_edge_pairs(a: &Solid, b: &Solid) -> f64 {
     let mut best = f64::NEG_INFINITY;
@@ -77,7 +88,7 @@ fn pruned_and_exhaustive_agree_within_the_reported_error() {
         let offset = random.vector() * if case % 11 == 0 { 0.0 } else { 1.5 };
         let (pose_a, pose_b) =
             (Pose3::new(Vec3::ZERO, turns[0]).unwrap(), Pose3::new(offset, turns[1]).unwrap());
-        let pair = Pair3::new(&shape_a, &pose_a, &shape_b, &pose_b);
+        let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
         pair.with_solids(|a, b| {
             let Outcome::Within(axes) = pair.axes(a, b, f64::INFINITY, Hint::NONE) else { unreachable!() };
             let faces = axes.face_a.separation.max(axes.face_b.separation);
@@ -104,4 +115,33 @@ fn pruned_and_exhaustive_agree_within_the_reported_error() {
         });
     }
     assert!(overlapping > 2000 && decided_by_edges > 300, "{overlapping}, {decided_by_edges}");
+}
+
+#[test]
+fn half_circles_and_whole_circles_lose_no_axis_either() {
+    let mut random = Random(0xD1B5_4A32_D192_ED03);
+    let mut decided_by_edges = 0;
+    for case in 0..6000_u64 {
+        let flat: Shape3 = match case % 2 {
+            0 => Triangle3::new(random.vector(), random.vector(), random.vector()).unwrap().into(),
+            _ => Capsule3::new(random.vector(), random.vector(), 0.25).unwrap().into(),
+        };
+        let solid = random.hull(case / 2);
+        let (shape_a, shape_b) = if case % 4 < 2 { (&flat, &solid) } else { (&solid, &flat) };
+        let pose = |turn: Quat, at: Vec3| Pose3::new(at, turn).unwrap();
+        let (pose_a, pose_b) =
+            (pose(random.turn(case / 2), Vec3::ZERO), pose(random.turn(case / 3), random.vector()));
+        let pair = convex(shape_a, pose_a, shape_b, pose_b);
+        pair.with_solids(|a, b| {
+            let Outcome::Within(axes) = pair.axes(a, b, f64::INFINITY, Hint::NONE) else { unreachable!() };
+            let faces = axes.face_a.separation.max(axes.face_b.separation);
+            let exhaustive = faces.max(all_edge_pairs(a, b));
+            if exhaustive <= 0.0 {
+                let error = f64::from(pair.precision().of_separation(exhaustive));
+                assert!(exhaustive - axes.best().separation <= error, "case {case}: {exhaustive}");
+                decided_by_edges += usize::from(axes.edges.separation > faces);
+            }
+        });
+    }
+    assert!(decided_by_edges > 500, "{decided_by_edges}");
 }

@@ -1,0 +1,300 @@
+//! Convex polygons, checked exactly.
+
+use crate::aabb::Aabb2;
+use crate::outward::{around2, round_down, round_up};
+use crate::pose2::Pose2;
+use crate::radius::{RadiusError, check_rounding, grown};
+use crate::tolerance::{MAX_POLYGON_VERTICES, MAX_RADIUS, MIN_RADIUS};
+use glam::{DVec2, Vec2};
+use predicate::{corners, direction_changes, first_repeated, is_before, order, orientation};
+use robust::{Coord, orient2d};
+use std::sync::Arc;
+
+mod error;
+pub(crate) mod predicate;
+mod simplify;
+#[cfg(test)]
+mod tests;
+
+pub use error::PolygonError;
+
+/// A convex polygon of 3 to 4096 vertices in metres, counter-clockwise. Clones share the data.
+///
+/// Edge `i` runs from vertex `i` to the next. Every check is an exact orientation test (Shewchuk, "Adaptive
+/// precision floating-point arithmetic and fast robust geometric predicates", 1997), so that a polygon is convex
+/// in fact and not up to some rounding.
+///
+/// ```
+/// use asunder_geometry::{Polygon, glam::Vec2};
+/// let triangle = Polygon::new(&[Vec2::ZERO, Vec2::X, Vec2::Y])?;
+/// assert_eq!(triangle.vertices().len(), 3);
+/// let square = Polygon::hull_of(&[(0.0, 0.0), (1.0, 0.0), (0.5, 0.5), (1.0, 1.0), (0.0, 1.0)].map(Vec2::from))?;
+/// assert_eq!(square.vertices().len(), 4, "the inner point is no vertex");
+/// # Ok::<(), asunder_geometry::PolygonError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygon {
+    data: Arc<PolygonData>,
+    radius: f32,
+}
+
+#[derive(Debug, PartialEq)]
+struct PolygonData {
+    vertices: Box<[Vec2]>,
+    normals: Box<[DVec2]>,
+    center: Vec2,
+    outer_radius: f32,
+    inner_radius: f32,
+    error: f32,
+}
+
+impl Polygon {
+    /// A polygon from its outline, counter-clockwise.
+    ///
+    /// A vertex that lies exactly on the line between its neighbours is left out: it changes nothing. Cost:
+    /// n log n for the search for repeated points.
+    ///
+    /// # Errors
+    /// Every case of [`PolygonError`]: concave, clockwise, repeated, collinear, non-finite, out of range.
+    pub fn new(outline: &[Vec2]) -> Result<Self, PolygonError> {
+        check_points(outline)?;
+        if let Some((first, second)) = first_repeated(outline) {
+            return Err(PolygonError::Repeated { first, second });
+        }
+        let turns: Vec<f64> = corners(outline).map(|[a, b, c]| orientation(a, b, c)).collect();
+        if turns.iter().all(|&turn| turn == 0.0) {
+            return Err(PolygonError::Collinear);
+        }
+        if turns.iter().all(|&turn| turn <= 0.0) {
+            return Err(PolygonError::Clockwise);
+        }
+        for (vertex, [a, b, c]) in corners(outline).enumerate() {
+            let doubles_back = turns[vertex] == 0.0 && is_before(a, b) != is_before(b, c);
+            if turns[vertex] < 0.0 || doubles_back {
+                return Err(PolygonError::Concave { vertex });
+            }
+        }
+        if direction_changes(outline) != 2 {
+            return Err(PolygonError::WindsRepeatedly);
+        }
+        let is_corner = |&(_, &turn): &(&Vec2, &f64)| turn > 0.0;
+        Self::from_convex(outline.iter().zip(&turns).filter(is_corner).map(|(&v, _)| v).collect(), 0.0)
+    }
+
+    /// The convex hull of any points, by Andrew's monotone chain ("Another efficient algorithm for convex hulls in
+    /// two dimensions", 1979) over exact orientation tests. Cost: n log n.
+    ///
+    /// The vertices are a subset of the points, bit for bit.
+    ///
+    /// # Errors
+    /// Fewer than three points, points on one line, non-finite or out of range, too many vertices.
+    pub fn hull_of(points: &[Vec2]) -> Result<Self, PolygonError> {
+        Self::from_convex(hull_vertices(points)?, 0.0)
+    }
+
+    /// The convex hull of any points with at most `max_vertices` vertices, chosen so that the points left outside are
+    /// near: [`Polygon::error`] says how near. Cost: n log n, and 1e6 points are fine.
+    ///
+    /// The vertices are a subset of the points, bit for bit; the polygon lies inside the points' hull. Where the hull
+    /// has no more vertices than that, it is the hull and the error is zero.
+    ///
+    /// ```
+    /// use asunder_geometry::{Polygon, glam::Vec2};
+    /// let mut corners: Vec<Vec2> = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)].map(Vec2::from).to_vec();
+    /// corners.push(Vec2::new(2.0, -0.001));
+    /// let rect = Polygon::simplify(&corners, 4)?;
+    /// assert_eq!(rect.vertices(), &corners[..4]);
+    /// assert!(rect.error() >= 0.001 && rect.error() < 0.001_001);
+    /// # Ok::<(), asunder_geometry::PolygonError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Polygon::hull_of`], but for too many vertices; a number of vertices below 3 or above 4096.
+    pub fn simplify(points: &[Vec2], max_vertices: usize) -> Result<Self, PolygonError> {
+        if !(3..=MAX_POLYGON_VERTICES).contains(&max_vertices) {
+            return Err(PolygonError::LimitOutOfRange { max_vertices });
+        }
+        let hull = hull_vertices(points)?;
+        if hull.len() <= max_vertices {
+            return Self::from_convex(hull, 0.0);
+        }
+        let (vertices, error) = simplify::simplified(&hull, max_vertices);
+        Self::from_convex(vertices, error)
+    }
+
+    /// Derives normals and radii from vertices that are known to be strictly convex and counter-clockwise.
+    pub(crate) fn from_convex(vertices: Vec<Vec2>, error: f32) -> Result<Self, PolygonError> {
+        if vertices.len() > MAX_POLYGON_VERTICES {
+            return Err(PolygonError::TooManyVertices { count: vertices.len() });
+        }
+        let normals: Box<[DVec2]> = corners(&vertices)
+            .map(|[_, from, to]| {
+                let edge = to.as_dvec2() - from.as_dvec2();
+                DVec2::new(edge.y, -edge.x) / edge.length()
+            })
+            .collect();
+        let center = centroid(&vertices).as_vec2();
+        let from_center = |v: &Vec2| v.as_dvec2() - center.as_dvec2();
+        let outer = vertices.iter().map(|v| from_center(v).length()).fold(0.0, f64::max);
+        let inner =
+            vertices.iter().zip(&normals).map(|(v, n)| n.dot(from_center(v))).fold(f64::INFINITY, f64::min);
+        let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
+        if outer_radius < MIN_RADIUS {
+            return Err(PolygonError::TooSmall { radius: outer_radius });
+        }
+        let inner_radius = round_down((inner - 8.0 * f64::EPSILON * outer).max(0.0));
+        let data =
+            PolygonData { vertices: vertices.into(), normals, center, outer_radius, inner_radius, error };
+        Ok(Self { data: Arc::new(data), radius: 0.0 })
+    }
+
+    /// The vertices, counter-clockwise, bit for bit as given.
+    #[inline]
+    pub fn vertices(&self) -> &[Vec2] {
+        &self.data.vertices
+    }
+
+    /// Outward unit normals in f64; number `i` belongs to the edge from vertex `i` to the next.
+    #[inline]
+    pub fn normals(&self) -> &[DVec2] {
+        &self.data.normals
+    }
+
+    /// The centre that both radii are about: the centroid, rounded to f32.
+    #[inline]
+    pub fn center(&self) -> Vec2 {
+        self.data.center
+    }
+
+    /// The same polygon with everything within `radius` metres added: round corners, and larger by the radius on every
+    /// side. Zero takes the rounding away.
+    ///
+    /// ```
+    /// use asunder_geometry::{Polygon, glam::{DVec2, Vec2}};
+    /// let rounded = Polygon::new(&[Vec2::ZERO, Vec2::X, Vec2::Y])?.rounded(0.5)?;
+    /// assert!(rounded.contains(DVec2::new(0.5, -0.5)) && !rounded.contains(DVec2::new(-0.4, -0.4)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A radius that is negative or not finite, or with which the shape would reach further than 1e6 m.
+    pub fn rounded(mut self, radius: f32) -> Result<Self, RadiusError> {
+        let reach = self.vertices().iter().map(|v| v.as_dvec2().length()).fold(0.0, f64::max);
+        check_rounding(radius, reach)?;
+        self.radius = radius;
+        Ok(self)
+    }
+
+    /// Radius of the rounding, in metres; zero for sharp corners.
+    #[inline]
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// Radius of a circle about [`Polygon::center`] that holds the shape, in metres, rounded up.
+    #[inline]
+    pub fn outer_radius(&self) -> f32 {
+        grown(self.data.outer_radius, self.radius)
+    }
+
+    /// Radius of a circle about [`Polygon::center`] that lies inside the shape, in metres, rounded down.
+    #[inline]
+    pub fn inner_radius(&self) -> f32 {
+        round_down(f64::from(self.data.inner_radius) + f64::from(self.radius))
+    }
+
+    /// A bound on how far outside the polygon any of the given points lies, in metres, rounded up: zero unless
+    /// [`Polygon::simplify`] left vertices out.
+    #[inline]
+    pub fn error(&self) -> f32 {
+        self.data.error
+    }
+
+    /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding. Cost: linear in the
+    /// vertices.
+    pub fn contains(&self, point: impl Into<DVec2>) -> bool {
+        let point = point.into();
+        if !point.is_finite() {
+            return false;
+        }
+        let coord = |v: DVec2| Coord { x: v.x, y: v.y };
+        let edges = || corners(self.vertices()).map(|[_, from, to]| (from.as_dvec2(), to.as_dvec2()));
+        if edges().all(|(from, to)| orient2d(coord(from), coord(to), coord(point)) >= 0.0) {
+            return true;
+        }
+        let reach = f64::from(self.radius) * f64::from(self.radius);
+        self.radius > 0.0
+            && edges().any(|(from, to)| {
+                let along = to - from;
+                let place = ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+                (point - from - along * place).length_squared() <= reach
+            })
+    }
+
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards. Cost: linear in the vertices.
+    pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
+        let vertices = self.vertices().iter().map(|vertex| vertex.as_dvec2());
+        around2(vertices, pose, f64::from(margin) + f64::from(self.radius))
+    }
+}
+
+fn check_points(points: &[Vec2]) -> Result<(), PolygonError> {
+    if points.len() < 3 {
+        return Err(PolygonError::TooFewPoints { count: points.len() });
+    }
+    for (index, point) in points.iter().enumerate() {
+        if !point.is_finite() {
+            return Err(PolygonError::NotFinite { index });
+        }
+        if point.as_dvec2().length() > f64::from(MAX_RADIUS) {
+            return Err(PolygonError::TooLarge { index });
+        }
+    }
+    Ok(())
+}
+
+/// The strictly convex vertices of the points' hull, counter-clockwise from the least in x, then y.
+fn hull_vertices(points: &[Vec2]) -> Result<Vec<Vec2>, PolygonError> {
+    check_points(points)?;
+    let mut sorted: Vec<Vec2> = points.to_vec();
+    sorted.sort_by(|a, b| order(*a, *b));
+    sorted.dedup();
+    let mut hull: Vec<Vec2> = Vec::new();
+    for pass in 0..2 {
+        let floor = hull.len();
+        let mut extend = |point: Vec2| {
+            while hull.len() >= floor + 2
+                && orientation(hull[hull.len() - 2], hull[hull.len() - 1], point) <= 0.0
+            {
+                hull.pop();
+            }
+            hull.push(point);
+        };
+        if pass == 0 {
+            sorted.iter().for_each(|&p| extend(p))
+        } else {
+            sorted.iter().rev().for_each(|&p| extend(p))
+        }
+        // The last point of one chain is the first of the other.
+        hull.pop();
+    }
+    if hull.len() < 3 { Err(PolygonError::Collinear) } else { Ok(hull) }
+}
+
+/// The centre of area. Where rounding leaves a sliver none that lies in its box, the middle of the box.
+fn centroid(vertices: &[Vec2]) -> DVec2 {
+    let origin = vertices[0].as_dvec2();
+    let (mut area, mut moment) = (0.0, DVec2::ZERO);
+    for two in vertices[1..].windows(2) {
+        let (a, b) = (two[0].as_dvec2() - origin, two[1].as_dvec2() - origin);
+        let doubled = a.perp_dot(b);
+        area += doubled;
+        moment += (a + b) * doubled;
+    }
+    let center = origin + moment / (3.0 * area);
+    let (low, high) = vertices.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), v| {
+        (low.min(v.as_dvec2()), high.max(v.as_dvec2()))
+    });
+    // An area of zero makes the quotient NaN or infinite, and fails here too.
+    if center.cmpge(low).all() && center.cmple(high).all() { center } else { (low + high) * 0.5 }
+}

@@ -1,0 +1,125 @@
+//! Rays.
+
+use crate::direction::{DirectionError, check_direction};
+use crate::pose3::{PoseError, check_position};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
+/// A ray in the plane: from an origin, in a direction of any length but zero. A parameter t along it means
+/// origin + t direction.
+///
+/// ```
+/// use asunder_geometry::{DirectionError, Ray2, RayError, glam::{DVec2, Vec2}};
+/// let ray = Ray2::new(DVec2::X, Vec2::Y * 2.0)?;
+/// assert_eq!(ray.at(0.5), DVec2::X + DVec2::Y);
+/// assert_eq!(Ray2::new(DVec2::X, Vec2::ZERO), Err(RayError::Direction(DirectionError::Zero)));
+/// # Ok::<(), RayError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray2 {
+    origin: DVec2,
+    direction: Vec2,
+}
+
+impl Ray2 {
+    /// A ray from its origin, in metres (`Vec2`, `DVec2`, or an array of f64), and its direction.
+    ///
+    /// # Errors
+    /// What is not finite, an origin beyond 1e9 m on an axis, and a zero direction.
+    pub fn new(origin: impl Into<DVec2>, direction: Vec2) -> Result<Self, RayError> {
+        let origin = origin.into();
+        check_position(&origin.to_array()).map_err(RayError::Origin)?;
+        check_direction(&direction.to_array()).map_err(RayError::Direction)?;
+        Ok(Self { origin, direction })
+    }
+
+    /// Where it starts, in metres.
+    #[inline]
+    pub const fn origin(&self) -> DVec2 {
+        self.origin
+    }
+
+    /// Where it goes, bit for bit as given.
+    #[inline]
+    pub const fn direction(&self) -> Vec2 {
+        self.direction
+    }
+
+    /// The point at a parameter along it.
+    #[inline]
+    pub fn at(&self, t: f64) -> DVec2 {
+        self.origin + self.direction.as_dvec2() * t
+    }
+}
+
+/// A ray in space: from an origin, in a direction of any length but zero. A parameter t along it means
+/// origin + t direction.
+///
+/// ```
+/// use asunder_geometry::{DirectionError, Ray3, RayError, glam::{DVec3, Vec3}};
+/// let ray = Ray3::new(DVec3::X, Vec3::Y * 2.0)?;
+/// assert_eq!(ray.at(0.5), DVec3::X + DVec3::Y);
+/// assert_eq!(Ray3::new(DVec3::X, Vec3::ZERO), Err(RayError::Direction(DirectionError::Zero)));
+/// # Ok::<(), RayError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray3 {
+    origin: DVec3,
+    direction: Vec3,
+}
+
+impl Ray3 {
+    /// A ray from its origin, in metres (`Vec3`, `DVec3`, or an array of f64), and its direction.
+    ///
+    /// # Errors
+    /// What is not finite, an origin beyond 1e9 m on an axis, and a zero direction.
+    pub fn new(origin: impl Into<DVec3>, direction: Vec3) -> Result<Self, RayError> {
+        let origin = origin.into();
+        check_position(&origin.to_array()).map_err(RayError::Origin)?;
+        check_direction(&direction.to_array()).map_err(RayError::Direction)?;
+        Ok(Self { origin, direction })
+    }
+
+    /// Where it starts, in metres.
+    #[inline]
+    pub const fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// Where it goes, bit for bit as given.
+    #[inline]
+    pub const fn direction(&self) -> Vec3 {
+        self.direction
+    }
+
+    /// The point at a parameter along it.
+    #[inline]
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.origin + self.direction.as_dvec3() * t
+    }
+}
+
+/// Why a ray was refused.
+///
+/// ```
+/// use asunder_geometry::{PoseError, Ray3, RayError, glam::Vec3};
+/// let refused = Ray3::new([0.0, 2e9, 0.0], Vec3::X).unwrap_err();
+/// assert_eq!(refused, RayError::Origin(PoseError::PositionTooFar { axis: 1, value: 2e9 }));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RayError {
+    /// What is wrong with its origin.
+    Origin(PoseError),
+    /// What is wrong with its direction.
+    Direction(DirectionError),
+}
+
+impl core::fmt::Display for RayError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Origin(error) => write!(f, "origin of a ray: {error}"),
+            Self::Direction(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl core::error::Error for RayError {}

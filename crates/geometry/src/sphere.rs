@@ -1,0 +1,47 @@
+//! Spheres.
+
+use crate::aabb::Aabb3;
+use crate::outward::around3;
+use crate::pose3::Pose3;
+use crate::radius::{RadiusError, check_round};
+use glam::DVec3;
+
+/// A ball about its own origin, given by its radius in metres: a point with everything within the radius added.
+///
+/// ```
+/// use asunder_geometry::{Sphere, glam::DVec3};
+/// let ball = Sphere::new(0.5)?;
+/// assert!(ball.contains(DVec3::X * 0.5) && !ball.contains(DVec3::ONE * 0.5));
+/// # Ok::<(), asunder_geometry::RadiusError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    radius: f32,
+}
+
+impl Sphere {
+    /// A sphere from its radius, in metres.
+    ///
+    /// # Errors
+    /// A radius that is not finite, or outside 1e-6 to 1e6 m.
+    pub fn new(radius: f32) -> Result<Self, RadiusError> {
+        check_round(radius, 0.0)?;
+        Ok(Self { radius })
+    }
+
+    /// The radius, in metres.
+    #[inline]
+    pub const fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// Whether the closed shape holds a local point, in metres.
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        point.into().length_squared() <= f64::from(self.radius) * f64::from(self.radius)
+    }
+
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards.
+    pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
+        around3(core::iter::once(DVec3::ZERO), pose, f64::from(margin) + f64::from(self.radius))
+    }
+}

@@ -1,0 +1,109 @@
+//! Triangles.
+
+use crate::aabb::Aabb3;
+use crate::outward::{around3, round_up};
+use crate::pose3::Pose3;
+use crate::topology::Topology;
+use crate::vertex::{VertexError, check_size, check_vertices};
+use glam::{DVec3, Vec3};
+use robust::{Coord3D, orient3d};
+use std::sync::LazyLock;
+
+/// A triangle in space, given by its vertices in metres. It is solid from both sides and has no thickness.
+///
+/// Face 0 is the side from which the vertices wind counter-clockwise, face 1 the other.
+///
+/// ```
+/// use asunder_geometry::{Triangle3, glam::{DVec3, Vec3}};
+/// let triangle = Triangle3::new(Vec3::ZERO, Vec3::X, Vec3::Y)?;
+/// assert!(triangle.contains(DVec3::new(0.25, 0.25, 0.0)) && !triangle.contains(DVec3::new(0.25, 0.25, 1e-9)));
+/// assert_eq!(triangle.normals()[0], DVec3::Z);
+/// # Ok::<(), asunder_geometry::VertexError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle3 {
+    vertices: [Vec3; 3],
+    outer_radius: f32,
+}
+
+static TOPOLOGY: LazyLock<Topology> = LazyLock::new(|| {
+    let loops: [[u16; 3]; 2] = [[0, 1, 2], [0, 2, 1]];
+    Topology::from_loops(loops.iter().map(|vertices| vertices.as_slice()))
+});
+
+/// Height of a triangle over its longest side, as a share of that side, below which it counts as a segment: its normal
+/// would be rounding.
+const LEAST_HEIGHT: f64 = 1e-7;
+
+impl Triangle3 {
+    /// A triangle from its vertices, in metres.
+    ///
+    /// # Errors
+    /// Vertices that are equal, on one line, not finite, or out of range.
+    pub fn new(a: Vec3, b: Vec3, c: Vec3) -> Result<Self, VertexError> {
+        let corners = [a, b, c].map(|vertex| vertex.as_dvec3());
+        check_vertices(&corners)?;
+        let sides = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
+        let longest = sides.iter().map(|side| side.length_squared()).fold(0.0, f64::max);
+        if sides[0].cross(sides[1]).length() <= LEAST_HEIGHT * longest {
+            return Err(VertexError::Collinear);
+        }
+        let mut triangle = Self { vertices: [a, b, c], outer_radius: 0.0 };
+        let center = triangle.center().as_dvec3();
+        let reach = corners.map(|corner| (corner - center).length()).into_iter().fold(0.0, f64::max);
+        triangle.outer_radius = round_up(reach * (1.0 + 8.0 * f64::EPSILON));
+        check_size(triangle.outer_radius)?;
+        Ok(triangle)
+    }
+
+    /// The three vertices, bit for bit as given.
+    #[inline]
+    pub const fn vertices(&self) -> [Vec3; 3] {
+        self.vertices
+    }
+
+    /// The half-edges that every triangle shares: two faces, back to back.
+    #[inline]
+    pub fn topology() -> &'static Topology {
+        &TOPOLOGY
+    }
+
+    /// Unit normals of both faces, in f64.
+    #[inline]
+    pub fn normals(&self) -> [DVec3; 2] {
+        let [a, b, c] = self.vertices.map(|vertex| vertex.as_dvec3());
+        let normal = (b - a).cross(c - a).normalize();
+        [normal, -normal]
+    }
+
+    /// The centre that the bounding radius is about: the centroid, rounded to f32.
+    #[inline]
+    pub fn center(&self) -> Vec3 {
+        let [a, b, c] = self.vertices.map(|vertex| vertex.as_dvec3());
+        ((a + b + c) / 3.0).as_vec3()
+    }
+
+    /// Bounding radius about [`Triangle3::center`], in metres, rounded up.
+    #[inline]
+    pub const fn outer_radius(&self) -> f32 {
+        self.outer_radius
+    }
+
+    /// Whether a local point, in metres, lies on the triangle. Exact as to its plane.
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        let point = point.into();
+        let [a, b, c] = self.vertices.map(|vertex| vertex.as_dvec3());
+        let coord = |v: DVec3| Coord3D { x: v.x, y: v.y, z: v.z };
+        if !point.is_finite() || orient3d(coord(a), coord(b), coord(c), coord(point)) != 0.0 {
+            return false;
+        }
+        let normal = (b - a).cross(c - a);
+        let inside = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) >= 0.0;
+        inside(a, b) && inside(b, c) && inside(c, a)
+    }
+
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards.
+    pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
+        around3(self.vertices.iter().map(|vertex| vertex.as_dvec3()), pose, f64::from(margin))
+    }
+}

@@ -1,0 +1,77 @@
+//! A half-plane against a core: two dot products for the nearest vertex, one axis in all.
+//!
+//! Of all directions only the line's own normal can show a gap or a finite depth, so the separation is exact up to rounding:
+//! the least height of a vertex over the line.
+
+use super::manifold::{Point, Touch};
+use super::outline::Outline;
+use crate::feature::{Feature, FeatureId};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec2;
+
+/// The line of a half-plane, in the frame of the pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Line {
+    /// Unit normal, out of the half-plane.
+    pub(crate) normal: DVec2,
+    /// A point on it.
+    pub(crate) origin: DVec2,
+    /// Whether the half-plane is B.
+    pub(crate) is_b: bool,
+}
+
+impl Line {
+    /// Unit axis from A to B.
+    pub(crate) fn axis(&self) -> DVec2 {
+        if self.is_b { -self.normal } else { self.normal }
+    }
+
+    fn height(&self, point: DVec2) -> f64 {
+        self.normal.dot(point - self.origin)
+    }
+
+    /// The lowest vertex of a core and its height, which is the separation.
+    pub(crate) fn lowest(&self, core: &Outline) -> (usize, f64) {
+        let vertex = core.support(-self.normal).vertex;
+        (vertex, self.height(core.point(vertex)))
+    }
+
+    /// Two half-planes: the distance of lines that look exactly away from each other; else they overlap without end.
+    pub(crate) fn separation_from(&self, other: &Self) -> f64 {
+        if self.normal.perp_dot(other.normal) == 0.0 && self.normal.dot(other.normal) < 0.0 {
+            self.height(other.origin)
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
+    /// A point of each line, half way between their origins.
+    pub(crate) fn points_with(&self, other: &Self) -> [DVec2; 2] {
+        let middle = (self.origin + other.origin) * 0.5;
+        [self, other].map(|line| middle - line.normal * line.height(middle))
+    }
+
+    /// The lowest vertex and the lower of its neighbours, if that is no more than `within` above the line.
+    pub(crate) fn touch(&self, core: &Outline, within: f64) -> Touch {
+        let (lowest, _) = self.lowest(core);
+        let (before, after) = (core.before(lowest), core.after(lowest));
+        let height = |vertex: usize| self.height(core.point(vertex));
+        let neighbour = if height(before) < height(after) { before } else { after };
+        let contact = |vertex: usize| {
+            let (point, separation) = (core.point(vertex), height(vertex));
+            let foot = point - self.normal * separation;
+            let (of_line, of_core) = (Feature::Edge(0), Feature::Vertex(vertex as u32));
+            if self.is_b {
+                Point { separation, on_a: point, on_b: foot, feature: FeatureId::new(of_core, of_line) }
+            } else {
+                Point { separation, on_a: foot, on_b: point, feature: FeatureId::new(of_line, of_core) }
+            }
+        };
+        let mut points: ArrayVec<Point, 2> = core::iter::once(contact(lowest)).collect();
+        if neighbour != lowest && height(neighbour) <= within {
+            points.push(contact(neighbour));
+        }
+        points.sort_unstable_by_key(|point| point.feature);
+        Touch { normal: self.axis(), points }
+    }
+}

@@ -1,0 +1,77 @@
+//! A half-space against a core: two dot products for the nearest vertex, one axis in all.
+//!
+//! Of all directions only the plane's own normal can show a gap or a finite depth, so the separation is exact up to
+//! rounding: the least height of a vertex over the plane.
+
+use super::manifold::{Point, Touch, opposed_face_at};
+use super::reduce::reduce_to_four;
+use super::solid::Solid;
+use crate::feature::{Feature, FeatureId};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::MAX_HULL_VERTICES;
+
+/// The plane of a half-space, in the frame of the pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Plane {
+    /// Unit normal, out of the half-space.
+    pub(crate) normal: DVec3,
+    /// A point on it.
+    pub(crate) origin: DVec3,
+    /// Whether the half-space is B.
+    pub(crate) is_b: bool,
+}
+
+impl Plane {
+    /// Unit axis from A to B.
+    pub(crate) fn axis(&self) -> DVec3 {
+        if self.is_b { -self.normal } else { self.normal }
+    }
+
+    fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point - self.origin)
+    }
+
+    /// The lowest vertex of a core and its height, which is the separation.
+    pub(crate) fn lowest(&self, core: &Solid) -> (usize, f64) {
+        let vertex = core.support(-self.normal).vertex;
+        (vertex, self.height(core.point(vertex)))
+    }
+
+    /// Two half-spaces: the distance of planes that look exactly away from each other; else they overlap without end.
+    pub(crate) fn separation_from(&self, other: &Self) -> f64 {
+        if self.normal.cross(other.normal) == DVec3::ZERO && self.normal.dot(other.normal) < 0.0 {
+            self.height(other.origin)
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
+    /// A point of each plane, half way between their origins.
+    pub(crate) fn points_with(&self, other: &Self) -> [DVec3; 2] {
+        let middle = (self.origin + other.origin) * 0.5;
+        [self, other].map(|plane| middle - plane.normal * plane.height(middle))
+    }
+
+    /// The corners, at most four, of the face that looks at the plane, and no more than `within` above it.
+    pub(crate) fn touch(&self, core: &Solid, within: f64) -> Touch {
+        let (lowest, _) = self.lowest(core);
+        let face = opposed_face_at(core, lowest, self.normal);
+        let mut points: ArrayVec<Point, MAX_HULL_VERTICES> = ArrayVec::new();
+        for vertex in core.topology.face_vertices(face) {
+            let point = core.point(vertex);
+            let separation = self.height(point);
+            if separation > within && vertex != lowest {
+                continue;
+            }
+            let foot = point - self.normal * separation;
+            let (of_plane, of_core) = (Feature::Face(0), Feature::Vertex(vertex as u32));
+            points.push(if self.is_b {
+                Point { separation, on_a: point, on_b: foot, feature: FeatureId::new(of_core, of_plane) }
+            } else {
+                Point { separation, on_a: foot, on_b: point, feature: FeatureId::new(of_plane, of_core) }
+            });
+        }
+        Touch { normal: self.axis(), points: reduce_to_four(&points, self.normal) }
+    }
+}

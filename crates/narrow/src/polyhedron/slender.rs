@@ -1,0 +1,173 @@
+//! Points and segments among themselves: what spheres and capsules are without their radius.
+//!
+//! ```text
+//! the closest points of two segments: the feet of their common perpendicular, if both lie within;
+//! else the least of the four ends against the other segment
+//! ```
+//! A point is a segment of no length. Closed form in place of an iteration, and no face to test: such shapes have no
+//! inside, so that their separation is never below zero.
+
+use super::manifold::{Point, Touch};
+use super::solid::Solid;
+use crate::feature::{Feature, FeatureId};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::ALIGNED_FACES;
+
+/// The closest points of two slender cores, in the frame of the pair.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    /// Their distance.
+    pub(crate) distance: f64,
+    /// The separation along `normal` by projection: a lower bound.
+    pub(crate) at_least: f64,
+    /// Unit axis from A to B.
+    pub(crate) normal: DVec3,
+    pub(crate) on_a: DVec3,
+    pub(crate) on_b: DVec3,
+    /// Where on each core: 0 to 1 from its first vertex to its last.
+    places: [f64; 2],
+}
+
+/// The closest points. Where they are closer than `rounding`, the cores count as touching.
+pub(crate) fn nearest(a: &Solid, b: &Solid, rounding: f64) -> Nearest {
+    let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
+    let (along_a, along_b) = (a1 - a0, b1 - b0);
+    let mut best = (f64::INFINITY, [0.0, 0.0]);
+    let mut offer = |s: f64, t: f64| {
+        let squared = (b0 + along_b * t - a0 - along_a * s).length_squared();
+        if squared < best.0 {
+            best = (squared, [s, t]);
+        }
+    };
+    offer(place_on(a0, along_a, b0), 0.0);
+    offer(place_on(a0, along_a, b1), 1.0);
+    offer(0.0, place_on(b0, along_b, a0));
+    offer(1.0, place_on(b0, along_b, a1));
+    let cross = along_a.cross(along_b);
+    let inverse = 1.0 / cross.length_squared();
+    let (s, t) =
+        ((b0 - a0).cross(along_b).dot(cross) * inverse, (b0 - a0).cross(along_a).dot(cross) * inverse);
+    // Parallel lines give infinities and NaN here; an end is among their closest points.
+    if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
+        offer(s, t);
+    }
+    let places = best.1;
+    let (on_a, on_b) = (a0 + along_a * places[0], b0 + along_b * places[1]);
+    let distance = (on_b - on_a).length();
+    let normal = if distance > rounding {
+        (on_b - on_a) / distance
+    } else {
+        across(along_a, along_b, (b0 + b1) - (a0 + a1))
+    };
+    let at_least = normal.dot(b0).min(normal.dot(b1)) - normal.dot(a0).max(normal.dot(a1));
+    Nearest {
+        distance: if distance > rounding { distance } else { 0.0 },
+        at_least,
+        normal,
+        on_a,
+        on_b,
+        places,
+    }
+}
+
+/// How they touch: where they are closest, or on both ends of the stretch along which two segments lie side by side.
+///
+/// Points are at most `within` apart. The stretch is taken only if one end of it is as close as the closest points, up to
+/// `preference`: segments that cross at a small angle touch in one point.
+pub(crate) fn touch(a: &Solid, b: &Solid, nearest: &Nearest, within: f64, preference: f64) -> Touch {
+    let normal = nearest.normal;
+    let within = within.max(nearest.distance + preference);
+    let mut points: ArrayVec<Point, 4> = ArrayVec::new();
+    let mut least = f64::INFINITY;
+    for ([on_a, on_b], feature) in shared_stretch(a, b, normal).into_iter().flatten() {
+        let distance = (on_b - on_a).length();
+        least = least.min(distance);
+        if distance <= within {
+            points.push(Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature });
+        }
+    }
+    if least > nearest.distance + preference {
+        points.clear();
+        let feature = FeatureId::new(feature_at(a, nearest.places[0]), feature_at(b, nearest.places[1]));
+        let (on_a, on_b) = (nearest.on_a, nearest.on_b);
+        points.push(Point { separation: nearest.distance, on_a, on_b, feature });
+    }
+    points.sort_unstable_by_key(|point| point.feature);
+    Touch { normal, points }
+}
+
+fn ends(core: &Solid) -> [DVec3; 2] {
+    [core.point(0), core.point(core.vertices.len() - 1)]
+}
+
+/// The place of the foot of a point on a segment, 0 to 1; 0 on one of no length.
+fn place_on(from: DVec3, along: DVec3, point: DVec3) -> f64 {
+    let place = (point - from).dot(along) / along.length_squared();
+    if place.is_nan() { 0.0 } else { place.clamp(0.0, 1.0) }
+}
+
+/// A unit axis across both directions, as far as there is one, towards `between` where that leaves a choice.
+fn across(along_a: DVec3, along_b: DVec3, between: DVec3) -> DVec3 {
+    let cross = along_a.cross(along_b);
+    let longer = if along_a.length_squared() >= along_b.length_squared() { along_a } else { along_b };
+    let square = |v: DVec3| v.length_squared();
+    // Not parallel: only their common perpendicular.
+    let axis = if square(cross) > 1e-16 * square(along_a) * square(along_b) && square(cross) > 0.0 {
+        cross
+    } else {
+        // Any across the longer one will do; of the axes, the one furthest from its direction.
+        let size = longer.abs();
+        let other = if size.x <= size.y && size.x <= size.z {
+            DVec3::X
+        } else if size.y <= size.z {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        if square(longer) > 0.0 { longer.cross(other) } else { DVec3::Y }
+    };
+    let axis = axis.normalize();
+    if axis.dot(between) < 0.0 { -axis } else { axis }
+}
+
+/// The ends of the stretch along which two nearly parallel segments lie side by side as seen along the normal: a point of
+/// each, opposite each other.
+fn shared_stretch(a: &Solid, b: &Solid, normal: DVec3) -> Option<[([DVec3; 2], FeatureId); 2]> {
+    let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
+    let (along_a, along_b) = (a1 - a0, b1 - b0);
+    let cosine_squared = along_a.dot(along_b) * along_a.dot(along_b);
+    let lengths_squared = along_a.length_squared() * along_b.length_squared();
+    if !(lengths_squared > 0.0 && cosine_squared >= ALIGNED_FACES * ALIGNED_FACES * lengths_squared) {
+        return None;
+    }
+    // Places along the part of A's direction that lies across the normal; none to speak of where they lie in one line.
+    let side = along_a - normal * normal.dot(along_a);
+    if side.length_squared() < 0.5 * along_a.length_squared() {
+        return None;
+    }
+    let at = |point: DVec3| side.dot(point - a0);
+    let (end_a, from_b, to_b) = (at(a1), at(b0), at(b1));
+    let (low, high) = if from_b <= to_b { ((from_b, 0), (to_b, 1)) } else { ((to_b, 1), (from_b, 0)) };
+    let on_b = |vertex: u32| FeatureId::new(Feature::Edge(0), Feature::Vertex(vertex));
+    let on_a = |vertex: u32| FeatureId::new(Feature::Vertex(vertex), Feature::Edge(0));
+    let begin = if low.0 >= 0.0 { (low.0, on_b(low.1)) } else { (0.0, on_a(0)) };
+    let end = if high.0 <= end_a { (high.0, on_b(high.1)) } else { (end_a, on_a(1)) };
+    if begin.0 >= end.0 {
+        return None;
+    }
+    let opposite = |(place, feature): (f64, FeatureId)| {
+        let (s, t) = (place / end_a, (place - from_b) / (to_b - from_b));
+        ([a0 + along_a * s.clamp(0.0, 1.0), b0 + along_b * t.clamp(0.0, 1.0)], feature)
+    };
+    Some([opposite(begin), opposite(end)])
+}
+
+fn feature_at(core: &Solid, place: f64) -> Feature {
+    match core.vertices.len() {
+        1 => Feature::Vertex(0),
+        _ if place <= 0.0 => Feature::Vertex(0),
+        _ if place >= 1.0 => Feature::Vertex(1),
+        _ => Feature::Edge(0),
+    }
+}
