@@ -95,6 +95,11 @@ impl ExactPlane {
     /// How edges `first` and `second` of the outline of the first `count` points meet.
     pub fn meeting(&self, count: usize, first: usize, second: usize) -> Meeting {
         let [e, f] = [first, second].map(|edge| [edge, (edge + 1) % count]);
+        self.segments(e, f)
+    }
+
+    /// How two segments meet. Ends with one number are the same end, where they may.
+    pub fn segments(&self, e: [usize; 2], f: [usize; 2]) -> Meeting {
         let ends_on = |[from, to]: [usize; 2], other: [usize; 2]| {
             [from, to].into_iter().filter(|&end| self.on_segment(end, other)).collect::<Vec<usize>>()
         };

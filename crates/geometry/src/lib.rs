@@ -43,7 +43,7 @@ pub use decompose::{DecomposeError, decompose};
 pub use direction::DirectionError;
 pub use extent::ExtentError;
 pub use half_space::{HalfPlane, HalfSpace};
-pub use hull::{Hull, HullError};
+pub use hull::{Hull, HullError, HullFault};
 pub use mass::{MassError, MassProperties2, MassProperties3};
 pub use polygon::{Polygon, PolygonError};
 pub use pose2::{Pose2, Rotation2};

@@ -11,6 +11,9 @@ use glam::{DVec2, Vec2};
 ///
 /// Its vertices are numbered counter-clockwise from the least corner; edge `i` runs from vertex `i` to the next.
 ///
+/// # Costs and limits
+/// Four normals; two contact points at most. Half extents above zero, bounding radius 1e-6 to 1e6 m.
+///
 /// ```
 /// use asunder_geometry::{Pose2, Rect, glam::Vec2};
 /// let rect = Rect::from_half_extents(Vec2::new(2.0, 1.0))?;

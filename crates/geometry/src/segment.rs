@@ -11,6 +11,10 @@ use robust::{Coord, orient2d};
 
 /// A segment between two points in the plane, in metres. It has no thickness, and edge 0 is all of it.
 ///
+/// # Costs and limits
+/// It overlaps what it crosses, with the depth that moves it out to one of its two sides; on another segment, that is zero where they
+/// merely cross. Two normals. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
+///
 /// ```
 /// use asunder_geometry::{Segment2, glam::{DVec2, Vec2}};
 /// let segment = Segment2::new(Vec2::ZERO, Vec2::X)?;
@@ -24,6 +28,10 @@ pub struct Segment2 {
 }
 
 /// A capsule in the plane: everything within `radius` metres of a segment.
+///
+/// # Costs and limits
+/// As a segment: two normals. Lying on an edge it has two contact points. Radius from 1e-6 m; all of it within 1e6 m of the shape's
+/// origin.
 ///
 /// ```
 /// use asunder_geometry::{Capsule2, glam::{DVec2, Vec2}};
@@ -139,6 +147,10 @@ impl Capsule2 {
 
 /// A segment between two points in space, in metres. It has no thickness, and edge 0 is all of it.
 ///
+/// # Costs and limits
+/// Two segments, or a segment and a capsule, cost a closed form; against faces it adds one edge to the test. Two segments that
+/// cross have depth zero. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
+///
 /// ```
 /// use asunder_geometry::{Segment3, glam::{DVec3, Vec3}};
 /// let segment = Segment3::new(Vec3::ZERO, Vec3::X)?;
@@ -152,6 +164,10 @@ pub struct Segment3 {
 }
 
 /// A capsule in space: everything within `radius` metres of a segment.
+///
+/// # Costs and limits
+/// Two capsules cost a closed form; a capsule against a hull of n edges n arc tests. Lying on a face, or beside another capsule, it has
+/// two contact points. Radius from 1e-6 m; all of it within 1e6 m of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Capsule3, glam::{DVec3, Vec3}};

@@ -52,6 +52,13 @@ pub const SEPARATION_ERROR: f64 = 1.5e-7;
 /// Share of a pair's size at which the distance iteration stops: the gap between its two certified bounds.
 pub const DISTANCE_GAP: f64 = 1e-12;
 
+/// Share of a cloud's size by which a point must stand out of the hull of those before it to count as a vertex that no
+/// merging of facets takes away: 64 times [`COPLANAR`].
+///
+/// Only hulls with more than four times the allowed number of such points are refused by it, early. A smaller value could
+/// refuse what merging would make small; a larger one lets hopeless clouds be built to the end before they are refused.
+pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
+
 /// The smallest bounding radius a shape may have, in metres.
 pub const MIN_RADIUS: f32 = 1e-6;
 

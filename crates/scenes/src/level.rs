@@ -41,11 +41,18 @@
 //!
 //! | shape | dimension | value |
 //! |---|---|---|
-//! | `rect`, `cuboid` | 2, 3 | `half_extents`: vector |
-//! | `polygon` | 2 | `points`: the outline, convex and counter-clockwise |
+//! | `rect`, `cuboid` | 2, 3 | `half_extents`: vector; `radius` of rounding, optional |
+//! | `polygon` | 2 | `points`: the outline, convex and counter-clockwise; `radius` of rounding, optional |
 //! | `regular` | 2 | `sides`: 3 to 4096, `radius`: of the circle through the corners |
-//! | `hull` | 3 | `points`: any, the shape is their convex hull |
+//! | `outline` | 2 | `points`: any outline that does not cross itself; it is cut into convex parts |
+//! | `hull` | 3 | `points`: any, the shape is their convex hull; `radius` of rounding, optional |
 //! | `prism` | 3 | `sides`: 3 to 128, `radius`, `half_height`: along y |
+//! | `circle`, `sphere` | 2, 3 | `radius` |
+//! | `capsule` | 2, 3 | `half_height` of its segment, along y; `radius` |
+//! | `segment` | 2, 3 | `points`: its two ends |
+//! | `triangle` | 3 | `points`: its three vertices |
+//! | `half_plane`, `half_space` | 2, 3 | `normal`: out of it, of any length |
+//! | `compound` | 2, 3 | `parts`: a list of `shape` (as here), `position`, and `rotation`, which is optional |
 //!
 //! | field of a body | value | where it is left out |
 //! |---|---|---|

@@ -9,7 +9,8 @@ fn quotient(numerator: &BigInt, denominator: &BigInt) -> f64 {
     let shift = 62 + denominator.bits() as i64 - numerator.bits() as i64;
     let shifted = |value: &BigInt, by: i64| if by > 0 { value << by as usize } else { value.clone() };
     let whole = shifted(numerator, shift) / shifted(denominator, -shift);
-    i64::try_from(whole).unwrap() as f64 * 2_f64.powf(-shift as f64)
+    let power_of_two = f64::from_bits(((1023 - shift) as u64) << 52);
+    i64::try_from(whole).unwrap() as f64 * power_of_two
 }
 
 /// Sums over simplices between the origin and the surface, as integers.

@@ -11,7 +11,7 @@ use crate::tolerance::{MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIU
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HullError {
-    /// Fewer than four points.
+    /// Fewer than four points, or none where fewer would do.
     TooFewPoints {
         /// How many were given.
         count: usize,
@@ -43,15 +43,23 @@ pub enum HullError {
     },
     /// The hull has more vertices than it may.
     TooManyVertices {
-        /// How many were found before the search was given up.
+        /// How many were found before the search was given up. Merging might have taken a few of them away.
         at_least: usize,
+    },
+    /// The number of vertices asked for is not 4 to 256.
+    VertexLimit {
+        /// What was asked for.
+        max_vertices: usize,
     },
 }
 
 impl core::fmt::Display for HullError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::TooFewPoints { count } => write!(f, "{count} points make no hull: give at least 4"),
+            Self::TooFewPoints { count } => write!(
+                f,
+                "{count} points make no hull with a volume: give at least 4, or use Hull::of_any_dimension with at least 1"
+            ),
             Self::TooManyPoints { count } => {
                 write!(f, "{count} points are more than {MAX_HULL_POINTS}: leave some out")
             }
@@ -63,16 +71,23 @@ impl core::fmt::Display for HullError {
                 )
             }
             Self::TooSmall { radius } => {
-                write!(f, "bounding radius {radius} m is below {MIN_RADIUS} m: use larger units")
+                write!(f, "bounding radius {radius} m is below {MIN_RADIUS:.6} m: use larger units")
             }
             Self::Flat { dimension } => {
                 let what = ["are one point", "lie on one line", "lie in one plane"];
-                write!(f, "the points {}: move one off it", what[usize::from(*dimension).min(2)])
+                let what = what[usize::from(*dimension).min(2)];
+                write!(f, "the points {what}: use Hull::of_any_dimension, or move one off it")
             }
             Self::TooManyVertices { at_least } => write!(
                 f,
-                "the hull has at least {at_least} vertices, and {MAX_HULL_VERTICES} is the most: give fewer points"
+                "the hull has {at_least} vertices or more, and {MAX_HULL_VERTICES} is the most: use Hull::simplify"
             ),
+            Self::VertexLimit { max_vertices } => {
+                write!(
+                    f,
+                    "a hull of at most {max_vertices} vertices cannot be made: ask for 4 to {MAX_HULL_VERTICES}"
+                )
+            }
         }
     }
 }

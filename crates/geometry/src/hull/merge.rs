@@ -2,14 +2,23 @@
 //!
 //! ```text
 //! for each facet not yet in a face, the largest first:
-//!   grow over neighbouring facets as long as every corner of theirs lies within the tolerance of its plane
-//!   the face is the outline of that region, if it is one loop; else the facet stays alone
+//!   grow over neighbouring facets that face its way and have every corner within the tolerance of its plane,
+//!     each only if the outline stays one simple loop
+//! repeat with the faces as facets until nothing grows
 //! vertices that no outline visits lie inside a face: they are reported, and the hull is built again without them
 //! ```
-//! Growing from the largest facet measures distance from the best-conditioned plane, never from a sliver's.
+//! Growing from the largest facet measures distance from the best-conditioned plane, never from a sliver's. A region that
+//! would close around an island waits until the island is part of it, or leaves one facet out.
 
+use super::{area_vector, unit_normal};
 use glam::{DVec3, Vec3};
-use std::collections::BTreeMap;
+
+/// No vertex.
+const NONE: u32 = u32::MAX;
+
+/// How often a facet is tried for one region. It is tried again because what kept the outline from being a loop may be
+/// filled in meanwhile; often enough, without letting one facet of thousands of corners cost their square.
+const TRIES: u8 = 8;
 
 /// Faces as vertex loops, and the vertices that ended up inside one, ascending.
 pub(super) struct Merged {
@@ -17,141 +26,174 @@ pub(super) struct Merged {
     pub(super) inside: Vec<u32>,
 }
 
+/// Merges until every vertex that is inside a face is found, or nothing more can be merged. Cost: n log n, times
+/// rounds of which few hulls need more than two.
 pub(super) fn merge_facets(points: &[Vec3], facets: &[Vec<u32>], tolerance: f64) -> Merged {
-    let mut facet_left_of: BTreeMap<(u32, u32), usize> = BTreeMap::new();
-    for (index, facet) in facets.iter().enumerate() {
-        for_edges(facet, |from, to| {
-            facet_left_of.insert((from, to), index);
-        });
+    let mut faces = facets.to_vec();
+    loop {
+        let before = faces.len();
+        faces = merge_once(points, &faces, tolerance);
+        let inside = not_visited(facets, &faces, points.len());
+        if !inside.is_empty() || faces.len() == before {
+            return Merged { faces, inside };
+        }
     }
-    let doubled_area = |facet: &Vec<u32>| area_vector(facet.iter().map(|&i| points[i as usize])).length();
-    let mut by_area: Vec<(f64, usize)> = facets.iter().map(doubled_area).zip(0..).collect();
-    by_area.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+}
 
-    let mut face_of: Vec<Option<usize>> = vec![None; facets.len()];
+fn not_visited(facets: &[Vec<u32>], faces: &[Vec<u32>], count: usize) -> Vec<u32> {
+    let mut is_missing = vec![false; count];
+    facets.iter().flatten().for_each(|&i| is_missing[i as usize] = true);
+    faces.iter().flatten().for_each(|&i| is_missing[i as usize] = false);
+    (0..count as u32).filter(|&i| is_missing[i as usize]).collect()
+}
+
+fn merge_once(points: &[Vec3], facets: &[Vec<u32>], tolerance: f64) -> Vec<Vec<u32>> {
+    let corners = |facet: &[u32]| facet.iter().map(|&i| points[i as usize]).collect::<Vec<_>>();
+    let area = |facet: &Vec<u32>| area_vector(corners(facet).into_iter()).length();
+    let mut by_area: Vec<(f64, usize)> = facets.iter().map(area).zip(0..).collect();
+    by_area.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let sheet = Sheet {
+        points,
+        facets,
+        neighbours: neighbours(facets),
+        normals: facets.iter().map(|facet| unit_normal(corners(facet).into_iter())).collect(),
+        tolerance,
+    };
+    let mut is_taken = vec![false; facets.len()];
+    let mut tries = vec![(0, 0); facets.len()];
+    let mut outline = Outline { after: vec![NONE; points.len()], length: 0 };
     let mut faces = Vec::new();
     for (_, seed) in by_area {
-        if face_of[seed].is_some() {
-            continue;
+        if !is_taken[seed] {
+            faces.push(sheet.grow(seed, &mut is_taken, &mut tries, &mut outline));
         }
-        let region = grow(points, facets, &facet_left_of, &face_of, seed, tolerance);
-        let in_region = |facet: usize| region.contains(&facet);
-        let (members, outline) = match outline(facets, &facet_left_of, &region, in_region) {
-            Some(outline) => (region, outline),
-            None => (vec![seed], facets[seed].clone()),
-        };
-        for member in members {
-            face_of[member] = Some(faces.len());
-        }
-        faces.push(outline);
     }
-    let mut visited = vec![false; points.len()];
-    faces.iter().flatten().for_each(|&i| visited[i as usize] = true);
-    let mut inside: Vec<u32> = facets.iter().flatten().copied().filter(|&i| !visited[i as usize]).collect();
-    inside.sort_unstable();
-    inside.dedup();
-    Merged { faces, inside }
+    faces
 }
 
-fn for_edges(facet: &[u32], mut visit: impl FnMut(u32, u32)) {
-    for (i, &from) in facet.iter().enumerate() {
-        visit(from, facet[(i + 1) % facet.len()]);
+/// For each facet, the facet across each of its edges.
+fn neighbours(facets: &[Vec<u32>]) -> Vec<Vec<usize>> {
+    let mut sides: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(3 * facets.len());
+    for (index, facet) in facets.iter().enumerate() {
+        for (i, &from) in facet.iter().enumerate() {
+            let to = facet[(i + 1) % facet.len()];
+            sides.push((from.min(to), from.max(to), index, i));
+        }
     }
+    sides.sort_unstable();
+    let mut neighbours: Vec<Vec<usize>> =
+        facets.iter().enumerate().map(|(index, facet)| vec![index; facet.len()]).collect();
+    for two in sides.windows(2) {
+        let ((a0, a1, first, i), (b0, b1, second, j)) = (two[0], two[1]);
+        if (a0, a1) == (b0, b1) {
+            neighbours[first][i] = second;
+            neighbours[second][j] = first;
+        }
+    }
+    neighbours
 }
 
-fn grow(
-    points: &[Vec3],
-    facets: &[Vec<u32>],
-    facet_left_of: &BTreeMap<(u32, u32), usize>,
-    face_of: &[Option<usize>],
-    seed: usize,
+/// The facets of a hull, and what is known of each.
+struct Sheet<'a> {
+    points: &'a [Vec3],
+    facets: &'a [Vec<u32>],
+    neighbours: Vec<Vec<usize>>,
+    normals: Vec<DVec3>,
     tolerance: f64,
-) -> Vec<usize> {
-    let normal = unit_normal(facets[seed].iter().map(|&i| points[i as usize]));
-    let origin = points[facets[seed][0] as usize].as_dvec3();
-    let is_flat = |facet: usize| {
-        let facing = unit_normal(facets[facet].iter().map(|&i| points[i as usize])).dot(normal) > 0.5;
-        let near = |&i: &u32| normal.dot(points[i as usize].as_dvec3() - origin).abs() <= tolerance;
-        facing && facets[facet].iter().all(near)
-    };
-    let mut region = vec![seed];
-    let mut next = 0;
-    while next < region.len() {
-        for_edges(&facets[region[next]], |from, to| {
-            if let Some(&neighbour) = facet_left_of.get(&(to, from))
-                && face_of[neighbour].is_none()
-                && !region.contains(&neighbour)
-                && is_flat(neighbour)
-            {
-                region.push(neighbour);
+}
+
+impl Sheet<'_> {
+    /// The outline of the region around a seed. `tries` counts, for each facet, how often the seed (plus one) tried it.
+    fn grow(
+        &self,
+        seed: usize,
+        is_taken: &mut [bool],
+        tries: &mut [(usize, u8)],
+        outline: &mut Outline,
+    ) -> Vec<u32> {
+        let normal = self.normals[seed];
+        let origin = self.points[self.facets[seed][0] as usize].as_dvec3();
+        let height = |i: u32| normal.dot(self.points[i as usize].as_dvec3() - origin);
+        let (low, high) = self.facets[seed]
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &i| (l.min(height(i)), h.max(height(i))));
+        let middle = (low + high) * 0.5;
+        let is_flat = |facet: usize| {
+            self.normals[facet].dot(normal) > 0.5
+                && self.facets[facet].iter().all(|&i| (height(i) - middle).abs() <= self.tolerance)
+        };
+        is_taken[seed] = true;
+        outline.start(&self.facets[seed]);
+        let mut region = vec![seed];
+        let mut next = 0;
+        while next < region.len() {
+            for &neighbour in &self.neighbours[region[next]] {
+                if is_taken[neighbour] {
+                    continue;
+                }
+                let (tried_by, count) = &mut tries[neighbour];
+                if *tried_by != seed + 1 {
+                    (*tried_by, *count) = (seed + 1, if is_flat(neighbour) { 0 } else { TRIES });
+                }
+                if *count < TRIES {
+                    *count += 1;
+                    if outline.join(&self.facets[neighbour]) {
+                        is_taken[neighbour] = true;
+                        region.push(neighbour);
+                    }
+                }
             }
-        });
-        next += 1;
+            next += 1;
+        }
+        outline.take(region.iter().flat_map(|&facet| &self.facets[facet]).copied())
     }
-    region
 }
 
-/// The single loop around a region of facets, or nothing if its border is not one simple loop.
-fn outline(
-    facets: &[Vec<u32>],
-    facet_left_of: &BTreeMap<(u32, u32), usize>,
-    region: &[usize],
-    in_region: impl Fn(usize) -> bool,
-) -> Option<Vec<u32>> {
-    let mut leads_to: BTreeMap<u32, u32> = BTreeMap::new();
-    let mut is_simple = true;
-    for &facet in region {
-        for_edges(&facets[facet], |from, to| {
-            let is_border = facet_left_of.get(&(to, from)).is_none_or(|&other| !in_region(other));
-            if is_border {
-                is_simple &= leads_to.insert(from, to).is_none();
-            }
-        });
-    }
-    let (&start, _) = leads_to.first_key_value()?;
-    let mut around = vec![start];
-    let mut at = *leads_to.get(&start)?;
-    while at != start && around.len() <= leads_to.len() {
-        around.push(at);
-        at = *leads_to.get(&at)?;
-    }
-    (is_simple && around.len() == leads_to.len() && around.len() >= 3).then_some(around)
+/// The simple loop around a growing region: for each vertex on it, the next.
+struct Outline {
+    after: Vec<u32>,
+    length: usize,
 }
 
-/// Newell's area vector: twice the area, along the normal. About the first corner, so that far loops lose nothing.
-fn area_vector(corners: impl Iterator<Item = Vec3>) -> DVec3 {
-    let mut corners = corners.map(Vec3::as_dvec3);
-    let Some(origin) = corners.next() else { return DVec3::ZERO };
-    let (mut sum, mut last) = (DVec3::ZERO, DVec3::ZERO);
-    for corner in corners {
-        let arm = corner - origin;
-        sum += last.cross(arm);
-        last = arm;
+impl Outline {
+    fn start(&mut self, facet: &[u32]) {
+        self.length = facet.len();
+        for (i, &from) in facet.iter().enumerate() {
+            self.after[from as usize] = facet[(i + 1) % facet.len()];
+        }
     }
-    sum
-}
 
-/// Unit normal of a loop, in f64. A loop whose area vanishes even in f64 gets x: any axis is verified before use.
-pub(super) fn unit_normal(corners: impl Iterator<Item = Vec3>) -> DVec3 {
-    let area = area_vector(corners);
-    // Scaled first: the squares of a 1e-90 area would underflow.
-    let largest = area.abs().max_element();
-    if largest > 0.0 { (area / largest).normalize() } else { DVec3::X }
-}
+    /// Moves the outline around one more facet, if it stays one simple loop.
+    fn join(&mut self, facet: &[u32]) -> bool {
+        let count = facet.len();
+        let is_shared = |i: usize| self.after[facet[(i + 1) % count] as usize] == facet[i % count];
+        let shared = (0..count).filter(|&i| is_shared(i)).count();
+        let touching = facet.iter().filter(|&&i| self.after[i as usize] != NONE).count();
+        // A single chain has one vertex more than edges; two chains, or a touch elsewhere, have more.
+        let is_chain = shared > 0 && touching == shared + 1;
+        if !is_chain || self.length + count < 2 * shared + 3 {
+            return false;
+        }
+        let Some(end) = (0..count).find(|&i| is_shared(i) && !is_shared(i + 1)) else { return false };
+        // Edges end - shared + 1 ..= end are shared: their inner vertices leave the outline, the other edges join it.
+        for i in end + 2 + count - shared..=end + count {
+            self.after[facet[i % count] as usize] = NONE;
+        }
+        for i in end + 1..=end + count - shared {
+            self.after[facet[i % count] as usize] = facet[(i + 1) % count];
+        }
+        self.length = self.length + count - 2 * shared;
+        true
+    }
 
-/// Distance from a point to a triangle, after Ericson, "Real-Time Collision Detection" (2005), 5.1.5.
-pub(super) fn distance_to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
-    let to_segment = |u: DVec3, v: DVec3| {
-        let along = v - u;
-        let t = ((p - u).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        (u + along * t - p).length()
-    };
-    let normal = (b - a).cross(c - a);
-    let inside = |u: DVec3, v: DVec3| (v - u).cross(p - u).dot(normal) >= 0.0;
-    let edges = to_segment(a, b).min(to_segment(b, c)).min(to_segment(c, a));
-    if inside(a, b) && inside(b, c) && inside(c, a) {
-        edges.min((normal.dot(p - a) / normal.length()).abs())
-    } else {
-        edges
+    /// The loop from its first vertex among `candidates`, and an outline that is empty again.
+    fn take(&mut self, mut candidates: impl Iterator<Item = u32>) -> Vec<u32> {
+        let mut around = Vec::with_capacity(self.length);
+        let Some(mut at) = candidates.find(|&i| self.after[i as usize] != NONE) else { return around };
+        while self.after[at as usize] != NONE {
+            around.push(at);
+            at = core::mem::replace(&mut self.after[at as usize], NONE);
+        }
+        around
     }
 }

@@ -3,7 +3,7 @@
 //! Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997). Exact for all
 //! finite f32: products of three of them neither overflow nor underflow in f64.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 /// Positive where `d` lies outside the plane that a, b, c span counter-clockwise.
@@ -82,4 +82,70 @@ pub(super) fn canonical(mut facets: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     }
     facets.sort_unstable();
     facets
+}
+
+/// How far the rounded height of a point above a triangle can be trusted.
+///
+/// With u, v the triangle's sides and w the arm to the point, (u x v) . w in f64 is within 8 units of
+/// f64::EPSILON * |u| |v| |w| of the truth: each difference, product and sum adds half a unit of at most twice that
+/// product. Twice as much is taken. On a lattice of up to 65,536 steps every intermediate is a whole number of steps
+/// below 2^53, and the height is exact.
+#[derive(Clone, Copy)]
+pub(super) struct Filter {
+    per_area: f64,
+}
+
+impl Filter {
+    pub(super) fn of(points: &[Vec3]) -> Self {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut step = i32::MAX;
+        for point in points {
+            (low, high) = (low.min(point.as_dvec3()), high.max(point.as_dvec3()));
+            step = point.to_array().into_iter().map(lowest_bit).fold(step, i32::min);
+        }
+        let extent = (high - low).max_element();
+        let steps = 65_536.0 * f64::from_bits(((step.clamp(-149, 127) + 1023) as u64) << 52);
+        Self { per_area: if extent <= steps { 0.0 } else { 16.0 * f64::EPSILON * (high - low).length() } }
+    }
+
+    /// Whether rounded heights are exact.
+    #[inline]
+    pub(super) fn is_exact(self) -> bool {
+        self.per_area == 0.0
+    }
+
+    /// A bound on the rounding of any height above a triangle with these two sides, times its normal's length.
+    #[inline]
+    pub(super) fn slack(self, u: DVec3, v: DVec3) -> f64 {
+        self.per_area * u.length() * v.length()
+    }
+}
+
+/// The power of two that the lowest bit of a finite number stands for; of zero, more than any.
+fn lowest_bit(value: f32) -> i32 {
+    let (exponent, fraction) = ((value.to_bits() >> 23 & 0xFF) as i32, value.to_bits() & 0x7F_FFFF);
+    match (exponent, fraction) {
+        (0, 0) => i32::MAX,
+        (0, _) => -149 + fraction.trailing_zeros() as i32,
+        _ => exponent - 150 + (fraction | 0x80_0000).trailing_zeros() as i32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lowest_bit_of_a_number_is_its_largest_power_of_two() {
+        let cases = [(1.0, 0), (-3.0, 0), (0.75, -2), (96.0, 5), (1e-45, -149), (f32::MIN_POSITIVE, -126)];
+        for (value, power) in cases {
+            assert_eq!(lowest_bit(value), power, "{value}");
+        }
+    }
+
+    #[test]
+    fn short_lattices_are_exact_and_others_are_not() {
+        let exact = |scale: f32| Filter::of(&[Vec3::ZERO, Vec3::splat(scale), Vec3::X]).is_exact();
+        assert!(exact(65_536.0) && exact(0.5) && !exact(65_537.0) && !exact(0.1));
+    }
 }

@@ -1,201 +1,361 @@
 //! Exact facets of a convex hull, point by point, the furthest first.
 //!
 //! ```text
-//! 1 a tetrahedron of points that span space; every other point waits at one facet that it lies strictly outside of
-//! 2 take a facet with waiting points, and of those the one furthest from its plane
+//! 1 a tetrahedron of far-apart points; every other point waits at one facet that it lies strictly outside of
+//! 2 of all waiting points take the one that is furthest from the plane of its facet
 //! 3 the facets that it lies strictly outside of are connected: find them from this one, neighbour by neighbour
 //! 4 their border is the horizon: join each edge of it to the point, and drop what was seen
 //! 5 the points that waited at what was dropped wait at a new facet they are outside of, or are inside for good
-//! 6 repeat 2 until nobody waits; then join triangles of one plane into facets
+//! 6 repeat 2 until nobody waits, or nobody may be added; then join triangles of one plane into facets
 //! ```
 //! Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls" (1996), over exact determinants (Shewchuk
 //! 1997). A point in a facet's plane counts as not outside of it, so that the new triangles at the horizon are never
 //! flat: a point on the line of a horizon edge would lie in the plane of the facet that it is strictly outside of. "Furthest"
-//! is the only rounded number, and decides nothing but the order. Cost: about n log n.
+//! is the only rounded number, and decides nothing but the order; where the search stops early, it makes what is left out
+//! small. Cost: about n log n.
 
 use super::HullError;
-use super::predicate::{affine_basis, canonical, outside, planar_hull};
-use glam::Vec3;
-use std::collections::BTreeMap;
+use super::predicate::{Filter, affine_basis, canonical, is_collinear, outside, planar_hull};
+use core::cmp::Reverse;
+use glam::{DVec3, Vec3};
+use std::collections::BinaryHeap;
+
+/// No point, no triangle.
+const NONE: u32 = u32::MAX;
 
 /// A triangle of the growing hull.
 struct Triangle {
     /// Counter-clockwise from outside.
     corners: [u32; 3],
     /// The triangle across the edge from corner `i` to the next.
-    neighbours: [usize; 3],
-    /// Points strictly outside of it.
-    waiting: Vec<u32>,
-    /// The last apex that was found strictly outside of it. Such a triangle is dropped, but stays in the list, so that
-    /// indices stay.
-    seen_from: Option<u32>,
+    neighbours: [u32; 3],
+    /// First corner, and the normal with twice the area as its length.
+    origin: DVec3,
+    normal: DVec3,
+    /// How far a rounded height times the normal's length can be from the truth.
+    slack: f64,
+    /// The first of the points strictly outside of it; `waits_after` names the next.
+    first_waiting: u32,
+    /// Seen by a point that was added. It stays in the list, so that indices stay.
+    is_dropped: bool,
+}
+
+impl Triangle {
+    /// Height above the plane times the normal's length, rounded.
+    #[inline]
+    fn reach(&self, point: Vec3) -> f64 {
+        self.normal.dot(point.as_dvec3() - self.origin)
+    }
+}
+
+/// A hull that grows by its furthest points.
+pub(super) struct Growth<'a> {
+    points: &'a [Vec3],
+    filter: Filter,
+    triangles: Vec<Triangle>,
+    waits_after: Vec<u32>,
+    /// Furthest waiting point of each triangle, as the bits of its distance, the point, the triangle.
+    furthest: BinaryHeap<(u64, Reverse<u32>, Reverse<u32>)>,
+    /// Scratch: the horizon edge that starts at a point.
+    border_from: Vec<u32>,
 }
 
 /// Facets as vertex loops, counter-clockwise from outside, with no three corners on a line, in canonical order.
 ///
 /// The points must be finite and no two the same.
 pub(super) fn hull_facets(points: &[Vec3]) -> Result<Vec<Vec<u32>>, HullError> {
-    let basis = affine_basis(points).map_err(|dimension| HullError::Flat { dimension })?;
-    let mut triangles = tetrahedron(points, basis);
-    let mut open: Vec<usize> = (0..4).collect();
-    let waiting = (0..points.len() as u32).filter(|i| !basis.contains(i)).collect();
-    distribute(points, &mut triangles, waiting, 0..4);
-    while let Some(first) = open.pop() {
-        if triangles[first].seen_from.is_some() || triangles[first].waiting.is_empty() {
-            continue;
+    let mut growth = Growth::start(points)?;
+    growth.grow_while(|_, _| true);
+    Ok(growth.facets())
+}
+
+impl<'a> Growth<'a> {
+    /// The first tetrahedron. The points must be finite and no two the same.
+    pub(super) fn start(points: &'a [Vec3]) -> Result<Self, HullError> {
+        let basis = match far_apart(points) {
+            Some(basis) => basis,
+            None => affine_basis(points).map_err(|dimension| HullError::Flat { dimension })?,
+        };
+        let mut growth = Self {
+            points,
+            filter: Filter::of(points),
+            triangles: Vec::new(),
+            waits_after: vec![NONE; points.len()],
+            furthest: BinaryHeap::new(),
+            border_from: vec![NONE; points.len()],
+        };
+        let [a, b, c, d] = basis;
+        // The base is turned so that the fourth point lies inside of its plane.
+        let (b, c) = if outside(points, [a, b, c], d) < 0.0 { (b, c) } else { (c, b) };
+        for (corners, neighbours) in
+            [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])]
+        {
+            growth.push(corners, neighbours);
         }
-        let apex = furthest(points, &triangles[first]);
-        let seen = seen_from(points, &mut triangles, first, apex);
-        let horizon = horizon(&triangles, &seen);
+        let waiting: Vec<u32> = (0..points.len() as u32).filter(|i| !basis.contains(i)).collect();
+        growth.distribute(&waiting, 0);
+        Ok(growth)
+    }
+
+    /// Adds the furthest waiting point as long as `go_on` agrees, which is told how many points the hull has been made of
+    /// and how far outside the next one lies. Returns whether nobody waits any more.
+    pub(super) fn grow_while(&mut self, mut go_on: impl FnMut(usize, f64) -> bool) -> bool {
+        let mut count = 4;
         let mut orphans: Vec<u32> = Vec::new();
-        for &index in &seen {
-            orphans.append(&mut triangles[index].waiting);
-        }
-        orphans.retain(|&i| i != apex);
-        let new = join(&mut triangles, &horizon, apex);
-        distribute(points, &mut triangles, orphans, new.clone());
-        open.extend(new);
-    }
-    let alive = triangles
-        .into_iter()
-        .filter(|triangle| triangle.seen_from.is_none())
-        .map(|triangle| triangle.corners);
-    Ok(facets_of(points, &alive.collect::<Vec<_>>()))
-}
-
-fn tetrahedron(points: &[Vec3], [a, b, c, d]: [u32; 4]) -> Vec<Triangle> {
-    // The base is turned so that the fourth point lies inside of its plane.
-    let (b, c) = if outside(points, [a, b, c], d) < 0.0 { (b, c) } else { (c, b) };
-    let new = |corners, neighbours| Triangle { corners, neighbours, waiting: Vec::new(), seen_from: None };
-    vec![
-        new([a, b, c], [1, 2, 3]),
-        new([b, a, d], [0, 3, 2]),
-        new([c, b, d], [0, 1, 3]),
-        new([a, c, d], [0, 2, 1]),
-    ]
-}
-
-/// Makes each point wait at the first of the triangles that it is strictly outside of; the rest are inside for good.
-fn distribute(
-    points: &[Vec3],
-    triangles: &mut [Triangle],
-    waiting: Vec<u32>,
-    among: core::ops::Range<usize>,
-) {
-    for point in waiting {
-        let found = triangles[among.clone()].iter_mut().find(|t| outside(points, t.corners, point) > 0.0);
-        if let Some(triangle) = found {
-            triangle.waiting.push(point);
-        }
-    }
-}
-
-/// The waiting point furthest from a triangle's plane; ties go to the first. Any of them would be right.
-fn furthest(points: &[Vec3], triangle: &Triangle) -> u32 {
-    let [a, b, c] = triangle.corners.map(|i| points[i as usize].as_dvec3());
-    let normal = (b - a).cross(c - a);
-    let mut best = (f64::NEG_INFINITY, triangle.waiting[0]);
-    for &i in &triangle.waiting {
-        let reach = normal.dot(points[i as usize].as_dvec3() - a);
-        if reach > best.0 {
-            best = (reach, i);
-        }
-    }
-    best.1
-}
-
-/// The triangles that `apex` lies strictly outside of, found from one of them.
-fn seen_from(points: &[Vec3], triangles: &mut [Triangle], first: usize, apex: u32) -> Vec<usize> {
-    triangles[first].seen_from = Some(apex);
-    let mut seen = vec![first];
-    let mut next = 0;
-    while next < seen.len() {
-        for neighbour in triangles[seen[next]].neighbours {
-            let triangle = &mut triangles[neighbour];
-            if triangle.seen_from.is_none() && outside(points, triangle.corners, apex) > 0.0 {
-                triangle.seen_from = Some(apex);
-                seen.push(neighbour);
+        while let Some(&(distance, Reverse(apex), Reverse(first))) = self.furthest.peek() {
+            if self.triangles[first as usize].is_dropped {
+                self.furthest.pop();
+                continue;
             }
-        }
-        next += 1;
-    }
-    seen
-}
-
-/// The edges between what is seen and what is not, in order around: start, end, and the triangle beyond.
-fn horizon(triangles: &[Triangle], seen: &[usize]) -> Vec<(u32, u32, usize)> {
-    let mut leads_to: BTreeMap<u32, (u32, usize)> = BTreeMap::new();
-    for &index in seen {
-        let Triangle { corners, neighbours, .. } = &triangles[index];
-        for i in 0..3 {
-            if triangles[neighbours[i]].seen_from.is_none() {
-                leads_to.insert(corners[i], (corners[(i + 1) % 3], neighbours[i]));
+            if !go_on(count, f64::from_bits(distance)) {
+                return false;
             }
+            self.furthest.pop();
+            count += 1;
+            let seen = self.seen_from(first, apex);
+            let horizon = self.horizon(&seen);
+            orphans.clear();
+            for &index in &seen {
+                let mut next = self.triangles[index as usize].first_waiting;
+                while next != NONE {
+                    if next != apex {
+                        orphans.push(next);
+                    }
+                    next = self.waits_after[next as usize];
+                }
+            }
+            let new = self.triangles.len();
+            self.join(&horizon, apex);
+            self.distribute(&orphans, new);
         }
+        true
     }
-    let mut around = Vec::with_capacity(leads_to.len());
-    let Some((&start, _)) = leads_to.first_key_value() else { return around };
-    let mut at = start;
-    while let Some((to, beyond)) = leads_to.remove(&at) {
-        around.push((at, to, beyond));
-        at = to;
-    }
-    around
-}
 
-/// Joins each edge of the horizon to the apex, and ties the new triangles to each other and to what lies beyond.
-fn join(triangles: &mut Vec<Triangle>, horizon: &[(u32, u32, usize)], apex: u32) -> core::ops::Range<usize> {
-    let (first, count) = (triangles.len(), horizon.len());
-    for (i, &(from, to, beyond)) in horizon.iter().enumerate() {
-        let (before, after) = ((i + count - 1) % count, (i + 1) % count);
-        triangles.push(Triangle {
-            corners: [from, to, apex],
-            neighbours: [beyond, first + after, first + before],
-            waiting: Vec::new(),
-            seen_from: None,
+    fn push(&mut self, corners: [u32; 3], neighbours: [u32; 3]) {
+        let [a, b, c] = corners.map(|i| self.points[i as usize].as_dvec3());
+        let (u, v) = (b - a, c - a);
+        self.triangles.push(Triangle {
+            corners,
+            neighbours,
+            origin: a,
+            normal: u.cross(v),
+            slack: self.filter.slack(u, v),
+            first_waiting: NONE,
+            is_dropped: false,
         });
-        let side = triangles[beyond].corners.iter().position(|&corner| corner == to);
-        if let Some(side) = side {
-            triangles[beyond].neighbours[side] = first + i;
-        }
     }
-    first..first + count
-}
 
-/// Joins triangles of one plane, exactly, and puts the facets in canonical order.
-fn facets_of(points: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    let mut left_of: BTreeMap<(u32, u32), usize> = BTreeMap::new();
-    for (index, corners) in triangles.iter().enumerate() {
-        for i in 0..3 {
-            left_of.insert((corners[i], corners[(i + 1) % 3]), index);
+    /// Whether a point lies strictly outside of a triangle's plane: exact.
+    #[inline]
+    fn is_outside(&self, triangle: &Triangle, point: u32) -> bool {
+        let reach = triangle.reach(self.points[point as usize]);
+        if reach > triangle.slack {
+            true
+        } else if reach < -triangle.slack || self.filter.is_exact() {
+            false
+        } else {
+            outside(self.points, triangle.corners, point) > 0.0
         }
     }
-    let mut is_taken = vec![false; triangles.len()];
-    let mut facets = Vec::new();
-    for seed in 0..triangles.len() {
-        if core::mem::replace(&mut is_taken[seed], true) {
-            continue;
+
+    /// Makes each point wait at the first of the newest triangles that it is strictly outside of; the rest are inside for
+    /// good.
+    fn distribute(&mut self, waiting: &[u32], first_new: usize) {
+        let mut furthest = vec![(f64::NEG_INFINITY, NONE); self.triangles.len() - first_new];
+        for &point in waiting {
+            let found =
+                (first_new..self.triangles.len()).find(|&t| self.is_outside(&self.triangles[t], point));
+            let Some(index) = found else { continue };
+            let triangle = &mut self.triangles[index];
+            self.waits_after[point as usize] = triangle.first_waiting;
+            triangle.first_waiting = point;
+            let reach = triangle.reach(self.points[point as usize]);
+            let best = &mut furthest[index - first_new];
+            if reach > best.0 || (reach == best.0 && point < best.1) {
+                *best = (reach, point);
+            }
         }
-        let mut region = vec![seed];
+        for (index, (reach, point)) in (first_new as u32..).zip(furthest) {
+            if point != NONE {
+                let length = self.triangles[index as usize].normal.length();
+                // The bits of numbers that are not negative are in their order. A sliver's length may underflow.
+                let distance = if length > 0.0 { (reach / length).max(0.0) } else { 0.0 };
+                self.furthest.push((distance.to_bits(), Reverse(point), Reverse(index)));
+            }
+        }
+    }
+
+    /// The triangles that `apex` lies strictly outside of, found from one of them; they count as dropped from now on.
+    fn seen_from(&mut self, first: u32, apex: u32) -> Vec<u32> {
+        self.triangles[first as usize].is_dropped = true;
+        let mut seen = vec![first];
         let mut next = 0;
-        while next < region.len() {
-            let corners = triangles[region[next]];
-            for i in 0..3 {
-                let Some(&across) = left_of.get(&(corners[(i + 1) % 3], corners[i])) else { continue };
-                let in_plane = |corner: &u32| outside(points, triangles[seed], *corner) == 0.0;
-                if !is_taken[across] && triangles[across].iter().all(in_plane) {
-                    is_taken[across] = true;
-                    region.push(across);
+        while next < seen.len() {
+            for neighbour in self.triangles[seen[next] as usize].neighbours {
+                let triangle = &self.triangles[neighbour as usize];
+                if !triangle.is_dropped && self.is_outside(triangle, apex) {
+                    self.triangles[neighbour as usize].is_dropped = true;
+                    seen.push(neighbour);
                 }
             }
             next += 1;
         }
-        let mut corners: Vec<u32> = region.iter().flat_map(|&index| triangles[index]).collect();
-        corners.sort_unstable();
-        corners.dedup();
-        facets.push(planar_hull(points, &corners, triangles[seed]));
+        seen
     }
-    canonical(facets)
+
+    /// The edges between what is seen and what is not, in order around: start, end, and the triangle beyond.
+    fn horizon(&mut self, seen: &[u32]) -> Vec<(u32, u32, u32)> {
+        let mut edges = Vec::new();
+        for &index in seen {
+            let Triangle { corners, neighbours, .. } = &self.triangles[index as usize];
+            for i in 0..3 {
+                if !self.triangles[neighbours[i] as usize].is_dropped {
+                    self.border_from[corners[i] as usize] = edges.len() as u32;
+                    edges.push((corners[i], corners[(i + 1) % 3], neighbours[i]));
+                }
+            }
+        }
+        let mut around = Vec::with_capacity(edges.len());
+        let mut at = 0;
+        while around.len() < edges.len() {
+            around.push(edges[at]);
+            at = self.border_from[edges[at].1 as usize] as usize;
+        }
+        around
+    }
+
+    /// Joins each edge of the horizon to the apex, and ties the new triangles to each other and to what lies beyond.
+    fn join(&mut self, horizon: &[(u32, u32, u32)], apex: u32) {
+        let (first, count) = (self.triangles.len() as u32, horizon.len() as u32);
+        for (i, &(from, to, beyond)) in (0..).zip(horizon) {
+            let (before, after) = ((i + count - 1) % count, (i + 1) % count);
+            self.push([from, to, apex], [beyond, first + after, first + before]);
+            let outer = &mut self.triangles[beyond as usize];
+            if let Some(side) = outer.corners.iter().position(|&corner| corner == to) {
+                outer.neighbours[side] = first + i;
+            }
+        }
+    }
+
+    /// Joins triangles of one plane, exactly, and puts the facets in canonical order.
+    pub(super) fn facets(&self) -> Vec<Vec<u32>> {
+        let mut is_taken: Vec<bool> = self.triangles.iter().map(|triangle| triangle.is_dropped).collect();
+        let mut facets = Vec::new();
+        let mut region: Vec<u32> = Vec::new();
+        for seed in 0..self.triangles.len() {
+            if core::mem::replace(&mut is_taken[seed], true) {
+                continue;
+            }
+            region.clear();
+            region.push(seed as u32);
+            let mut next = 0;
+            while next < region.len() {
+                for across in self.triangles[region[next] as usize].neighbours {
+                    if !is_taken[across as usize] && self.is_coplanar(seed, across) {
+                        is_taken[across as usize] = true;
+                        region.push(across);
+                    }
+                }
+                next += 1;
+            }
+            let triangle = self.triangles[seed].corners;
+            if region.len() == 1 {
+                facets.push(triangle.to_vec());
+                continue;
+            }
+            let mut corners: Vec<u32> =
+                region.iter().flat_map(|&index| self.triangles[index as usize].corners).collect();
+            corners.sort_unstable();
+            corners.dedup();
+            facets.push(planar_hull(self.points, &corners, triangle));
+        }
+        canonical(facets)
+    }
+
+    /// Whether all corners of one triangle lie in the plane of another: exact.
+    fn is_coplanar(&self, plane: usize, triangle: u32) -> bool {
+        let plane = &self.triangles[plane];
+        self.triangles[triangle as usize].corners.iter().all(|&corner| {
+            let reach = plane.reach(self.points[corner as usize]).abs();
+            let is_clear = reach > plane.slack || self.filter.is_exact();
+            if is_clear { reach == 0.0 } else { outside(self.points, plane.corners, corner) == 0.0 }
+        })
+    }
+
+    /// An upper bound on how far outside the hull, as it is now, any of the points lies, in metres.
+    ///
+    /// Every point outside waits at a triangle. From there it walks from neighbour to neighbour as long as they are nearer;
+    /// the distance to any triangle is a bound.
+    pub(super) fn outlying(&self) -> f64 {
+        let mut most = 0.0_f64;
+        for (index, triangle) in
+            self.triangles.iter().enumerate().filter(|(_, triangle)| !triangle.is_dropped)
+        {
+            let mut point = triangle.first_waiting;
+            while point != NONE {
+                most = most.max(self.distance_from(point, index, most));
+                point = self.waits_after[point as usize];
+            }
+        }
+        most
+    }
+
+    /// Distance from a point to the nearest triangle that can be reached downhill, or anything not above `enough`.
+    fn distance_from(&self, point: u32, start: usize, enough: f64) -> f64 {
+        let to = |triangle: usize| {
+            let corners = self.triangles[triangle].corners.map(|i| self.points[i as usize].as_dvec3());
+            super::distance::to_triangle(self.points[point as usize].as_dvec3(), corners)
+        };
+        let (mut at, mut least) = (start, to(start));
+        while least > enough {
+            let neighbours = self.triangles[at].neighbours.map(|neighbour| neighbour as usize);
+            let nearer = neighbours
+                .map(|neighbour| (to(neighbour), neighbour))
+                .into_iter()
+                .min_by(|a, b| a.0.total_cmp(&b.0))
+                .filter(|&(distance, _)| distance < least);
+            let Some((distance, neighbour)) = nearer else { break };
+            (least, at) = (distance, neighbour);
+        }
+        least
+    }
+}
+
+/// Four points that span space, far from each other; nothing where rounding cannot tell, or there are none.
+///
+/// The ends of the longest side of the box around all, what is furthest from their line, and furthest from that plane.
+fn far_apart(points: &[Vec3]) -> Option<[u32; 4]> {
+    let at = |i: u32| points[i as usize].as_dvec3();
+    let all = 0..points.len() as u32;
+    let ends = |axis: usize| {
+        let key = |&i: &u32| points[i as usize][axis] + 0.0;
+        let low = all.clone().min_by(|a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+        let high = all.clone().max_by(|a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+        low.zip(high)
+    };
+    let length = |&(low, high): &(u32, u32)| at(high) - at(low);
+    let (a, b) = (0..3)
+        .filter_map(|axis| ends(axis).map(|two| (length(&two)[axis], two)))
+        .max_by(|one, other| one.0.total_cmp(&other.0))?
+        .1;
+    let furthest = |height: &dyn Fn(DVec3) -> f64| {
+        let mut best = (0.0, None);
+        for i in all.clone() {
+            let height = height(at(i) - at(a));
+            if height > best.0 {
+                best = (height, Some(i));
+            }
+        }
+        best.1
+    };
+    let along = at(b) - at(a);
+    let c = furthest(&|arm| along.cross(arm).length_squared())?;
+    if is_collinear(points, [a, b, c]) {
+        return None;
+    }
+    let normal = along.cross(at(c) - at(a));
+    let d = furthest(&|arm| normal.dot(arm).abs())?;
+    (outside(points, [a, b, c], d) != 0.0).then_some([a, b, c, d])
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
 use super::*;
-use crate::pose3::Pose3;
+use crate::tolerance::COPLANAR;
 
 /// xorshift, for clouds without a dependency.
 fn cloud(count: usize, seed: u64, shape: impl Fn(Vec3) -> Vec3) -> Vec<Vec3> {
@@ -67,7 +67,7 @@ fn lattices_merge_into_a_cuboid() {
 #[test]
 fn faces_that_rounding_split_are_merged_again() {
     // A turned lattice: its faces are flat up to f32 rounding only, and its inner face points poke out.
-    let pose = Pose3::new(Vec3::ZERO, glam::Quat::from_xyzw(0.1, 0.7, -0.3, 0.6)).unwrap();
+    let pose = crate::Pose3::new(Vec3::ZERO, glam::Quat::from_xyzw(0.1, 0.7, -0.3, 0.6)).unwrap();
     let turned: Vec<Vec3> = (0..64)
         .map(|i| pose.transform(Vec3::new((i % 4) as f32, (i / 4 % 4) as f32, (i / 16) as f32)).as_vec3())
         .collect();
@@ -135,7 +135,7 @@ fn nasty_cloud(seed: u64) -> Vec<Vec3> {
 fn the_builder_finds_the_very_facets_that_wrapping_finds() {
     let mut solid = 0;
     for seed in 1..3000 {
-        let points = unique(&nasty_cloud(seed));
+        let points = cloud::Cloud::new(&nasty_cloud(seed), 4).unwrap().points;
         let (quick, wrapped) = (quick::hull_facets(&points), wrap::enumerate_facets(&points));
         assert_eq!(quick, wrapped, "seed {seed}");
         solid += usize::from(quick.is_ok());

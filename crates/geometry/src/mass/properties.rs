@@ -49,7 +49,7 @@ pub struct MassProperties2 {
 /// assert!(hammer.inertia_about(DVec3::ZERO).x_axis.x > hammer.inertia.x_axis.x);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties3 {
     /// Mass, in kg: never negative.
     pub mass: f64,
@@ -116,6 +116,13 @@ impl MassProperties3 {
         let center = first.center + parts.iter().map(offset).fold(DVec3::ZERO, |sum, each| sum + each);
         let inertia = parts.iter().fold(DMat3::ZERO, |known, part| sum(&known, &part.inertia_about(center)));
         Self { mass, center, inertia }
+    }
+}
+
+impl Default for MassProperties3 {
+    /// No matter. (A derived default would have the unit tensor.)
+    fn default() -> Self {
+        Self { mass: 0.0, center: DVec3::ZERO, inertia: DMat3::ZERO }
     }
 }
 

@@ -3,11 +3,15 @@
 use super::error::{Fault, LevelError};
 use super::raw::{self, Turn};
 use super::{LevelBody, LevelLayers, LevelOf, MAX_RATE};
-use asunder_geometry::tolerance::{MAX_HULL_VERTICES, MAX_POLYGON_VERTICES};
-use asunder_geometry::{Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
 use core::f64::consts::TAU;
-use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
+use glam::DVec2;
 use std::collections::BTreeMap;
+
+mod plane;
+mod volume;
+
+pub(super) use plane::Plane;
+pub(super) use volume::Volume;
 
 /// The last steps of a path below the body or shape, and what is wrong there.
 type At = (String, Fault);
@@ -115,149 +119,6 @@ fn layers(raw: &raw::Layers) -> Result<LevelLayers, At> {
     })
 }
 
-/// The plane.
-pub(super) struct Plane;
-
-impl Dimension for Plane {
-    type Shape = Shape2;
-    type Pose = Pose2;
-    type Vector = DVec2;
-    type Spin = f64;
-
-    fn vector(numbers: &[f64]) -> Result<DVec2, Fault> {
-        exactly(numbers).map(DVec2::from_array)
-    }
-
-    fn length(vector: DVec2) -> f64 {
-        vector.length()
-    }
-
-    fn spin(turn: &Turn) -> Result<f64, Fault> {
-        match turn {
-            Turn::Number(number) => Ok(*number),
-            Turn::List(_) => Err(Fault::Form { expected: "one number" }),
-        }
-    }
-
-    fn spin_rate(spin: &f64) -> f64 {
-        spin.abs()
-    }
-
-    fn shape(shape: &raw::Shape) -> Result<Shape2, At> {
-        let foreign = |kind| Err((format!(".{kind}"), Fault::ForeignShape { kind, dimension: 3 }));
-        match shape {
-            raw::Shape::Rect { half_extents } => {
-                let place = at(".rect.half_extents");
-                let half_extents = narrow_all(half_extents).map_err(&place)?;
-                Ok(Rect::from_half_extents(Vec2::from_array(half_extents))
-                    .map_err(|error| place(error.into()))?
-                    .into())
-            }
-            raw::Shape::Polygon { points } => {
-                let outline: Vec<Vec2> = read_points(points, "polygon")?;
-                Ok(Polygon::new(&outline).map_err(|error| at(".polygon")(error.into()))?.into())
-            }
-            raw::Shape::Regular { sides, radius } => {
-                let place = at(".regular");
-                check_sides(*sides, MAX_POLYGON_VERTICES).map_err(at(".regular.sides"))?;
-                let radius = positive(*radius).map_err(at(".regular.radius"))?;
-                let corners: Vec<Vec2> = circle(*sides).map(|c| (c * radius).as_vec2()).collect();
-                // A hull, because rounding may bend a large circle's outline inwards.
-                Ok(Polygon::hull_of(&corners).map_err(|error| place(error.into()))?.into())
-            }
-            raw::Shape::Cuboid { .. } => foreign("cuboid"),
-            raw::Shape::Hull { .. } => foreign("hull"),
-            raw::Shape::Prism { .. } => foreign("prism"),
-        }
-    }
-
-    fn pose(position: &[f64], rotation: Option<&Turn>) -> Result<Pose2, At> {
-        let position = Self::vector(position).map_err(at(".position"))?;
-        let rotation = match rotation {
-            None => Rotation2::IDENTITY,
-            Some(turn) => {
-                let place = at(".rotation");
-                let angle = Self::spin(turn).and_then(narrow).map_err(&place)?;
-                Rotation2::from_angle(angle).map_err(|error| place(error.into()))?
-            }
-        };
-        Pose2::new(position, rotation).map_err(|error| at(".position")(error.into()))
-    }
-}
-
-/// Space.
-pub(super) struct Volume;
-
-impl Dimension for Volume {
-    type Shape = Shape3;
-    type Pose = Pose3;
-    type Vector = DVec3;
-    type Spin = DVec3;
-
-    fn vector(numbers: &[f64]) -> Result<DVec3, Fault> {
-        exactly(numbers).map(DVec3::from_array)
-    }
-
-    fn length(vector: DVec3) -> f64 {
-        vector.length()
-    }
-
-    fn spin(turn: &Turn) -> Result<DVec3, Fault> {
-        Self::vector(list(turn, "a list of 3 numbers")?)
-    }
-
-    fn spin_rate(spin: &DVec3) -> f64 {
-        spin.length()
-    }
-
-    fn shape(shape: &raw::Shape) -> Result<Shape3, At> {
-        let foreign = |kind| Err((format!(".{kind}"), Fault::ForeignShape { kind, dimension: 2 }));
-        match shape {
-            raw::Shape::Cuboid { half_extents } => {
-                let place = at(".cuboid.half_extents");
-                let half_extents = narrow_all(half_extents).map_err(&place)?;
-                Ok(Cuboid::from_half_extents(Vec3::from_array(half_extents))
-                    .map_err(|error| place(error.into()))?
-                    .into())
-            }
-            raw::Shape::Hull { points } => {
-                let points: Vec<Vec3> = read_points(points, "hull")?;
-                Ok(Hull::from_points(&points).map_err(|error| at(".hull")(error.into()))?.into())
-            }
-            raw::Shape::Prism { sides, radius, half_height } => {
-                check_sides(*sides, MAX_HULL_VERTICES / 2).map_err(at(".prism.sides"))?;
-                let radius = positive(*radius).map_err(at(".prism.radius"))?;
-                let height = positive(*half_height).map_err(at(".prism.half_height"))?;
-                let corners: Vec<Vec3> = circle(*sides)
-                    .flat_map(|c| {
-                        [-height, height].map(|y| DVec3::new(c.x * radius, y, c.y * radius).as_vec3())
-                    })
-                    .collect();
-                Ok(Hull::from_points(&corners).map_err(|error| at(".prism")(error.into()))?.into())
-            }
-            raw::Shape::Rect { .. } => foreign("rect"),
-            raw::Shape::Polygon { .. } => foreign("polygon"),
-            raw::Shape::Regular { .. } => foreign("regular"),
-        }
-    }
-
-    fn pose(position: &[f64], rotation: Option<&Turn>) -> Result<Pose3, At> {
-        let position = Self::vector(position).map_err(at(".position"))?;
-        let rotation = match rotation {
-            None => Quat::IDENTITY,
-            Some(turn) => {
-                let place = at(".rotation");
-                let numbers = list(turn, "a list of 4 numbers: x, y, z, w").map_err(&place)?;
-                let rotation = Quat::from_array(narrow_all(numbers).map_err(&place)?);
-                // Checked on its own first, so that the path names the right field.
-                Pose3::new(DVec3::ZERO, rotation).map_err(|error| place(error.into()))?;
-                rotation
-            }
-        };
-        Pose3::new(position, rotation).map_err(|error| at(".position")(error.into()))
-    }
-}
-
 fn list<'a>(turn: &'a Turn, expected: &'static str) -> Result<&'a [f64], Fault> {
     match turn {
         Turn::List(numbers) => Ok(numbers),
@@ -290,6 +151,11 @@ fn read_points<P: From<[f32; N]>, const N: usize>(points: &[Vec<f64>], kind: &st
     points.iter().enumerate().map(read).collect()
 }
 
+/// As many points as a shape has vertices.
+fn exactly_points<P: Copy, const N: usize>(points: &[P]) -> Result<[P; N], Fault> {
+    points.try_into().map_err(|_| Fault::Points { expected: N, found: points.len() })
+}
+
 fn positive(value: f64) -> Result<f64, Fault> {
     let narrowed = narrow(value)?;
     if narrowed > 0.0 { Ok(value) } else { Err(Fault::NotPositive { value }) }
@@ -306,4 +172,19 @@ fn circle(sides: u64) -> impl Iterator<Item = DVec2> {
         let angle = TAU * i as f64 / sides as f64;
         DVec2::new(libm::cos(angle), libm::sin(angle))
     })
+}
+
+/// What a shape's constructor said, with the place of the shape.
+fn made<T, E: Into<Fault>>(step: &str, result: Result<T, E>) -> Result<T, At> {
+    result.map_err(|error| at(step)(error.into()))
+}
+
+/// The parts of a compound: each a shape and a pose.
+fn parts<D: Dimension>(raw: &[raw::Part]) -> Result<Vec<(D::Pose, D::Shape)>, At> {
+    let part = |(i, part): (usize, &raw::Part)| {
+        let within = |(step, fault): At| (format!(".compound.parts[{i}]{step}"), fault);
+        let pose = D::pose(&part.position, part.rotation.as_ref()).map_err(within)?;
+        Ok((pose, D::shape(&part.shape).map_err(|(step, fault)| within((format!(".shape{step}"), fault)))?))
+    };
+    raw.iter().enumerate().map(part).collect()
 }

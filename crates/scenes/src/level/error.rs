@@ -1,7 +1,10 @@
 //! What can be wrong with a scene file.
 
 use super::MAX_RATE;
-use asunder_geometry::{ExtentError, HullError, PolygonError, PoseError};
+use asunder_geometry::{
+    CapsuleError, CompoundError, DecomposeError, DirectionError, ExtentError, HullError, PolygonError,
+    PoseError, RadiusError, VertexError,
+};
 use core::fmt;
 
 /// Why a scene file was refused, and where in it the fault is.
@@ -28,6 +31,13 @@ pub enum Fault {
     },
     /// A vector has the wrong count of numbers.
     Length {
+        /// As many as there should be.
+        expected: usize,
+        /// As many as there are.
+        found: usize,
+    },
+    /// A shape has another count of points.
+    Points {
         /// As many as there should be.
         expected: usize,
         /// As many as there are.
@@ -85,6 +95,18 @@ pub enum Fault {
     Polygon(PolygonError),
     /// The hull is refused.
     Hull(HullError),
+    /// The radius is refused.
+    Radius(RadiusError),
+    /// The vertices are refused.
+    Vertex(VertexError),
+    /// The capsule is refused.
+    Capsule(CapsuleError),
+    /// The normal is refused.
+    Direction(DirectionError),
+    /// The parts are refused.
+    Compound(CompoundError),
+    /// The outline is refused.
+    Decompose(DecomposeError),
     /// The pose is refused.
     Pose(PoseError),
 }
@@ -105,6 +127,9 @@ impl fmt::Display for Fault {
             Self::Length { expected, found } => {
                 write!(f, "{expected} numbers belong here, and there are {found}")
             }
+            Self::Points { expected, found } => {
+                write!(f, "{expected} points belong here, and there are {found}")
+            }
             Self::Form { expected } => write!(f, "{expected} belongs here"),
             Self::ForeignShape { kind, dimension } => {
                 write!(f, "a {kind} is a shape of dimension {dimension}, which this scene does not have")
@@ -121,6 +146,12 @@ impl fmt::Display for Fault {
             Self::Extent(error) => write!(f, "{error}"),
             Self::Polygon(error) => write!(f, "{error}"),
             Self::Hull(error) => write!(f, "{error}"),
+            Self::Radius(error) => write!(f, "{error}"),
+            Self::Vertex(error) => write!(f, "{error}"),
+            Self::Capsule(error) => write!(f, "{error}"),
+            Self::Direction(error) => write!(f, "{error}"),
+            Self::Compound(error) => write!(f, "{error}"),
+            Self::Decompose(error) => write!(f, "{error}"),
             Self::Pose(error) => write!(f, "{error}"),
         }
     }
@@ -158,5 +189,41 @@ impl From<HullError> for Fault {
 impl From<PoseError> for Fault {
     fn from(error: PoseError) -> Self {
         Self::Pose(error)
+    }
+}
+
+impl From<RadiusError> for Fault {
+    fn from(error: RadiusError) -> Self {
+        Self::Radius(error)
+    }
+}
+
+impl From<VertexError> for Fault {
+    fn from(error: VertexError) -> Self {
+        Self::Vertex(error)
+    }
+}
+
+impl From<CapsuleError> for Fault {
+    fn from(error: CapsuleError) -> Self {
+        Self::Capsule(error)
+    }
+}
+
+impl From<DirectionError> for Fault {
+    fn from(error: DirectionError) -> Self {
+        Self::Direction(error)
+    }
+}
+
+impl From<CompoundError> for Fault {
+    fn from(error: CompoundError) -> Self {
+        Self::Compound(error)
+    }
+}
+
+impl From<DecomposeError> for Fault {
+    fn from(error: DecomposeError) -> Self {
+        Self::Decompose(error)
     }
 }

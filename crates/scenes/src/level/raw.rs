@@ -21,12 +21,71 @@ pub(super) struct File {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub(super) enum Shape {
-    Rect { half_extents: Vec<f64> },
-    Polygon { points: Vec<Vec<f64>> },
-    Regular { sides: u64, radius: f64 },
-    Cuboid { half_extents: Vec<f64> },
-    Hull { points: Vec<Vec<f64>> },
-    Prism { sides: u64, radius: f64, half_height: f64 },
+    Rect {
+        half_extents: Vec<f64>,
+        #[serde(default)]
+        radius: f64,
+    },
+    Polygon {
+        points: Vec<Vec<f64>>,
+        #[serde(default)]
+        radius: f64,
+    },
+    Regular {
+        sides: u64,
+        radius: f64,
+    },
+    Circle {
+        radius: f64,
+    },
+    HalfPlane {
+        normal: Vec<f64>,
+    },
+    Outline {
+        points: Vec<Vec<f64>>,
+    },
+    Cuboid {
+        half_extents: Vec<f64>,
+        #[serde(default)]
+        radius: f64,
+    },
+    Hull {
+        points: Vec<Vec<f64>>,
+        #[serde(default)]
+        radius: f64,
+    },
+    Prism {
+        sides: u64,
+        radius: f64,
+        half_height: f64,
+    },
+    Sphere {
+        radius: f64,
+    },
+    HalfSpace {
+        normal: Vec<f64>,
+    },
+    Triangle {
+        points: Vec<Vec<f64>>,
+    },
+    Capsule {
+        half_height: f64,
+        radius: f64,
+    },
+    Segment {
+        points: Vec<Vec<f64>>,
+    },
+    Compound {
+        parts: Vec<Part>,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Part {
+    pub(super) shape: Shape,
+    pub(super) position: Vec<f64>,
+    pub(super) rotation: Option<Turn>,
 }
 
 #[derive(Deserialize)]

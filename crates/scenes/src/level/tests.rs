@@ -73,6 +73,96 @@ fn reads_a_level_in_space() {
     assert_eq!((barrel.vertices().len(), barrel.topology().face_count()), (24, 14));
 }
 
+/// A level with one body of a shape, and nothing else.
+fn one_shape(dimension: usize, shape: &str) -> String {
+    let zeros = vec!["0"; dimension].join(", ");
+    format!(
+        r#"{{ "dimension": {dimension}, "gravity": [{zeros}], "shapes": {{ "it": {shape} }},
+              "bodies": [{{ "shape": "it", "position": [{zeros}] }}] }}"#
+    )
+}
+
+#[test]
+fn reads_every_kind_of_shape_and_refuses_it_in_the_other_dimension() {
+    let plane = [
+        (r#"{"rect": {"half_extents": [1, 2], "radius": 0.25}}"#, 0.25),
+        (r#"{"polygon": {"points": [[0, 0], [1, 0], [0, 1]], "radius": 0.5}}"#, 0.5),
+        (r#"{"circle": {"radius": 2}}"#, 2.0),
+        (r#"{"capsule": {"half_height": 1, "radius": 0.5}}"#, 0.5),
+        (r#"{"segment": {"points": [[0, 0], [1, 0]]}}"#, 0.0),
+        (r#"{"half_plane": {"normal": [0, 3]}}"#, 0.0),
+        (r#"{"outline": {"points": [[0, 0], [4, 0], [1, 1], [0, 4]]}}"#, 0.0),
+        (
+            r#"{"compound": {"parts": [{"shape": {"circle": {"radius": 1}}, "position": [1, 0], "rotation": 1}]}}"#,
+            0.0,
+        ),
+    ];
+    for (shape, radius) in plane {
+        let Level::Plane(level) = Level::from_json(one_shape(2, shape)).unwrap() else { panic!("{shape}") };
+        assert_eq!(level.bodies[0].shape.radius(), radius, "{shape}");
+    }
+    let space = [
+        (r#"{"cuboid": {"half_extents": [1, 2, 3], "radius": 0.25}}"#, 0.25),
+        (r#"{"hull": {"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "radius": 0.5}}"#, 0.5),
+        (r#"{"sphere": {"radius": 2}}"#, 2.0),
+        (r#"{"capsule": {"half_height": 1, "radius": 0.5}}"#, 0.5),
+        (r#"{"segment": {"points": [[0, 0, 0], [1, 0, 0]]}}"#, 0.0),
+        (r#"{"triangle": {"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}}"#, 0.0),
+        (r#"{"half_space": {"normal": [0, 3, 0]}}"#, 0.0),
+        (r#"{"compound": {"parts": [{"shape": {"sphere": {"radius": 1}}, "position": [1, 0, 0]}]}}"#, 0.0),
+    ];
+    for (shape, radius) in space {
+        let Level::Volume(level) = Level::from_json(one_shape(3, shape)).unwrap() else { panic!("{shape}") };
+        assert_eq!(level.bodies[0].shape.radius(), radius, "{shape}");
+        let kind = shape.split('"').nth(1).unwrap();
+        if !["capsule", "segment", "compound"].contains(&kind) {
+            let expected = format!("shapes[\"it\"].{kind}: a {kind} is a shape of dimension 3");
+            assert!(
+                message(&one_shape(2, shape)).starts_with(&expected),
+                "{}",
+                message(&one_shape(2, shape))
+            );
+        }
+    }
+}
+
+#[test]
+fn faults_of_shapes_name_their_place() {
+    let cases = [
+        (2, r#"{"circle": {"radius": 0}}"#, "circle: radius 0 m is below"),
+        (2, r#"{"circle": {"radius": 1e99}}"#, "circle: 1e99 is more than an f32 can hold"),
+        (3, r#"{"capsule": {"half_height": 0, "radius": 1}}"#, "capsule: both ends are the same point"),
+        (
+            3,
+            r#"{"cuboid": {"half_extents": [1, 1, 1], "radius": -1}}"#,
+            "cuboid.radius: radius -1 m is negative",
+        ),
+        (3, r#"{"triangle": {"points": [[0, 0, 0], [1, 0, 0]]}}"#, "triangle.points: 3 points belong here"),
+        (
+            3,
+            r#"{"triangle": {"points": [[0, 0, 0], [1, 0, 0], [2, 0, 0]]}}"#,
+            "triangle: the vertices lie on one line",
+        ),
+        (3, r#"{"half_space": {"normal": [0, 0, 0]}}"#, "half_space.normal: the direction is zero"),
+        (3, r#"{"compound": {"parts": []}}"#, "compound: a compound needs a part"),
+        (2, r#"{"outline": {"points": [[0, 0], [2, 2], [2, 0], [0, 2]]}}"#, "outline: "),
+        (
+            3,
+            r#"{"compound": {"parts": [{"shape": {"sphere": {"radius": -1}}, "position": [0, 0, 0]}]}}"#,
+            "compound.parts[0].shape.sphere: radius -1 m is negative",
+        ),
+        (
+            2,
+            r#"{"compound": {"parts": [{"shape": {"circle": {"radius": 1}}, "position": [0]}]}}"#,
+            "compound.parts[0].position: 2 numbers belong here",
+        ),
+    ];
+    for (dimension, shape, expected) in cases {
+        let message = message(&one_shape(dimension, shape));
+        assert!(message.starts_with(&format!("shapes[\"it\"].{expected}")), "{shape}: {message}");
+    }
+}
+
 #[test]
 fn text_that_is_no_scene_gets_line_and_column() {
     assert_eq!(message(""), "EOF while parsing a value at line 1 column 0");
@@ -91,7 +181,7 @@ fn text_that_is_no_scene_gets_line_and_column() {
         ("\"gravity\"", "\"dimension\": 2, \"gravity\"", "line 3"),
         ("\"ball\":", "\"box\":", "two shapes are called \"box\" at line 7"),
         ("\"rect\":", "\"circle\":", "line 5"),
-        ("\"half_extents\": [1, 0.5]", "\"half_extents\": [1, 0.5], \"radius\": 1", "line 5"),
+        ("\"half_extents\": [1, 0.5]", "\"half_extents\": [1, 0.5], \"round\": 1", "line 5"),
         ("\"sides\": 16", "\"sides\": 16.5", "line 7"),
         ("\"shape\": \"box\",", "", "missing field `shape` at line 10"),
         ("\"rotation\": 0.25", "\"rotation\": \"left\"", "a number or a list of numbers at line 11"),

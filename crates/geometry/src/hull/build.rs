@@ -1,0 +1,229 @@
+//! From a cloud to a hull with a volume.
+//!
+//! ```text
+//! cloud -> exact hull, or as much of it as the number of vertices allows (quick) -> its vertices
+//!    vertices -> exact facets -> flat faces (merge) -> topology, normals, radii
+//!                     ^                |
+//!                     +-- without the vertices that ended up inside a flat face
+//! ```
+//! Only vertices of the first hull take part after the first turn: what was inside it stays near the result, because
+//! the distance from a convex set is a convex function, and so is largest at a vertex. The same argument
+//! gives [`Hull::error`].
+
+use super::cloud::Cloud;
+use super::merge::{Merged, merge_facets};
+use super::quick::{Growth, hull_facets};
+use super::{Hull, HullData, HullError, unit_normal};
+use crate::outward::{round_down, round_up};
+use crate::tolerance::{COPLANAR, MAX_HULL_VERTICES, MIN_RADIUS, STANDS_OUT};
+use crate::topology::Topology;
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+
+/// How many points that stand out are too many, however the facets merge.
+const CLEARLY_TOO_MANY: usize = 4 * MAX_HULL_VERTICES;
+
+impl Hull {
+    /// The hull of up to 65,535 points that span space. Cost: about n log n.
+    ///
+    /// A point that lies inside a face that is flat up to rounding is no vertex; [`Hull::error`] says how far
+    /// outside the hull any such point may lie.
+    ///
+    /// # Errors
+    /// Points that are too few, too many, not finite, out of range, or all in one plane; more than 256 vertices.
+    pub fn from_points(points: &[Vec3]) -> Result<Self, HullError> {
+        Self::solid(&Cloud::new(points, 4)?)
+    }
+
+    pub(super) fn solid(cloud: &Cloud) -> Result<Self, HullError> {
+        let mut growth = Growth::start(&cloud.points)?;
+        let mut standing_out = 4;
+        let is_whole = growth.grow_while(|_, distance| {
+            standing_out += usize::from(distance > STANDS_OUT * cloud.scale);
+            standing_out <= CLEARLY_TOO_MANY
+        });
+        if !is_whole {
+            return Err(HullError::TooManyVertices { at_least: standing_out });
+        }
+        Self::polished(cloud, growth.facets(), 0.0)
+    }
+
+    /// The hull of as many points as `max_vertices` allows, the furthest first.
+    pub(super) fn budgeted(cloud: &Cloud, max_vertices: usize) -> Result<Self, HullError> {
+        let mut growth = Growth::start(&cloud.points)?;
+        growth.grow_while(|count, _| count < max_vertices);
+        Self::polished(cloud, growth.facets(), growth.outlying())
+    }
+
+    /// Merges the facets of a hull within the cloud, which the cloud leaves by at most `outlying` metres.
+    fn polished(cloud: &Cloud, facets: Vec<Vec<u32>>, outlying: f64) -> Result<Self, HullError> {
+        let mut solid = Solid { cloud, kept: corners_of(&facets), dropped: Vec::new(), outlying };
+        let mut facets = solid.numbered_by_kept(facets);
+        loop {
+            let points: Vec<Vec3> = solid.kept.iter().map(|&i| cloud.points[i as usize]).collect();
+            let Merged { faces, inside } = merge_facets(&points, &facets, COPLANAR * 0.5 * cloud.scale);
+            if inside.is_empty() {
+                return solid.finish(&faces);
+            }
+            let (count, turned_out) = (points.len(), inside.len());
+            // What shrinks slowly from far too many will not end up small enough; and it would be slow.
+            if count > 2 * MAX_HULL_VERTICES && 4 * turned_out < count {
+                return Err(HullError::TooManyVertices { at_least: count - turned_out });
+            }
+            let is_inside = |place: usize| inside.binary_search(&(place as u32)).is_ok();
+            let rest: Vec<Vec3> = (0..count).filter(|&i| !is_inside(i)).map(|i| points[i]).collect();
+            match hull_facets(&rest) {
+                Ok(fewer) => facets = fewer,
+                Err(_) => return solid.unmerged(rest.len()),
+            }
+            let mut place = 0..;
+            solid.kept.retain(|&i| {
+                let goes = place.next().is_some_and(is_inside);
+                if goes {
+                    solid.dropped.push(i);
+                }
+                !goes
+            });
+        }
+    }
+}
+
+fn corners_of(facets: &[Vec<u32>]) -> Vec<u32> {
+    let mut corners: Vec<u32> = facets.iter().flatten().copied().collect();
+    corners.sort_unstable();
+    corners.dedup();
+    corners
+}
+
+/// A hull in the making: indices into the cloud, of what is still a vertex and of what was one.
+struct Solid<'a> {
+    cloud: &'a Cloud,
+    kept: Vec<u32>,
+    dropped: Vec<u32>,
+    outlying: f64,
+}
+
+impl Solid<'_> {
+    fn numbered_by_kept(&self, mut facets: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+        for corner in facets.iter_mut().flatten() {
+            *corner = self.kept.binary_search(corner).unwrap_or(0) as u32;
+        }
+        facets
+    }
+
+    /// What merging would flatten altogether, because its volume is no more than rounding: the exact facets of its
+    /// furthest points, a few more than those that merging would have left.
+    fn unmerged(mut self, left: usize) -> Result<Hull, HullError> {
+        let points: Vec<Vec3> = self.kept.iter().map(|&i| self.cloud.points[i as usize]).collect();
+        let mut growth = Growth::start(&points)?;
+        growth.grow_while(|count, _| count < (left + 2).clamp(4, MAX_HULL_VERTICES));
+        let facets = growth.facets();
+        let corners = corners_of(&facets);
+        let was_kept = core::mem::take(&mut self.kept);
+        let (mut place, dropped) = (0.., &mut self.dropped);
+        self.kept = was_kept
+            .into_iter()
+            .filter(|&i| {
+                let stays = place.next().is_some_and(|place| corners.binary_search(&place).is_ok());
+                if !stays {
+                    dropped.push(i);
+                }
+                stays
+            })
+            .collect();
+        let facets: Vec<Vec<u32>> = facets
+            .into_iter()
+            .map(|facet| facet.into_iter().map(|i| corners.binary_search(&i).unwrap_or(0) as u32).collect())
+            .collect();
+        self.finish(&facets)
+    }
+
+    /// Derives everything else from the loops of places in `kept`. Vertices and faces are put in the order of the user's points.
+    fn finish(self, faces: &[Vec<u32>]) -> Result<Hull, HullError> {
+        let count = self.kept.len();
+        if count > MAX_HULL_VERTICES {
+            return Err(HullError::TooManyVertices { at_least: count });
+        }
+        let source = |place: usize| self.cloud.source[self.kept[place] as usize];
+        let mut in_order: Vec<usize> = (0..count).collect();
+        in_order.sort_unstable_by_key(|&place| source(place));
+        let mut number = vec![0_u16; count];
+        for (new, &place) in (0..).zip(&in_order) {
+            number[place] = new;
+        }
+        let at = |i: &u32| self.cloud.points[*i as usize];
+        let vertices: Vec<Vec3> = in_order.iter().map(|&place| at(&self.kept[place])).collect();
+        let mut loops: Vec<Vec<u16>> =
+            faces.iter().map(|face| face.iter().map(|&i| number[i as usize]).collect()).collect();
+        for face in &mut loops {
+            let lowest = (0..face.len()).min_by_key(|&place| face[place]).unwrap_or(0);
+            face.rotate_left(lowest);
+        }
+        loops.sort_unstable();
+        let mut hull = solid_data(vertices, &loops)?;
+        let error = self.outlying + hull.furthest_outside(self.dropped.iter().map(|i| at(i).as_dvec3()));
+        if error > 0.0 {
+            hull.error = round_up(error + 64.0 * f64::EPSILON * self.cloud.scale);
+        }
+        Ok(Hull { data: Arc::new(hull), radius: 0.0 })
+    }
+}
+
+fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullError> {
+    let topology = Topology::from_loops(loops.iter().map(Vec::as_slice));
+    let normals: Box<[DVec3]> =
+        loops.iter().map(|face| unit_normal(face.iter().map(|&i| vertices[i as usize]))).collect();
+    let center = volume_center(&vertices, loops).as_vec3();
+    let from_center = |v: &Vec3| v.as_dvec3() - center.as_dvec3();
+    let outer = vertices.iter().map(|v| from_center(v).length()).fold(0.0, f64::max);
+    let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
+    if outer_radius < MIN_RADIUS {
+        return Err(HullError::TooSmall { radius: outer_radius });
+    }
+    let (mut inner, mut planarity) = (f64::INFINITY, 0.0_f64);
+    for (normal, face) in normals.iter().zip(loops) {
+        let reach = |i: &u16| normal.dot(from_center(&vertices[*i as usize]));
+        let low = face.iter().map(reach).fold(f64::INFINITY, f64::min);
+        let high = vertices.iter().map(|v| normal.dot(from_center(v))).fold(f64::NEG_INFINITY, f64::max);
+        (inner, planarity) = (inner.min(low), planarity.max(high - low));
+    }
+    // The inscribed sphere must hold for the true shape, which lies within the planarity error of its faces.
+    let inner_radius = round_down((inner - planarity - 8.0 * f64::EPSILON * outer).max(0.0));
+    Ok(HullData {
+        dimension: 3,
+        vertices: vertices.into(),
+        topology,
+        normals,
+        center,
+        outer_radius,
+        inner_radius,
+        planarity_error: round_up(planarity),
+        error: 0.0,
+    }
+    .with_center_outside())
+}
+
+/// Centre of volume in f64, by tetrahedra from the first vertex.
+fn volume_center(vertices: &[Vec3], loops: &[Vec<u16>]) -> DVec3 {
+    let origin = vertices[0].as_dvec3();
+    let at = |i: u16| vertices[i as usize].as_dvec3() - origin;
+    let (mut volume, mut moment) = (0.0, DVec3::ZERO);
+    for face in loops {
+        for two in face[1..].windows(2) {
+            let (a, b, c) = (at(face[0]), at(two[0]), at(two[1]));
+            let six_fold = a.cross(b).dot(c);
+            volume += six_fold;
+            moment += (a + b + c) * six_fold;
+        }
+    }
+    // A sliver's volume may vanish in f64, and rounding may push the quotient out: any inner point will do then.
+    let center = origin + moment / (4.0 * volume);
+    let (low, high) = vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| {
+        (low.min(v.as_dvec3()), high.max(v.as_dvec3()))
+    });
+    if volume > 0.0 && center.cmpge(low).all() && center.cmple(high).all() {
+        center
+    } else {
+        (low + high) * 0.5
+    }
+}

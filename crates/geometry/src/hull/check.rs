@@ -1,0 +1,316 @@
+//! Whether a hull is what it says, from its vertices and loops alone.
+
+use super::cloud::half_diagonal;
+use super::{Hull, area_vector, distance};
+use crate::tolerance::COPLANAR;
+use crate::topology::Topology;
+use glam::{DVec3, Vec3};
+use std::collections::BTreeSet;
+
+/// What is wrong with a hull.
+///
+/// ```
+/// use asunder_geometry::{Hull, HullFault, glam::Vec3};
+/// let mut points = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+/// let hull = Hull::from_points(&points)?;
+/// assert_eq!(hull.check(&points), Ok(()));
+/// points[1] = Vec3::NEG_X;
+/// assert_eq!(hull.check(&points), Err(HullFault::ForeignVertex { vertex: 1 }));
+/// # Ok::<(), asunder_geometry::HullError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HullFault {
+    /// A half-edge has no twin that runs back along it, in another face.
+    Open {
+        /// The half-edge.
+        half_edge: usize,
+    },
+    /// Vertices - edges + faces is not 2, or a vertex is on no face.
+    Euler {
+        /// Number of vertices.
+        vertices: usize,
+        /// Number of edges.
+        edges: usize,
+        /// Number of faces.
+        faces: usize,
+    },
+    /// A face has fewer corners than a triangle, or the same one twice.
+    BadLoop {
+        /// The face.
+        face: usize,
+    },
+    /// A normal is not of unit length, or not that of its loop, or one is missing.
+    BadNormal {
+        /// The face.
+        face: usize,
+    },
+    /// A vertex lies further beyond a face than the hull's planarity error.
+    NotConvex {
+        /// The face.
+        face: usize,
+        /// How far any vertex lies beyond the lowest of the face, in metres.
+        beyond: f64,
+    },
+    /// The hull's spheres do not hold it, or are not held by it.
+    BadRadius,
+    /// A vertex is none of the points.
+    ForeignVertex {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A point lies further outside than the hull's error.
+    PointOutside {
+        /// Index of the point.
+        index: usize,
+        /// How far, in metres.
+        distance: f64,
+    },
+    /// Two neighbouring faces are one flat face.
+    NotMerged {
+        /// The one with the lower index.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+}
+
+impl core::fmt::Display for HullFault {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Open { half_edge } => write!(f, "half-edge {half_edge} has no twin"),
+            Self::Euler { vertices, edges, faces } => {
+                write!(f, "{vertices} vertices, {edges} edges and {faces} faces close no surface")
+            }
+            Self::BadLoop { face } => write!(f, "face {face} is no simple loop"),
+            Self::BadNormal { face } => write!(f, "face {face} has a wrong normal"),
+            Self::NotConvex { face, beyond } => write!(f, "a vertex lies {beyond} m beyond face {face}"),
+            Self::BadRadius => write!(f, "the inscribed or bounding sphere is wrong"),
+            Self::ForeignVertex { vertex } => write!(f, "vertex {vertex} is none of the points"),
+            Self::PointOutside { index, distance } => write!(f, "point {index} lies {distance} m outside"),
+            Self::NotMerged { first, second } => write!(f, "faces {first} and {second} lie in one plane"),
+        }
+    }
+}
+
+impl core::error::Error for HullFault {}
+
+impl Hull {
+    /// Checks the hull, without its rounding, against the points it was made of: closed, of Euler's formula, simple loops,
+    /// outward unit normals, convex within [`Hull::planarity_error`], spheres that hold, vertices that are points bit for
+    /// bit, every point within [`Hull::error`], and no neighbouring faces that should have been merged.
+    ///
+    /// Every hull that can be made passes; this is for tests, and for whoever doubts. Everything is worked out again from
+    /// vertices and loops. Cost: the points, times the faces' corners.
+    ///
+    /// # Errors
+    /// The first fault found, in the order above. Points other than those the hull was made of are faults too.
+    pub fn check(&self, points: &[Vec3]) -> Result<(), HullFault> {
+        let examiner = Examiner::of(self, points);
+        examiner.closed()?;
+        examiner.loops()?;
+        examiner.normals()?;
+        examiner.convex()?;
+        examiner.spheres()?;
+        examiner.subset(points)?;
+        examiner.containing(points)?;
+        examiner.merged()
+    }
+}
+
+struct Examiner<'a> {
+    hull: &'a Hull,
+    topology: &'a Topology,
+    vertices: Vec<DVec3>,
+    faces: Vec<Vec<usize>>,
+    /// What f64 may lose on a number of the hull's size, in metres.
+    slack: f64,
+    /// Half the diagonal of the box around the points, in metres.
+    scale: f64,
+}
+
+impl<'a> Examiner<'a> {
+    fn of(hull: &'a Hull, points: &[Vec3]) -> Self {
+        let topology = hull.topology();
+        let vertices: Vec<DVec3> = hull.vertices().iter().map(|v| v.as_dvec3()).collect();
+        let faces = (0..topology.face_count()).map(|face| topology.face_vertices(face).collect()).collect();
+        // From the spread of the vertices, and not from the hull's own radius.
+        let slack = 64.0 * f64::EPSILON * half_diagonal(hull.vertices());
+        Self { hull, topology, vertices, faces, slack, scale: half_diagonal(points) }
+    }
+
+    fn closed(&self) -> Result<(), HullFault> {
+        let half_edges = self.topology.half_edges();
+        let is_surface = self.hull.dimension() >= 2;
+        for (index, half_edge) in half_edges.iter().enumerate() {
+            let is_paired = half_edges.get(half_edge.twin as usize).is_some_and(|twin| {
+                let (from, to) = self.topology.ends(index);
+                let goes_back = self.topology.ends(half_edge.twin as usize) == (to, from);
+                twin.twin as usize == index && goes_back && (!is_surface || twin.face != half_edge.face)
+            });
+            if !is_paired {
+                return Err(HullFault::Open { half_edge: index });
+            }
+        }
+        let visited: BTreeSet<usize> = self.faces.iter().flatten().copied().collect();
+        let (vertices, edges, faces) = (self.vertices.len(), self.topology.edges().len(), self.faces.len());
+        let halves = if self.hull.dimension() == 0 { 1 } else { 2 * edges };
+        if vertices + faces != edges + 2 || visited.len() != vertices || half_edges.len() != halves {
+            return Err(HullFault::Euler { vertices, edges, faces });
+        }
+        Ok(())
+    }
+
+    fn loops(&self) -> Result<(), HullFault> {
+        let (least, most_faces) = match self.hull.dimension() {
+            0 => (1, 1),
+            1 => (2, 1),
+            2 => (3, 2),
+            _ => (3, usize::MAX),
+        };
+        for (face, corners) in self.faces.iter().enumerate() {
+            let different: BTreeSet<usize> = corners.iter().copied().collect();
+            if corners.len() < least || different.len() != corners.len() || face >= most_faces {
+                return Err(HullFault::BadLoop { face });
+            }
+        }
+        Ok(())
+    }
+
+    /// Unit, along the loop's own area: with convexity, that is outwards.
+    fn normals(&self) -> Result<(), HullFault> {
+        let normals = self.hull.normals();
+        let expected = if self.hull.dimension() >= 2 { self.faces.len() } else { 0 };
+        if normals.len() != expected {
+            return Err(HullFault::BadNormal { face: normals.len().min(expected) });
+        }
+        for (face, normal) in normals.iter().enumerate() {
+            let area = self.area(face);
+            let is_unit = (normal.length() - 1.0).abs() < 1e-14;
+            // An area that f64 cannot tell from none has no direction to compare.
+            let is_along = normal.dot(area) >= (1.0 - 1e-6) * area.length() - self.slack * self.slack;
+            if !is_unit || !is_along {
+                return Err(HullFault::BadNormal { face });
+            }
+        }
+        Ok(())
+    }
+
+    fn area(&self, face: usize) -> DVec3 {
+        area_vector(self.faces[face].iter().map(|&i| self.hull.vertices()[i]))
+    }
+
+    /// Height of a place above the first corner of a face.
+    fn height(&self, face: usize, place: DVec3) -> f64 {
+        self.hull.normals()[face].dot(place - self.vertices[self.faces[face][0]])
+    }
+
+    fn convex(&self) -> Result<(), HullFault> {
+        let allowed = f64::from(self.hull.planarity_error()) + self.slack;
+        for face in 0..self.hull.normals().len() {
+            let low = self.faces[face].iter().map(|&i| self.height(face, self.vertices[i]));
+            let high = self.vertices.iter().map(|&v| self.height(face, v)).fold(f64::NEG_INFINITY, f64::max);
+            let beyond = high - low.fold(f64::INFINITY, f64::min);
+            if beyond > allowed {
+                return Err(HullFault::NotConvex { face, beyond });
+            }
+        }
+        Ok(())
+    }
+
+    fn spheres(&self) -> Result<(), HullFault> {
+        let (center, data) = (self.hull.center().as_dvec3(), &self.hull.data);
+        let is_held = self.vertices.iter().all(|v| (*v - center).length() <= f64::from(data.outer_radius));
+        let is_inside = |face: usize| self.height(face, center) <= -f64::from(data.inner_radius) + self.slack;
+        let is_around = data.inner_radius <= 0.0 || (0..self.hull.normals().len()).all(is_inside);
+        if is_held && is_around { Ok(()) } else { Err(HullFault::BadRadius) }
+    }
+
+    fn subset(&self, points: &[Vec3]) -> Result<(), HullFault> {
+        let bits = |v: &Vec3| v.to_array().map(f32::to_bits);
+        let known: BTreeSet<[u32; 3]> = points.iter().map(bits).collect();
+        match self.hull.vertices().iter().position(|vertex| !known.contains(&bits(vertex))) {
+            Some(vertex) => Err(HullFault::ForeignVertex { vertex }),
+            None => Ok(()),
+        }
+    }
+
+    /// The distance is that to the nearest triangle of any face, which a face that is not quite flat has inside.
+    fn containing(&self, points: &[Vec3]) -> Result<(), HullFault> {
+        let allowed = f64::from(self.hull.error()) + f64::from(self.hull.planarity_error()) + self.slack;
+        let is_solid = self.hull.dimension() == 3;
+        for (index, point) in points.iter().map(|point| point.as_dvec3()).enumerate() {
+            if is_solid && (0..self.faces.len()).all(|face| self.height(face, point) <= 0.0) {
+                continue;
+            }
+            let distance =
+                self.faces.iter().map(|face| self.distance(face, point)).fold(f64::INFINITY, f64::min);
+            let is_beyond = (0..self.hull.normals().len()).any(|face| self.height(face, point) > allowed);
+            if distance > allowed && (is_beyond || !is_solid) {
+                return Err(HullFault::PointOutside { index, distance });
+            }
+        }
+        Ok(())
+    }
+
+    fn distance(&self, face: &[usize], point: DVec3) -> f64 {
+        let corner = |i: usize| self.vertices[face[i % face.len()]];
+        (1..face.len().saturating_sub(1).max(2))
+            .map(|i| distance::to_triangle(point, [corner(0), corner(i), corner(i + 1)]))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Two neighbours are one face if the smaller lies within the tolerance of the larger one's plane and both together have
+    /// one simple outline. A hull that is itself no thicker than a few tolerances may have them: merging would flatten it.
+    fn merged(&self) -> Result<(), HullFault> {
+        if self.hull.dimension() < 3 {
+            return Ok(());
+        }
+        let areas: Vec<f64> = (0..self.faces.len()).map(|face| self.area(face).length()).collect();
+        for &edge in self.topology.edges() {
+            let half_edge = self.topology.half_edges()[edge as usize];
+            let twin = self.topology.half_edges()[half_edge.twin as usize];
+            let (first, second) = (half_edge.face as usize, twin.face as usize);
+            for (large, small) in [(first, second), (second, first)] {
+                // Nearly equal areas may be ranked either way: what is checked must hold for the certain rank.
+                if areas[large] * 0.999 > areas[small] && self.are_one(large, small) {
+                    return Err(HullFault::NotMerged { first: first.min(second), second: first.max(second) });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn are_one(&self, large: usize, small: usize) -> bool {
+        let tolerance = 0.99 * 0.5 * COPLANAR * self.scale;
+        let span = |corners: &[usize]| {
+            corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &i| {
+                let height = self.height(large, self.vertices[i]);
+                (low.min(height), high.max(height))
+            })
+        };
+        let (low, high) = span(&self.faces[large]);
+        let middle = (low + high) * 0.5;
+        let (least, most) = span(&self.faces[small]);
+        let all: Vec<usize> = (0..self.vertices.len()).collect();
+        let is_thin = span(&all).0 > middle - 8.0 * COPLANAR * self.scale;
+        let faces_along = self.hull.normals()[small].dot(self.hull.normals()[large]) > 0.5 + 1e-6;
+        faces_along
+            && !is_thin
+            && most - middle <= tolerance
+            && middle - least <= tolerance
+            && self.have_one_outline(large, small)
+    }
+
+    fn have_one_outline(&self, large: usize, small: usize) -> bool {
+        let (one, other) = (&self.faces[large], &self.faces[small]);
+        let shared_corners = one.iter().filter(|corner| other.contains(corner)).count();
+        let shared_edges = self
+            .topology
+            .face_half_edges(large)
+            .filter(|&h| {
+                self.topology.half_edges()[self.topology.half_edges()[h].twin as usize].face as usize == small
+            })
+            .count();
+        shared_corners == shared_edges + 1 && one.len() + other.len() >= 2 * shared_edges + 3
+    }
+}

@@ -1,0 +1,82 @@
+//! A cloud of points, checked, each place once, in an order that depends on the places alone.
+
+use super::HullError;
+use crate::tolerance::{MAX_HULL_POINTS, MAX_RADIUS};
+use glam::{DVec3, Vec3};
+
+/// Finite points within range, no two the same, sorted by x, then y, then z.
+///
+/// Sorted, so that whatever breaks ties by index answers alike however the points were shuffled.
+pub(super) struct Cloud {
+    pub(super) points: Vec<Vec3>,
+    /// Where in the user's list each of them stood first.
+    pub(super) source: Vec<u32>,
+    /// Half the diagonal of the box around them, in metres: the size that [`COPLANAR`] is a share of.
+    ///
+    /// [`COPLANAR`]: crate::tolerance::COPLANAR
+    pub(super) scale: f64,
+}
+
+impl Cloud {
+    pub(super) fn new(points: &[Vec3], least: usize) -> Result<Self, HullError> {
+        check_points(points, least)?;
+        let mut keys: Vec<(u64, u64)> = (0_u64..)
+            .zip(points)
+            .map(|(i, v)| {
+                let [x, y, z] = v.to_array().map(|c| u64::from(ascending(c)));
+                (x << 32 | y, z << 32 | i)
+            })
+            .collect();
+        keys.sort_unstable();
+        // Equal places stand side by side, the earliest of the list first.
+        keys.dedup_by_key(|&mut (xy, zi)| (xy, zi >> 32));
+        let source: Vec<u32> = keys.iter().map(|&(_, zi)| zi as u32).collect();
+        let points: Vec<Vec3> = source.iter().map(|&i| points[i as usize]).collect();
+        let scale = half_diagonal(&points);
+        Ok(Self { points, source, scale })
+    }
+}
+
+/// Half the diagonal of the box around points, in metres.
+pub(super) fn half_diagonal(points: &[Vec3]) -> f64 {
+    let (low, high) = points
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), v| (l.min(v.as_dvec3()), h.max(v.as_dvec3())));
+    if points.is_empty() { 0.0 } else { (high - low).length() * 0.5 }
+}
+
+fn check_points(points: &[Vec3], least: usize) -> Result<(), HullError> {
+    if points.len() < least {
+        return Err(HullError::TooFewPoints { count: points.len() });
+    }
+    if points.len() > MAX_HULL_POINTS {
+        return Err(HullError::TooManyPoints { count: points.len() });
+    }
+    for (index, point) in points.iter().enumerate() {
+        if !point.is_finite() {
+            return Err(HullError::NotFinite { index });
+        }
+        if point.as_dvec3().length() > f64::from(MAX_RADIUS) {
+            return Err(HullError::TooLarge { index });
+        }
+    }
+    Ok(())
+}
+
+/// An integer that orders finite numbers as they are ordered, with one zero: -0 and +0 are one place.
+fn ascending(coordinate: f32) -> u32 {
+    let bits = (coordinate + 0.0).to_bits();
+    if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_sorted_and_named_once_by_the_earliest() {
+        let points = [(0.0, 1.0), (-0.0, 1.0), (-2.0, 0.0), (0.0, -1.0), (-2.0, -0.0), (1e-45, 1.0)];
+        let cloud = Cloud::new(&points.map(|(x, y)| Vec3::new(x, y, 3.0)), 1).unwrap();
+        assert_eq!(cloud.source, [2, 3, 0, 5]);
+    }
+}

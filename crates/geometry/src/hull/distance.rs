@@ -1,0 +1,145 @@
+//! How far from a hull a point is, and whether the hull holds it.
+
+use super::{Hull, HullData};
+use crate::tolerance::MAX_RADIUS;
+use glam::DVec3;
+use robust::{Coord, Coord3D, orient2d, orient3d};
+
+impl Hull {
+    /// Whether the closed shape holds a local point, in metres.
+    ///
+    /// Without rounding, a hull of dimension 3 holds what no face has outside. A flat hull, a segment and a point hold what
+    /// lies in them exactly. With rounding, what is within the radius of the nearest feature. Cost: linear in the
+    /// faces' corners.
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        let point = point.into();
+        // Far beyond any shape, where squares would overflow.
+        if !point.is_finite() || point.abs().max_element() > 4.0 * f64::from(MAX_RADIUS) {
+            return false;
+        }
+        if self.data.dimension < 3 && self.radius == 0.0 {
+            return self.data.bears(point);
+        }
+        self.data.distance_outside(point) <= f64::from(self.radius)
+    }
+}
+
+impl HullData {
+    /// Whether a hull without volume holds a point: exact, as long as no product of three coordinates underflows.
+    fn bears(&self, p: DVec3) -> bool {
+        let vertex = |i: usize| self.vertices[i].as_dvec3();
+        match self.vertices.len() {
+            0 => false,
+            1 => p == vertex(0),
+            2 => {
+                let (a, b) = (vertex(0), vertex(1));
+                (0..3).all(|axis| turn(axis, [a, b, p]) == 0.0)
+                    && p.cmpge(a.min(b)).all()
+                    && p.cmple(a.max(b)).all()
+            }
+            count => {
+                // Any corner makes a triangle with the first edge: no three are on one line.
+                let (normal, axis) = (self.normals[0], largest_axis(self.normals[0]));
+                let height = orient3d(exact(vertex(0)), exact(vertex(1)), exact(vertex(2)), exact(p));
+                let sense = normal[axis].signum();
+                let is_left = |i: usize| turn(axis, [vertex(i), vertex((i + 1) % count), p]) * sense >= 0.0;
+                height == 0.0 && (0..count).all(is_left)
+            }
+        }
+    }
+
+    /// An upper bound on a point's distance from the hull: its distance to the nearest triangle of any face, or zero
+    /// where no face has it outside.
+    pub(super) fn distance_outside(&self, p: DVec3) -> f64 {
+        if self.dimension == 3 && !self.is_outside(p) {
+            return 0.0;
+        }
+        self.triangles().map(|corners| to_triangle(p, corners)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The largest of the bounds above over many points. A point that is nearer than the furthest so far to any triangle
+    /// need not know which is nearest.
+    pub(super) fn furthest_outside(&self, points: impl Iterator<Item = DVec3>) -> f64 {
+        let triangles: Vec<[DVec3; 3]> = self.triangles().collect();
+        let (mut most, mut hint) = (0.0, 0);
+        for p in points {
+            let mut least = (f64::INFINITY, hint);
+            for index in (hint..triangles.len()).chain(0..hint) {
+                let distance = to_triangle(p, triangles[index]);
+                if distance < least.0 {
+                    least = (distance, index);
+                }
+                if distance <= most {
+                    break;
+                }
+            }
+            hint = least.1;
+            if least.0 > most && (self.dimension < 3 || self.is_outside(p)) {
+                most = least.0;
+            }
+        }
+        most
+    }
+
+    fn is_outside(&self, p: DVec3) -> bool {
+        self.normals.iter().enumerate().any(|(face, normal)| {
+            let height = |i: usize| normal.dot(p - self.vertices[i].as_dvec3());
+            self.topology.face_vertices(face).map(height).fold(f64::INFINITY, f64::min) > 0.0
+        })
+    }
+
+    /// Every face as a fan of triangles. A segment is a triangle without area, and so is a point.
+    fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        let vertex = |i: usize| self.vertices[i].as_dvec3();
+        (0..self.topology.face_count()).flat_map(move |face| {
+            let around = self.topology.face_vertices(face);
+            let count = around.len();
+            let corner = move |place: usize| around.clone().nth(place).map_or(DVec3::ZERO, vertex);
+            (1..count.saturating_sub(1).max(2))
+                .map(move |i| [corner(0), corner(i % count), corner((i + 1) % count)])
+        })
+    }
+}
+
+fn exact(v: DVec3) -> Coord3D<f64> {
+    Coord3D { x: v.x, y: v.y, z: v.z }
+}
+
+/// Orientation as seen along an axis: 0 in the (y, z) plane, 1 in (z, x), 2 in (x, y).
+fn turn(axis: usize, corners: [DVec3; 3]) -> f64 {
+    let [a, b, c] = corners.map(|v| Coord { x: v[(axis + 1) % 3], y: v[(axis + 2) % 3] });
+    orient2d(a, b, c)
+}
+
+fn largest_axis(v: DVec3) -> usize {
+    let size = v.abs();
+    (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best })
+}
+
+/// Distance from a point to a triangle, never below the truth by more than the rounding of a length: always to a place
+/// that is given by weights within the triangle, however badly those are conditioned. Two corners or all may be equal.
+pub(super) fn to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
+    let (u, v, w) = (b - a, c - a, p - a);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    let area = uu * vv - uv * uv;
+    let (s, t) = ((vv * uw - uv * vw) / area, (uu * vw - uv * uw) / area);
+    if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
+        // The edges only add a bound where the weights are badly conditioned.
+        let across = (a + u * s + v * t - p).length();
+        if area > 1e-6 * uu * vv {
+            return across;
+        }
+        return across.min(to_edges(p, [a, b, c]));
+    }
+    to_edges(p, [a, b, c])
+}
+
+fn to_edges(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
+    let squared = |from: DVec3, to: DVec3| {
+        let (along, arm) = (to - from, p - from);
+        let length = along.length_squared();
+        let t = if length > 0.0 { (arm.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+        (along * t - arm).length_squared()
+    };
+    squared(a, b).min(squared(b, c)).min(squared(c, a)).sqrt()
+}

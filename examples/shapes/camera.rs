@@ -1,0 +1,62 @@
+//! Where the viewer stands.
+
+use asunder::glam::{DVec2, DVec3};
+
+/// A parallel projection onto the picture: the same for all, up to where it puts what is in the middle.
+#[derive(Clone, Copy)]
+pub(crate) struct Camera {
+    right: DVec3,
+    up: DVec3,
+    toward_viewer: DVec3,
+    /// Pixels a metre.
+    pub scale: f64,
+    /// The pixel where the world's origin comes to stand.
+    pub origin: DVec2,
+}
+
+impl Camera {
+    /// Looks down a little, from the front.
+    pub(crate) fn above() -> Self {
+        Self::from(DVec3::new(0.42, 0.46, 0.90))
+    }
+
+    /// Looks at the plane of x and y.
+    pub(crate) fn front() -> Self {
+        Self::from(DVec3::Z)
+    }
+
+    fn from(toward_viewer: DVec3) -> Self {
+        let toward_viewer = toward_viewer.normalize();
+        let right = DVec3::Y.cross(toward_viewer).normalize();
+        Self { right, up: toward_viewer.cross(right), toward_viewer, scale: 1.0, origin: DVec2::ZERO }
+    }
+
+    pub(crate) fn scaled(self, scale: f64) -> Self {
+        Self { scale, ..self }
+    }
+
+    pub(crate) fn toward_viewer(&self) -> DVec3 {
+        self.toward_viewer
+    }
+
+    /// A point of the world on the picture.
+    pub(crate) fn place(&self, point: DVec3) -> DVec2 {
+        self.origin + DVec2::new(point.dot(self.right), -point.dot(self.up)) * self.scale
+    }
+
+    /// A direction of the world seen from the viewer: x right, y up, z towards him.
+    pub(crate) fn turn(&self, direction: DVec3) -> DVec3 {
+        DVec3::new(direction.dot(self.right), direction.dot(self.up), direction.dot(self.toward_viewer))
+    }
+
+    /// The same camera moved so that a rectangle of the picture is centred on a point.
+    pub(crate) fn centered(self, [low, high]: [DVec2; 2], on: DVec2) -> Self {
+        Self { origin: self.origin + on - (low + high) * 0.5, ..self }
+    }
+}
+
+/// The smallest rectangle around others.
+pub(crate) fn joined(frames: impl Iterator<Item = [DVec2; 2]>) -> [DVec2; 2] {
+    let start = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    frames.fold(start, |[low, high], frame| [low.min(frame[0]), high.max(frame[1])])
+}
