@@ -34,13 +34,13 @@ pub(crate) struct Counts {
     pub(crate) deepest: f64,
 }
 
-/// A shape that is too thin for its mass to be told from zero.
+/// A shape that moves and has no mass: without an inside, without an end, or too thin for its mass to be told from zero.
 #[derive(Debug)]
 pub(crate) struct NoMass;
 
 impl std::fmt::Display for NoMass {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "the shape is too thin to have a mass: make it thicker")
+        write!(f, "the shape has no mass to move: make it thicker, or the body fixed")
     }
 }
 
@@ -81,24 +81,26 @@ impl<S: Physics> Game<S> {
         spin: S::Spin,
     ) -> Result<(), NoMass> {
         let (position, turn) = S::place(pose);
-        let mass = S::mass(shape).ok_or(NoMass)?;
-        let center = position + S::turned(turn, mass.center);
         let is_fixed = collider.is_fixed();
+        // Scenery needs none, and may be without an end.
+        let mass = if is_fixed { None } else { Some(S::mass(shape).ok_or(NoMass)?) };
+        let local_center = mass.as_ref().map_or(S::Vector::default(), |mass| mass.center);
+        let center = position + S::turned(turn, local_center);
         let is_sensor = collider.is_sensor();
         let key = S::insert(&mut self.world, collider);
         self.numbers.insert(key, self.bodies.len());
-        let inverse_inertia = if is_fixed { S::IMMOVABLE } else { mass.inverse_inertia };
+        let inverse_inertia = mass.as_ref().map_or(S::IMMOVABLE, |mass| mass.inverse_inertia);
         self.bodies.push(Body {
             key,
             center,
-            local_center: mass.center,
+            local_center,
             start: center,
             turn,
             inverse_inertia,
             is_here: true,
             is_sensor,
         });
-        let inverse_mass = if is_fixed { 0.0 } else { 1.0 / mass.mass };
+        let inverse_mass = mass.map_or(0.0, |mass| 1.0 / mass.mass);
         self.motions.push(Motion::new(velocity, spin, inverse_mass));
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! The default scene: a tower of mixed bodies that falls into a heap.
 
 use asunder::glam::{DVec3, Vec3};
-use asunder::{Cuboid, Hull, Pose3, Shape3};
+use asunder::{Capsule3, Compound3, Cuboid, Hull, Pose3, Shape3, Sphere};
 use asunder_scenes::level::{Level3, LevelBody3};
 use asunder_scenes::random::Random;
 use core::f64::consts::TAU;
@@ -11,7 +11,7 @@ use std::error::Error;
 const SPACING: f64 = 1.05;
 /// Half of the kerb's height and width, in metres.
 const KERB: f64 = 0.2;
-/// Shapes are shared: a third of the bodies are cuboids, a third hulls, a third prisms.
+/// Shapes are shared: as many bodies are crates as rocks, prisms, balls, capsules and hammers.
 const VARIANTS: usize = 96;
 
 /// A floor with a kerb, and bodies in a tower about four times as tall as it is wide.
@@ -60,7 +60,7 @@ fn body(shape: Shape3, pose: Pose3, fixed: bool) -> LevelBody3 {
 
 /// No vertex further than half a metre from the origin.
 fn shape(number: usize, random: &mut Random) -> Result<Shape3, Box<dyn Error>> {
-    Ok(match number % 3 {
+    Ok(match number % 6 {
         0 => {
             let edge = random.range(0.18, 0.28);
             let stretch = random.within(DVec3::splat(0.8), DVec3::splat(1.0));
@@ -72,6 +72,17 @@ fn shape(number: usize, random: &mut Random) -> Result<Shape3, Box<dyn Error>> {
             let points: Vec<Vec3> =
                 (0..16).map(|_| (random.direction() * stretch * size).as_vec3()).collect();
             Hull::from_points(&points)?.into()
+        }
+        2 => Sphere::new(random.range(0.2, 0.34) as f32)?.into(),
+        3 => {
+            let (half_height, radius) = (random.range(0.12, 0.26), random.range(0.12, 0.22));
+            Capsule3::from_half_height(half_height as f32, radius as f32)?.into()
+        }
+        4 => {
+            let head = Cuboid::from_half_extents(Vec3::new(0.22, 0.1, 0.1))?.rounded(0.03)?;
+            let handle = Capsule3::from_half_height(0.3, 0.06)?;
+            let parts = [(Pose3::at([0.0, 0.3, 0.0])?, head.into()), (Pose3::IDENTITY, handle.into())];
+            Compound3::new(parts)?.into()
         }
         _ => {
             let sides = 5 + random.below(8);

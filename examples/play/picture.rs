@@ -1,5 +1,6 @@
 //! Pictures of a world, as SVG.
 
+mod mesh;
 mod order;
 pub(crate) mod plane;
 pub(crate) mod volume;
@@ -17,6 +18,8 @@ const SCENERY: Color = DVec3::new(0.72, 0.71, 0.68);
 const WOOD: Color = DVec3::new(0.80, 0.60, 0.36);
 const STONE: Color = DVec3::new(0.56, 0.60, 0.64);
 const METAL: Color = DVec3::new(0.30, 0.52, 0.66);
+const BALL: Color = DVec3::new(0.82, 0.36, 0.30);
+const RUBBER: Color = DVec3::new(0.42, 0.62, 0.40);
 const GOLD: Color = DVec3::new(0.98, 0.80, 0.25);
 const INK: Color = DVec3::new(0.13, 0.12, 0.14);
 const MARK: Color = DVec3::new(0.90, 0.13, 0.18);

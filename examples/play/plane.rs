@@ -1,7 +1,7 @@
 //! The game in the plane.
 
 use crate::physics::{Mass, Physics, Touch, TouchId};
-use asunder::glam::{DVec2, Vec2};
+use asunder::glam::DVec2;
 use asunder::{BodyKey2, Collider2, Event2, Plane, Pose2, Rotation2, Shape2, World2};
 
 impl Physics for Plane {
@@ -41,20 +41,10 @@ impl Physics for Plane {
     }
 
     fn mass(shape: &Shape2) -> Option<Mass<Self>> {
-        let vertices = outline(shape);
-        let (mut area, mut moment, mut spread) = (0.0, DVec2::ZERO, 0.0);
-        // Triangles from the origin; those on its far side count negative.
-        for (i, &a) in vertices.iter().enumerate() {
-            let b = vertices[(i + 1) % vertices.len()];
-            let doubled = a.perp_dot(b);
-            area += doubled / 2.0;
-            moment += (a + b) * (doubled / 6.0);
-            spread += (a.dot(a) + a.dot(b) + b.dot(b)) * (doubled / 12.0);
-        }
-        let center = moment / area;
-        let inverse_inertia = 1.0 / (spread - area * center.length_squared());
-        let is_sound = area > 0.0 && inverse_inertia > 0.0 && (inverse_inertia + 1.0 / area).is_finite();
-        is_sound.then_some(Mass { mass: area, center, inverse_inertia })
+        let matter = shape.mass_properties(1.0).ok()?;
+        let inverse_inertia = 1.0 / matter.inertia;
+        let is_sound = (inverse_inertia + 1.0 / matter.mass).is_finite();
+        is_sound.then_some(Mass { mass: matter.mass, center: matter.center, inverse_inertia })
     }
 
     fn place(pose: &Pose2) -> (DVec2, DVec2) {
@@ -112,9 +102,4 @@ impl Physics for Plane {
         let rotation = [pose.rotation().cos(), pose.rotation().sin()].map(f64::from);
         pose.position().to_array().into_iter().chain(rotation).map(f64::to_bits).collect()
     }
-}
-
-/// A shape's vertices, counter-clockwise.
-pub(crate) fn outline(shape: &Shape2) -> Vec<DVec2> {
-    shape.core().vertices().iter().copied().map(Vec2::as_dvec2).collect()
 }

@@ -1,8 +1,8 @@
 //! The game in space.
 
 use crate::physics::{Mass, Physics, Touch, TouchId};
-use asunder::glam::{DMat3, DQuat, DVec3, Vec3};
-use asunder::{BodyKey3, Collider3, Event3, Pose3, Shape3, Topology, Volume, World3};
+use asunder::glam::{DMat3, DQuat, DVec3};
+use asunder::{BodyKey3, Collider3, Event3, Pose3, Shape3, Volume, World3};
 
 impl Physics for Volume {
     type Vector = DVec3;
@@ -42,29 +42,10 @@ impl Physics for Volume {
     }
 
     fn mass(shape: &Shape3) -> Option<Mass<Self>> {
-        let (vertices, topology) = mesh(shape);
-        let (mut volume, mut moment, mut spread) = (0.0, DVec3::ZERO, DMat3::ZERO);
-        // Tetrahedra from the origin over each face's fan; those on its far side count negative.
-        for face in 0..topology.face_count() {
-            let corners: Vec<DVec3> = topology.face_vertices(face).map(|i| vertices[i]).collect();
-            for two in corners[1..].windows(2) {
-                let (a, b, c) = (corners[0], two[0], two[1]);
-                let (six_fold, sum) = (a.cross(b).dot(c), a + b + c);
-                volume += six_fold / 6.0;
-                moment += sum * (six_fold / 24.0);
-                spread += (outer(a) + outer(b) + outer(c) + outer(sum)) * (six_fold / 120.0);
-            }
-        }
-        let center = moment / volume;
-        let central = spread - outer(center) * volume;
-        let trace = central.x_axis.x + central.y_axis.y + central.z_axis.z;
-        let inertia = DMat3::from_diagonal(DVec3::splat(trace)) - central;
-        if volume <= 0.0 || inertia.determinant() <= 0.0 {
-            return None;
-        }
-        let inverse_inertia = inertia.inverse();
-        let is_sound = inverse_inertia.is_finite() && (1.0 / volume).is_finite();
-        is_sound.then_some(Mass { mass: volume, center, inverse_inertia })
+        let matter = shape.mass_properties(1.0).ok()?;
+        let inverse_inertia = matter.inertia.inverse();
+        let is_sound = inverse_inertia.is_finite() && (1.0 / matter.mass).is_finite();
+        is_sound.then_some(Mass { mass: matter.mass, center: matter.center, inverse_inertia })
     }
 
     fn place(pose: &Pose3) -> (DVec3, DQuat) {
@@ -121,14 +102,4 @@ impl Physics for Volume {
         let rotation = pose.rotation().to_array().map(f64::from);
         pose.position().to_array().into_iter().chain(rotation).map(f64::to_bits).collect()
     }
-}
-
-/// A shape's vertices, and how they make faces.
-pub(crate) fn mesh(shape: &Shape3) -> (Vec<DVec3>, &Topology) {
-    let core = shape.core();
-    (core.vertices().iter().copied().map(Vec3::as_dvec3).collect(), core.topology())
-}
-
-fn outer(v: DVec3) -> DMat3 {
-    DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }

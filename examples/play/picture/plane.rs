@@ -1,7 +1,7 @@
 //! A picture of a world in the plane: its shapes, contact points and normals.
 
+use super::mesh::outlines;
 use super::{Canvas, Color, GOLD, INK, MARK, METAL, Pen, STONE, WOOD, middle, varied};
-use crate::plane::outline;
 use asunder::glam::{DVec2, DVec3, Vec2};
 use asunder::{Collider2, Shape2, World2};
 
@@ -11,8 +11,11 @@ const WATER: Color = DVec3::new(0.25, 0.55, 0.85);
 
 /// Draws the world as of its last update.
 pub(crate) fn draw(world: &World2) -> String {
-    let bodies: Vec<(&Collider2, Vec<DVec2>)> = world.iter().map(|(_, body)| (body, placed(body))).collect();
-    let mut canvas = Canvas::around(bodies.iter().flat_map(|(_, points)| points.iter().copied()));
+    let bodies: Vec<(&Collider2, Vec<Vec<DVec2>>)> =
+        world.iter().map(|(_, body)| (body, outlines(body))).collect();
+    // What has no end is drawn as far as the rest goes.
+    let bounded = bodies.iter().filter(|(body, _)| body.shape().outer_radius().is_finite());
+    let mut canvas = Canvas::around(bounded.flat_map(|(_, outlines)| outlines.iter().flatten().copied()));
     // Scenery last but for the solid bodies: what stands on the ground hides the grass, and water hides nothing.
     let layers: [fn(&Collider2) -> bool; 3] = [
         |body| body.is_fixed() && !body.is_sensor(),
@@ -20,31 +23,27 @@ pub(crate) fn draw(world: &World2) -> String {
         |body| !body.is_fixed() && !body.is_sensor(),
     ];
     for is_in_layer in layers {
-        for (number, (body, points)) in bodies.iter().enumerate().filter(|(_, (body, _))| is_in_layer(body)) {
-            draw_body(&mut canvas, body, points, number);
+        let in_layer = bodies.iter().enumerate().filter(|(_, (body, _))| is_in_layer(body));
+        for (number, (body, outlines)) in in_layer {
+            outlines.iter().for_each(|points| draw_body(&mut canvas, body, points, number));
         }
     }
     draw_contacts(&mut canvas, world);
     canvas.finish(DVec3::new(0.62, 0.80, 0.93), DVec3::new(0.95, 0.96, 0.92))
 }
 
-fn placed(body: &Collider2) -> Vec<DVec2> {
-    let pose = body.pose();
-    outline(body.shape()).into_iter().map(|local| pose.position() + pose.rotation().turn(local)).collect()
-}
-
 fn draw_body(canvas: &mut Canvas, body: &Collider2, points: &[DVec2], number: usize) {
     let is_round = points.len() >= 7;
     if body.is_sensor() {
         let (color, opacity) = match body.shape() {
-            Shape2::Rect(_) => (GOLD, 0.35),
+            Shape2::Rect(_) if !is_round => (GOLD, 0.35),
             _ if is_round => (GOLD, 0.95),
             _ => (WATER, 0.35),
         };
         canvas.polygon(points, Pen::fill(color).edged(color * 0.7, 1.5).faint(opacity));
     } else if body.is_fixed() {
         draw_ground(canvas, points);
-    } else if let Shape2::Rect(_) = body.shape() {
+    } else if matches!(body.shape(), Shape2::Rect(rect) if rect.radius() == 0.0) {
         draw_crate(canvas, points, varied(WOOD, number));
     } else if is_round {
         let color = varied(METAL, number);

@@ -1,8 +1,8 @@
 //! A picture of a world in space: an orthographic view from above, nearer bodies over further ones.
 
+use super::mesh::{Face, faces, parts};
 use super::order::far_to_near;
-use super::{Canvas, Color, GOLD, MARK, METAL, Pen, SCENERY, STONE, WOOD, varied};
-use crate::volume::mesh;
+use super::{BALL, Canvas, Color, GOLD, MARK, METAL, Pen, RUBBER, SCENERY, STONE, WOOD, varied};
 use asunder::glam::{DVec2, DVec3, Vec3};
 use asunder::{Collider3, Shape3, World3};
 use std::collections::BTreeMap;
@@ -19,43 +19,50 @@ struct View {
     light: DVec3,
 }
 
-/// A body's faces in world space.
-struct Solid<'a> {
-    body: &'a Collider3,
+/// A convex part of a body, as it stands.
+struct Solid {
+    part: Collider3,
+    /// Which body of the world it is of.
+    body: usize,
     faces: Vec<Face>,
-}
-
-struct Face {
-    normal: DVec3,
-    corners: Vec<DVec3>,
 }
 
 /// Draws the world as of its last update.
 pub(crate) fn draw(world: &World3) -> String {
     let view = View::new(DVec3::new(0.60, 0.62, 0.90));
-    let solids: Vec<Solid<'_>> = world.iter().map(|(_, body)| Solid::new(body)).collect();
+    let solids: Vec<Solid> = world
+        .iter()
+        .enumerate()
+        .flat_map(|(body, (_, collider))| parts(collider).into_iter().map(move |part| Solid::new(part, body)))
+        .collect();
     let numbers: BTreeMap<_, usize> = world.iter().enumerate().map(|(i, (key, _))| (key, i)).collect();
     let outlines: Vec<Vec<DVec2>> = solids.iter().map(|solid| view.outline(solid)).collect();
-    let bodies: Vec<&Collider3> = solids.iter().map(|solid| solid.body).collect();
-    let order = far_to_near(&bodies, &outlines, view.toward_viewer);
-    let mut turn = vec![0; order.len()];
-    order.iter().enumerate().for_each(|(i, &number)| turn[number] = i);
+    let convex: Vec<&Collider3> = solids.iter().map(|solid| &solid.part).collect();
+    let order = far_to_near(&convex, &outlines, view.toward_viewer);
+    // When the last part of each body is drawn.
+    let mut turn = vec![0; numbers.len()];
+    order.iter().enumerate().for_each(|(i, &number)| turn[solids[number].body] = i);
 
     // A point is drawn right after the later of its two bodies, so that whatever hides them hides it.
     let mut points: BTreeMap<usize, Vec<DVec3>> = BTreeMap::new();
     for contact in world.contacts() {
         let (Some(&a), Some(&b)) = (numbers.get(&contact.a), numbers.get(&contact.b)) else { continue };
         for point in contact.manifolds.iter().flat_map(|manifold| &manifold.points) {
-            let place = bodies[a].pose().position() + Vec3::as_dvec3(point.anchor_a);
-            let is_seen = [a, b].iter().all(|&number| solids[number].depth_over(place, &view) < SEEN_THROUGH);
+            let Some(body) = world.get(contact.a) else { continue };
+            let place = body.pose().position() + Vec3::as_dvec3(point.anchor_a);
+            let mut both = solids.iter().filter(|solid| [a, b].contains(&solid.body));
+            let is_seen = both.all(|solid| solid.depth_over(place, &view) < SEEN_THROUGH);
             if is_seen {
                 points.entry(turn[a].max(turn[b])).or_default().push(place);
             }
         }
     }
-    let mut canvas = Canvas::around(outlines.iter().flatten().copied());
+    // What has no end is drawn as far as the rest goes.
+    let bounded =
+        solids.iter().zip(&outlines).filter(|(solid, _)| solid.part.shape().outer_radius().is_finite());
+    let mut canvas = Canvas::around(bounded.flat_map(|(_, outline)| outline.iter().copied()));
     for (i, &number) in order.iter().enumerate() {
-        solids[number].draw(&mut canvas, &view, number);
+        solids[number].draw(&mut canvas, &view, solids[number].body);
         for &place in points.get(&i).into_iter().flatten() {
             let radius = (0.035 * canvas.pixels).clamp(0.8, 3.0);
             canvas.dot(view.project(place), radius, Pen::fill(MARK));
@@ -80,7 +87,7 @@ impl View {
         DVec2::new(point.dot(self.right), point.dot(self.up))
     }
 
-    fn outline(&self, solid: &Solid<'_>) -> Vec<DVec2> {
+    fn outline(&self, solid: &Solid) -> Vec<DVec2> {
         solid.faces.iter().flat_map(|face| &face.corners).map(|&corner| self.project(corner)).collect()
     }
 
@@ -89,16 +96,10 @@ impl View {
     }
 }
 
-impl<'a> Solid<'a> {
-    fn new(body: &'a Collider3) -> Self {
-        let (pose, basis) = (body.pose(), body.pose().basis());
-        let (vertices, topology) = mesh(body.shape());
-        let place = |i: usize| pose.position() + basis.turn(vertices[i]);
-        let faces = (0..topology.face_count()).map(|face| {
-            let corners: Vec<DVec3> = topology.face_vertices(face).map(place).collect();
-            Face { normal: normal(&corners), corners }
-        });
-        Self { body, faces: faces.collect() }
+impl Solid {
+    fn new(part: Collider3, body: usize) -> Self {
+        let faces = faces(&part);
+        Self { part, body, faces }
     }
 
     /// How much of the body, in metres, lies between a point and the viewer.
@@ -123,33 +124,36 @@ impl<'a> Solid<'a> {
         for face in self.faces.iter().filter(|face| face.normal.dot(view.toward_viewer) > 0.0) {
             let shaded = view.shade(color, face.normal);
             let corners: Vec<DVec2> = face.corners.iter().map(|&corner| view.project(corner)).collect();
-            let mut pen = Pen::fill(shaded).edged(shaded * 0.62, 0.6);
-            if self.body.is_sensor() {
+            let is_round = self.part.shape().radius() > 0.0;
+            let mut pen = Pen::fill(shaded).edged(if is_round { shaded } else { shaded * 0.62 }, 0.6);
+            if self.part.is_sensor() {
                 pen = pen.faint(0.4);
             }
             canvas.polygon(&corners, pen);
-            if self.body.is_sensor() {
+            if self.part.is_sensor() {
                 continue;
             }
-            if self.body.is_fixed() {
+            if self.part.is_fixed() {
                 draw_tiles(canvas, view, face, Pen::line(shaded * 0.85, 0.5));
-            } else if let Shape3::Cuboid(_) = self.body.shape() {
+            } else if matches!(self.part.shape(), Shape3::Cuboid(_)) && !is_round {
                 draw_boards(canvas, &corners, Pen::line(shaded * 0.72, 0.6));
             }
         }
     }
 
     fn color(&self, number: usize) -> Color {
-        if self.body.is_sensor() {
+        if self.part.is_sensor() {
             return GOLD;
         }
-        if self.body.is_fixed() {
+        if self.part.is_fixed() {
             return SCENERY;
         }
         // Prisms have two faces that all their other faces touch; rocks don't.
         let corners = self.faces.iter().map(|face| face.corners.len());
         let most = corners.max().unwrap_or(0);
-        let base = match self.body.shape() {
+        let base = match self.part.shape() {
+            Shape3::Sphere(_) => BALL,
+            Shape3::Capsule(_) => RUBBER,
             Shape3::Cuboid(_) => WOOD,
             Shape3::Hull(_) if most + 2 == self.faces.len() => METAL,
             _ => STONE,
@@ -175,11 +179,4 @@ fn draw_boards(canvas: &mut Canvas, corners: &[DVec2], pen: Pen) {
     let middle = (a + b + c + d) / 4.0;
     let inner = [a, b, c, d].map(|corner| corner.lerp(middle, 0.28));
     canvas.polygon(&inner, pen);
-}
-
-/// Newell's normal: right for any flat loop.
-fn normal(corners: &[DVec3]) -> DVec3 {
-    let origin = corners[0];
-    let sum: DVec3 = corners[1..].windows(2).map(|two| (two[0] - origin).cross(two[1] - origin)).sum();
-    sum.normalize_or_zero()
 }
