@@ -190,11 +190,11 @@ impl Canvas {
 
     /// The file: without empty lines and with its first tag on a line of its own, so that Markdown leaves it alone.
     pub(crate) fn finish(self, label: &str) -> String {
-        let gradients: String = self.gradients.into_values().collect::<Vec<_>>().join("\n");
+        let gradients: String = self.gradients.into_values().map(|gradient| gradient + "\n").collect();
         let DVec2 { x, y } = self.size;
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{x:.0}\" height=\"{y:.0}\" viewBox=\"0 0 {x:.0} {y:.0}\" role=\"img\" aria-label=\"{label}\">\n\
-             <defs>\n{gradients}\n</defs>\n\
+             <defs>\n{gradients}</defs>\n\
              <rect width=\"{x:.0}\" height=\"{y:.0}\" rx=\"12\" fill=\"{}\"/>\n\
              <g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" font-family=\"Helvetica, Arial, sans-serif\">\n{}</g>\n\
              </svg>\n",

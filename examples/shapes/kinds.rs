@@ -68,23 +68,23 @@ pub(crate) fn triangle() -> Result<Triangle3, Box<dyn Error>> {
 /// Two posts on a beam: not convex, so it may touch at several places with several normals.
 pub(crate) fn arch3() -> Result<Compound3, Box<dyn Error>> {
     let beam = Cuboid::from_half_extents(Vec3::new(0.58, 0.10, 0.24))?;
-    let post = Cuboid::from_half_extents(Vec3::new(0.11, 0.18, 0.24))?;
+    let post = Cuboid::from_half_extents(Vec3::new(0.11, 0.155, 0.24))?;
     let round = Capsule3::new(Vec3::Z * -0.12, Vec3::Z * 0.12, 0.14)?;
     Ok(Compound3::new([
         (Pose3::at([0.0, -0.20, 0.0])?, beam.into()),
-        (Pose3::at([-0.47, 0.06, 0.0])?, post.into()),
-        (Pose3::at([0.44, 0.10, 0.0])?, round.into()),
+        (Pose3::at([-0.47, 0.03, 0.0])?, post.into()),
+        (Pose3::at([0.44, 0.045, 0.0])?, round.into()),
     ])?)
 }
 
 /// The same in the plane.
 pub(crate) fn arch2() -> Result<Compound2, Box<dyn Error>> {
     let beam = Rect::from_half_extents(Vec2::new(0.58, 0.10))?;
-    let post = Rect::from_half_extents(Vec2::new(0.11, 0.18))?;
+    let post = Rect::from_half_extents(Vec2::new(0.11, 0.16))?;
     Ok(Compound2::new([
         (Pose2::at([0.0, -0.20])?, beam.into()),
-        (Pose2::at([-0.47, 0.07])?, post.into()),
-        (Pose2::at([0.43, 0.10])?, Circle::new(0.15)?.into()),
+        (Pose2::at([-0.47, 0.03])?, post.into()),
+        (Pose2::at([0.43, 0.04])?, Circle::new(0.15)?.into()),
     ])?)
 }
 

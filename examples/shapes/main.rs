@@ -100,9 +100,9 @@ fn all_pairs<'a, S, P>(
     attitudes: &[&[Attitude]],
     touch: impl Fn(&'a Kind<S>, &'a Kind<S>, Attitude) -> Result<Touch<'a, S, P>, TouchError>,
 ) -> Result<Vec<Vec<Touch<'a, S, P>>>, TouchError> {
-    let rows = attitudes.iter().enumerate().map(|(row, attitudes)| {
-        let pairs = kinds[row..].iter().zip(*attitudes);
-        pairs.map(|(b, &attitude)| touch(&kinds[row], b, attitude)).collect()
+    let rows = kinds.iter().enumerate().zip(attitudes).map(|((row, a), attitudes)| {
+        let pairs = kinds.iter().skip(row).zip(*attitudes);
+        pairs.map(|(b, &attitude)| touch(a, b, attitude)).collect()
     });
     rows.collect()
 }

@@ -5,9 +5,9 @@
 use crate::camera::{Camera, joined};
 use crate::canvas::{Anchor, Canvas, Paint};
 use crate::flat::Flat;
-use crate::order::far_to_near;
+use crate::order::{far_to_near, parts2, parts3};
 use crate::solid::Solid;
-use crate::tint::{CARD, COOL, Color, GREY, INK, NORMAL, WARM};
+use crate::tint::{CARD, COOL, Color, GREY, INK, NORMAL, Tint, WARM};
 use crate::touch::{Mark, Touch2, Touch3};
 use asunder::glam::{DVec2, DVec3};
 
@@ -22,7 +22,7 @@ const APART: f64 = 22.0;
 /// Pixels a metre, unless a pair is too large for its card.
 const SCALE: f64 = 98.0;
 /// Pixels that a pair may take.
-const ROOM: f64 = CELL - GAP - 12.0;
+const ROOM: DVec2 = DVec2::splat(CELL - GAP - 12.0);
 /// Length of a normal, in metres.
 const ARROW: f64 = 0.34;
 /// Cards of the plane's half.
@@ -30,7 +30,7 @@ const CARD2: Color = DVec3::new(0.985, 0.982, 0.965);
 
 pub(crate) fn draw(solids: &[Vec<Touch3<'_>>], flats: &[Vec<Touch2<'_>>]) -> String {
     let count = solids.len() as f64;
-    let size = DVec2::new(2.0 * CORNER.x + CELL * count + ASIDE, CORNER.y + CELL * count + APART + 60.0);
+    let size = DVec2::new(2.0 * CORNER.x + CELL * count + ASIDE, CORNER.y + CELL * count + APART + 44.0);
     let mut canvas = Canvas::new("shapes", size);
     draw_title(&mut canvas, size);
     draw_solids(&mut canvas, solids);
@@ -81,35 +81,26 @@ fn draw_flats(canvas: &mut Canvas, flats: &[Vec<Touch2<'_>>]) {
 fn draw_title(canvas: &mut Canvas, size: DVec2) {
     let left = CORNER.x + ASIDE;
     canvas.text(DVec2::new(left, 50.0), "Every shape against every other", (28.0, INK, Anchor::Start));
-    let right = size.x - CORNER.x;
-    let entries = [("A, below", 610.0), ("B, above", 480.0), ("contact points on A and B", 350.0)];
-    for (i, (text, from_right)) in entries.into_iter().enumerate() {
-        let at = DVec2::new(right - from_right, 44.0);
-        match i {
-            0 => canvas.card(
-                at - DVec2::splat(9.0),
-                DVec2::splat(18.0),
-                4.0,
-                &Paint::fill(COOL.base()).edged(COOL.ink, 1.4),
-            ),
-            1 => canvas.card(
-                at - DVec2::splat(9.0),
-                DVec2::splat(18.0),
-                4.0,
-                &Paint::fill(WARM.base()).edged(WARM.ink, 1.4),
-            ),
-            _ => {
-                canvas.point(at - DVec2::Y * 3.5, 3.6, COOL.ink);
-                canvas.point(at + DVec2::Y * 3.5, 3.6, WARM.ink);
-            }
-        }
-        canvas.text(at + DVec2::new(17.0, 6.0), text, (17.0, INK, Anchor::Start));
+    let halves = "upper right: in space, 55 pairs; lower left: in the plane, 45 pairs";
+    canvas.text(DVec2::new(left, 76.0), halves, (16.0, GREY, Anchor::Start));
+    let from_right = |x: f64| DVec2::new(size.x - CORNER.x - x, 58.0);
+    for (at, tint) in [(from_right(640.0), COOL), (from_right(520.0), WARM)] {
+        let paint = Paint::fill(tint.base()).edged(tint.ink, 1.4);
+        canvas.card(at - 9.0, DVec2::splat(18.0), 4.0, &paint);
     }
-    let at = DVec2::new(right - 110.0, 44.0);
-    canvas.arrow(at + DVec2::Y * 12.0, at - DVec2::Y * 14.0, NORMAL);
-    canvas.text(at + DVec2::new(15.0, 6.0), "normal", (17.0, INK, Anchor::Start));
-    canvas.text(DVec2::new(right, size.y - 60.0), "above: in space, 55 pairs", (17.0, GREY, Anchor::End));
-    canvas.text(DVec2::new(right, size.y - 36.0), "left: in the plane, 45 pairs", (17.0, GREY, Anchor::End));
+    canvas.point(from_right(400.0) + DVec2::Y * 4.0, 4.0, COOL.ink);
+    canvas.point(from_right(400.0) - DVec2::Y * 4.0, 4.0, WARM.ink);
+    let normal = from_right(150.0);
+    canvas.arrow(normal + DVec2::Y * 12.0, normal - DVec2::Y * 14.0, NORMAL);
+    let texts = [
+        (640.0, "A, below"),
+        (520.0, "B, above"),
+        (400.0, "contact points on A and B"),
+        (150.0, "normal, A to B"),
+    ];
+    for (x, text) in texts {
+        canvas.text(from_right(x) + DVec2::new(16.0, 6.0), text, (16.0, INK, Anchor::Start));
+    }
 }
 
 /// A caption of one or two words, one below the other.
@@ -124,13 +115,15 @@ fn caption(canvas: &mut Canvas, at: DVec2, name: &str, anchor: Anchor) {
 }
 
 fn draw_cell3(canvas: &mut Canvas, touch: &Touch3<'_>, middle: DVec2) {
-    let order = far_to_near(touch, Camera::above().toward_viewer());
-    let tint = |is_b: bool| if is_b { &WARM } else { &COOL };
-    let frame = |camera: &Camera| {
-        joined(order.iter().map(|body| Solid::new(body.shape, &body.pose, tint(body.is_b), camera).frame()))
-    };
-    let camera = fitted(Camera::above(), frame, middle);
-    for body in &order {
+    let camera = Camera::above().scaled(SCALE);
+    let mut bodies = parts3(&touch.a.shape, &touch.pose_a, false);
+    bodies.extend(parts3(&touch.b.shape, &touch.pose_b, true));
+    let bodies = far_to_near(bodies, camera.toward_viewer());
+    let camera = camera.fitted(ROOM, middle, |camera| {
+        joined(bodies.iter().map(|body| Solid::new(body.shape, &body.pose, tint(body.is_b), camera).frame()))
+    });
+    for body in &bodies {
+        // What is in front lets through what it stands on.
         canvas.begin(if body.is_b { 0.80 } else { 1.0 });
         Solid::new(body.shape, &body.pose, tint(body.is_b), &camera).draw(canvas);
         canvas.end();
@@ -139,23 +132,20 @@ fn draw_cell3(canvas: &mut Canvas, touch: &Touch3<'_>, middle: DVec2) {
 }
 
 fn draw_cell2(canvas: &mut Canvas, touch: &Touch2<'_>, middle: DVec2) {
-    let parts = touch.parts();
-    let tint = |is_b: bool| if is_b { &WARM } else { &COOL };
-    let frame = |camera: &Camera| {
-        joined(parts.iter().map(|body| Flat::new(body.shape, &body.pose, tint(body.is_b), camera).frame()))
-    };
-    let camera = fitted(Camera::front(), frame, middle);
-    for body in &parts {
+    let mut bodies = parts2(&touch.a.shape, &touch.pose_a, false);
+    bodies.extend(parts2(&touch.b.shape, &touch.pose_b, true));
+    let camera = Camera::front().scaled(SCALE).fitted(ROOM, middle, |camera| {
+        joined(bodies.iter().map(|body| Flat::new(body.shape, &body.pose, tint(body.is_b), camera).frame()))
+    });
+    for body in &bodies {
         Flat::new(body.shape, &body.pose, tint(body.is_b), &camera).draw(canvas);
     }
     draw_marks(canvas, &touch.marks, &camera);
 }
 
-/// The camera moved, and scaled if it must be, so that the rectangle of the picture around a pair fits its card.
-fn fitted(camera: Camera, frame: impl Fn(&Camera) -> [DVec2; 2], middle: DVec2) -> Camera {
-    let [low, high] = frame(&camera.scaled(1.0));
-    let camera = camera.scaled(SCALE.min(ROOM / (high - low).max_element()));
-    camera.centered(frame(&camera), middle)
+/// The first body is cool, the second warm.
+fn tint(is_b: bool) -> &'static Tint {
+    if is_b { &WARM } else { &COOL }
 }
 
 /// Normals, and over them the points on both surfaces.

@@ -1,23 +1,23 @@
-//! Which convex parts of a pair hide which.
+//! The convex parts of bodies, and which of them hide which.
 
-use crate::touch::{Touch2, Touch3};
 use asunder::glam::DVec3;
 use asunder::{Pair3, Pose2, Pose3, Separation3, Shape2, Shape3};
 
-/// A convex part of one of the two bodies, in the world.
+/// A convex part of a body, in the world.
 pub(crate) struct Body<'a, S, P> {
     pub shape: &'a S,
     pub pose: P,
     pub is_b: bool,
 }
 
-/// The convex parts of both bodies, those furthest from the viewer first.
+/// The parts, those furthest from the viewer first.
 ///
 /// The engine says which of two parts is nearer: the normal from one to the other either points towards the viewer or away
-/// (Newell, Newell and Sancha, "A solution to the hidden surface problem", 1972, with whole bodies for faces).
-pub(crate) fn far_to_near<'a>(touch: &Touch3<'a>, toward_viewer: DVec3) -> Vec<Body<'a, Shape3, Pose3>> {
-    let mut left = parts3(&touch.a.shape, &touch.pose_a, false);
-    left.extend(parts3(&touch.b.shape, &touch.pose_b, true));
+/// (Newell, Newell and Sancha, "A solution to the hidden surface problem", 1972, with whole parts for faces).
+pub(crate) fn far_to_near<'a>(
+    mut left: Vec<Body<'a, Shape3, Pose3>>,
+    toward_viewer: DVec3,
+) -> Vec<Body<'a, Shape3, Pose3>> {
     let mut order = Vec::new();
     while !left.is_empty() {
         // What hides nothing that is left; if the parts hide each other in a circle, just the first.
@@ -38,7 +38,8 @@ fn hides(part: &Body<'_, Shape3, Pose3>, other: &Body<'_, Shape3, Pose3>, toward
     }
 }
 
-fn parts3<'a>(shape: &'a Shape3, pose: &Pose3, is_b: bool) -> Vec<Body<'a, Shape3, Pose3>> {
+/// The convex parts of a posed body.
+pub(crate) fn parts3<'a>(shape: &'a Shape3, pose: &Pose3, is_b: bool) -> Vec<Body<'a, Shape3, Pose3>> {
     let Shape3::Compound(compound) = shape else { return vec![Body { shape, pose: *pose, is_b }] };
     let parts = compound.parts().iter().filter_map(|part| {
         // The parts of this example's compounds are not turned in them.
@@ -48,16 +49,8 @@ fn parts3<'a>(shape: &'a Shape3, pose: &Pose3, is_b: bool) -> Vec<Body<'a, Shape
     parts.collect()
 }
 
-impl<'a> Touch2<'a> {
-    /// The convex parts of both bodies.
-    pub(crate) fn parts(&self) -> Vec<Body<'a, Shape2, Pose2>> {
-        let mut parts = parts2(&self.a.shape, &self.pose_a, false);
-        parts.extend(parts2(&self.b.shape, &self.pose_b, true));
-        parts
-    }
-}
-
-fn parts2<'a>(shape: &'a Shape2, pose: &Pose2, is_b: bool) -> Vec<Body<'a, Shape2, Pose2>> {
+/// The same in the plane.
+pub(crate) fn parts2<'a>(shape: &'a Shape2, pose: &Pose2, is_b: bool) -> Vec<Body<'a, Shape2, Pose2>> {
     let Shape2::Compound(compound) = shape else { return vec![Body { shape, pose: *pose, is_b }] };
     let parts = compound.parts().iter().filter_map(|part| {
         let pose = Pose2::new(pose.transform(part.pose().position()), pose.rotation()).ok()?;

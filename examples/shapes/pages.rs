@@ -4,8 +4,9 @@ use crate::camera::{Camera, joined};
 use crate::canvas::{Anchor, Canvas, Paint};
 use crate::flat::Flat;
 use crate::kinds::{arch2, arch3, gem, pentagon, triangle};
+use crate::order::{far_to_near, parts2, parts3};
 use crate::solid::Solid;
-use crate::tint::{CARD, COOL, GREY, INK, Tint, WARM};
+use crate::tint::{CARD, COOL, INK, Tint, WARM};
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{
     Capsule2, Capsule3, Circle, Cuboid, HalfPlane, HalfSpace, Pose2, Pose3, Rect, Segment2, Segment3, Shape2,
@@ -16,7 +17,9 @@ use std::error::Error;
 /// Pixels of one card, and around it.
 const CARD_SIZE: DVec2 = DVec2::new(220.0, 190.0);
 const GAP: f64 = 10.0;
-/// Pixels a metre.
+/// Pixels that a shape may take.
+const ROOM: DVec2 = DVec2::new(190.0, 150.0);
+/// Pixels a metre, unless the shape is too large for its card.
 const SCALE: f64 = 140.0;
 
 /// A picture: the file's name, and its shapes with what is written below them.
@@ -88,20 +91,16 @@ fn flat_pages() -> Result<Vec<Page<Shape2>>, Box<dyn Error>> {
 fn draw_solids(page: &Page<Shape3>) -> String {
     let mut canvas = cards(page);
     for (i, (_, shape)) in page.shapes.iter().enumerate() {
-        let tint = tint(i);
-        let camera = Camera::above().scaled(SCALE);
-        let parts = parts3(shape);
-        let frame = parts.iter().map(|(shape, pose)| Solid::new(shape, pose, tint, &camera).frame());
-        let camera = camera.centered(joined(frame), middle(i));
-        let mut order: Vec<_> = parts.iter().collect();
-        let depth =
-            |(shape, pose): &(&Shape3, Pose3)| pose.transform(shape.center()).dot(camera.toward_viewer());
-        order.sort_by(|one, other| depth(one).total_cmp(&depth(other)));
-        for (shape, pose) in order {
-            Solid::new(shape, pose, tint, &camera).draw(&mut canvas);
+        let (tint, camera) = (tint(i), Camera::above().scaled(SCALE));
+        let parts = far_to_near(parts3(shape, &Pose3::IDENTITY, false), camera.toward_viewer());
+        let camera = camera.fitted(ROOM, middle(i), |camera| {
+            joined(parts.iter().map(|part| Solid::new(part.shape, &part.pose, tint, camera).frame()))
+        });
+        for part in &parts {
+            Solid::new(part.shape, &part.pose, tint, &camera).draw(&mut canvas);
         }
-        for (shape, pose) in &parts {
-            draw_core(&mut canvas, &core3(shape, pose, &camera), tint);
+        for part in &parts {
+            draw_core(&mut canvas, &core3(part.shape, &part.pose, &camera), tint);
         }
         draw_axes(&mut canvas, &camera, &[DVec3::X, DVec3::Y, DVec3::Z]);
     }
@@ -112,15 +111,15 @@ fn draw_flats(page: &Page<Shape2>) -> String {
     let mut canvas = cards(page);
     for (i, (_, shape)) in page.shapes.iter().enumerate() {
         let tint = tint(i);
-        let camera = Camera::front().scaled(SCALE);
-        let parts = parts2(shape);
-        let frame = parts.iter().map(|(shape, pose)| Flat::new(shape, pose, tint, &camera).frame());
-        let camera = camera.centered(joined(frame), middle(i));
-        for (shape, pose) in &parts {
-            Flat::new(shape, pose, tint, &camera).draw(&mut canvas);
+        let parts = parts2(shape, &Pose2::IDENTITY, false);
+        let camera = Camera::front().scaled(SCALE).fitted(ROOM, middle(i), |camera| {
+            joined(parts.iter().map(|part| Flat::new(part.shape, &part.pose, tint, camera).frame()))
+        });
+        for part in &parts {
+            Flat::new(part.shape, &part.pose, tint, &camera).draw(&mut canvas);
         }
-        for (shape, pose) in &parts {
-            draw_core(&mut canvas, &core2(shape, pose, &camera), tint);
+        for part in &parts {
+            draw_core(&mut canvas, &core2(part.shape, &part.pose, &camera), tint);
         }
         draw_axes(&mut canvas, &camera, &[DVec3::X, DVec3::Y]);
     }
@@ -151,25 +150,6 @@ fn cards<S>(page: &Page<S>) -> Canvas {
     canvas
 }
 
-/// The convex parts of a shape and where they are.
-fn parts3(shape: &Shape3) -> Vec<(&Shape3, Pose3)> {
-    match shape {
-        Shape3::Compound(compound) => {
-            compound.parts().iter().map(|part| (part.shape(), *part.pose())).collect()
-        }
-        _ => vec![(shape, Pose3::IDENTITY)],
-    }
-}
-
-fn parts2(shape: &Shape2) -> Vec<(&Shape2, Pose2)> {
-    match shape {
-        Shape2::Compound(compound) => {
-            compound.parts().iter().map(|part| (part.shape(), *part.pose())).collect()
-        }
-        _ => vec![(shape, Pose2::IDENTITY)],
-    }
-}
-
 /// What a rounded shape is rounded about, on the picture.
 struct Core {
     vertices: Vec<DVec2>,
@@ -192,7 +172,10 @@ fn core2(shape: &Shape2, pose: &Pose2, camera: &Camera) -> Core {
     let count = core.vertices().len();
     Core {
         vertices: core.vertices().iter().map(|&v| camera.place(pose.transform(v).extend(0.0))).collect(),
-        edges: (0..core.normals().len()).map(|edge| (edge % count, (edge + 1) % count)).collect(),
+        // A segment's two edges are the same line.
+        edges: (0..if count > 2 { count } else { count.saturating_sub(1) })
+            .map(|edge| (edge % count, (edge + 1) % count))
+            .collect(),
         is_round: shape.radius() > 0.0,
     }
 }
@@ -215,6 +198,6 @@ fn draw_axes(canvas: &mut Canvas, camera: &Camera, axes: &[DVec3]) {
     for (&axis, name) in axes.iter().zip(["x", "y", "z"]) {
         let tip = camera.place(axis * 0.2);
         canvas.line(origin, tip, &Paint::line(INK, 1.2));
-        canvas.text(camera.place(axis * 0.27) + DVec2::Y * 3.0, name, (10.0, GREY, Anchor::Middle));
+        canvas.text(camera.place(axis * 0.27) + DVec2::Y * 3.0, name, (10.0, INK, Anchor::Middle));
     }
 }

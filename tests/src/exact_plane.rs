@@ -165,9 +165,8 @@ impl ExactPlane {
             return Ordering::Equal;
         }
         let is_above = |i: usize| self.order(1, i, point).is_gt();
-        let crossed = sides().filter(|&[a, b]| {
-            is_above(a) != is_above(b) && self.turn(a, b, point).is_gt() == is_above(b)
-        });
+        let crossed = sides()
+            .filter(|&[a, b]| is_above(a) != is_above(b) && self.turn(a, b, point).is_gt() == is_above(b));
         if crossed.count() % 2 == 1 { Ordering::Greater } else { Ordering::Less }
     }
 

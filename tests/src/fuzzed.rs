@@ -210,8 +210,7 @@ fn check_exact_refusal(error: DecomposeError, outline: &[Vec2]) {
 /// Whether two vertices are so close that they could belong to a part that is too small.
 fn has_close_vertices(outline: &[Vec2]) -> bool {
     let apart = |a: &Vec2, b: &Vec2| (a.as_dvec2() - b.as_dvec2()).length();
-    (0..outline.len())
-        .any(|b| (0..b).any(|a| apart(&outline[a], &outline[b]) <= 2.0 * f64::from(MIN_RADIUS)))
+    (0..outline.len()).any(|b| (0..b).any(|a| apart(&outline[a], &outline[b]) <= 2.0 * f64::from(MIN_RADIUS)))
 }
 
 fn check_parts(parts: &Compound2, exact: &mut ExactPlane, outline: &[Vec2]) {
@@ -275,14 +274,17 @@ fn check_samples(parts: &Compound2, whole: &[usize], outline: &[Vec2]) {
 fn numbers(polygon: &Polygon, points: &[Vec2]) -> Vec<usize> {
     let bits = |v: Vec2| v.to_array().map(f32::to_bits);
     let number = |v: &Vec2| points.iter().position(|p| bits(*p) == bits(*v));
-    polygon.vertices().iter().map(|v| number(v).unwrap_or_else(|| panic!("{v} is none of {points:?}"))).collect()
+    polygon
+        .vertices()
+        .iter()
+        .map(|v| number(v).unwrap_or_else(|| panic!("{v} is none of {points:?}")))
+        .collect()
 }
 
 /// Whether two loops are the same places in the same order, wherever they start.
 fn cycles_agree(exact: &ExactPlane, one: &[usize], other: &[usize]) -> bool {
     let n = one.len();
-    n == other.len()
-        && (0..n).any(|shift| (0..n).all(|i| exact.same(one[i], other[(i + shift) % n])))
+    n == other.len() && (0..n).any(|shift| (0..n).all(|i| exact.same(one[i], other[(i + shift) % n])))
 }
 
 /// A number and the coordinates that bytes stand for.

@@ -7,6 +7,9 @@
 //! - [`exhaustive_sat`]: the separation along every candidate axis, without early outs
 //! - [`exhaustive_distance`]: the distance over every pair of features
 //! - [`exact_overlap`]: whether two shapes share a point, by linear programming over integers
+//! - [`cores`]: the separation of bodies of any kind, piece by piece: rounded cores, half-spaces, compounds
+//! - [`bodies`]: pairs of such bodies, asked as in [`answers`]
+//! - [`shapes`]: seeded shapes of every kind, and pairs of them in every kind of place
 //! - [`cases`]: seeded shapes, poses and pairs, far apart, deep, and touching
 //! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
 //!
@@ -16,8 +19,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a judge that cannot judge must stop the test")]
 
 pub mod answers;
+pub mod bodies;
 pub mod brute_pairs;
 pub mod cases;
+pub mod cores;
 pub mod engine;
 pub mod exact_overlap;
 pub mod exhaustive_distance;
@@ -25,4 +30,5 @@ pub mod exhaustive_sat;
 pub mod integers;
 pub mod naive_world;
 pub mod placed;
+pub mod shapes;
 pub mod solid;

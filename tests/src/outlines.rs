@@ -4,6 +4,9 @@ use crate::cases::Random;
 use crate::exact_plane::{ExactPlane, Meeting};
 use glam::{DVec2, Vec2};
 
+/// After so many passes over all pairs of edges, points that are still tangled are mostly on one line.
+const PASSES: usize = 12;
+
 /// The points in an order whose edges mostly do not cross, each place once: an edge pair that meets is exchanged for the
 /// other pair on the same ends, for as long as there is one, up to a limit. They must be finite.
 pub fn untangled(points: Vec<Vec2>) -> Vec<Vec2> {
@@ -20,11 +23,17 @@ pub fn untangled(points: Vec<Vec2>) -> Vec<Vec2> {
         let [e, f] = [a, b].map(|edge| [order[edge], order[(edge + 1) % count]]);
         exact.segments(e, f) != Meeting::Apart
     };
-    for _ in 0..4 * count {
-        let pairs = (0..count).flat_map(|b| (0..b).map(move |a| (a, b)));
-        let mut pairs = pairs.filter(|&(a, b)| meet(&order, a, b));
-        let Some((a, b)) = pairs.next() else { break };
-        order[a + 1..=b].reverse();
+    for _ in 0..PASSES {
+        let mut is_simple = true;
+        for (a, b) in (0..count).flat_map(|b| (0..b).map(move |a| (a, b))) {
+            if meet(&order, a, b) {
+                order[a + 1..=b].reverse();
+                is_simple = false;
+            }
+        }
+        if is_simple {
+            break;
+        }
     }
     order.into_iter().map(|i| outline[i]).collect()
 }
@@ -57,7 +66,9 @@ pub fn comb(teeth: usize) -> Vec<Vec2> {
     let foot = |i: usize| 2.0 * i as f32;
     let mut outline = vec![Vec2::new(foot(teeth) - 1.0, -1.0)];
     for i in (0..teeth).rev() {
-        outline.extend([(foot(i) + 1.0, 0.0), (foot(i) + 1.0, 5.0), (foot(i), 5.0), (foot(i), 0.0)].map(Vec2::from));
+        outline.extend(
+            [(foot(i) + 1.0, 0.0), (foot(i) + 1.0, 5.0), (foot(i), 5.0), (foot(i), 0.0)].map(Vec2::from),
+        );
     }
     // The outermost feet lie on the bar's own sides.
     outline.retain(|p| p.y != 0.0 || p.x != foot(0) && p.x != foot(teeth) - 1.0);
@@ -75,7 +86,8 @@ pub fn star(random: &mut Random, tips: usize) -> Vec<Vec2> {
         .map(|i| {
             let radius = if i % 2 == 0 { 1.0 } else { random.between(0.2, 0.7) };
             let at = direction * radius;
-            direction = DVec2::new(cos * direction.x - sin * direction.y, sin * direction.x + cos * direction.y);
+            direction =
+                DVec2::new(cos * direction.x - sin * direction.y, sin * direction.x + cos * direction.y);
             at.as_vec2()
         })
         .collect()

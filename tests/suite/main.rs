@@ -6,6 +6,7 @@
 //! Geometry
 //! - [`refusals`]: what is no convex shape and no pose is refused, by an error that names the place
 //! - [`bounds`]: the box around a posed shape holds it, and is no wider than rounding needs
+//! - [`mass`]: mass, centre and inertia of every shape, against exact fractions, textbooks, sampling and inclusion-exclusion
 //!
 //! Broad phase
 //! - [`broad`]: exactly the pairs of a double loop, each once, in order, for any boxes whatever
@@ -15,6 +16,8 @@
 //! - [`exactness`]: yes or no agrees with exact arithmetic up to the rounding of f64, and on short numbers exactly
 //! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair, with names that stay
 //! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
+//! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
+//! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
 //! - [`theory`]: the textbook's own examples
 //! - [`peer`]: parry3d says the same on 160,000 pairs
 //!
@@ -37,11 +40,14 @@ mod broad;
 mod exactness;
 mod invariance;
 mod manifolds;
+mod mass;
 mod oracles;
 mod peer;
 mod refusals;
 mod regressions;
 mod separation;
+mod shapes;
+mod shapes_peer;
 mod theory;
 mod world_events;
 mod world_model;

@@ -28,7 +28,7 @@ fn hulls_of_nasty_points_are_those_of_gift_wrapping() {
         check_polygons(&points, 3 + random.below(8));
         hulls += usize::from(Polygon::hull_of(&points).is_ok());
     }
-    assert!(hulls > 4500 && spoilt > 500, "{hulls} hulls, {spoilt} spoilt");
+    assert!(hulls > 4000 && spoilt > 500, "{hulls} hulls, {spoilt} spoilt");
 }
 
 /// The furthest that any of a hull's vertices lies from the hull of a choice of them, measured to every side.
@@ -99,7 +99,7 @@ fn circles_are_simplified_evenly() {
         // The arc's height over a chord that spans so many steps is its highest vertex's, in the middle or beside it.
         let half = |steps: usize| std::f64::consts::PI * steps as f64 / count as f64;
         let height = |steps: usize| {
-            let off_middle = if steps % 2 == 0 { 0.0 } else { half(1) };
+            let off_middle = if steps.is_multiple_of(2) { 0.0 } else { half(1) };
             cosine(off_middle) - cosine(half(steps))
         };
         let error = f64::from(simple.error());
@@ -129,7 +129,10 @@ fn a_million_points_are_simplified() {
         // An arc of 1/k of the circle stands this high over its chord; points are dense, so little better can be had.
         let height = 100.0 * (1.0 - cosine(std::f64::consts::PI / limit as f64));
         let error = f64::from(simple.error());
-        assert!(error >= 0.9 * height - 1e-4 && error <= 1.1 * height + 1e-4, "{limit}: {error}, not {height}");
+        assert!(
+            error >= 0.9 * height - 1e-4 && error <= 1.1 * height + 1e-4,
+            "{limit}: {error}, not {height}"
+        );
     }
 }
 
@@ -161,7 +164,7 @@ fn slivers_have_finite_centres() {
         check_polygons(&points, 3);
         slivers += usize::from(Polygon::hull_of(&points).is_ok());
     }
-    assert!(slivers > 2000, "{slivers}");
+    assert!(slivers > 1500, "{slivers}");
 }
 
 #[test]
@@ -176,16 +179,14 @@ fn the_faults_of_an_outline_are_named() {
     let doubled = [(0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (3.0, 0.0), (1.0, 0.0), (0.0, 2.0)];
     assert!(matches!(
         refused(&doubled),
-        DecomposeError::Overlapping { first: 0, second: 3 } | DecomposeError::Touching { vertex: 3 | 4, edge: 0 }
+        DecomposeError::Overlapping { first: 0, second: 3 }
+            | DecomposeError::Touching { vertex: 3 | 4, edge: 0 }
     ));
     let pinched = [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0), (2.0, 2.0), (1.0, 1.0), (0.0, 2.0)];
     assert_eq!(refused(&pinched), DecomposeError::Repeated { first: 1, second: 4 });
     assert!(matches!(refused(&[(0.0, 0.0), (1.0, 1.0), (3.0, 3.0)]), DecomposeError::Overlapping { .. }));
     assert_eq!(refused(&[(0.0, 0.0), (1.0, 0.0)]), DecomposeError::TooFewVertices { count: 2 });
-    assert_eq!(
-        refused(&[(0.0, 0.0), (1.0, 0.0), (f32::NAN, 1.0)]),
-        DecomposeError::NotFinite { vertex: 2 }
-    );
+    assert_eq!(refused(&[(0.0, 0.0), (1.0, 0.0), (f32::NAN, 1.0)]), DecomposeError::NotFinite { vertex: 2 });
     assert_eq!(refused(&[(0.0, 0.0), (1.0, 0.0), (1e6, 1.0)]), DecomposeError::TooLarge { vertex: 2 });
     assert!(matches!(
         refused(&[(0.0, 0.0), (1e-7, 0.0), (0.0, 1e-7)]),
@@ -199,8 +200,12 @@ fn the_faults_of_an_outline_are_named() {
 fn one_ulp_decides_between_simple_and_not() {
     let dented = |y: f32| outline(&[(0.0, 0.0), (2.0, 2.0), (2.0, 3.0), (1.0, y), (0.0, 3.0)]);
     assert_eq!(decompose(&dented(1.0)), Err(DecomposeError::Touching { vertex: 3, edge: 0 }));
-    assert_eq!(decompose(&dented(1.0_f32.next_up())).unwrap().parts().len(), 2);
-    assert!(matches!(decompose(&dented(1.0_f32.next_down())), Err(DecomposeError::Crossing { first: 0, .. })));
+    // Both sides of the dent turn inwards even without the sliver below it: three parts are the fewest.
+    assert_eq!(decompose(&dented(1.0_f32.next_up())).unwrap().parts().len(), 3);
+    assert!(matches!(
+        decompose(&dented(1.0_f32.next_down())),
+        Err(DecomposeError::Crossing { first: 0, .. })
+    ));
 }
 
 /// Every random outline is refused exactly when two of its edges meet, and for a reason that holds.
@@ -268,7 +273,8 @@ fn outlines_of_4096_vertices_are_split() {
         let parts = decompose(&points).unwrap();
         let exact = ExactPlane::new(points.iter().map(|p| p.as_dvec2()));
         let all: Vec<usize> = (0..points.len()).collect();
-        let mut area = exact.doubled_area(&all);
+        let signed = exact.doubled_area(&all);
+        let mut area = if signed < 0.into() { -signed } else { signed };
         for part in parts.parts() {
             let Shape2::Polygon(polygon) = part.shape() else { panic!("{part:?}") };
             let number = |v: &Vec2| points.iter().position(|p| p == v).unwrap();
@@ -303,18 +309,22 @@ fn parts_too_small_for_a_shape() {
     tail.extend((1..12).rev().map(|i| bend(i, 1)));
     tail.extend(outline(&[(2.0 * step, 0.0), (1.0, 0.0), (0.0, 1.0)]));
     let refused = decompose(&tail).unwrap_err();
-    assert!(matches!(refused, DecomposeError::TooFine { vertex } if (2..24).contains(&vertex)), "{refused:?}");
+    assert!(
+        matches!(refused, DecomposeError::TooFine { vertex } if (2..24).contains(&vertex)),
+        "{refused:?}"
+    );
     check_decomposition(&bump).unwrap();
     assert_eq!(check_decomposition(&tail), Err(refused));
 }
 
 #[test]
 fn what_reaches_too_far_is_refused() {
-    // Each vertex is near enough; the circle about the whole is not.
-    let far = outline(&[(9.9e5, 0.0), (0.0, 9.9e5), (-9.9e5, 0.0), (0.0, -1e3)]);
-    let found = decompose(&far);
-    assert!(matches!(found, Err(DecomposeError::TooLarge { .. })) || found.is_ok());
-    assert_eq!(check_decomposition(&far).is_ok(), found.is_ok());
+    // Each vertex is near enough; the circle about the centre of the whole reaches 1.4e6 m.
+    let far = outline(&[(9.9e5, 0.0), (0.0, 9.9e5), (-9.9e5, 0.0)]);
+    assert!(Polygon::new(&far).is_ok());
+    assert_eq!(check_decomposition(&far), Err(DecomposeError::TooLarge { vertex: 0 }));
+    let near: Vec<Vec2> = far.iter().map(|&p| p * 0.5).collect();
+    assert_eq!(check_decomposition(&near), Ok(1));
     let message = DecomposeError::Crossing { first: 17, second: 40 }.to_string();
     assert!(message.contains("17") && message.contains("40"), "{message}");
 }

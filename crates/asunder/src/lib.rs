@@ -42,10 +42,10 @@ mod world3;
 
 pub use asunder_geometry::{
     Aabb2, Aabb3, Basis3, Bounds, Capsule2, Capsule3, CapsuleError, Circle, Compound2, Compound3,
-    CompoundError, Core2, Core3, Cuboid, DirectionError, ExtentError, HalfEdge, HalfPlane, HalfSpace, Hull,
-    HullError, Part2, Part3, Polygon, PolygonError, Pose2, Pose3, PoseError, RadiusError, Ray2, Ray3,
-    RayError, Rect, Rotation2, Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, VertexError,
-    glam, tolerance,
+    CompoundError, Core2, Core3, Cuboid, DecomposeError, DirectionError, ExtentError, HalfEdge, HalfPlane,
+    HalfSpace, Hull, HullError, HullFault, MassError, MassProperties2, MassProperties3, Part2, Part3,
+    Polygon, PolygonError, Pose2, Pose3, PoseError, RadiusError, Ray2, Ray3, RayError, Rect, Rotation2,
+    Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, VertexError, glam, tolerance,
 };
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Manifold2, Manifold3,

@@ -8,6 +8,8 @@ use glam::DVec2;
 
 /// A disc about its own origin, given by its radius in metres: a point with everything within the radius added.
 ///
+#[doc = include_str!("../doc/circle.svg")]
+///
 /// # Costs and limits
 /// The cheapest shape: two circles cost one root, a circle and a half-plane one dot product. A contact is always one point.
 /// Radius 1e-6 to 1e6 m.

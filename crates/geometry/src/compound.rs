@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 /// Several convex parts in the plane, each posed, that move as one. Clones share the data.
 ///
+#[doc = include_str!("../doc/compound2.svg")]
+///
 /// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its own;
 /// parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a bounding
 /// circle test for each pair of parts, and the cost of the parts that pass.
@@ -95,7 +97,9 @@ impl Compound2 {
         }
         let center = ((low + high) * 0.5).as_vec2();
         let reach = |part: &Part2| {
-            (part.center() - center.as_dvec2()).length() + f64::from(part.shape.outer_radius())
+            // A stored rotation stretches by its length, which is one up to the rounding of f32.
+            let stretched = f64::from(part.shape.outer_radius()) * (1.0 + 2.0 * f64::from(f32::EPSILON));
+            (part.center() - center.as_dvec2()).length() + stretched
         };
         let outer = parts.iter().map(reach).fold(0.0, f64::max);
         let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
@@ -141,6 +145,8 @@ impl Compound2 {
 }
 
 /// Several convex parts in space, each posed, that move as one. Clones share the data.
+///
+#[doc = include_str!("../doc/compound3.svg")]
 ///
 /// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its own;
 /// parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a bounding

@@ -11,6 +11,8 @@ use std::sync::LazyLock;
 
 /// A rectangular box about its own origin, given by its half extents in metres.
 ///
+#[doc = include_str!("../doc/cuboid.svg")]
+///
 /// Vertex `i` lies on the positive side of x, y, z where bits 0, 1, 2 of `i` are set. Faces are numbered
 /// -x, +x, -y, +y, -z, +z.
 ///

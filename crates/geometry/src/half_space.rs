@@ -9,6 +9,8 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// Everything on one side of a line through its own origin: a floor without an end.
 ///
+#[doc = include_str!("../doc/half_plane.svg")]
+///
 /// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its place by
 /// the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the other shape.
 /// Two of them overlap unless they look exactly away from each other.
@@ -80,6 +82,8 @@ impl HalfPlane {
 }
 
 /// Everything on one side of a plane through its own origin: a floor without an end.
+///
+#[doc = include_str!("../doc/half_space.svg")]
 ///
 /// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its place by
 /// the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the other shape.

@@ -9,6 +9,8 @@ use glam::{DVec2, Vec2};
 
 /// A rectangle about its own origin, given by its half extents in metres.
 ///
+#[doc = include_str!("../doc/rect.svg")]
+///
 /// Its vertices are numbered counter-clockwise from the least corner; edge `i` runs from vertex `i` to the next.
 ///
 /// # Costs and limits

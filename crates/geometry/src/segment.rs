@@ -11,6 +11,8 @@ use robust::{Coord, orient2d};
 
 /// A segment between two points in the plane, in metres. It has no thickness, and edge 0 is all of it.
 ///
+#[doc = include_str!("../doc/segment2.svg")]
+///
 /// # Costs and limits
 /// It overlaps what it crosses, with the depth that moves it out to one of its two sides; on another segment, that is zero where they
 /// merely cross. Two normals. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
@@ -28,6 +30,8 @@ pub struct Segment2 {
 }
 
 /// A capsule in the plane: everything within `radius` metres of a segment.
+///
+#[doc = include_str!("../doc/capsule2.svg")]
 ///
 /// # Costs and limits
 /// As a segment: two normals. Lying on an edge it has two contact points. Radius from 1e-6 m; all of it within 1e6 m of the shape's
@@ -147,6 +151,8 @@ impl Capsule2 {
 
 /// A segment between two points in space, in metres. It has no thickness, and edge 0 is all of it.
 ///
+#[doc = include_str!("../doc/segment3.svg")]
+///
 /// # Costs and limits
 /// Two segments, or a segment and a capsule, cost a closed form; against faces it adds one edge to the test. Two segments that
 /// cross have depth zero. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
@@ -164,6 +170,8 @@ pub struct Segment3 {
 }
 
 /// A capsule in space: everything within `radius` metres of a segment.
+///
+#[doc = include_str!("../doc/capsule3.svg")]
 ///
 /// # Costs and limits
 /// Two capsules cost a closed form; a capsule against a hull of n edges n arc tests. Lying on a face, or beside another capsule, it has

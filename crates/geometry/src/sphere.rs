@@ -8,6 +8,8 @@ use glam::DVec3;
 
 /// A ball about its own origin, given by its radius in metres: a point with everything within the radius added.
 ///
+#[doc = include_str!("../doc/sphere.svg")]
+///
 /// # Costs and limits
 /// The cheapest shape: two spheres cost one root, a sphere and a half-space one dot product. A
 /// contact is always one point. Radius 1e-6 to 1e6 m.

@@ -11,6 +11,8 @@ use std::sync::LazyLock;
 
 /// A triangle in space, given by its vertices in metres. It is solid from both sides and has no thickness.
 ///
+#[doc = include_str!("../doc/triangle3.svg")]
+///
 /// Face 0 is the side from which the vertices wind counter-clockwise, face 1 the other.
 ///
 /// # Costs and limits

@@ -5,6 +5,7 @@ use crate::batch::Batch2;
 use crate::feature::Hint;
 use crate::polygon::convex::{Convex, Near, Probe};
 use crate::polygon::outline::Turn;
+use crate::precision::rounded_down;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
@@ -188,7 +189,7 @@ impl<'a> Pair2<'a> {
                 if let Some(bound) =
                     self.is_compound().then(|| self.gap(&a, &b)).filter(|gap| *gap > at_least)
                 {
-                    beyond = beyond.min((bound as f32).next_down());
+                    beyond = beyond.min(rounded_down(bound));
                     return false;
                 }
                 let parts = self.parts(a, b);
@@ -204,7 +205,11 @@ impl<'a> Pair2<'a> {
                 false
             })
         });
-        best.ok_or(beyond)
+        // Beyond the limit, parts that were given up on may be nearer than the one that was measured.
+        match best {
+            Some((_, near)) if f64::from(near.separation) > limit && near.separation > beyond => Err(beyond),
+            best => best.ok_or(beyond),
+        }
     }
 
     /// Whether the answer is yes for any pair of parts whose bounding circles are at most `within` apart.
@@ -225,7 +230,9 @@ impl<'a> Pair2<'a> {
     fn gap(&self, a: &Part, b: &Part) -> f64 {
         let center = |part: &Part| part.shift + part.turn.turn(part.shape.center().as_dvec2());
         let apart = (self.between + center(b) - center(a)).length();
-        let radii = f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius());
+        // A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
+        let stretch = 1.0 + 4.0 * f64::from(f32::EPSILON);
+        let radii = (f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius())) * stretch;
         let reach = self.between.length() + a.shift.length() + b.shift.length() + radii;
         apart - radii - 64.0 * f64::EPSILON * reach
     }

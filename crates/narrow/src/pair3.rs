@@ -4,6 +4,7 @@ use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3};
 use crate::batch::Batch3;
 use crate::feature::Hint;
 use crate::polyhedron::convex::{Convex, Near, Probe};
+use crate::precision::rounded_down;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -182,7 +183,7 @@ impl<'a> Pair3<'a> {
                 if let Some(bound) =
                     self.is_compound().then(|| self.gap(&a, &b)).filter(|gap| *gap > at_least)
                 {
-                    beyond = beyond.min((bound as f32).next_down());
+                    beyond = beyond.min(rounded_down(bound));
                     return false;
                 }
                 let parts = self.parts(a, b);
@@ -198,7 +199,11 @@ impl<'a> Pair3<'a> {
                 false
             })
         });
-        best.ok_or(beyond)
+        // Beyond the limit, parts that were given up on may be nearer than the one that was measured.
+        match best {
+            Some((_, near)) if f64::from(near.separation) > limit && near.separation > beyond => Err(beyond),
+            best => best.ok_or(beyond),
+        }
     }
 
     /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.

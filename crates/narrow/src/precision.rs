@@ -55,7 +55,11 @@ pub(crate) fn signed(separation: f64, overlapping: bool) -> f32 {
 
 /// A certified lower bound in f32.
 pub(crate) fn at_least(separation: f64, precision: &Precision) -> f32 {
-    let bound = separation - precision.projection();
+    rounded_down(separation - precision.projection())
+}
+
+/// The greatest f32 that is not above a bound.
+pub(crate) fn rounded_down(bound: f64) -> f32 {
     let rounded = bound as f32;
     if f64::from(rounded) > bound { rounded.next_down() } else { rounded }
 }

@@ -70,7 +70,7 @@ fn determinant(a: &[BigInt], b: &[BigInt], c: &[BigInt]) -> BigInt {
 }
 
 /// The hull of points in general position, of density 1. Nothing where four of them in one plane bound it.
-pub fn solid(points: &[[i64; 3]]) -> Option<MassProperties3> {
+pub(super) fn solid(points: &[[i64; 3]]) -> Option<MassProperties3> {
     let at: Vec<Vec<BigInt>> = points.iter().map(|p| integers(p)).collect();
     let from = |origin: usize, i: usize| -> Vec<BigInt> {
         at[i].iter().zip(&at[origin]).map(|(one, other)| one - other).collect()
@@ -107,7 +107,7 @@ fn triples(count: usize) -> impl Iterator<Item = (usize, usize, usize)> {
 }
 
 /// A polygon, counter-clockwise, of density 1.
-pub fn polygon(outline: &[[i64; 2]]) -> MassProperties2 {
+pub(super) fn polygon(outline: &[[i64; 2]]) -> MassProperties2 {
     let mut sums = Sums::new(2);
     for (i, point) in outline.iter().enumerate() {
         let (a, b) = (integers(point), integers(&outline[(i + 1) % outline.len()]));

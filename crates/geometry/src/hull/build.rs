@@ -12,8 +12,9 @@
 
 use super::cloud::Cloud;
 use super::merge::{Merged, merge_facets};
-use super::quick::{Growth, hull_facets};
-use super::{Hull, HullData, HullError, unit_normal};
+use super::normal::{areas_and_normals, neighbours};
+use super::quick::{Growth, Measure, hull_facets};
+use super::{Hull, HullData, HullError};
 use crate::outward::{round_down, round_up};
 use crate::tolerance::{COPLANAR, MAX_HULL_VERTICES, MIN_RADIUS, STANDS_OUT};
 use crate::topology::Topology;
@@ -22,6 +23,9 @@ use std::sync::Arc;
 
 /// How many points that stand out are too many, however the facets merge.
 const CLEARLY_TOO_MANY: usize = 4 * MAX_HULL_VERTICES;
+
+/// How often the vertices that merging gave back are spent.
+const SPENDINGS: usize = 4;
 
 impl Hull {
     /// The hull of up to 65,535 points that span space. Cost: about n log n.
@@ -36,7 +40,7 @@ impl Hull {
     }
 
     pub(super) fn solid(cloud: &Cloud) -> Result<Self, HullError> {
-        let mut growth = Growth::start(&cloud.points)?;
+        let mut growth = Growth::start(&cloud.points, Measure::Height)?;
         let mut standing_out = 4;
         let is_whole = growth.grow_while(|_, distance| {
             standing_out += usize::from(distance > STANDS_OUT * cloud.scale);
@@ -48,11 +52,26 @@ impl Hull {
         Self::polished(cloud, growth.facets(), 0.0)
     }
 
-    /// The hull of as many points as `max_vertices` allows, the furthest first.
+    /// The hull of as many points as `max_vertices` allows, the furthest first. What merging gives back is spent again.
     pub(super) fn budgeted(cloud: &Cloud, max_vertices: usize) -> Result<Self, HullError> {
-        let mut growth = Growth::start(&cloud.points)?;
-        growth.grow_while(|count, _| count < max_vertices);
-        Self::polished(cloud, growth.facets(), growth.outlying())
+        let mut growth = Growth::start(&cloud.points, Measure::Distance)?;
+        let mut budget = max_vertices;
+        growth.grow_while(|count, _| count < budget);
+        let mut best = Self::polished(cloud, growth.facets(), growth.outlying())?;
+        for _ in 0..SPENDINGS {
+            let spare = max_vertices.saturating_sub(best.vertices().len());
+            budget += spare;
+            if spare == 0 || growth.grow_while(|count, _| count < budget) {
+                break;
+            }
+            match Self::polished(cloud, growth.facets(), growth.outlying()) {
+                Ok(hull) if hull.vertices().len() <= max_vertices && hull.error() < best.error() => {
+                    best = hull
+                }
+                _ => break,
+            }
+        }
+        Ok(best)
     }
 
     /// Merges the facets of a hull within the cloud, which the cloud leaves by at most `outlying` metres.
@@ -115,7 +134,7 @@ impl Solid<'_> {
     /// furthest points, a few more than those that merging would have left.
     fn unmerged(mut self, left: usize) -> Result<Hull, HullError> {
         let points: Vec<Vec3> = self.kept.iter().map(|&i| self.cloud.points[i as usize]).collect();
-        let mut growth = Growth::start(&points)?;
+        let mut growth = Growth::start(&points, Measure::Distance)?;
         growth.grow_while(|count, _| count < (left + 2).clamp(4, MAX_HULL_VERTICES));
         let facets = growth.facets();
         let corners = corners_of(&facets);
@@ -138,41 +157,54 @@ impl Solid<'_> {
         self.finish(&facets)
     }
 
-    /// Derives everything else from the loops of places in `kept`. Vertices and faces are put in the order of the user's points.
+    /// Derives everything else from the loops of places in `kept`: numbers first, which must not depend on the order of the
+    /// user's points, then the vertices in that order.
     fn finish(self, faces: &[Vec<u32>]) -> Result<Hull, HullError> {
         let count = self.kept.len();
         if count > MAX_HULL_VERTICES {
             return Err(HullError::TooManyVertices { at_least: count });
         }
-        let source = |place: usize| self.cloud.source[self.kept[place] as usize];
-        let mut in_order: Vec<usize> = (0..count).collect();
-        in_order.sort_unstable_by_key(|&place| source(place));
-        let mut number = vec![0_u16; count];
-        for (new, &place) in (0..).zip(&in_order) {
-            number[place] = new;
-        }
         let at = |i: &u32| self.cloud.points[*i as usize];
-        let vertices: Vec<Vec3> = in_order.iter().map(|&place| at(&self.kept[place])).collect();
-        let mut loops: Vec<Vec<u16>> =
-            faces.iter().map(|face| face.iter().map(|&i| number[i as usize]).collect()).collect();
-        for face in &mut loops {
-            let lowest = (0..face.len()).min_by_key(|&place| face[place]).unwrap_or(0);
-            face.rotate_left(lowest);
-        }
-        loops.sort_unstable();
-        let mut hull = solid_data(vertices, &loops)?;
+        let loops: Vec<Vec<u16>> =
+            faces.iter().map(|face| face.iter().map(|&i| i as u16).collect()).collect();
+        let mut hull = solid_data(self.kept.iter().map(at).collect(), &loops)?;
         let error = self.outlying + hull.furthest_outside(self.dropped.iter().map(|i| at(i).as_dvec3()));
         if error > 0.0 {
             hull.error = round_up(error + 64.0 * f64::EPSILON * self.cloud.scale);
         }
+        let source = |place: usize| self.cloud.source[self.kept[place] as usize];
+        let mut in_order: Vec<usize> = (0..count).collect();
+        in_order.sort_unstable_by_key(|&place| source(place));
+        renumber(&mut hull, loops, &in_order);
         Ok(Hull { data: Arc::new(hull), radius: 0.0 })
     }
 }
 
+/// Puts vertices in a new order, which names the old places, and faces in the order of their loops.
+fn renumber(hull: &mut HullData, loops: Vec<Vec<u16>>, in_order: &[usize]) {
+    let mut number = vec![0_u16; in_order.len()];
+    for (new, &place) in (0..).zip(in_order) {
+        number[place] = new;
+    }
+    let mut faces: Vec<(Vec<u16>, DVec3)> = loops
+        .into_iter()
+        .zip(&hull.normals)
+        .map(|(face, &normal)| {
+            let mut face: Vec<u16> = face.into_iter().map(|i| number[i as usize]).collect();
+            let lowest = (0..face.len()).min_by_key(|&place| face[place]).unwrap_or(0);
+            face.rotate_left(lowest);
+            (face, normal)
+        })
+        .collect();
+    faces.sort_by(|a, b| a.0.cmp(&b.0));
+    hull.topology = Topology::from_loops(faces.iter().map(|face| face.0.as_slice()));
+    hull.normals = faces.iter().map(|face| face.1).collect();
+    hull.vertices = in_order.iter().map(|&place| hull.vertices[place]).collect();
+}
+
 fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullError> {
     let topology = Topology::from_loops(loops.iter().map(Vec::as_slice));
-    let normals: Box<[DVec3]> =
-        loops.iter().map(|face| unit_normal(face.iter().map(|&i| vertices[i as usize]))).collect();
+    let normals: Box<[DVec3]> = areas_and_normals(&vertices, loops, &neighbours(loops)).1.into();
     let center = volume_center(&vertices, loops).as_vec3();
     let from_center = |v: &Vec3| v.as_dvec3() - center.as_dvec3();
     let outer = vertices.iter().map(|v| from_center(v).length()).fold(0.0, f64::max);

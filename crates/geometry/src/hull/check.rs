@@ -1,7 +1,8 @@
 //! Whether a hull is what it says, from its vertices and loops alone.
 
 use super::cloud::half_diagonal;
-use super::{Hull, area_vector, distance};
+use super::normal::{area_vector, is_noise};
+use super::{Hull, distance};
 use crate::tolerance::COPLANAR;
 use crate::topology::Topology;
 use glam::{DVec3, Vec3};
@@ -134,7 +135,7 @@ impl<'a> Examiner<'a> {
         let vertices: Vec<DVec3> = hull.vertices().iter().map(|v| v.as_dvec3()).collect();
         let faces = (0..topology.face_count()).map(|face| topology.face_vertices(face).collect()).collect();
         // From the spread of the vertices, and not from the hull's own radius.
-        let slack = 64.0 * f64::EPSILON * half_diagonal(hull.vertices());
+        let slack = 1e-14 * half_diagonal(hull.vertices());
         Self { hull, topology, vertices, faces, slack, scale: half_diagonal(points) }
     }
 
@@ -186,8 +187,8 @@ impl<'a> Examiner<'a> {
         for (face, normal) in normals.iter().enumerate() {
             let area = self.area(face);
             let is_unit = (normal.length() - 1.0).abs() < 1e-14;
-            // An area that f64 cannot tell from none has no direction to compare.
-            let is_along = normal.dot(area) >= (1.0 - 1e-6) * area.length() - self.slack * self.slack;
+            // An area that is rounding has no direction to compare; convexity still binds the normal.
+            let is_along = normal.dot(area) >= (1.0 - 1e-6) * area.length() || self.is_noise(face);
             if !is_unit || !is_along {
                 return Err(HullFault::BadNormal { face });
             }
@@ -196,7 +197,11 @@ impl<'a> Examiner<'a> {
     }
 
     fn area(&self, face: usize) -> DVec3 {
-        area_vector(self.faces[face].iter().map(|&i| self.hull.vertices()[i]))
+        area_vector(self.faces[face].len(), |i| self.hull.vertices()[self.faces[face][i]])
+    }
+
+    fn is_noise(&self, face: usize) -> bool {
+        is_noise(self.faces[face].len(), |i| self.hull.vertices()[self.faces[face][i]])
     }
 
     /// Height of a place above the first corner of a face.
@@ -260,9 +265,12 @@ impl<'a> Examiner<'a> {
     }
 
     /// Two neighbours are one face if the smaller lies within the tolerance of the larger one's plane and both together have
-    /// one simple outline. A hull that is itself no thicker than a few tolerances may have them: merging would flatten it.
+    /// one simple outline. A hull that is itself no thicker than twice the tolerance may have them: merging could flatten it.
     fn merged(&self) -> Result<(), HullFault> {
-        if self.hull.dimension() < 3 {
+        let depth =
+            |face| self.vertices.iter().map(|&v| self.height(face, v)).fold(f64::INFINITY, f64::min).abs();
+        let is_thin = |face| depth(face) <= 2.0 * COPLANAR * self.scale;
+        if self.hull.dimension() < 3 || (0..self.faces.len()).any(is_thin) {
             return Ok(());
         }
         let areas: Vec<f64> = (0..self.faces.len()).map(|face| self.area(face).length()).collect();
@@ -291,11 +299,9 @@ impl<'a> Examiner<'a> {
         let (low, high) = span(&self.faces[large]);
         let middle = (low + high) * 0.5;
         let (least, most) = span(&self.faces[small]);
-        let all: Vec<usize> = (0..self.vertices.len()).collect();
-        let is_thin = span(&all).0 > middle - 8.0 * COPLANAR * self.scale;
         let faces_along = self.hull.normals()[small].dot(self.hull.normals()[large]) > 0.5 + 1e-6;
         faces_along
-            && !is_thin
+            && !self.is_noise(small)
             && most - middle <= tolerance
             && middle - least <= tolerance
             && self.have_one_outline(large, small)

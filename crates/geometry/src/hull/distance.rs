@@ -120,13 +120,13 @@ fn largest_axis(v: DVec3) -> usize {
 /// that is given by weights within the triangle, however badly those are conditioned. Two corners or all may be equal.
 pub(super) fn to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let (u, v, w) = (b - a, c - a, p - a);
-    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
-    let area = uu * vv - uv * uv;
-    let (s, t) = ((vv * uw - uv * vw) / area, (uu * vw - uv * uw) / area);
+    let normal = u.cross(v);
+    let area = normal.length_squared();
+    let (s, t) = (w.cross(v).dot(normal) / area, u.cross(w).dot(normal) / area);
     if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
         // The edges only add a bound where the weights are badly conditioned.
-        let across = (a + u * s + v * t - p).length();
-        if area > 1e-6 * uu * vv {
+        let across = (u * s + v * t - w).length();
+        if area > 1e-6 * u.length_squared() * v.length_squared() {
             return across;
         }
         return across.min(to_edges(p, [a, b, c]));

@@ -1,8 +1,9 @@
 //! Hulls without volume: flat ones, segments and points.
 
 use super::cloud::Cloud;
+use super::normal::{area_vector, unit};
 use super::predicate::{is_collinear, planar_hull};
-use super::{Hull, HullData, HullError, area_vector, unit_normal};
+use super::{Hull, HullData, HullError};
 use crate::outward::round_up;
 use crate::tolerance::{MAX_HULL_VERTICES, MIN_RADIUS};
 use crate::topology::Topology;
@@ -47,17 +48,15 @@ impl Hull {
             return Err(HullError::Flat { dimension: 1 });
         };
         let all: Vec<u32> = (0..count).collect();
-        let mut around = planar_hull(&cloud.points, &all, [0, 1, third]);
+        let around = planar_hull(&cloud.points, &all, [0, 1, third]);
         if around.len() > MAX_HULL_VERTICES {
             return Err(HullError::TooManyVertices { at_least: around.len() });
         }
-        let first = (0..around.len()).min_by_key(|&place| cloud.source[around[place] as usize]).unwrap_or(0);
-        around.rotate_left(first);
         let vertices: Vec<Vec3> = around.iter().map(|&i| cloud.points[i as usize]).collect();
         let ascending: Vec<u16> = (0..vertices.len() as u16).collect();
         let descending: Vec<u16> = ascending.iter().rev().copied().collect();
         let topology = Topology::from_loops([ascending, descending].iter().map(Vec::as_slice));
-        let normal = unit_normal(vertices.iter().copied());
+        let normal = unit(area_vector(vertices.len(), |i| vertices[i]));
         let height = |v: &Vec3| normal.dot(v.as_dvec3() - vertices[0].as_dvec3());
         let (low, high) =
             vertices.iter().fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(height(v)), h.max(height(v))));
@@ -65,6 +64,9 @@ impl Hull {
         let mut hull = Self::low(2, vertices, topology, center)?;
         hull.normals = Box::new([normal, -normal]);
         hull.planarity_error = round_up(high - low);
+        // Last, so that no number depends on the order of the user's points.
+        let first = (0..around.len()).min_by_key(|&place| cloud.source[around[place] as usize]).unwrap_or(0);
+        hull.vertices.rotate_left(first);
         Ok(Self { data: Arc::new(hull), radius: 0.0 })
     }
 
@@ -112,7 +114,7 @@ impl Hull {
 /// Centre of area of a convex loop, in f64, by triangles from its first corner.
 fn area_center(vertices: &[Vec3]) -> DVec3 {
     let origin = vertices[0].as_dvec3();
-    let whole = area_vector(vertices.iter().copied());
+    let whole = area_vector(vertices.len(), |i| vertices[i]);
     // Every triangle's area vector points along the whole one's.
     let axis = whole / whole.abs().max_element();
     let (mut area, mut moment) = (0.0, DVec3::ZERO);

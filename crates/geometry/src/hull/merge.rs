@@ -10,7 +10,7 @@
 //! Growing from the largest facet measures distance from the best-conditioned plane, never from a sliver's. A region that
 //! would close around an island waits until the island is part of it, or leaves one facet out.
 
-use super::{area_vector, unit_normal};
+use super::normal::{areas_and_normals, neighbours};
 use glam::{DVec3, Vec3};
 
 /// No vertex.
@@ -48,17 +48,11 @@ fn not_visited(facets: &[Vec<u32>], faces: &[Vec<u32>], count: usize) -> Vec<u32
 }
 
 fn merge_once(points: &[Vec3], facets: &[Vec<u32>], tolerance: f64) -> Vec<Vec<u32>> {
-    let corners = |facet: &[u32]| facet.iter().map(|&i| points[i as usize]).collect::<Vec<_>>();
-    let area = |facet: &Vec<u32>| area_vector(corners(facet).into_iter()).length();
-    let mut by_area: Vec<(f64, usize)> = facets.iter().map(area).zip(0..).collect();
+    let neighbours = neighbours(facets);
+    let (areas, normals) = areas_and_normals(points, facets, &neighbours);
+    let mut by_area: Vec<(f64, usize)> = areas.iter().map(|area| area.length()).zip(0..).collect();
     by_area.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let sheet = Sheet {
-        points,
-        facets,
-        neighbours: neighbours(facets),
-        normals: facets.iter().map(|facet| unit_normal(corners(facet).into_iter())).collect(),
-        tolerance,
-    };
+    let sheet = Sheet { points, facets, neighbours, normals, tolerance };
     let mut is_taken = vec![false; facets.len()];
     let mut tries = vec![(0, 0); facets.len()];
     let mut outline = Outline { after: vec![NONE; points.len()], length: 0 };
@@ -69,28 +63,6 @@ fn merge_once(points: &[Vec3], facets: &[Vec<u32>], tolerance: f64) -> Vec<Vec<u
         }
     }
     faces
-}
-
-/// For each facet, the facet across each of its edges.
-fn neighbours(facets: &[Vec<u32>]) -> Vec<Vec<usize>> {
-    let mut sides: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(3 * facets.len());
-    for (index, facet) in facets.iter().enumerate() {
-        for (i, &from) in facet.iter().enumerate() {
-            let to = facet[(i + 1) % facet.len()];
-            sides.push((from.min(to), from.max(to), index, i));
-        }
-    }
-    sides.sort_unstable();
-    let mut neighbours: Vec<Vec<usize>> =
-        facets.iter().enumerate().map(|(index, facet)| vec![index; facet.len()]).collect();
-    for two in sides.windows(2) {
-        let ((a0, a1, first, i), (b0, b1, second, j)) = (two[0], two[1]);
-        if (a0, a1) == (b0, b1) {
-            neighbours[first][i] = second;
-            neighbours[second][j] = first;
-        }
-    }
-    neighbours
 }
 
 /// The facets of a hull, and what is known of each.

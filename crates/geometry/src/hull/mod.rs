@@ -7,6 +7,7 @@ mod distance;
 mod error;
 mod flat;
 mod merge;
+mod normal;
 mod predicate;
 mod quick;
 mod simplify;
@@ -26,6 +27,8 @@ use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 /// The convex hull of points in space: up to 256 vertices in metres. Clones share the data.
+///
+#[doc = include_str!("../../doc/hull.svg")]
 ///
 /// The vertices are a subset of the points, bit for bit. Which points are vertices, and which facets bound them, is
 /// decided exactly; facets that differ from one plane by rounding only are then merged into one face, and
@@ -168,27 +171,6 @@ impl HullData {
         }
         self
     }
-}
-
-/// Newell's area vector: twice the area, along the normal. About the first corner, so that far loops lose nothing.
-fn area_vector(corners: impl Iterator<Item = Vec3>) -> DVec3 {
-    let mut corners = corners.map(Vec3::as_dvec3);
-    let Some(origin) = corners.next() else { return DVec3::ZERO };
-    let (mut sum, mut last) = (DVec3::ZERO, DVec3::ZERO);
-    for corner in corners {
-        let arm = corner - origin;
-        sum += last.cross(arm);
-        last = arm;
-    }
-    sum
-}
-
-/// Unit normal of a loop, in f64. A loop whose area vanishes even in f64 gets x: any axis is verified before use.
-fn unit_normal(corners: impl Iterator<Item = Vec3>) -> DVec3 {
-    let area = area_vector(corners);
-    // Scaled first: the squares of a 1e-90 area would underflow.
-    let largest = area.abs().max_element();
-    if largest > 0.0 { (area / largest).normalize() } else { DVec3::X }
 }
 
 #[cfg(test)]

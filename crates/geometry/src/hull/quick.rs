@@ -1,11 +1,11 @@
 //! Exact facets of a convex hull, point by point, the furthest first.
 //!
 //! ```text
-//! 1 a tetrahedron of far-apart points; every other point waits at one facet that it lies strictly outside of
+//! 1 a tetrahedron of far-apart points; every other point waits at the facet that it lies furthest outside of
 //! 2 of all waiting points take the one that is furthest from the plane of its facet
 //! 3 the facets that it lies strictly outside of are connected: find them from this one, neighbour by neighbour
 //! 4 their border is the horizon: join each edge of it to the point, and drop what was seen
-//! 5 the points that waited at what was dropped wait at a new facet they are outside of, or are inside for good
+//! 5 the points that waited at what was dropped wait at one of the new facets, or are inside for good
 //! 6 repeat 2 until nobody waits, or nobody may be added; then join triangles of one plane into facets
 //! ```
 //! Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls" (1996), over exact determinants (Shewchuk
@@ -32,6 +32,8 @@ struct Triangle {
     /// First corner, and the normal with twice the area as its length.
     origin: DVec3,
     normal: DVec3,
+    /// One over the normal's length, or zero if that is too small.
+    per_length: f64,
     /// How far a rounded height times the normal's length can be from the truth.
     slack: f64,
     /// The first of the points strictly outside of it; `waits_after` names the next.
@@ -48,10 +50,23 @@ impl Triangle {
     }
 }
 
+/// What "furthest" means.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Measure {
+    /// Height above the highest plane that a point is outside of: cheap, and all that the exact hull needs.
+    Height,
+    /// Distance to the nearest of the triangles that it is outside of. At the rim of a thin disc, that is what a search that
+    /// stops early leaves out; the height hardly shows it.
+    Distance,
+}
+
 /// A hull that grows by its furthest points.
 pub(super) struct Growth<'a> {
     points: &'a [Vec3],
     filter: Filter,
+    measure: Measure,
+    /// How many points it has been made of.
+    count: usize,
     triangles: Vec<Triangle>,
     waits_after: Vec<u32>,
     /// Furthest waiting point of each triangle, as the bits of its distance, the point, the triangle.
@@ -64,14 +79,14 @@ pub(super) struct Growth<'a> {
 ///
 /// The points must be finite and no two the same.
 pub(super) fn hull_facets(points: &[Vec3]) -> Result<Vec<Vec<u32>>, HullError> {
-    let mut growth = Growth::start(points)?;
+    let mut growth = Growth::start(points, Measure::Height)?;
     growth.grow_while(|_, _| true);
     Ok(growth.facets())
 }
 
 impl<'a> Growth<'a> {
     /// The first tetrahedron. The points must be finite and no two the same.
-    pub(super) fn start(points: &'a [Vec3]) -> Result<Self, HullError> {
+    pub(super) fn start(points: &'a [Vec3], measure: Measure) -> Result<Self, HullError> {
         let basis = match far_apart(points) {
             Some(basis) => basis,
             None => affine_basis(points).map_err(|dimension| HullError::Flat { dimension })?,
@@ -79,6 +94,8 @@ impl<'a> Growth<'a> {
         let mut growth = Self {
             points,
             filter: Filter::of(points),
+            measure,
+            count: 4,
             triangles: Vec::new(),
             waits_after: vec![NONE; points.len()],
             furthest: BinaryHeap::new(),
@@ -100,18 +117,17 @@ impl<'a> Growth<'a> {
     /// Adds the furthest waiting point as long as `go_on` agrees, which is told how many points the hull has been made of
     /// and how far outside the next one lies. Returns whether nobody waits any more.
     pub(super) fn grow_while(&mut self, mut go_on: impl FnMut(usize, f64) -> bool) -> bool {
-        let mut count = 4;
         let mut orphans: Vec<u32> = Vec::new();
         while let Some(&(distance, Reverse(apex), Reverse(first))) = self.furthest.peek() {
             if self.triangles[first as usize].is_dropped {
                 self.furthest.pop();
                 continue;
             }
-            if !go_on(count, f64::from_bits(distance)) {
+            if !go_on(self.count, f64::from_bits(distance)) {
                 return false;
             }
             self.furthest.pop();
-            count += 1;
+            self.count += 1;
             let seen = self.seen_from(first, apex);
             let horizon = self.horizon(&seen);
             orphans.clear();
@@ -134,11 +150,14 @@ impl<'a> Growth<'a> {
     fn push(&mut self, corners: [u32; 3], neighbours: [u32; 3]) {
         let [a, b, c] = corners.map(|i| self.points[i as usize].as_dvec3());
         let (u, v) = (b - a, c - a);
+        let normal = u.cross(v);
+        let per_length = normal.length().recip();
         self.triangles.push(Triangle {
             corners,
             neighbours,
             origin: a,
-            normal: u.cross(v),
+            normal,
+            per_length: if per_length.is_finite() { per_length } else { 0.0 },
             slack: self.filter.slack(u, v),
             first_waiting: NONE,
             is_dropped: false,
@@ -158,31 +177,54 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Makes each point wait at the first of the newest triangles that it is strictly outside of; the rest are inside for
-    /// good.
+    /// Makes each point wait at one of the newest triangles that it is strictly outside of; the rest are inside for good.
+    ///
+    /// Any of them would do for the exact hull. The best place makes the order, and so what an early stop leaves out.
     fn distribute(&mut self, waiting: &[u32], first_new: usize) {
         let mut furthest = vec![(f64::NEG_INFINITY, NONE); self.triangles.len() - first_new];
         for &point in waiting {
-            let found =
-                (first_new..self.triangles.len()).find(|&t| self.is_outside(&self.triangles[t], point));
-            let Some(index) = found else { continue };
+            let Some((distance, index)) = self.place_to_wait(point, first_new) else { continue };
             let triangle = &mut self.triangles[index];
             self.waits_after[point as usize] = triangle.first_waiting;
             triangle.first_waiting = point;
-            let reach = triangle.reach(self.points[point as usize]);
             let best = &mut furthest[index - first_new];
-            if reach > best.0 || (reach == best.0 && point < best.1) {
-                *best = (reach, point);
+            if distance > best.0 || (distance == best.0 && point < best.1) {
+                *best = (distance, point);
             }
         }
-        for (index, (reach, point)) in (first_new as u32..).zip(furthest) {
+        for (index, (distance, point)) in (first_new as u32..).zip(furthest) {
             if point != NONE {
-                let length = self.triangles[index as usize].normal.length();
-                // The bits of numbers that are not negative are in their order. A sliver's length may underflow.
-                let distance = if length > 0.0 { (reach / length).max(0.0) } else { 0.0 };
-                self.furthest.push((distance.to_bits(), Reverse(point), Reverse(index)));
+                // The bits of numbers that are not negative are in their order.
+                self.furthest.push((distance.max(0.0).to_bits(), Reverse(point), Reverse(index)));
             }
         }
+    }
+
+    /// Which of the newest triangles a point waits at, and how far outside it counts as.
+    #[inline]
+    fn place_to_wait(&self, point: u32, first_new: usize) -> Option<(f64, usize)> {
+        let place = self.points[point as usize];
+        let mut found: Option<(f64, usize)> = None;
+        for (index, triangle) in self.triangles.iter().enumerate().skip(first_new) {
+            if self.measure == Measure::Height {
+                let height = triangle.reach(place) * triangle.per_length;
+                let is_better = found.is_none_or(|best| height > best.0);
+                if is_better && self.is_outside(triangle, point) {
+                    found = Some((height, index));
+                }
+            } else if self.is_outside(triangle, point) {
+                let distance = self.distance_to(index, place);
+                if found.is_none_or(|best| distance < best.0) {
+                    found = Some((distance, index));
+                }
+            }
+        }
+        found
+    }
+
+    fn distance_to(&self, triangle: usize, place: Vec3) -> f64 {
+        let corners = self.triangles[triangle].corners.map(|i| self.points[i as usize].as_dvec3());
+        super::distance::to_triangle(place.as_dvec3(), corners)
     }
 
     /// The triangles that `apex` lies strictly outside of, found from one of them; they count as dropped from now on.
@@ -302,10 +344,7 @@ impl<'a> Growth<'a> {
 
     /// Distance from a point to the nearest triangle that can be reached downhill, or anything not above `enough`.
     fn distance_from(&self, point: u32, start: usize, enough: f64) -> f64 {
-        let to = |triangle: usize| {
-            let corners = self.triangles[triangle].corners.map(|i| self.points[i as usize].as_dvec3());
-            super::distance::to_triangle(self.points[point as usize].as_dvec3(), corners)
-        };
+        let to = |triangle| self.distance_to(triangle, self.points[point as usize]);
         let (mut at, mut least) = (start, to(start));
         while least > enough {
             let neighbours = self.triangles[at].neighbours.map(|neighbour| neighbour as usize);

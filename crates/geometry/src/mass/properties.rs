@@ -139,11 +139,11 @@ fn turned(inertia: &DMat3, basis: &Basis3) -> DMat3 {
     let entry = |row: usize, column: usize| {
         half[0][row] * axes[0][column] + half[1][row] * axes[1][column] + half[2][row] * axes[2][column]
     };
-    let both = |i: usize, j: usize| (entry(i, j) + entry(j, i)) * 0.5;
+    let (yz, zx, xy) = (entry(1, 2), entry(2, 0), entry(0, 1));
     DMat3::from_cols(
-        DVec3::new(entry(0, 0), both(0, 1), both(0, 2)),
-        DVec3::new(both(0, 1), entry(1, 1), both(1, 2)),
-        DVec3::new(both(0, 2), both(1, 2), entry(2, 2)),
+        DVec3::new(entry(0, 0), xy, zx),
+        DVec3::new(xy, entry(1, 1), yz),
+        DVec3::new(zx, yz, entry(2, 2)),
     )
 }
 

@@ -4,17 +4,16 @@
 //! for each edge p -> q, with unit direction e, between the faces with normals n1 (left of it) and n2:
 //!     its normals are u(t) = n1 cos t + (e x n1) sin t, t in [0, angle]        half a turn for a flat core
 //!     add the sector of a cylinder: p + s (q - p) + rho u(t)
-//!     on the sphere of normals this is an arc about e; it bounds the regions of p and of q:
-//!         T1 of p -= angle e / 2          T2 of p -= sym(A e^T) / 3, with A = integral of u
-//!         T1 of q += the same             T2 of q += the same
-//! for each vertex, with T0 = full turn - the sum of its face angles (Gauss and Bonnet: also right for flat cores):
-//!     add the sector of a ball, v + rho w with w in its region, by
-//!         T0 = integral of 1, T1 = integral of w, T2 = integral of w w^T = (T0 I + sums above) / 3
+//!     among all directions this is an arc about e, between those of p and those of q:
+//!         pull of p -= angle e / 2,  pull of q += angle e / 2
+//! for each vertex, with its solid angle = full turn - the sum of its face angles (Gauss and Bonnet: also right for flat cores):
+//!     add the sector of a ball, v + rho w with w among its directions, by the solid angle and pull = integral of w
+//! once: the integral of rho^2 w w^T, which no vertex scales: all the sectors together make one ball
 //! ```
 //!
-//! T1 and T2 are Arvo's boundary integrals for arcs p -> q about k: T1 is the sum of angle k / 2, and 3 T2 is T0 I minus the
-//! sum of (k x (q - p)) k^T; here k is -e at the edge's origin and e at its end, and e x (n1 - n2) is A. No quotient has
-//! the sine of an angle below it, so nothing happens where neighbouring faces are nearly one plane or back to back.
+//! The pull is Lambert's formula, the first of Arvo's irradiance tensors: for a region left of arcs about unit axes k, it is
+//! the sum of angle k / 2; here k is -e at the edge's origin and e at its end. No quotient has the sine of an angle below it,
+//! so nothing happens where neighbouring faces are nearly one plane or back to back.
 
 use super::second::{Second, cross};
 use super::volume::Moments;
@@ -24,21 +23,23 @@ use glam::DVec3;
 
 /// Adds what lies beside edges and vertices. `vertices` are the core's, about the origin of the moments.
 pub(super) fn add_rounding(moments: &mut Moments, core: &Core3<'_>, vertices: &[DVec3], r: f64) {
-    let mut regions = vec![Region::default(); vertices.len()];
+    let mut pulls = vec![DVec3::ZERO; vertices.len()];
     for &edge in core.topology().edges() {
         let (from, to) = core.topology().ends(edge as usize);
         let (p, q) = (vertices[from], vertices[to]);
-        let length = (q - p).length();
-        let along = (q - p) / length;
+        let along = (q - p) / (q - p).length();
         let Some(sector) = sector_of(core, edge as usize, along) else { continue };
         add_cylinder_sector(moments, [p, q], &sector, r);
-        let (half, bend) = (along * (sector.angle / 2.0), Second::pair(sector.pull, along) * 0.5);
-        regions[from].bounded_by(half * -1.0, bend * -1.0);
-        regions[to].bounded_by(half, bend);
+        let half = along * (sector.angle / 2.0);
+        pulls[from] -= half;
+        pulls[to] += half;
     }
-    for (vertex, solid_angle) in solid_angles(core, vertices).into_iter().enumerate() {
-        add_ball_sector(moments, vertices[vertex], &regions[vertex], solid_angle, r);
+    for ((&vertex, pull), solid_angle) in vertices.iter().zip(pulls).zip(solid_angles(core, vertices)) {
+        let (volume, pull) = (solid_angle * r * r * r / 3.0, pull * (r * r * r * r / 4.0));
+        let second = Second::of(vertex) * volume + Second::pair(vertex, pull);
+        moments.add(volume, vertex * volume + pull, second);
     }
+    moments.add(0.0, DVec3::ZERO, Second::round(4.0 / 15.0 * PI * r * r * r * r * r));
 }
 
 /// The normals of an edge: unit vectors on an arc.
@@ -88,34 +89,6 @@ fn add_cylinder_sector(moments: &mut Moments, [p, q]: [DVec3; 2], sector: &Secto
         line * (square * sector.angle)
             + Second::pair(middle, sector.pull) * cube
             + sector.spread * (length * r * r * r * r / 4.0),
-    );
-}
-
-/// The normals of a vertex: a polygon on the unit sphere, as sums over its arcs.
-#[derive(Clone, Copy, Default)]
-struct Region {
-    /// Integral of the vectors.
-    pull: DVec3,
-    /// Three times the integral of their tensors, less the solid angle on its diagonal.
-    bend: Second,
-}
-
-impl Region {
-    fn bounded_by(&mut self, pull: DVec3, bend: Second) {
-        self.pull += pull;
-        self.bend += bend;
-    }
-}
-
-fn add_ball_sector(moments: &mut Moments, vertex: DVec3, region: &Region, solid_angle: f64, r: f64) {
-    let (cube, fourth) = (r * r * r / 3.0, r * r * r * r / 4.0);
-    let spread = (Second::round(solid_angle) + region.bend) * (1.0 / 3.0);
-    moments.add(
-        solid_angle * cube,
-        vertex * (solid_angle * cube) + region.pull * fourth,
-        Second::of(vertex) * (solid_angle * cube)
-            + Second::pair(vertex, region.pull) * fourth
-            + spread * (r * r * r * r * r / 5.0),
     );
 }
 

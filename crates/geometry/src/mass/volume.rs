@@ -1,5 +1,6 @@
 //! Moments of shapes in space: the core and the prisms on its faces.
 
+use super::facets::each_facet;
 use super::properties::MassProperties3;
 use super::rounded::add_rounding;
 use super::second::{Second, cross};
@@ -35,9 +36,9 @@ pub(super) fn of_convex(shape: &Shape3, density: f64) -> MassProperties3 {
     let (core, center, radius) = (shape.core(), shape.center().as_dvec3(), f64::from(shape.radius()));
     let vertices: Vec<DVec3> = core.vertices().iter().map(|vertex| vertex.as_dvec3() - center).collect();
     let mut moments = Moments::default();
-    // Two faces, back to back, hold nothing between them.
-    if core.normals().len() > 2 {
-        each_triangle(&core, &vertices, |_, triangle| add_tetrahedron(&mut moments, triangle));
+    let is_solid = matches!(shape, Shape3::Hull(hull) if hull.dimension() == 3);
+    if is_solid {
+        each_facet(&core, |facet| add_tetrahedron(&mut moments, facet.map(|i| vertices[i])));
     }
     if radius > 0.0 {
         each_triangle(&core, &vertices, |face, triangle| {

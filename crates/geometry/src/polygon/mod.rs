@@ -20,6 +20,8 @@ pub use error::PolygonError;
 
 /// A convex polygon of 3 to 4096 vertices in metres, counter-clockwise. Clones share the data.
 ///
+#[doc = include_str!("../../doc/polygon.svg")]
+///
 /// Edge `i` runs from vertex `i` to the next. Every check is an exact orientation test (Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", 1997), so that a polygon is convex
 /// in fact and not up to some rounding.

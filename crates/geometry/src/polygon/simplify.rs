@@ -60,12 +60,12 @@ impl Ring<'_> {
 
     /// A way round with caps up to `height` in at most `limit` chords, if any of a few first vertices starts one.
     ///
-    /// The best way has a vertex within the first one's reach. All of them are tried where they are few, and where the
-    /// limit is large one chord more or less is no matter.
+    /// Any way has a vertex within the reach of vertex 0. All of those are tried where they are few; where the limit is
+    /// large, one chord more or less is no matter.
     fn round(&self, height: f64, limit: usize) -> Option<Vec<usize>> {
         let reach = self.reach(0, self.hull.len() - 1, height);
         let tries = reach.min(256 / limit).max(1);
-        (0..tries).find_map(|number| self.round_from(number * reach / tries, height, limit))
+        (1..=tries).find_map(|number| self.round_from(number * reach / tries, height, limit))
     }
 
     fn round_from(&self, start: usize, height: f64, limit: usize) -> Option<Vec<usize>> {

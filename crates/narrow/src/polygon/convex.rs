@@ -7,6 +7,9 @@
 //! everything else:                  edge normals                               (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
+//! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as touching: bodies on
+//! a grid touch exactly and often, and are never apart by so little.
+//!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting line
 //! out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the best.
 
@@ -95,38 +98,32 @@ impl Convex<'_> {
     /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-planes that overlap
     /// without end.
     pub(crate) fn touch(&self, near: &Near, margin: f64) -> Option<Touch> {
-        let within = margin + self.radii();
-        let mut touch = match &near.evidence {
+        let preference = self.preference();
+        match &near.evidence {
             Evidence::Axes(axes, witness) => {
-                self.with_outlines(|a, b| touch(a, b, axes, witness.as_ref(), within, self.preference()))
+                Some(self.with_outlines(|a, b| touch(a, b, axes, witness.as_ref(), margin, preference)))
             }
             Evidence::Points => {
                 let separation = f64::from(near.separation) + self.radii();
                 let feature = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
                 let (on_a, on_b) = (DVec2::ZERO, near.normal * separation);
-                let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                Touch { normal: near.normal, points }
+                let point = Point { separation, on_a, on_b, feature };
+                let point = self.with_outlines(|a, b| point.on_surfaces(a, b, near.normal));
+                Some(Touch { normal: near.normal, points: core::iter::once(point).collect() })
             }
             Evidence::HalfPlane(line) => {
-                let least = f64::from(near.separation) + self.radii();
-                let within = within.max(least + self.preference());
-                self.with_outlines(|a, b| line.touch(if line.is_b { a } else { b }, within))
+                let least = f64::from(near.separation) + preference;
+                let (deep, within) = (least + self.radii(), margin.max(least));
+                Some(self.with_outlines(|a, b| line.touch(if line.is_b { a } else { b }, deep, within)))
             }
             Evidence::HalfPlanes(a, b) => {
                 let [on_a, on_b] = a.points_with(b);
                 let separation = a.separation_from(b);
                 let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
                 let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })?
+                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
             }
-        };
-        let (radius_a, radius_b) = (f64::from(self.shape_a.radius()), f64::from(self.shape_b.radius()));
-        for point in &mut touch.points {
-            point.separation -= radius_a + radius_b;
-            point.on_a += touch.normal * radius_a;
-            point.on_b -= touch.normal * radius_b;
         }
-        Some(touch)
     }
 
     fn probe_half_planes(&self, a: Line, b: Line, limit: f64) -> Probe {
@@ -135,7 +132,7 @@ impl Convex<'_> {
         if separation > limit {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
-        let overlapping = separation <= 0.0;
+        let overlapping = separation <= precision.projection();
         let error =
             if separation == f64::NEG_INFINITY { 0.0 } else { precision.of_distance(separation, 0.0) };
         Probe::Near(Near {
@@ -160,7 +157,7 @@ impl Convex<'_> {
         if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
-        let overlapping = separation <= 0.0;
+        let overlapping = separation <= precision.projection();
         let on_shape = vertex - line.normal * self.radii();
         let on_line = vertex - line.normal * height;
         let closest = if line.is_b { [on_shape, on_line] } else { [on_line, on_shape] };
@@ -184,7 +181,7 @@ impl Convex<'_> {
         if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
-        let overlapping = separation <= 0.0;
+        let overlapping = separation <= precision.projection();
         Probe::Near(Near {
             overlapping,
             separation: signed(separation, overlapping),
@@ -229,7 +226,7 @@ impl Convex<'_> {
         let core =
             if radii > 0.0 && gap <= precision.projection() { witness.at_least } else { witness.distance };
         let separation = core - radii;
-        let overlapping = radii > 0.0 && separation <= 0.0;
+        let overlapping = radii > 0.0 && separation <= precision.projection();
         let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.normal);
         Probe::Near(Near {
             overlapping,
@@ -302,8 +299,8 @@ impl Convex<'_> {
 
     pub(crate) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
         let (core_a, core_b): (Core2, Core2) = (self.shape_a.core(), self.shape_b.core());
-        let a = Outline::new(&core_a, self.turn_a, DVec2::ZERO);
-        let b = Outline::new(&core_b, self.turn_b, self.offset);
+        let a = Outline::new(&core_a, self.turn_a, DVec2::ZERO, f64::from(self.shape_a.radius()));
+        let b = Outline::new(&core_b, self.turn_b, self.offset, f64::from(self.shape_b.radius()));
         ask(&a, &b)
     }
 

@@ -9,6 +9,10 @@ use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 
+/// Sine of the angle up to which two lines count as parallel: a few roundings of two unit normals. Lines that lean by less would
+/// meet a million times further out than any world reaches.
+const PARALLEL: f64 = 8.0 * f64::EPSILON;
+
 /// The line of a half-plane, in the frame of the pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Line {
@@ -38,7 +42,7 @@ impl Line {
 
     /// Two half-planes: the distance of lines that look exactly away from each other; else they overlap without end.
     pub(crate) fn separation_from(&self, other: &Self) -> f64 {
-        if self.normal.perp_dot(other.normal) == 0.0 && self.normal.dot(other.normal) < 0.0 {
+        if self.normal.perp_dot(other.normal).abs() <= PARALLEL && self.normal.dot(other.normal) < 0.0 {
             self.height(other.origin)
         } else {
             f64::NEG_INFINITY
@@ -51,14 +55,22 @@ impl Line {
         [self, other].map(|line| middle - line.normal * line.height(middle))
     }
 
-    /// The lowest vertex and the lower of its neighbours, if that is no more than `within` above the line.
-    pub(crate) fn touch(&self, core: &Outline, within: f64) -> Touch {
+    /// The lowest vertex and the other end of the edge there that looks most at the line, if that is no more than `within` above the line. Vertices of the core
+    /// no higher than `deep` are as deep as any.
+    pub(crate) fn touch(&self, core: &Outline, deep: f64, within: f64) -> Touch {
         let (lowest, _) = self.lowest(core);
         let (before, after) = (core.before(lowest), core.after(lowest));
-        let height = |vertex: usize| self.height(core.point(vertex));
-        let neighbour = if height(before) < height(after) { before } else { after };
+        let facing =
+            |edge: usize| if edge < core.edge_count() { core.normal(edge).dot(self.normal) } else { 0.0 };
+        let (neighbour, edge) =
+            if facing(lowest) < facing(before) { (after, lowest) } else { (before, before) };
         let contact = |vertex: usize| {
-            let (point, separation) = (core.point(vertex), height(vertex));
+            let corner = core.point(vertex);
+            // What is higher belongs to a tilted edge, whose surface lies out along its own normal.
+            let is_deep = vertex == lowest || self.height(corner) <= deep;
+            let outwards = if is_deep { -self.normal } else { core.normal(edge) };
+            let point = corner + outwards * core.radius;
+            let separation = if is_deep { self.height(corner) - core.radius } else { self.height(point) };
             let foot = point - self.normal * separation;
             let (of_line, of_core) = (Feature::Edge(0), Feature::Vertex(vertex as u32));
             if self.is_b {
@@ -68,8 +80,8 @@ impl Line {
             }
         };
         let mut points: ArrayVec<Point, 2> = core::iter::once(contact(lowest)).collect();
-        if neighbour != lowest && height(neighbour) <= within {
-            points.push(contact(neighbour));
+        if neighbour != lowest {
+            points.extend(core::iter::once(contact(neighbour)).filter(|point| point.separation <= within));
         }
         points.sort_unstable_by_key(|point| point.feature);
         Touch { normal: self.axis(), points }

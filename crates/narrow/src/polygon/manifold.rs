@@ -7,6 +7,8 @@
 //! keep the ends within the margin of the reference line
 //! if the deepest point was clipped away, ask the axis that is best of all; then the witness points of the gap
 //! ```
+//! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest, along the
+//! normal; the other end of a tilted edge along that edge's own normal, since the shape's surface beyond it looks that way.
 
 use super::distance::Witness;
 use super::outline::Outline;
@@ -22,6 +24,18 @@ pub(crate) struct Point {
     pub(crate) on_a: DVec2,
     pub(crate) on_b: DVec2,
     pub(crate) feature: FeatureId,
+}
+
+impl Point {
+    /// A point where two cores are closest, moved out to the surfaces along the normal.
+    pub(super) fn on_surfaces(self, a: &Outline, b: &Outline, normal: DVec2) -> Self {
+        Self {
+            separation: self.separation - a.radius - b.radius,
+            on_a: self.on_a + normal * a.radius,
+            on_b: self.on_b - normal * b.radius,
+            ..self
+        }
+    }
 }
 
 /// A normal and its points, in the frame of the pair.
@@ -44,19 +58,21 @@ pub(crate) fn touch(
     preference: f64,
 ) -> Touch {
     let at_stake = witness.map_or(axes.best().separation, |witness| witness.distance);
+    let deep = at_stake + preference;
+    let least = deep - a.radius - b.radius;
+    // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
+    // deeper than zero: a body that rests exactly on an edge rests on both of its ends.
+    let depths = Depths { deep, within: margin.max(least) };
     let b_wins = axes.edge_b.separation > axes.edge_a.separation + preference;
     for axis in [if b_wins { &axes.edge_b } else { &axes.edge_a }, axes.best()] {
         if axis.separation < at_stake - preference {
             continue;
         }
-        // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
-        // deeper than zero: a body that rests exactly on an edge rests on both of its ends.
-        let within = margin.max(at_stake + preference);
         let points = match axis.of {
-            AxisOf::EdgeA(edge) => edge_points(a, b, edge, axis.normal, within, false),
-            AxisOf::EdgeB(edge) => edge_points(b, a, edge, -axis.normal, within, true),
+            AxisOf::EdgeA(edge) => edge_points(a, b, edge, axis.normal, depths, false),
+            AxisOf::EdgeB(edge) => edge_points(b, a, edge, -axis.normal, depths, true),
         };
-        if points.iter().any(|point| point.separation <= at_stake + preference) {
+        if points.iter().any(|point| point.separation <= least) {
             return Touch { normal: axis.normal, points };
         }
     }
@@ -66,15 +82,30 @@ pub(crate) fn touch(
     }
 }
 
+/// Which ends of an edge become points, in metres.
+#[derive(Clone, Copy)]
+struct Depths {
+    /// Ends of the cores no further apart than this are as deep as any.
+    deep: f64,
+    /// Points of the shapes no further apart than this are wanted.
+    within: f64,
+}
+
 /// The deepest vertex of the shape whose edge the axis is not, and its foot on that edge's line: what is left where an
 /// edge looks past what touches it.
 fn deepest_point(a: &Outline, b: &Outline, axis: &Axis) -> ArrayVec<Point, 2> {
     let (in_a, in_b) = (a.support(axis.normal), b.support(-axis.normal));
+    let (low_a, low_b) = (a.point(in_a.vertex), b.point(in_b.vertex));
+    let (on_a, on_b) = (Feature::Vertex(in_a.vertex as u32), Feature::Vertex(in_b.vertex as u32));
     let point = match axis.of {
-        AxisOf::EdgeA(edge) => Reference { normal: axis.normal, reach: in_a.reach, is_b: false }
-            .contact(b.point(in_b.vertex), (Feature::Edge(edge as u32), Feature::Vertex(in_b.vertex as u32))),
-        AxisOf::EdgeB(edge) => Reference { normal: -axis.normal, reach: in_b.reach, is_b: true }
-            .contact(a.point(in_a.vertex), (Feature::Edge(edge as u32), Feature::Vertex(in_a.vertex as u32))),
+        AxisOf::EdgeA(edge) => {
+            let features = (Feature::Edge(edge as u32), on_b);
+            Reference::of(a, axis.normal, false).lowest(low_b, b.radius, features)
+        }
+        AxisOf::EdgeB(edge) => {
+            let features = (Feature::Edge(edge as u32), on_a);
+            Reference::of(b, -axis.normal, true).lowest(low_a, a.radius, features)
+        }
     };
     core::iter::once(point).collect()
 }
@@ -98,20 +129,29 @@ fn closest_point(a: &Outline, b: &Outline, witness: &Witness) -> ArrayVec<Point,
         on_b: witness.point_b,
         feature: FeatureId::new(carrier(a, 0, witness.normal), carrier(b, 1, -witness.normal)),
     };
-    core::iter::once(point).collect()
+    core::iter::once(point.on_surfaces(a, b, witness.normal)).collect()
 }
 
-/// A line to measure contact points from: that of the reference edge.
+/// A line to measure contact points from: that of the reference edge's surface.
 struct Reference {
     /// Its outward unit normal.
     normal: DVec2,
-    /// The reference shape's reach along it.
+    /// How far the surface reaches along it.
     reach: f64,
     is_b: bool,
 }
 
 impl Reference {
-    /// The contact of a point of the incident shape with its foot on the line. Features: the reference's first.
+    fn of(outline: &Outline, normal: DVec2, is_b: bool) -> Self {
+        Self { normal, reach: outline.support(normal).reach + outline.radius, is_b }
+    }
+
+    /// The contact of a point of the other shape's core, moved out to its surface along the normal.
+    fn lowest(&self, point: DVec2, radius: f64, features: (Feature, Feature)) -> Point {
+        self.contact(point - self.normal * radius, features)
+    }
+
+    /// The contact of a point of the other shape's surface with its foot on the line. Features: the reference's first.
     fn contact(&self, point: DVec2, (of_reference, of_incident): (Feature, Feature)) -> Point {
         let separation = self.normal.dot(point) - self.reach;
         let foot = point - self.normal * separation;
@@ -123,51 +163,71 @@ impl Reference {
     }
 }
 
-/// Contact points of an edge of `outline` with outward normal `normal`, and the incident shape: those at most
-/// `within` outside the edge's line.
+/// Contact points of an edge of `outline` with outward normal `normal`, and the incident shape.
 fn edge_points(
     outline: &Outline,
     incident: &Outline,
     edge: usize,
     normal: DVec2,
-    within: f64,
+    depths: Depths,
     is_b: bool,
 ) -> ArrayVec<Point, 2> {
-    let reference = Reference { normal, reach: outline.support(normal).reach, is_b };
+    let reference = Reference::of(outline, normal, is_b);
     let deepest = incident.support(-normal).vertex;
     if incident.edge_count() == 0 {
         let point = incident.point(deepest);
         let (from, to) = (outline.point(edge), outline.point(outline.after(edge)));
         let is_beside = (point - from).dot(to - from) >= 0.0 && (point - to).dot(from - to) >= 0.0;
-        let contact = reference.contact(point, (Feature::Edge(edge as u32), Feature::Vertex(deepest as u32)));
-        return (is_beside && contact.separation <= within).then_some(contact).into_iter().collect();
+        let features = (Feature::Edge(edge as u32), Feature::Vertex(deepest as u32));
+        let contact = reference.lowest(point, incident.radius, features);
+        return (is_beside && contact.separation <= depths.within).then_some(contact).into_iter().collect();
     }
     let previous = incident.before(deepest);
     // Ties go to the edge before the deepest vertex.
     let facing = |edge: usize| incident.normal(edge).dot(normal);
     let incident_edge = if facing(deepest) < facing(previous) { deepest } else { previous };
 
-    let mut points: ArrayVec<Point, 2> = clip(outline, edge, incident, incident_edge)
-        .into_iter()
-        .map(|(point, features)| reference.contact(point, features))
-        .filter(|contact| contact.separation <= within)
-        .collect();
+    let mut points: ArrayVec<Point, 2> = ArrayVec::new();
+    let is_sharp = outline.radius + incident.radius == 0.0;
+    // How deep the cores are, seen from a contact made along the normal.
+    let core = |contact: &Point| contact.separation + outline.radius + incident.radius;
+    let on_core = clip((outline, edge), (incident, incident_edge), DVec2::ZERO);
+    let lowest = on_core.into_iter().map(|(point, of)| reference.lowest(point, incident.radius, of));
+    let wanted = |contact: &Point| contact.separation <= depths.within;
+    points.extend(lowest.filter(|contact| wanted(contact) && (is_sharp || core(contact) <= depths.deep)));
+    if points.len() < 2 && !is_sharp {
+        // What is less deep belongs to a tilted edge, and lies out along its normal; there the ends are cut again.
+        let outwards = incident.normal(incident_edge) * incident.radius;
+        let mut ends: ArrayVec<Point, 2> = clip((outline, edge), (incident, incident_edge), outwards)
+            .into_iter()
+            .map(|(point, features)| reference.contact(point, features))
+            .filter(wanted)
+            .collect();
+        if let Some(&known) = points.first() {
+            // The end that is not the deep one.
+            let away = |end: &Point| (end.on_a - known.on_a).length_squared();
+            ends.retain(|end| end.feature != known.feature);
+            ends.sort_unstable_by(|one, other| away(other).total_cmp(&away(one)));
+        }
+        let room = points.remaining_capacity();
+        points.extend(ends.into_iter().take(room));
+    }
     points.sort_unstable_by_key(|point| point.feature);
     points
 }
 
-/// The ends of the incident edge, held to the width of the reference edge; none where they face past each other.
+/// The ends of the incident edge, moved by `aside` and held to the width of the reference edge; none where they face past
+/// each other.
 fn clip(
-    outline: &Outline,
-    edge: usize,
-    incident: &Outline,
-    incident_edge: usize,
+    (outline, edge): (&Outline, usize),
+    (incident, incident_edge): (&Outline, usize),
+    aside: DVec2,
 ) -> ArrayVec<(DVec2, (Feature, Feature)), 2> {
     let mut kept = ArrayVec::new();
     let (from, to) = (outline.point(edge), outline.point(outline.after(edge)));
     let along = to - from;
     let (first, second) = (incident_edge, incident.after(incident_edge));
-    let (start, end) = (incident.point(first), incident.point(second));
+    let (start, end) = (incident.point(first) + aside, incident.point(second) + aside);
     // Places along the reference edge, 0 to 1. The incident edge runs against it, so that `low` is its end.
     let place = |point: DVec2| along.dot(point - from) / along.length_squared();
     let (high, low) = (place(start), place(end));

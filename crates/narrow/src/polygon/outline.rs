@@ -47,6 +47,8 @@ pub(crate) struct Outline<'a> {
     normals: &'a [DVec2],
     turn: Turn,
     position: DVec2,
+    /// How far the shape reaches beyond this core. Axes and distances leave it out; contact points lie on the shape.
+    pub(crate) radius: f64,
 }
 
 /// Where a projection is greatest, and how great.
@@ -57,8 +59,8 @@ pub(crate) struct Support {
 }
 
 impl<'a> Outline<'a> {
-    pub(crate) fn new(core: &'a Core2<'a>, turn: Turn, position: DVec2) -> Self {
-        Self { vertices: core.vertices(), normals: core.normals(), turn, position }
+    pub(crate) fn new(core: &'a Core2<'a>, turn: Turn, position: DVec2, radius: f64) -> Self {
+        Self { vertices: core.vertices(), normals: core.normals(), turn, position, radius }
     }
 
     /// Whether it has no inside: a point or a segment.

@@ -8,6 +8,9 @@
 //! everything else:                  faces and edge pairs                       (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
+//! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as touching: bodies on
+//! a grid touch exactly and often, and are never apart by so little.
+//!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting plane
 //! out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the best.
 
@@ -105,34 +108,27 @@ impl Convex<'_> {
     /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-spaces that overlap
     /// without end.
     pub(crate) fn touch(&self, near: &Near, margin: f64) -> Option<Touch> {
-        let within = margin + self.radii();
-        let mut touch = match &near.evidence {
+        let preference = self.preference();
+        match &near.evidence {
             Evidence::Axes(axes, witness) => {
-                self.with_solids(|a, b| touch(a, b, axes, witness.as_ref(), within, self.preference()))
+                Some(self.with_solids(|a, b| touch(a, b, axes, witness.as_ref(), margin, preference)))
             }
             Evidence::Slender(nearest) => {
-                self.with_solids(|a, b| slender::touch(a, b, nearest, within, self.preference()))
+                Some(self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference)))
             }
             Evidence::HalfSpace(plane) => {
-                let least = f64::from(near.separation) + self.radii();
-                let within = within.max(least + self.preference());
-                self.with_solids(|a, b| plane.touch(if plane.is_b { a } else { b }, within))
+                let least = f64::from(near.separation) + preference;
+                let (deep, within) = (least + self.radii(), margin.max(least));
+                Some(self.with_solids(|a, b| plane.touch(if plane.is_b { a } else { b }, deep, within)))
             }
             Evidence::HalfSpaces(a, b) => {
                 let [on_a, on_b] = a.points_with(b);
                 let separation = a.separation_from(b);
                 let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
                 let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })?
+                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
             }
-        };
-        let (radius_a, radius_b) = (f64::from(self.shape_a.radius()), f64::from(self.shape_b.radius()));
-        for point in &mut touch.points {
-            point.separation -= radius_a + radius_b;
-            point.on_a += touch.normal * radius_a;
-            point.on_b -= touch.normal * radius_b;
         }
-        Some(touch)
     }
 
     fn probe_half_spaces(&self, a: Plane, b: Plane, limit: f64) -> Probe {
@@ -141,7 +137,7 @@ impl Convex<'_> {
         if separation > limit {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
-        let overlapping = separation <= 0.0;
+        let overlapping = separation <= precision.projection();
         let error =
             if separation == f64::NEG_INFINITY { 0.0 } else { precision.of_distance(separation, 0.0) };
         Probe::Near(Near {
@@ -166,7 +162,7 @@ impl Convex<'_> {
         if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
-        let overlapping = separation <= 0.0;
+        let overlapping = separation <= precision.projection();
         let on_shape = vertex - plane.normal * self.radii();
         let on_plane = vertex - plane.normal * height;
         let closest = if plane.is_b { [on_shape, on_plane] } else { [on_plane, on_shape] };
@@ -188,7 +184,7 @@ impl Convex<'_> {
         if nearest.at_least - self.radii() > limit + precision.projection() {
             return Probe::Beyond(at_least(nearest.at_least - self.radii(), &precision), Hint::NONE);
         }
-        let overlapping = separation <= 0.0;
+        let overlapping = separation <= precision.projection();
         let closest = self.on_surfaces([nearest.on_a, nearest.on_b], nearest.normal);
         Probe::Near(Near {
             overlapping,
@@ -234,7 +230,7 @@ impl Convex<'_> {
         let core =
             if radii > 0.0 && gap <= precision.projection() { witness.at_least } else { witness.distance };
         let separation = core - radii;
-        let overlapping = radii > 0.0 && separation <= 0.0;
+        let overlapping = radii > 0.0 && separation <= precision.projection();
         let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.normal);
         Probe::Near(Near {
             overlapping,
@@ -334,8 +330,8 @@ impl Convex<'_> {
 
     pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
         let (core_a, core_b): (Core3, Core3) = (self.shape_a.core(), self.shape_b.core());
-        let a = Solid::new(&core_a, IDENTITY, DVec3::ZERO);
-        let b = Solid::new(&core_b, self.relative, self.offset);
+        let a = Solid::new(&core_a, IDENTITY, DVec3::ZERO, f64::from(self.shape_a.radius()));
+        let b = Solid::new(&core_b, self.relative, self.offset, f64::from(self.shape_b.radius()));
         ask(&a, &b)
     }
 

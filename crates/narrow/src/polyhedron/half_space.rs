@@ -11,6 +11,10 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
+/// Sine of the angle up to which two planes count as parallel: a few roundings of two unit normals. Planes that lean by less would
+/// meet a million times further out than any world reaches.
+const PARALLEL: f64 = 8.0 * f64::EPSILON;
+
 /// The plane of a half-space, in the frame of the pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plane {
@@ -40,7 +44,7 @@ impl Plane {
 
     /// Two half-spaces: the distance of planes that look exactly away from each other; else they overlap without end.
     pub(crate) fn separation_from(&self, other: &Self) -> f64 {
-        if self.normal.cross(other.normal) == DVec3::ZERO && self.normal.dot(other.normal) < 0.0 {
+        if self.normal.cross(other.normal).length() <= PARALLEL && self.normal.dot(other.normal) < 0.0 {
             self.height(other.origin)
         } else {
             f64::NEG_INFINITY
@@ -53,14 +57,19 @@ impl Plane {
         [self, other].map(|plane| middle - plane.normal * plane.height(middle))
     }
 
-    /// The corners, at most four, of the face that looks at the plane, and no more than `within` above it.
-    pub(crate) fn touch(&self, core: &Solid, within: f64) -> Touch {
+    /// The corners, at most four, of the face that looks at the plane, and no more than `within` above it. Corners of the core
+    /// no higher than `deep` are as deep as any.
+    pub(crate) fn touch(&self, core: &Solid, deep: f64, within: f64) -> Touch {
         let (lowest, _) = self.lowest(core);
         let face = opposed_face_at(core, lowest, self.normal);
+        // What is higher belongs to a tilted face, whose surface lies out along its own normal.
+        let outwards = core.outwards(face, -self.normal) * core.radius;
         let mut points: ArrayVec<Point, MAX_HULL_VERTICES> = ArrayVec::new();
         for vertex in core.topology.face_vertices(face) {
-            let point = core.point(vertex);
-            let separation = self.height(point);
+            let corner = core.point(vertex);
+            let is_deep = self.height(corner) <= deep;
+            let point = if is_deep { corner - self.normal * core.radius } else { corner + outwards };
+            let separation = if is_deep { self.height(corner) - core.radius } else { self.height(point) };
             if separation > within && vertex != lowest {
                 continue;
             }

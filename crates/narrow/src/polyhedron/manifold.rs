@@ -10,6 +10,10 @@
 //! each other across it; then the witness points
 //! reduce to four
 //! ```
+//! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest, along the
+//! normal; a corner of a tilted face that is less deep, along that face's own normal, since the shape's surface beyond it looks
+//! that way.
+//!
 //! Side planes are made from the reference face's own edges and not from neighbouring faces, so that a face which is
 //! flat only up to rounding clips like one that is flat. Every corner of the clipped polygon carries the features it
 //! comes from, which is what makes its id.
@@ -35,6 +39,18 @@ pub(crate) struct Point {
     pub(crate) feature: FeatureId,
 }
 
+impl Point {
+    /// A point where two cores are closest, moved out to the surfaces along the normal.
+    pub(super) fn on_surfaces(self, a: &Solid, b: &Solid, normal: DVec3) -> Self {
+        Self {
+            separation: self.separation - a.radius - b.radius,
+            on_a: self.on_a + normal * a.radius,
+            on_b: self.on_b - normal * b.radius,
+            ..self
+        }
+    }
+}
+
 /// A normal and its points, in the frame of the pair.
 pub(crate) struct Touch {
     pub(crate) normal: DVec3,
@@ -57,20 +73,21 @@ pub(crate) fn touch(
 ) -> Touch {
     let overlapping = witness.is_none();
     let at_stake = witness.map_or(axes.best().separation, |witness| witness.distance);
-    let is_deep =
-        |points: &ArrayVec<Point, 4>| points.iter().any(|point| point.separation <= at_stake + preference);
+    let deep = at_stake + preference;
+    let least = deep - a.radius - b.radius;
+    let is_deep = |points: &ArrayVec<Point, 4>| points.iter().any(|point| point.separation <= least);
     for axis in [preferred(axes, overlapping, preference), axes.best()] {
         if axis.separation < at_stake - preference {
             continue;
         }
         // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
         // deeper than zero: a body that rests exactly on a face rests on all of its corners.
-        let within = margin.max(at_stake + preference);
+        let depths = Depths { deep, within: margin.max(least) };
         let points = match axis.of {
-            AxisOf::FaceA(face) => face_points(a, b, face, axis.normal, within, false),
-            AxisOf::FaceB(face) => face_points(b, a, face, -axis.normal, within, true),
+            AxisOf::FaceA(face) => face_points(a, b, face, axis.normal, depths, false),
+            AxisOf::FaceB(face) => face_points(b, a, face, -axis.normal, depths, true),
             AxisOf::Edges(..) if !overlapping => continue,
-            AxisOf::Edges(edge_a, edge_b) => aligned_faces(a, b, axis.normal, within)
+            AxisOf::Edges(edge_a, edge_b) => aligned_faces(a, b, axis.normal, depths)
                 .filter(|points| is_deep(points))
                 .unwrap_or_else(|| edge_point(a, b, (edge_a, edge_b), axis.normal)),
         };
@@ -79,7 +96,8 @@ pub(crate) fn touch(
         }
     }
     if let Some(witness) = witness
-        && let Some(points) = aligned_faces(a, b, witness.normal, margin).filter(|points| is_deep(points))
+        && let Some(points) = aligned_faces(a, b, witness.normal, Depths { deep, within: margin.max(least) })
+            .filter(|points| is_deep(points))
     {
         return Touch { normal: witness.normal, points };
     }
@@ -87,6 +105,15 @@ pub(crate) fn touch(
         Some(witness) => Touch { normal: witness.normal, points: closest_point(a, b, witness) },
         None => Touch { normal: axes.best().normal, points: deepest_point(a, b, axes.best()) },
     }
+}
+
+/// Which corners of a patch become points, in metres.
+#[derive(Clone, Copy)]
+struct Depths {
+    /// Corners of the cores no further apart than this are as deep as any.
+    deep: f64,
+    /// Points of the shapes no further apart than this are wanted.
+    within: f64,
 }
 
 fn preferred(axes: &Axes, overlapping: bool, preference: f64) -> &Axis {
@@ -103,12 +130,15 @@ fn preferred(axes: &Axes, overlapping: bool, preference: f64) -> &Axis {
 fn deepest_point(a: &Solid, b: &Solid, axis: &Axis) -> ArrayVec<Point, 4> {
     let (in_a, in_b) = (a.support(axis.normal), b.support(-axis.normal));
     let (on_a, on_b) = (Feature::Vertex(in_a.vertex as u32), Feature::Vertex(in_b.vertex as u32));
-    let a_is_foot = Reference { along: axis.normal, facing: axis.normal, reach: in_a.reach, is_b: false };
-    let b_is_foot = Reference { along: -axis.normal, facing: -axis.normal, reach: in_b.reach, is_b: true };
+    let (a_is_foot, b_is_foot) = (
+        Reference::of(a, axis.normal, axis.normal, false),
+        Reference::of(b, -axis.normal, -axis.normal, true),
+    );
+    let (low_a, low_b) = (a.point(in_a.vertex), b.point(in_b.vertex));
     let point = match axis.of {
-        AxisOf::FaceA(face) => a_is_foot.contact(b.point(in_b.vertex), (Feature::Face(face as u32), on_b)),
-        AxisOf::FaceB(face) => b_is_foot.contact(a.point(in_a.vertex), (Feature::Face(face as u32), on_a)),
-        AxisOf::Edges(edge, _) => a_is_foot.contact(b.point(in_b.vertex), (Feature::Edge(edge as u32), on_b)),
+        AxisOf::FaceA(face) => a_is_foot.lowest(low_b, b.radius, (Feature::Face(face as u32), on_b)),
+        AxisOf::FaceB(face) => b_is_foot.lowest(low_a, a.radius, (Feature::Face(face as u32), on_a)),
+        AxisOf::Edges(edge, _) => a_is_foot.lowest(low_b, b.radius, (Feature::Edge(edge as u32), on_b)),
     };
     core::iter::once(point).collect()
 }
@@ -118,7 +148,7 @@ fn deepest_point(a: &Solid, b: &Solid, axis: &Axis) -> ArrayVec<Point, 4> {
 /// A box that rests on a box, tilted by a hair, touches it where two edges cross: one point, which jumps to another
 /// corner with the next hair, and on which nothing can stand. The crossing is also a corner of the patch that both
 /// faces share as seen along the axis. The patch holds, and keeps the axis and the depth exact.
-fn aligned_faces(a: &Solid, b: &Solid, normal: DVec3, within: f64) -> Option<ArrayVec<Point, 4>> {
+fn aligned_faces(a: &Solid, b: &Solid, normal: DVec3, depths: Depths) -> Option<ArrayVec<Point, 4>> {
     if a.is_slender() || b.is_slender() {
         return None;
     }
@@ -128,9 +158,8 @@ fn aligned_faces(a: &Solid, b: &Solid, normal: DVec3, within: f64) -> Option<Arr
     if facing_a.dot(normal) < ALIGNED_FACES || facing_b.dot(normal) > -ALIGNED_FACES {
         return None;
     }
-    let reference =
-        Reference { along: normal, facing: facing_a, reach: a.support(facing_a).reach, is_b: false };
-    Some(clipped_points((a, face_a), (b, face_b), &reference, within))
+    let reference = Reference::of(a, normal, facing_a, false);
+    Some(clipped_points((a, face_a), (b, face_b), &reference, depths))
 }
 
 /// The nearest points of two edges that cross, each held to its edge.
@@ -144,7 +173,8 @@ fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), normal: DVec3) -> Arr
     let t = (between.cross(along_a).dot(cross) * inverse).clamp(0.0, 1.0);
     let (on_a, on_b) = (a0 + along_a * s, b0 + along_b * t);
     let feature = FeatureId::new(Feature::Edge(edges.0 as u32), Feature::Edge(edges.1 as u32));
-    core::iter::once(Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature }).collect()
+    let point = Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature };
+    core::iter::once(point.on_surfaces(a, b, normal)).collect()
 }
 
 /// The witness points of a gap, named by the features that carry them.
@@ -162,7 +192,7 @@ fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> ArrayVec<Point, 4> 
         on_b: witness.point_b,
         feature: FeatureId::new(carrier(a, 0), carrier(b, 1)),
     };
-    core::iter::once(point).collect()
+    core::iter::once(point.on_surfaces(a, b, witness.normal)).collect()
 }
 
 /// The least feature that holds all of these vertices.
@@ -199,22 +229,50 @@ enum Side {
     Reference(usize),
 }
 
-/// A plane to measure contact points from: that of the reference face.
+/// A plane to measure contact points from: that of the reference face's surface.
 struct Reference {
     /// Unit direction out of the reference shape along which separations are measured.
     along: DVec3,
     /// The plane's outward unit normal: most often the same.
     facing: DVec3,
-    /// The reference shape's reach along `facing`.
+    /// How far the core reaches along `facing`.
     reach: f64,
+    /// How far the surface lies beyond the core.
+    radius: f64,
     is_b: bool,
 }
 
 impl Reference {
-    /// The contact of a point of the incident shape with its foot on the plane. Features: the reference's first.
-    fn contact(&self, point: DVec3, (of_reference, of_incident): (Feature, Feature)) -> Point {
-        let separation = (self.facing.dot(point) - self.reach) / self.facing.dot(self.along);
-        let foot = point - self.along * separation;
+    fn of(solid: &Solid, along: DVec3, facing: DVec3, is_b: bool) -> Self {
+        Self { along, facing, reach: solid.support(facing).reach, radius: solid.radius, is_b }
+    }
+
+    /// Height of a point over the core's plane, along the direction of measurement.
+    fn height(&self, point: DVec3) -> f64 {
+        (self.facing.dot(point) - self.reach) / self.facing.dot(self.along)
+    }
+
+    /// The contact of a point of the other shape's core with its foot on the core's plane, both moved out to the surfaces along
+    /// the direction of measurement. Features: the reference's first.
+    fn lowest(&self, point: DVec3, radius: f64, features: (Feature, Feature)) -> Point {
+        let height = self.height(point);
+        let foot = point - self.along * (height - self.radius);
+        self.contact(foot, point - self.along * radius, height - self.radius - radius, features)
+    }
+
+    /// The contact of a point of the other shape's surface with its foot on this surface's plane.
+    fn over_surface(&self, point: DVec3, features: (Feature, Feature)) -> Point {
+        let separation = self.height(point) - self.radius / self.facing.dot(self.along);
+        self.contact(point - self.along * separation, point, separation, features)
+    }
+
+    fn contact(
+        &self,
+        foot: DVec3,
+        point: DVec3,
+        separation: f64,
+        (of_reference, of_incident): (Feature, Feature),
+    ) -> Point {
         if self.is_b {
             Point { separation, on_a: point, on_b: foot, feature: FeatureId::new(of_incident, of_reference) }
         } else {
@@ -223,37 +281,48 @@ impl Reference {
     }
 }
 
-/// Contact points of a face of `solid` with outward normal `normal`, and the incident shape: those at most `within`
-/// outside the face's plane.
+/// Contact points of a face of `solid` with outward normal `normal`, and the incident shape.
 fn face_points(
     solid: &Solid,
     incident: &Solid,
     face: usize,
     normal: DVec3,
-    within: f64,
+    depths: Depths,
     is_b: bool,
 ) -> ArrayVec<Point, 4> {
-    let reference = Reference { along: normal, facing: normal, reach: solid.support(normal).reach, is_b };
+    let reference = Reference::of(solid, normal, normal, is_b);
     let deepest = incident.support(-normal).vertex;
     let incident_face = opposed_face_at(incident, deepest, normal);
-    clipped_points((solid, face), (incident, incident_face), &reference, within)
+    clipped_points((solid, face), (incident, incident_face), &reference, depths)
 }
 
-/// Corners of the patch that two faces share as seen along the reference's direction, at most `within` outside its
-/// plane, and at most four of them.
+/// Corners of the patch that two faces share as seen along the reference's direction, and at most four of them.
 fn clipped_points(
     (solid, face): (&Solid, usize),
     (incident, incident_face): (&Solid, usize),
     reference: &Reference,
-    within: f64,
+    depths: Depths,
 ) -> ArrayVec<Point, 4> {
     let mut points: ArrayVec<Point, MAX_CORNERS> = ArrayVec::new();
     let mut rings = [Ring::new_const(), Ring::new_const()];
-    for corner in clip((solid, face), (incident, incident_face), reference.along, &mut rings) {
-        let new = reference.contact(corner.point, corner.features);
-        let is_new = points.iter().all(|known| known.feature != new.feature);
-        if new.separation <= within && is_new {
-            points.push(new);
+    let mut offer = |new: Point| {
+        if new.separation <= depths.within && points.iter().all(|known| known.feature != new.feature) {
+            let _ = points.try_push(new);
+        }
+    };
+    let is_sharp = solid.radius + incident.radius == 0.0;
+    let sides = [DVec3::ZERO; 2];
+    for corner in clip((solid, face), (incident, incident_face), reference.along, sides, &mut rings) {
+        if is_sharp || reference.height(corner.point) <= depths.deep {
+            offer(reference.lowest(corner.point, incident.radius, corner.features));
+        }
+    }
+    if !is_sharp {
+        // What is less deep belongs to a tilted face, and lies out along its normal; there the corners are cut again.
+        let outwards = incident.outwards(incident_face, -reference.along) * incident.radius;
+        let sides = [reference.facing * solid.radius, outwards];
+        for corner in clip((solid, face), (incident, incident_face), reference.along, sides, &mut rings) {
+            offer(reference.over_surface(corner.point, corner.features));
         }
     }
     reduce_to_four(&points, reference.along)
@@ -278,24 +347,26 @@ pub(super) fn opposed_face_at(solid: &Solid, vertex: usize, normal: DVec3) -> us
 type Ring = ArrayVec<Corner, MAX_CORNERS>;
 
 /// The incident face cut by the side planes of the reference face: Sutherland and Hodgman, "Reentrant polygon
-/// clipping" (1974). Returns whichever of the two rings holds the result.
+/// clipping" (1974). Both faces are moved by `sides` first. Returns whichever of the two rings holds the result.
 fn clip<'a>(
     (reference, face): (&Solid, usize),
     (incident, incident_face): (&Solid, usize),
     normal: DVec3,
+    sides: [DVec3; 2],
     rings: &'a mut [Ring; 2],
 ) -> &'a Ring {
     let [mut polygon, mut clipped] = rings.each_mut();
+    polygon.clear();
     for half_edge in incident.topology.face_half_edges(incident_face) {
         let vertex = incident.topology.ends(half_edge).0;
         polygon.push(Corner {
-            point: incident.point(vertex),
+            point: incident.point(vertex) + sides[1],
             features: (Feature::Face(face as u32), Feature::Vertex(vertex as u32)),
             leaving: Side::Incident(incident.topology.edge_of(half_edge) as u32),
         });
     }
     for half_edge in reference.topology.face_half_edges(face) {
-        let from = reference.point(reference.topology.ends(half_edge).0);
+        let from = reference.point(reference.topology.ends(half_edge).0) + sides[0];
         let outward = reference.edge_direction(half_edge).cross(normal);
         clipped.clear();
         for (i, &here) in polygon.iter().enumerate() {

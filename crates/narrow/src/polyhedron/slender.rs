@@ -55,20 +55,34 @@ pub(crate) fn nearest(a: &Solid, b: &Solid, rounding: f64) -> Nearest {
     let places = best.1;
     let (on_a, on_b) = (a0 + along_a * places[0], b0 + along_b * places[1]);
     let distance = (on_b - on_a).length();
-    let normal = if distance > rounding {
-        (on_b - on_a) / distance
-    } else {
-        across(along_a, along_b, (b0 + b1) - (a0 + a1))
-    };
-    let at_least = normal.dot(b0).min(normal.dot(b1)) - normal.dot(a0).max(normal.dot(a1));
-    Nearest {
-        distance: if distance > rounding { distance } else { 0.0 },
-        at_least,
-        normal,
-        on_a,
-        on_b,
-        places,
+    let bound = |normal: DVec3| normal.dot(b0).min(normal.dot(b1)) - normal.dot(a0).max(normal.dot(a1));
+    if distance <= rounding {
+        let normal = across(along_a, along_b, (b0 + b1) - (a0 + a1));
+        return Nearest { distance: 0.0, at_least: bound(normal), normal, on_a, on_b, places };
     }
+    let straight = (on_b - on_a) / distance;
+    let clean = square_to(on_b - on_a, [along_a, along_b], places).unwrap_or(straight);
+    let (normal, at_least) = [straight, clean]
+        .map(|normal| (normal, bound(normal)))
+        .into_iter()
+        .reduce(|best, next| if next.1 > best.1 { next } else { best })
+        .unwrap_or((straight, bound(straight)));
+    Nearest { distance, at_least, normal, on_a, on_b, places }
+}
+
+/// The unit axis between closest points, square to each segment that has its point in its inside.
+///
+/// Between points that all but coincide the axis from one to the other is rounding; what it is square to tells it again.
+fn square_to(between: DVec3, along: [DVec3; 2], places: [f64; 2]) -> Option<DVec3> {
+    let is_inside = places.map(|place| place > 0.0 && place < 1.0);
+    let cross = along[0].cross(along[1]);
+    let axis = match is_inside {
+        [true, true] if cross.length_squared() > 0.0 => cross * cross.dot(between).signum(),
+        [true, _] => between - along[0] * (between.dot(along[0]) / along[0].length_squared()),
+        [false, true] => between - along[1] * (between.dot(along[1]) / along[1].length_squared()),
+        [false, false] => between,
+    };
+    axis.try_normalize()
 }
 
 /// How they touch: where they are closest, or on both ends of the stretch along which two segments lie side by side.
@@ -77,21 +91,17 @@ pub(crate) fn nearest(a: &Solid, b: &Solid, rounding: f64) -> Nearest {
 /// `preference`: segments that cross at a small angle touch in one point.
 pub(crate) fn touch(a: &Solid, b: &Solid, nearest: &Nearest, within: f64, preference: f64) -> Touch {
     let normal = nearest.normal;
-    let within = within.max(nearest.distance + preference);
+    let least = nearest.distance - a.radius - b.radius + preference;
+    let within = within.max(least);
     let mut points: ArrayVec<Point, 4> = ArrayVec::new();
-    let mut least = f64::INFINITY;
-    for ([on_a, on_b], feature) in shared_stretch(a, b, normal).into_iter().flatten() {
-        let distance = (on_b - on_a).length();
-        least = least.min(distance);
-        if distance <= within {
-            points.push(Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature });
-        }
-    }
-    if least > nearest.distance + preference {
-        points.clear();
+    let deep = nearest.distance + preference;
+    if let Some(stretch) = shared_stretch(a, b, normal, deep) {
+        points.extend(stretch.into_iter().filter(|point| point.separation <= within));
+    } else {
         let feature = FeatureId::new(feature_at(a, nearest.places[0]), feature_at(b, nearest.places[1]));
         let (on_a, on_b) = (nearest.on_a, nearest.on_b);
-        points.push(Point { separation: nearest.distance, on_a, on_b, feature });
+        let point = Point { separation: nearest.distance, on_a, on_b, feature };
+        points.push(point.on_surfaces(a, b, normal));
     }
     points.sort_unstable_by_key(|point| point.feature);
     Touch { normal, points }
@@ -131,9 +141,9 @@ fn across(along_a: DVec3, along_b: DVec3, between: DVec3) -> DVec3 {
     if axis.dot(between) < 0.0 { -axis } else { axis }
 }
 
-/// The ends of the stretch along which two nearly parallel segments lie side by side as seen along the normal: a point of
-/// each, opposite each other.
-fn shared_stretch(a: &Solid, b: &Solid, normal: DVec3) -> Option<[([DVec3; 2], FeatureId); 2]> {
+/// Points on both ends of the stretch along which two nearly parallel segments lie side by side as seen along the normal,
+/// if their cores are no further apart than `deep` at one of them.
+fn shared_stretch(a: &Solid, b: &Solid, normal: DVec3, deep: f64) -> Option<[Point; 2]> {
     let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
     let (along_a, along_b) = (a1 - a0, b1 - b0);
     let cosine_squared = along_a.dot(along_b) * along_a.dot(along_b);
@@ -156,11 +166,23 @@ fn shared_stretch(a: &Solid, b: &Solid, normal: DVec3) -> Option<[([DVec3; 2], F
     if begin.0 >= end.0 {
         return None;
     }
+    // Seen along the normal, the surface beyond a segment that leans by t lies r / cos t over it; over its near end, r.
+    let cosine = |along: DVec3| (1.0 - normal.dot(along) * normal.dot(along) / along.length_squared()).sqrt();
+    let (cosine_a, cosine_b) = (cosine(along_a), cosine(along_b));
     let opposite = |(place, feature): (f64, FeatureId)| {
         let (s, t) = (place / end_a, (place - from_b) / (to_b - from_b));
-        ([a0 + along_a * s.clamp(0.0, 1.0), b0 + along_b * t.clamp(0.0, 1.0)], feature)
+        let (on_a, on_b) = (a0 + along_a * s.clamp(0.0, 1.0), b0 + along_b * t.clamp(0.0, 1.0));
+        let distance = (on_b - on_a).length();
+        let separation = normal.dot(on_b - on_a);
+        if distance <= deep {
+            return (distance, Point { separation, on_a, on_b, feature }.on_surfaces(a, b, normal));
+        }
+        let (rise_a, rise_b) = (a.radius / cosine_a, b.radius / cosine_b);
+        let (on_a, on_b) = (on_a + normal * rise_a, on_b - normal * rise_b);
+        (distance, Point { separation: separation - rise_a - rise_b, on_a, on_b, feature })
     };
-    Some([opposite(begin), opposite(end)])
+    let (begin, end) = (opposite(begin), opposite(end));
+    (begin.0.min(end.0) <= deep).then_some([begin.1, end.1])
 }
 
 fn feature_at(core: &Solid, place: f64) -> Feature {

@@ -15,6 +15,8 @@ pub(crate) struct Solid<'a> {
     normals: &'a [DVec3],
     basis: Basis3,
     position: DVec3,
+    /// How far the shape reaches beyond this core. Axes and distances leave it out; contact points lie on the shape.
+    pub(crate) radius: f64,
 }
 
 /// Where a projection is greatest, and how great.
@@ -25,14 +27,9 @@ pub(crate) struct Support {
 }
 
 impl<'a> Solid<'a> {
-    pub(crate) fn new(core: &'a Core3<'a>, basis: Basis3, position: DVec3) -> Self {
-        Self {
-            vertices: core.vertices(),
-            topology: core.topology(),
-            normals: core.normals(),
-            basis,
-            position,
-        }
+    pub(crate) fn new(core: &'a Core3<'a>, basis: Basis3, position: DVec3, radius: f64) -> Self {
+        let (vertices, topology, normals) = (core.vertices(), core.topology(), core.normals());
+        Self { vertices, topology, normals, basis, position, radius }
     }
 
     /// Number of faces that have a normal.
@@ -63,6 +60,18 @@ impl<'a> Solid<'a> {
     #[inline]
     pub(crate) fn normal(&self, face: usize) -> DVec3 {
         self.basis.turn(self.normals[face])
+    }
+
+    /// The direction in which the shape's surface lies beyond a face of its core; beyond a point or segment, the one
+    /// nearest to `towards`, which is of unit length.
+    pub(crate) fn outwards(&self, face: usize, towards: DVec3) -> DVec3 {
+        if !self.is_slender() {
+            return self.normal(face);
+        }
+        let along = self.point(self.vertices.len() - 1) - self.point(0);
+        let share = along.dot(towards) / along.length_squared();
+        let across = if share.is_nan() { towards } else { towards - along * share };
+        across.try_normalize().unwrap_or(towards)
     }
 
     /// Outward normal of a face, of any length: enough for a yes or no, and rounded less. Newell's area vector, about the

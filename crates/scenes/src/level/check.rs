@@ -179,8 +179,11 @@ fn made<T, E: Into<Fault>>(step: &str, result: Result<T, E>) -> Result<T, At> {
     result.map_err(|error| at(step)(error.into()))
 }
 
-/// The parts of a compound: each a shape and a pose.
-fn parts<D: Dimension>(raw: &[raw::Part]) -> Result<Vec<(D::Pose, D::Shape)>, At> {
+/// A shape and where it is.
+type Posed<D> = (<D as Dimension>::Pose, <D as Dimension>::Shape);
+
+/// The parts of a compound.
+fn parts<D: Dimension>(raw: &[raw::Part]) -> Result<Vec<Posed<D>>, At> {
     let part = |(i, part): (usize, &raw::Part)| {
         let within = |(step, fault): At| (format!(".compound.parts[{i}]{step}"), fault);
         let pose = D::pose(&part.position, part.rotation.as_ref()).map_err(within)?;

@@ -1,0 +1,111 @@
+//! Areas and normals of face loops.
+
+use glam::{DVec3, Vec3};
+
+/// Newell's area vector of a loop: twice the area, along the normal.
+///
+/// About an end of the shortest edge. From far away, two corners that are closer than the distance rounds to would be one,
+/// and the direction of a long triangle on a short base would be lost.
+pub(super) fn area_vector(count: usize, corner: impl Fn(usize) -> Vec3) -> DVec3 {
+    newell(count, corner).0
+}
+
+/// The area vector, and the sum of the lengths of what was multiplied for it: its rounding is a few f64::EPSILON of that.
+fn newell(count: usize, corner: impl Fn(usize) -> Vec3) -> (DVec3, f64) {
+    let at = |i: usize| corner(i % count).as_dvec3();
+    let edge = |i: &usize| (at(*i + 1) - at(*i)).length_squared();
+    let start = (0..count).min_by(|a, b| edge(a).total_cmp(&edge(b))).unwrap_or(0);
+    let (mut sum, mut lengths, mut last) = (DVec3::ZERO, 0.0, DVec3::ZERO);
+    for i in 1..count {
+        let arm = at(start + i) - at(start);
+        sum += last.cross(arm);
+        lengths += last.length() * arm.length();
+        last = arm;
+    }
+    (sum, lengths)
+}
+
+/// Unit vector along a loop's area. Where that vanishes even in f64 it is x.
+pub(super) fn unit(area: DVec3) -> DVec3 {
+    // Scaled first: the squares of a 1e-90 area would underflow.
+    let largest = area.abs().max_element();
+    if largest > 0.0 { (area / largest).normalize() } else { DVec3::X }
+}
+
+/// Whether a loop's area, as computed in f64, may be no more than rounding.
+///
+/// Only where corners differ by less than f64 resolves next to their distance from others.
+pub(super) fn is_noise(count: usize, corner: impl Fn(usize) -> Vec3) -> bool {
+    let (area, lengths) = newell(count, corner);
+    area.length() <= 1e-13 * lengths
+}
+
+/// Squared lengths and places of a loop's edges, the longest first.
+fn longest_edges(count: usize, corner: impl Fn(usize) -> Vec3) -> Vec<(f64, usize)> {
+    let squared = |i: usize| (corner((i + 1) % count).as_dvec3() - corner(i).as_dvec3()).length_squared();
+    let mut edges: Vec<(f64, usize)> = (0..count).map(|i| (squared(i), i)).collect();
+    edges.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    edges
+}
+
+/// Areas and unit normals of the faces of a hull, given the faces across their edges.
+///
+/// A face whose area is noise lies along its longest edge, up to rounding, and so in the plane of the face beyond: it takes
+/// that one's normal.
+pub(super) fn areas_and_normals<Index: Copy + Into<u32>>(
+    points: &[Vec3],
+    faces: &[Vec<Index>],
+    neighbours: &[Vec<usize>],
+) -> (Vec<DVec3>, Vec<DVec3>) {
+    let corner = |face: usize, i: usize| points[faces[face][i].into() as usize];
+    let area = |face: usize| area_vector(faces[face].len(), |i| corner(face, i));
+    let areas: Vec<DVec3> = (0..faces.len()).map(area).collect();
+    let mut normals: Vec<DVec3> = areas.iter().copied().map(unit).collect();
+    let mut unknown: Vec<usize> =
+        (0..faces.len()).filter(|&f| is_noise(faces[f].len(), |i| corner(f, i))).collect();
+    let mut is_known = vec![true; faces.len()];
+    unknown.iter().for_each(|&face| is_known[face] = false);
+    while !unknown.is_empty() {
+        let before = unknown.len();
+        unknown.retain(|&face| {
+            let edges = longest_edges(faces[face].len(), |i| corner(face, i));
+            // What lies beyond a short edge may look anywhere.
+            let long = edges.first().map_or(0.0, |edge| edge.0 * 0.25);
+            let beyond = edges
+                .into_iter()
+                .take_while(|edge| edge.0 >= long)
+                .map(|(_, i)| neighbours[face][i])
+                .find(|&neighbour| is_known[neighbour]);
+            if let Some(neighbour) = beyond {
+                (normals[face], is_known[face]) = (normals[neighbour], true);
+            }
+            beyond.is_none()
+        });
+        if unknown.len() == before {
+            break;
+        }
+    }
+    (areas, normals)
+}
+
+/// For each face, the face across each of its edges.
+pub(super) fn neighbours<Index: Copy + Into<u32>>(faces: &[Vec<Index>]) -> Vec<Vec<usize>> {
+    let mut sides: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(3 * faces.len());
+    for (index, face) in faces.iter().enumerate() {
+        for (i, &from) in face.iter().enumerate() {
+            let (from, to): (u32, u32) = (from.into(), face[(i + 1) % face.len()].into());
+            sides.push((from.min(to), from.max(to), index, i));
+        }
+    }
+    sides.sort_unstable();
+    let mut neighbours: Vec<Vec<usize>> =
+        faces.iter().enumerate().map(|(index, face)| vec![index; face.len()]).collect();
+    for two in sides.windows(2) {
+        let ((a0, a1, first, i), (b0, b1, second, j)) = (two[0], two[1]);
+        if (a0, a1) == (b0, b1) {
+            neighbours[first][i] = second;
+            neighbours[second][j] = first;
+        }
+    }
+    neighbours
+}
