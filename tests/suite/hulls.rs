@@ -109,7 +109,9 @@ fn the_largest_clouds_take_no_longer_than_sorting_would_explain() {
         let built = [Hull::of_any_dimension(&points), Hull::simplify(&points, 256)];
         // A quadratic step costs 4e9 operations. What is measured is half a second, in a build with assertions, on a slow core.
         assert!(start.elapsed().as_secs_f64() < 8.0, "{name}: {:?}", start.elapsed());
-        for hull in built {
+        // Where both are the same hull, once is enough.
+        let are_same = built[0].is_ok() && built[0] == built[1];
+        for hull in built.into_iter().skip(usize::from(are_same)) {
             match hull {
                 Ok(hull) => hull.check(&points).unwrap_or_else(|fault| panic!("{name}: {fault}")),
                 Err(HullError::TooManyVertices { at_least }) => assert!(at_least > 256, "{name}"),

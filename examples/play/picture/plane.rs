@@ -33,7 +33,7 @@ pub(crate) fn draw(world: &World2) -> String {
 }
 
 fn draw_body(canvas: &mut Canvas, body: &Collider2, points: &[DVec2], number: usize) {
-    let is_round = points.len() >= 7;
+    let is_round = points.len() >= 7 && !matches!(body.shape(), Shape2::Compound(_));
     if body.is_sensor() {
         let (color, opacity) = match body.shape() {
             Shape2::Rect(_) if !is_round => (GOLD, 0.35),
