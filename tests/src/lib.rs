@@ -11,6 +11,9 @@
 //! - [`bodies`]: pairs of such bodies, asked as in [`answers`]
 //! - [`shapes`]: seeded shapes of every kind, and pairs of them in every kind of place
 //! - [`cases`]: seeded shapes, poses and pairs, far apart, deep, and touching
+//! - [`exact_plane`]: areas, crossings and containment in the plane, over integers
+//! - [`outlines`]: seeded outlines, simple and not: stars, combs, spirals, lattices, slivers
+//! - [`fuzzed`]: hulls, polygons and outlines from raw bytes, with all that must hold of them; `fuzz/` runs the same
 //! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
 //!
 //! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
@@ -25,10 +28,13 @@ pub mod cases;
 pub mod cores;
 pub mod engine;
 pub mod exact_overlap;
+pub mod exact_plane;
 pub mod exhaustive_distance;
 pub mod exhaustive_sat;
+pub mod fuzzed;
 pub mod integers;
 pub mod naive_world;
+pub mod outlines;
 pub mod placed;
 pub mod shapes;
 pub mod solid;

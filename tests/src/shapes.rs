@@ -116,6 +116,11 @@ impl<'a> Clay<'a> {
         Self { random, size, stretch, is_short: false }
     }
 
+    /// Shapes of about a metre that are not thin.
+    pub fn thick(random: &'a mut Random) -> Self {
+        Self { random, size: 1.0, stretch: DVec3::ONE, is_short: false }
+    }
+
     /// Shapes whose coordinates are eighths of a metre, up to two.
     pub fn short(random: &'a mut Random) -> Self {
         Self { random, size: 1.0, stretch: DVec3::ONE, is_short: true }

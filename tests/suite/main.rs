@@ -6,6 +6,8 @@
 //! Geometry
 //! - [`refusals`]: what is no convex shape and no pose is refused, by an error that names the place
 //! - [`bounds`]: the box around a posed shape holds it, and is no wider than rounding needs
+//! - [`polygons`]: hulls of points in the plane, simplified ones, and outlines cut into convex parts, against exact integers
+//! - [`fuzzed`]: the fuzz targets' bodies, on tens of thousands of seeded strings
 //! - [`mass`]: mass, centre and inertia of every shape, against exact fractions, textbooks, sampling and inclusion-exclusion
 //!
 //! Broad phase
@@ -38,11 +40,13 @@ mod architecture;
 mod bounds;
 mod broad;
 mod exactness;
+mod fuzzed;
 mod invariance;
 mod manifolds;
 mod mass;
 mod oracles;
 mod peer;
+mod polygons;
 mod refusals;
 mod regressions;
 mod separation;

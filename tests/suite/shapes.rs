@@ -159,11 +159,14 @@ impl<T: Asked> Judged<'_, T> {
 
 /// Runs every ordered pair of `kinds` rows through all places and counts both signs of each.
 fn tour<T: Asked>(
-    kinds: usize,
+    names: &[&str],
     rounds: usize,
     make: impl Fn(usize, usize, usize) -> (T, f64, f64),
     most: usize,
 ) {
+    let kinds = names.len();
+    // Two sheets or needles meet seldom where nobody moves them together.
+    let is_sheet = |kind: usize| ["flat hull", "triangle", "segment"].contains(&names[kind]);
     for a in 0..kinds {
         // The last row is the half-space or half-plane: two of them are a story of their own (`contacts`).
         for b in 0..kinds - usize::from(a + 1 == kinds) {
@@ -178,11 +181,9 @@ fn tour<T: Asked>(
                 judged.check_swapped();
                 *if truth > 0.0 { &mut apart } else { &mut overlapping } += 1;
             }
-            let least = rounds / 20;
-            assert!(
-                apart >= least && overlapping >= least,
-                "{apart} apart, {overlapping} in overlap: {a}, {b}"
-            );
+            let least = if is_sheet(a) && is_sheet(b) { 1 } else { rounds / 20 };
+            let what = format!("{apart} apart, {overlapping} in overlap: {}, {}", names[a], names[b]);
+            assert!(apart >= least && overlapping >= least, "{what}");
         }
     }
 }
@@ -190,8 +191,8 @@ fn tour<T: Asked>(
 #[test]
 fn every_kind_in_space_against_every_other() {
     tour(
-        KINDS3.len(),
-        4 * PLACES,
+        &KINDS3.map(|kind| kind.0),
+        8 * PLACES,
         |a, b, round| {
             let seed = ((a * KINDS3.len() + b) * 1_000_000 + round) as u128;
             let bodies: Bodies3 = pair3(&mut Random::new(seed), &KINDS3[a], &KINDS3[b], round);
@@ -205,8 +206,8 @@ fn every_kind_in_space_against_every_other() {
 #[test]
 fn every_kind_in_the_plane_against_every_other() {
     tour(
-        KINDS2.len(),
-        4 * PLACES,
+        &KINDS2.map(|kind| kind.0),
+        16 * PLACES,
         |a, b, round| {
             let seed = ((a * KINDS2.len() + b) * 1_000_000 + round) as u128;
             let bodies: Bodies2 = pair2(&mut Random::new(seed), &KINDS2[a], &KINDS2[b], round);

@@ -161,8 +161,12 @@ fn furthest_points_of_every_kind_in_space_are_its_own() {
                 assert_eq!(shape.contains(point), outside < 0.0, "{point}, {outside} outside: {shape:?}");
             }
         }
-        assert!(!shape.contains(DVec3::new(f64::NAN, 0.0, 0.0)) && shape.support(DVec3::ZERO).is_none());
-        assert!(shape.support(DVec3::NAN).is_none() && shape.support(DVec3::INFINITY).is_none());
+        for axis in DVec3::AXES {
+            assert!(!shape.contains(axis * f64::NAN), "nothing holds a NaN: {shape:?}");
+            assert!(!shape.contains(axis.with_x(f64::NAN)), "nothing holds a NaN: {shape:?}");
+        }
+        assert!(shape.support(DVec3::ZERO).is_none() && shape.support(DVec3::NAN).is_none());
+        assert!(shape.support(DVec3::INFINITY).is_none());
     }
 }
 
@@ -194,6 +198,9 @@ fn furthest_points_of_every_kind_in_the_plane_are_its_own() {
                 assert_eq!(shape.contains(point), outside < 0.0, "{point}, {outside} outside: {shape:?}");
             }
         }
-        assert!(!shape.contains(DVec2::new(0.0, f64::NAN)) && shape.support(DVec2::ZERO).is_none());
+        for spoilt in [DVec2::new(0.0, f64::NAN), DVec2::new(f64::NAN, 0.0), DVec2::NAN] {
+            assert!(!shape.contains(spoilt), "nothing holds a NaN: {shape:?}");
+        }
+        assert!(shape.support(DVec2::ZERO).is_none() && shape.support(DVec2::NAN).is_none());
     }
 }
