@@ -1,6 +1,7 @@
 //! One face for both worlds, so that the model and the operation lists are written once.
 
 use crate::cases::Random;
+use crate::shapes::{Clay, KINDS2, KINDS3};
 use asunder::slotmap::Key;
 use asunder::{
     Collider, Contact, Cuboid, Event, Hull, Layers, Pair2, Pair3, Plane, Polygon, Pose2, Pose3, Rect, Shape2,
@@ -44,8 +45,9 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn pose_of(body: &Collider<Self>) -> Self::Pose;
     /// Whether the boxes of two bodies, grown by their margins, share a point.
     fn boxes_overlap(a: &Collider<Self>, b: &Collider<Self>) -> bool;
-    /// What the narrow phase says of two bodies: whether they overlap, and their manifold within the margin.
-    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Self::Manifold)>;
+    /// What the narrow phase says of two bodies that overlap or are within the margin: which of both, and their manifolds.
+    /// Half-spaces that overlap without end have none.
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Vec<Self::Manifold>)>;
     /// A unit cube or square, of side 1, at `x` on the first axis.
     fn unit_at(x: f64) -> Collider<Self>;
     /// The pose of [`Engine::unit_at`].
@@ -149,9 +151,10 @@ impl Engine for Volume {
         bounds(a).overlaps(&bounds(b))
     }
 
-    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Self::Manifold)> {
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Vec<Self::Manifold>)> {
         let pair = Pair3::new(a.shape(), a.pose(), b.shape(), b.pose());
-        Some((pair.overlaps(), pair.manifold(margin)?))
+        let (overlapping, manifolds) = (pair.overlaps(), pair.manifolds(margin));
+        (overlapping || !manifolds.is_empty()).then_some((overlapping, manifolds))
     }
 
     fn unit_at(x: f64) -> Collider<Self> {
@@ -170,9 +173,14 @@ impl Engine for Volume {
     fn random_body(random: &mut Random, reach: f64) -> Collider<Self> {
         let wedge =
             [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::new(0.6, 0.7, 0.2), Vec3::new(0.4, 0.1, -0.3)];
-        let shape: Shape3 = match random.below(3) {
-            0 => Hull::from_points(&wedge).unwrap().into(),
-            1 => Cuboid::from_half_extents(Vec3::new(0.6, 0.3, 0.2)).unwrap().into(),
+        let shape: Shape3 = match random.below(40) {
+            // The last row is the half-space, which touches half of all others: too many in a large room.
+            0 if reach < 2.0 || random.below(40) == 0 => {
+                KINDS3[KINDS3.len() - 1].1(&mut Clay::new(random, 0.7))
+            }
+            0..30 => KINDS3[random.below(KINDS3.len() - 1)].1(&mut Clay::new(random, 0.7)),
+            30..34 => Hull::from_points(&wedge).unwrap().into(),
+            34..37 => Cuboid::from_half_extents(Vec3::new(0.6, 0.3, 0.2)).unwrap().into(),
             _ => Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap().into(),
         };
         let pose = Self::random_pose(random, reach);
@@ -247,9 +255,10 @@ impl Engine for Plane {
         bounds(a).overlaps(&bounds(b))
     }
 
-    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Self::Manifold)> {
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Vec<Self::Manifold>)> {
         let pair = Pair2::new(a.shape(), a.pose(), b.shape(), b.pose());
-        Some((pair.overlaps(), pair.manifold(margin)?))
+        let (overlapping, manifolds) = (pair.overlaps(), pair.manifolds(margin));
+        (overlapping || !manifolds.is_empty()).then_some((overlapping, manifolds))
     }
 
     fn unit_at(x: f64) -> Collider<Self> {
@@ -267,9 +276,14 @@ impl Engine for Plane {
 
     fn random_body(random: &mut Random, reach: f64) -> Collider<Self> {
         let kite = [Vec2::ZERO, Vec2::X, Vec2::new(0.8, 0.7), Vec2::new(-0.2, 0.4)];
-        let shape: Shape2 = match random.below(3) {
-            0 => Polygon::new(&kite).unwrap().into(),
-            1 => Rect::from_half_extents(Vec2::new(0.6, 0.2)).unwrap().into(),
+        let shape: Shape2 = match random.below(40) {
+            // The last row is the half-plane, which touches half of all others: too many in a large room.
+            0 if reach < 2.0 || random.below(40) == 0 => {
+                KINDS2[KINDS2.len() - 1].1(&mut Clay::new(random, 0.7))
+            }
+            0..30 => KINDS2[random.below(KINDS2.len() - 1)].1(&mut Clay::new(random, 0.7)),
+            30..34 => Polygon::new(&kite).unwrap().into(),
+            34..37 => Rect::from_half_extents(Vec2::new(0.6, 0.2)).unwrap().into(),
             _ => Rect::from_half_extents(Vec2::splat(0.4)).unwrap().into(),
         };
         let pose = Self::random_pose(random, reach);

@@ -71,7 +71,7 @@ impl<S: Engine> NaiveWorld<S> {
         for [a, b] in self.pairs_that_may_meet() {
             let slots = (slot_of(a.0), slot_of(b.0));
             let margin = a.1.get_margin() + b.1.get_margin();
-            let Some((overlapping, manifold)) = S::meet(&a.1, &b.1, margin) else { continue };
+            let Some((overlapping, manifolds)) = S::meet(&a.1, &b.1, margin) else { continue };
             let sensor = a.1.is_sensor() || b.1.is_sensor();
             let keys = (a.0, b.0);
             let before = self.records.get(&slots).filter(|before| before.keys == keys);
@@ -83,7 +83,7 @@ impl<S: Engine> NaiveWorld<S> {
                 overlapping,
                 begun: had_begun || overlapping,
                 is_new: overlapping && !had_begun,
-                manifolds: if sensor { Vec::new() } else { vec![manifold] },
+                manifolds: if sensor { Vec::new() } else { manifolds },
             };
             records.insert(slots, record);
         }

@@ -3,8 +3,8 @@
 use crate::bodies::{Bodies2, Bodies3};
 use crate::cases::{Case2, Case3, Random};
 use asunder_geometry::{
-    Capsule2, Capsule3, Circle, Compound2, Compound3, Cuboid, HalfPlane, HalfSpace, Hull, Polygon, Pose2, Pose3,
-    Rect, Rotation2, Segment2, Segment3, Shape2, Shape3, Sphere, Triangle3,
+    Capsule2, Capsule3, Circle, Compound2, Compound3, Cuboid, HalfPlane, HalfSpace, Hull, Polygon, Pose2,
+    Pose3, Rect, Rotation2, Segment2, Segment3, Shape2, Shape3, Sphere, Triangle3,
 };
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
@@ -23,9 +23,11 @@ pub type Kind<S> = (&'static str, fn(&mut Clay) -> S);
 /// Every kind of shape in space; a new one is a new row.
 pub const KINDS3: [Kind<Shape3>; 12] = [
     ("sphere", |clay| Sphere::new(clay.length()).unwrap().into()),
-    ("capsule", |clay| loop {
-        if let Ok(capsule) = Capsule3::new(clay.point(), clay.point(), clay.length()) {
-            return capsule.into();
+    ("capsule", |clay| {
+        loop {
+            if let Ok(capsule) = Capsule3::new(clay.point(), clay.point(), clay.length()) {
+                return capsule.into();
+            }
         }
     }),
     ("cuboid", |clay| clay.cuboid().into()),
@@ -43,14 +45,18 @@ pub const KINDS3: [Kind<Shape3>; 12] = [
         let hull = clay.flat_hull();
         hull.rounded(clay.length()).unwrap().into()
     }),
-    ("triangle", |clay| loop {
-        if let Ok(triangle) = Triangle3::new(clay.point(), clay.point(), clay.point()) {
-            return triangle.into();
+    ("triangle", |clay| {
+        loop {
+            if let Ok(triangle) = Triangle3::new(clay.point(), clay.point(), clay.point()) {
+                return triangle.into();
+            }
         }
     }),
-    ("segment", |clay| loop {
-        if let Ok(segment) = Segment3::new(clay.point(), clay.point()) {
-            return segment.into();
+    ("segment", |clay| {
+        loop {
+            if let Ok(segment) = Segment3::new(clay.point(), clay.point()) {
+                return segment.into();
+            }
         }
     }),
     ("compound", |clay| {
@@ -71,10 +77,12 @@ pub const KINDS3: [Kind<Shape3>; 12] = [
 /// Every kind of shape in the plane; a new one is a new row.
 pub const KINDS2: [Kind<Shape2>; 9] = [
     ("circle", |clay| Circle::new(clay.length()).unwrap().into()),
-    ("capsule", |clay| loop {
-        let (from, to) = (clay.point().truncate(), clay.point().truncate());
-        if let Ok(capsule) = Capsule2::new(from, to, clay.length()) {
-            return capsule.into();
+    ("capsule", |clay| {
+        loop {
+            let (from, to) = (clay.point().truncate(), clay.point().truncate());
+            if let Ok(capsule) = Capsule2::new(from, to, clay.length()) {
+                return capsule.into();
+            }
         }
     }),
     ("rectangle", |clay| clay.rect().into()),
@@ -87,9 +95,11 @@ pub const KINDS2: [Kind<Shape2>; 9] = [
         let polygon = clay.polygon();
         polygon.rounded(clay.length()).unwrap().into()
     }),
-    ("segment", |clay| loop {
-        if let Ok(segment) = Segment2::new(clay.point().truncate(), clay.point().truncate()) {
-            return segment.into();
+    ("segment", |clay| {
+        loop {
+            if let Ok(segment) = Segment2::new(clay.point().truncate(), clay.point().truncate()) {
+                return segment.into();
+            }
         }
     }),
     ("compound", |clay| {
@@ -212,7 +222,7 @@ impl<'a> Clay<'a> {
 }
 
 /// The kinds of places that [`pair3`] and [`pair2`] go through.
-pub const PLACES: usize = 16;
+pub const PLACES: usize = 19;
 
 /// Gaps, as shares of the size, that pairs are moved to.
 const GAPS: [f64; 8] = [1e-2, 1e-5, 1e-8, 1e-12, -1e-12, -1e-8, -1e-5, -1e-2];
@@ -250,7 +260,10 @@ impl Place {
             12 => place.origin = random.direction() * 1e7,
             13 => place.sizes = [1e-5; 2],
             14 => place.sizes = [1e5; 2],
-            _ => place.sizes = random.pick(&[[1.0, 1e-3], [1e-4, 1.0], [1.0, 100.0]]),
+            15 => place.sizes = random.pick(&[[1.0, 1e-3], [1e-4, 1.0], [1.0, 100.0]]),
+            16 => place.sizes = random.pick(&[[1e5, 1e-4], [1e-5, 1e5], [1e3, 1e-3]]),
+            17 => place.origin = random.direction() * 9e8,
+            _ => (place.same_rotation, place.same_shape) = (true, true),
         }
         place
     }
@@ -275,7 +288,8 @@ pub fn pair3(random: &mut Random, a: &Kind<Shape3>, b: &Kind<Shape3>, round: usi
     let reach = finite(shape_a.outer_radius()) + finite(shape_b.outer_radius());
     let mut at = place.origin;
     // From one centre to the other; along a side now and then.
-    let direction = if place.same_rotation { random.pick(&DVec3::AXES) } else { random.direction() };
+    let local = if place.same_rotation { random.pick(&DVec3::AXES) } else { random.direction() };
+    let direction = Pose3::new(DVec3::ZERO, turn_a).unwrap().transform(local);
     let mut away = direction * (reach * place.away);
     if place.is_short {
         let mut short = || DVec3::from_array([0; 3].map(|_| random.below(33) as f64 / 8.0 - 2.0));
@@ -313,7 +327,8 @@ pub fn pair2(random: &mut Random, a: &Kind<Shape2>, b: &Kind<Shape2>, round: usi
     let finite = |radius: f32| if radius.is_finite() { f64::from(radius) } else { 0.0 };
     let reach = finite(shape_a.outer_radius()) + finite(shape_b.outer_radius());
     let mut at = place.origin.truncate();
-    let direction = if place.same_rotation { random.pick(&DVec2::AXES) } else { random.direction2() };
+    let local = if place.same_rotation { random.pick(&DVec2::AXES) } else { random.direction2() };
+    let direction = turn_a.turn(local);
     let mut away = direction * (reach * place.away);
     if place.is_short {
         let mut short = || DVec2::from_array([0; 2].map(|_| random.below(33) as f64 / 8.0 - 2.0));

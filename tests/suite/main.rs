@@ -6,6 +6,7 @@
 //! Geometry
 //! - [`refusals`]: what is no convex shape and no pose is refused, by an error that names the place
 //! - [`bounds`]: the box around a posed shape holds it, and is no wider than rounding needs
+//! - [`hulls`]: parry3d's vertices, errors that hold, and clouds of 65,535 points
 //! - [`polygons`]: hulls of points in the plane, simplified ones, and outlines cut into convex parts, against exact integers
 //! - [`fuzzed`]: the fuzz targets' bodies, on tens of thousands of seeded strings
 //! - [`mass`]: mass, centre and inertia of every shape, against exact fractions, textbooks, sampling and inclusion-exclusion
@@ -41,6 +42,7 @@ mod bounds;
 mod broad;
 mod exactness;
 mod fuzzed;
+mod hulls;
 mod invariance;
 mod manifolds;
 mod mass;

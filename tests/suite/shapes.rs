@@ -5,6 +5,8 @@ mod contacts;
 mod exact;
 mod extents;
 mod refusals;
+mod shrinking;
+mod worlds;
 
 use asunder_tests::answers::{Asked, Manifold, Measured};
 use asunder_tests::bodies::{Bodies2, Bodies3};
@@ -192,7 +194,7 @@ fn tour<T: Asked>(
 fn every_kind_in_space_against_every_other() {
     tour(
         &KINDS3.map(|kind| kind.0),
-        8 * PLACES,
+        6 * PLACES,
         |a, b, round| {
             let seed = ((a * KINDS3.len() + b) * 1_000_000 + round) as u128;
             let bodies: Bodies3 = pair3(&mut Random::new(seed), &KINDS3[a], &KINDS3[b], round);
@@ -207,7 +209,7 @@ fn every_kind_in_space_against_every_other() {
 fn every_kind_in_the_plane_against_every_other() {
     tour(
         &KINDS2.map(|kind| kind.0),
-        16 * PLACES,
+        12 * PLACES,
         |a, b, round| {
             let seed = ((a * KINDS2.len() + b) * 1_000_000 + round) as u128;
             let bodies: Bodies2 = pair2(&mut Random::new(seed), &KINDS2[a], &KINDS2[b], round);
@@ -217,107 +219,3 @@ fn every_kind_in_the_plane_against_every_other() {
         2,
     );
 }
-
-// SURVEY BEGIN
-#[test]
-#[ignore]
-fn survey() {
-    use std::collections::BTreeMap;
-    use std::panic::{AssertUnwindSafe, catch_unwind};
-    std::panic::set_hook(Box::new(|_| {}));
-    let rounds: usize = std::env::var("ROUNDS").map_or(4 * PLACES, |r| r.parse().unwrap());
-    let mut tally: BTreeMap<String, (usize, BTreeMap<String, usize>, String)> = BTreeMap::new();
-    let mut total = 0;
-    let mut run = |dim: usize, names: [&str; 2], round: usize, f: &mut dyn FnMut()| {
-        total += 1;
-        if let Err(e) = catch_unwind(AssertUnwindSafe(f)) {
-            let msg = e.downcast_ref::<String>().cloned().unwrap_or_else(|| "?".into());
-            let key: String = msg
-                .split(':')
-                .next()
-                .unwrap()
-                .chars()
-                .filter(|c| !c.is_ascii_digit() && !"-.e".contains(*c))
-                .take(60)
-                .collect();
-            let entry = tally.entry(format!("{dim}D {key}")).or_default();
-            entry.0 += 1;
-            *entry.1.entry(format!("{}/{} @{}", names[0], names[1], round % PLACES)).or_default() += 1;
-            if entry.2.is_empty() || msg.len() < entry.2.len() {
-                entry.2 = msg;
-            }
-        }
-    };
-    let only: usize = std::env::var("DIM").map_or(0, |r| r.parse().unwrap());
-    for a in 0..KINDS3.len() {
-        for b in 0..KINDS3.len() {
-            for round in 0..rounds {
-                if only == 2 || a + b == 22 {
-                    continue;
-                }
-                let seed = ((a * KINDS3.len() + b) * 1_000_000 + round) as u128;
-                let Ok(bodies) = catch_unwind(AssertUnwindSafe(|| {
-                    pair3(&mut Random::new(seed), &KINDS3[a], &KINDS3[b], round)
-                }))
-                .map_err(|e| {
-                    println!(
-                        "MAKE {a} {b} {round} {:?} {:?}",
-                        e.downcast_ref::<String>(),
-                        e.downcast_ref::<&str>()
-                    )
-                }) else {
-                    continue;
-                };
-                let (truth, reach) = (bodies.true_separation(), bodies.reach());
-                let size = bodies.size();
-                let j = Judged { asked: &bodies, truth, size, reach };
-                let names = [KINDS3[a].0, KINDS3[b].0];
-                run(3, names, round, &mut || j.check_separations());
-                run(3, names, round, &mut || j.check_manifold(0.0, 4));
-                run(3, names, round, &mut || j.check_manifold([1e-3, 0.02, 0.2][round % 3] * size, 4));
-                run(3, names, round, &mut || j.check_swapped());
-            }
-        }
-    }
-    for a in 0..KINDS2.len() {
-        for b in 0..KINDS2.len() {
-            for round in 0..rounds {
-                if only == 3 || a + b == 16 {
-                    continue;
-                }
-                let seed = ((a * KINDS2.len() + b) * 1_000_000 + round) as u128;
-                let Ok(bodies) = catch_unwind(AssertUnwindSafe(|| {
-                    pair2(&mut Random::new(seed), &KINDS2[a], &KINDS2[b], round)
-                }))
-                .map_err(|e| {
-                    println!(
-                        "MAKE {a} {b} {round} {:?} {:?}",
-                        e.downcast_ref::<String>(),
-                        e.downcast_ref::<&str>()
-                    )
-                }) else {
-                    continue;
-                };
-                let (truth, reach) = (bodies.true_separation(), bodies.reach());
-                let size = bodies.size();
-                let j = Judged { asked: &bodies, truth, size, reach };
-                let names = [KINDS2[a].0, KINDS2[b].0];
-                run(2, names, round, &mut || j.check_separations());
-                run(2, names, round, &mut || j.check_manifold(0.0, 2));
-                run(2, names, round, &mut || j.check_manifold([1e-3, 0.02, 0.2][round % 3] * size, 2));
-                run(2, names, round, &mut || j.check_swapped());
-            }
-        }
-    }
-    println!("total {total}");
-    for (key, (count, names, msg)) in &tally {
-        println!("== {count} x {key}");
-        let mut names: Vec<_> = names.iter().collect();
-        names.sort_by_key(|n| std::cmp::Reverse(n.1));
-        for n in names.iter().take(12) {
-            print!("{}:{}  ", n.0, n.1);
-        }
-        println!("\n   {}", &msg[..msg.len().min(9000)]);
-    }
-}
-// SURVEY END

@@ -93,8 +93,10 @@ impl Rect {
 
     /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
-        let beyond = (point.into().abs() - self.half_extents.as_dvec2()).max(DVec2::ZERO);
-        beyond.length_squared() <= f64::from(self.radius) * f64::from(self.radius)
+        let point = point.into();
+        // The greater of a NaN and zero is zero.
+        let beyond = (point.abs() - self.half_extents.as_dvec2()).max(DVec2::ZERO);
+        !point.is_nan() && beyond.length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.

@@ -4,11 +4,13 @@ use asunder_geometry::{
     Capsule2, Capsule3, Circle, Cuboid, HalfPlane, HalfSpace, Hull, Polygon, Pose2, Pose3, Rect, Rotation2,
     Shape2, Shape3, Sphere, Triangle3,
 };
-use asunder_narrow::{Pair2, Pair3, Separation2, Separation3};
+use asunder_narrow::{FeatureId, Manifold3, Pair2, Pair3, Separation2, Separation3};
 use asunder_tests::answers::Asked;
 use asunder_tests::bodies::Bodies3;
 use asunder_tests::cases::{Case3, Random};
+use asunder_tests::shapes::{KINDS3, pair3};
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
+use std::collections::BTreeSet;
 
 fn cube(half: f32) -> Cuboid {
     Cuboid::from_half_extents(Vec3::splat(half)).unwrap()
@@ -265,4 +267,120 @@ fn half_spaces_that_are_turned_alike_still_look_away_from_each_other() {
         }
     }
     assert_eq!(parted, rounds, "2 m apart in the plane, and called so");
+}
+
+/// Of two vertices that are equally deep one may lie past the reference face: the contact is on what lies over the face.
+#[test]
+fn a_contact_lies_over_the_face_where_an_edge_leads_past_it() {
+    let cuboid = Cuboid::from_half_extents(Vec3::new(0.375, 0.875, 0.75)).unwrap();
+    let corners = [
+        Vec3::new(-0.25, -0.875, 1.0),
+        Vec3::new(0.625, 0.375, 0.125),
+        Vec3::new(0.625, 0.625, -0.375),
+        Vec3::new(-0.375, -0.625, -0.25),
+        Vec3::new(-0.375, 0.625, -0.5),
+    ];
+    let bodies = Bodies3::new(Case3 {
+        shape_a: cuboid.into(),
+        pose_a: Pose3::IDENTITY,
+        shape_b: Hull::from_points(&corners).unwrap().into(),
+        pose_b: Pose3::at([-0.625, -0.25, 0.75]).unwrap(),
+    });
+    assert!((bodies.true_separation() + 0.375).abs() < 1e-12);
+    let manifold = bodies.manifold(0.0).unwrap();
+    for contact in &manifold.contacts {
+        let points = contact.points;
+        assert!(points.beyond_a < 1e-6 && points.beyond_b < 1e-6, "points on the shapes: {contact:?}");
+    }
+}
+
+/// Two capsules that lie across each other by a few degrees, one on top.
+#[test]
+fn both_points_of_nearly_parallel_capsules_lie_one_above_the_other() {
+    let capsule = lying_capsule();
+    for degree in [0.0_f64, 0.01, 0.5, 2.0, 5.0] {
+        let half = (degree.to_radians() / 2.0) as f32;
+        let turn = Quat::from_xyzw(0.0, half, 0.0, 1.0);
+        let bodies = Bodies3::new(Case3 {
+            shape_a: capsule.clone(),
+            pose_a: Pose3::IDENTITY,
+            shape_b: capsule.clone(),
+            pose_b: Pose3::new([0.0, 0.45, 0.0], turn).unwrap(),
+        });
+        for contact in &bodies.manifold(0.0).unwrap().contacts {
+            assert!(contact.points.across_normal < 1e-5, "{degree} degrees: {contact:?}");
+        }
+    }
+}
+
+/// Margins and limits that are no lengths: NaN and below zero count as none, infinity takes everything.
+#[test]
+fn any_margin_and_any_limit_has_an_answer() {
+    for round in 0..KINDS3.len() * KINDS3.len() {
+        let mut random = Random::new(7210 + round as u128);
+        let kinds = [round / KINDS3.len(), round % KINDS3.len()];
+        let bodies = pair3(&mut random, &KINDS3[kinds[0]], &KINDS3[kinds[1]], round);
+        let (pair, truth) = (bodies.pair(), bodies.true_separation());
+        for none in [f32::NAN, -1.0, f32::NEG_INFINITY, -0.0] {
+            assert_eq!(pair.manifolds(none), pair.manifolds(0.0), "{none}: {bodies:?}");
+        }
+        assert_eq!(pair.separation(f32::NAN), pair.separation(f32::INFINITY), "{bodies:?}");
+        assert_eq!(pair.separation(-1.0), pair.separation(0.0), "{bodies:?}");
+        let everything = pair.manifold(f32::INFINITY);
+        assert_eq!(everything.is_some(), truth > f64::NEG_INFINITY, "{bodies:?}");
+        for point in everything.iter().flat_map(|manifold| &manifold.points) {
+            let finite =
+                point.separation.is_finite() && point.anchor_a.is_finite() && point.anchor_b.is_finite();
+            assert!(finite, "{point:?}: {bodies:?}");
+        }
+    }
+}
+
+/// Sheets that share a plane are told apart or not by rounding; if apart, their closest points still lie on both.
+#[test]
+fn closest_points_of_sheets_in_one_plane_lie_on_both() {
+    let mut random = Random::new(7211);
+    let mut apart = 0;
+    for _ in 0..2000 {
+        let mut point = || (random.vector() * DVec3::new(1.0, 1.0, 0.0)).as_vec3();
+        let Ok(triangle) = Triangle3::new(point(), point(), point()) else { continue };
+        let turn = random.quaternion();
+        let here = Pose3::new(random.vector(), turn).unwrap();
+        let aside = here.basis().turn(DVec3::new(random.signed(), random.signed(), 0.0) * 0.5);
+        let case = Case3 {
+            shape_a: triangle.into(),
+            pose_a: here,
+            shape_b: triangle.into(),
+            pose_b: Pose3::new(here.position() + aside, turn).unwrap(),
+        };
+        let bodies = Bodies3::new(case);
+        if let Some(nearest) = bodies.distance() {
+            apart += 1;
+            let points = nearest.points;
+            assert!(points.beyond_a < 1e-6 && points.beyond_b < 1e-6, "{nearest:?}: {bodies:?}");
+        }
+    }
+    assert!(apart > 100, "{apart} apart");
+}
+
+/// Swapped, a pair has the same features with sides changed: all but the few where two faces are equally good.
+#[test]
+fn features_change_sides_with_their_shapes() {
+    let (mut equal, mut other) = (0, 0);
+    for round in 0..4000 {
+        let mut random = Random::new(7220 + round as u128);
+        let kinds = [random.below(KINDS3.len() - 2), random.below(KINDS3.len() - 2)];
+        // Places 0 to 3 are random ones.
+        let bodies = pair3(&mut random, &KINDS3[kinds[0]], &KINDS3[kinds[1]], round % 4);
+        let Some(manifold) = bodies.pair().manifold(0.0) else { continue };
+        let turned = bodies.swapped();
+        let Some(back) = turned.pair().manifold(0.0) else { panic!("nothing: {bodies:?}") };
+        let names = |manifold: &Manifold3, is_back: bool| {
+            let name = |id: FeatureId| if is_back { FeatureId::new(id.b(), id.a()) } else { id };
+            manifold.points.iter().map(|point| name(point.feature)).collect::<BTreeSet<_>>()
+        };
+        assert!((manifold.normal + back.normal).length() < 1e-5 || manifold.separation > -1e-5, "{bodies:?}");
+        *if names(&manifold, false) == names(&back, true) { &mut equal } else { &mut other } += 1;
+    }
+    assert!(equal > 1000 && other * 50 < equal, "{equal} the same, {other} not");
 }

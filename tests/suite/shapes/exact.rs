@@ -1,12 +1,12 @@
 //! Yes or no, held against whole numbers.
 
 use asunder_geometry::{
-    Capsule2, Capsule3, Circle, Pose2, Pose3, Segment3, Shape2, Shape3, Sphere, Triangle3,
+    Capsule2, Capsule3, Circle, Cuboid, HalfSpace, Pose2, Pose3, Segment3, Shape2, Shape3, Sphere, Triangle3,
 };
 use asunder_narrow::{Pair2, Pair3};
 use asunder_tests::answers::Asked;
 use asunder_tests::bodies::{Bodies2, Bodies3};
-use asunder_tests::cases::Random;
+use asunder_tests::cases::{Case3, Random};
 use asunder_tests::integers::common_integers;
 use asunder_tests::shapes::{KINDS2, KINDS3, pair2, pair3};
 use glam::{DVec3, Vec3};
@@ -99,7 +99,7 @@ fn balls_are_decided_by_whole_squares() {
     let (mut touching, mut overlapping) = (0, 0);
     for round in 0..40_000 {
         // Small whole numbers, in which touching is common, times a power of two.
-        let unit = [1.0, 0.25, 1024.0, 2.0_f64.powi(-18)][round % 4];
+        let unit = [1.0, 0.25, 1024.0, 1.0 / 262_144.0][round % 4];
         let mut whole = |low: i64, count: usize| (low + random.below(count) as i64) as f64 * unit;
         let apart = [whole(-9, 19), whole(-9, 19), whole(-9, 19)];
         let radii = [whole(1, 8), whole(1, 8)];
@@ -250,6 +250,47 @@ fn touching_in_one_short_point_is_touching() {
             // Within rounding of touching counts as touching, where a radius decides.
             let parted = (origin + at).next_up().max(origin + at + 1e-13);
             assert!(!asked(parted), "{shape:?} at {origin}");
+        }
+    }
+}
+
+/// What the judges of any kind of body say of cases that are known beforehand.
+#[test]
+fn the_judges_know_cases_known_beforehand() {
+    let segment = |from: Vec3, to: Vec3| Shape3::from(Segment3::new(from, to).unwrap());
+    let needle = segment(Vec3::NEG_Z, Vec3::Z);
+    let ball = Shape3::from(Sphere::new(0.5).unwrap());
+    let triangle = Shape3::from(Triangle3::new(Vec3::NEG_X, Vec3::X, Vec3::Y * 2.0).unwrap());
+    let capsule = Shape3::from(Capsule3::new(Vec3::ZERO, Vec3::X * 3.0, 0.25).unwrap());
+    let floor = Shape3::from(HalfSpace::new(Vec3::Y).unwrap());
+    let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE).unwrap().rounded(0.5).unwrap());
+    let known: [(&Shape3, &Shape3, [f64; 3], f64); 13] = [
+        (&ball, &ball, [3.0, 0.0, 4.0], 4.0),
+        (&ball, &ball, [0.0, 0.0, 0.0], -1.0),
+        // Two needles on one line: side by side with themselves, end to end, and apart.
+        (&needle, &needle, [0.0, 0.0, 0.5], 0.0),
+        (&needle, &needle, [0.0, 0.0, 2.5], 0.5),
+        (&needle, &needle, [0.0, 3.0, 4.0], 13.0_f64.sqrt()),
+        // Through a triangle, nearest to its lower edge; up to its middle; and past its corner.
+        (&triangle, &needle, [0.0, 0.25, 0.0], -0.25),
+        (&triangle, &needle, [0.0, 0.5, 0.875], -0.125),
+        (&triangle, &needle, [4.0, 0.0, 0.0], 3.0),
+        (&triangle, &triangle, [0.0, 0.5, 0.0], 0.0),
+        (&capsule, &ball, [1.5, 1.0, 0.0], 0.25),
+        (&floor, &capsule, [9.0, -1.0, 9.0], -1.25),
+        (&floor, &triangle, [0.0, 0.75, 0.0], 0.75),
+        (&cube, &ball, [4.0, 5.0, 0.0], 4.0),
+    ];
+    for (a, b, at, expected) in known {
+        let case = Case3 {
+            shape_a: a.clone(),
+            pose_a: Pose3::IDENTITY,
+            shape_b: b.clone(),
+            pose_b: Pose3::at(at).unwrap(),
+        };
+        for case in [case.swapped(), case] {
+            let found = Bodies3::new(case).true_separation();
+            assert!((found - expected).abs() < 1e-14, "{found}, known {expected}: {a:?} and {b:?} at {at:?}");
         }
     }
 }

@@ -48,7 +48,10 @@ fn boxes_of_every_kind_in_space_hold_it_and_little_more() {
             let noise = 1e-13 * (pose.position().length() + shape_reach3(&shape));
             for axis in 0..3 {
                 let (least, most) = (f64::from(min[axis]) - noise, f64::from(max[axis]) + noise);
-                assert!((least..=most).contains(&point[axis]), "{point} outside {min} {max}: {shape:?} {pose:?}");
+                assert!(
+                    (least..=most).contains(&point[axis]),
+                    "{point} outside {min} {max}: {shape:?} {pose:?}"
+                );
             }
         }
     }
@@ -150,7 +153,10 @@ fn furthest_points_of_every_kind_in_space_are_its_own() {
             let on = pieces.iter().map(|piece| piece.outside(point)).fold(f64::INFINITY, f64::min);
             assert!(on.abs() <= 1e-13 * size, "{on} from the surface: {shape:?}");
             let from_center = (point - center).length();
-            assert!(from_center <= f64::from(shape.outer_radius()) * (1.0 + 1e-14), "{from_center}: {shape:?}");
+            assert!(
+                from_center <= f64::from(shape.outer_radius()) * (1.0 + 1e-14),
+                "{from_center}: {shape:?}"
+            );
             // What is beyond by more than rounding is not held; what is within is, where there is an inside.
             assert!(!shape.contains(point + direction * (1e-6 * size)), "beyond {direction}: {shape:?}");
         }
@@ -187,7 +193,10 @@ fn furthest_points_of_every_kind_in_the_plane_are_its_own() {
             // A part's stored rotation is one only up to rounding, and takes its radius along.
             assert!((point.dot(direction) - reach).abs() <= 1e-7 * size, "{point} for {reach}: {shape:?}");
             let from_center = (point - center).length();
-            assert!(from_center <= f64::from(shape.outer_radius()) * (1.0 + 2e-7), "{from_center}: {shape:?}");
+            assert!(
+                from_center <= f64::from(shape.outer_radius()) * (1.0 + 2e-7),
+                "{from_center}: {shape:?}"
+            );
             assert!(!shape.contains(point + direction * (1e-6 * size)), "beyond {direction}: {shape:?}");
         }
         for _ in 0..10 {

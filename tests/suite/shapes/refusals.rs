@@ -1,9 +1,9 @@
 //! What is no shape of the round, flat, endless and composed kinds is refused, with its data and what to do.
 
 use asunder_geometry::{
-    Capsule2, Capsule3, CapsuleError, Circle, Compound2, Compound3, CompoundError, Cuboid, DirectionError, HalfPlane,
-    HalfSpace, Hull, HullError, Polygon, Pose2, Pose3, RadiusError, Ray2, Ray3, RayError, Rect, Segment2, Segment3,
-    Shape2, Shape3, Sphere, Triangle3, VertexError,
+    Capsule2, Capsule3, CapsuleError, Circle, Compound2, Compound3, CompoundError, Cuboid, DirectionError,
+    HalfPlane, HalfSpace, Hull, HullError, Polygon, Pose2, Pose3, RadiusError, Ray2, Ray3, RayError, Rect,
+    Segment2, Segment3, Shape2, Shape3, Sphere, Triangle3, VertexError,
 };
 use core::error::Error;
 use glam::{DVec2, DVec3, Vec2, Vec3};
@@ -88,14 +88,23 @@ fn ends_and_corners_that_are_none() {
     assert_eq!(Triangle3::new(Vec3::ZERO, Vec3::Y, far), Err(VertexError::TooLarge { index: 2 }));
     assert_eq!(Segment2::new(Vec2::Y, Vec2::Y), Err(VertexError::Repeated { first: 0, second: 1 }));
     let zeros = Segment3::new(Vec3::ZERO, -Vec3::ZERO);
-    assert_eq!(zeros, Err(VertexError::Repeated { first: 0, second: 1 }), "zero and minus zero are one place");
+    assert_eq!(
+        zeros,
+        Err(VertexError::Repeated { first: 0, second: 1 }),
+        "zero and minus zero are one place"
+    );
     assert_eq!(Triangle3::new(Vec3::X, Vec3::Y, Vec3::X), Err(VertexError::Repeated { first: 0, second: 2 }));
     assert_eq!(Triangle3::new(Vec3::ZERO, Vec3::X, Vec3::X * 3.0), Err(VertexError::Collinear));
     let sliver = Vec3::new(0.5, 1e-9, 0.0);
     assert_eq!(Triangle3::new(Vec3::ZERO, Vec3::X, sliver), Err(VertexError::Collinear));
     let tiny = |v: Vec3| v * 1e-7;
-    assert!(matches!(Segment3::new(Vec3::ZERO, tiny(Vec3::X)), Err(VertexError::TooSmall { radius }) if radius < 1e-6));
-    assert!(matches!(Triangle3::new(Vec3::ZERO, tiny(Vec3::X), tiny(Vec3::Y)), Err(VertexError::TooSmall { .. })));
+    assert!(
+        matches!(Segment3::new(Vec3::ZERO, tiny(Vec3::X)), Err(VertexError::TooSmall { radius }) if radius < 1e-6)
+    );
+    assert!(matches!(
+        Triangle3::new(Vec3::ZERO, tiny(Vec3::X), tiny(Vec3::Y)),
+        Err(VertexError::TooSmall { .. })
+    ));
     let reach = Capsule3::new(Vec3::ZERO, Vec3::X * 9e5, 2e5);
     assert!(matches!(reach, Err(CapsuleError::Radius(RadiusError::TooLarge { reach })) if reach >= 1.1e6));
     let no_points = Hull::of_any_dimension(&[]);

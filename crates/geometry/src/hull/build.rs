@@ -27,6 +27,27 @@ const CLEARLY_TOO_MANY: usize = 4 * MAX_HULL_VERTICES;
 /// How often the vertices that merging gave back are spent.
 const SPENDINGS: usize = 4;
 
+/// Share of a cloud's size below which its first tetrahedron counts as flat, and heights say little about distances.
+const FLAT: f64 = 0.05;
+
+/// How many of the points that made a hull stood out of it.
+struct Census {
+    standing_out: usize,
+    threshold: f64,
+}
+
+impl Census {
+    fn of(cloud: &Cloud) -> Self {
+        Self { standing_out: 4, threshold: STANDS_OUT * cloud.scale }
+    }
+
+    /// Counts the next point, and says whether there are not clearly too many.
+    fn admits(&mut self, distance: f64) -> bool {
+        self.standing_out += usize::from(distance > self.threshold);
+        self.standing_out <= CLEARLY_TOO_MANY
+    }
+}
+
 impl Hull {
     /// The hull of up to 65,535 points that span space. Cost: about n log n.
     ///
@@ -40,24 +61,37 @@ impl Hull {
     }
 
     pub(super) fn solid(cloud: &Cloud) -> Result<Self, HullError> {
-        let mut growth = Growth::start(&cloud.points, Measure::Height)?;
-        let mut standing_out = 4;
-        let is_whole = growth.grow_while(|_, distance| {
-            standing_out += usize::from(distance > STANDS_OUT * cloud.scale);
-            standing_out <= CLEARLY_TOO_MANY
-        });
-        if !is_whole {
-            return Err(HullError::TooManyVertices { at_least: standing_out });
+        Self::whole(cloud, Growth::start(&cloud.points, Measure::Height)?, Census::of(cloud))
+    }
+
+    /// The exact hull, from as far as it has grown.
+    fn whole(cloud: &Cloud, mut growth: Growth<'_>, mut census: Census) -> Result<Self, HullError> {
+        if !growth.grow_while(|_, distance| census.admits(distance)) {
+            return Err(HullError::TooManyVertices { at_least: census.standing_out });
         }
         Self::polished(cloud, growth.facets(), 0.0)
     }
 
-    /// The hull of as many points as `max_vertices` allows, the furthest first. What merging gives back is spent again.
-    pub(super) fn budgeted(cloud: &Cloud, max_vertices: usize) -> Result<Self, HullError> {
-        let mut growth = Growth::start(&cloud.points, Measure::Distance)?;
-        let mut budget = max_vertices;
-        growth.grow_while(|count, _| count < budget);
+    /// The exact hull, if that has no more vertices than allowed; or that of as many points, the furthest first.
+    pub(super) fn limited(cloud: &Cloud, max_vertices: usize) -> Result<Self, HullError> {
+        let (mut growth, mut census) = (Growth::start(&cloud.points, Measure::Height)?, Census::of(cloud));
+        growth.grow_while(|count, distance| count < max_vertices && census.admits(distance));
+        match Self::whole(cloud, growth.clone(), census) {
+            Ok(hull) if hull.vertices().len() <= max_vertices => return Ok(hull),
+            Ok(_) | Err(HullError::TooManyVertices { .. }) => {}
+            Err(error) => return Err(error),
+        }
+        if growth.first_height() < FLAT * cloud.scale {
+            growth = Growth::start(&cloud.points, Measure::Distance)?;
+            growth.grow_while(|count, _| count < max_vertices);
+        }
+        Self::spent(cloud, growth, max_vertices)
+    }
+
+    /// What has grown as far as the number of vertices allows. What merging gives back is spent again.
+    fn spent(cloud: &Cloud, mut growth: Growth<'_>, max_vertices: usize) -> Result<Self, HullError> {
         let mut best = Self::polished(cloud, growth.facets(), growth.outlying())?;
+        let mut budget = max_vertices;
         for _ in 0..SPENDINGS {
             let spare = max_vertices.saturating_sub(best.vertices().len());
             budget += spare;

@@ -28,8 +28,6 @@ use std::sync::Arc;
 
 /// The convex hull of points in space: up to 256 vertices in metres. Clones share the data.
 ///
-#[doc = include_str!("../../doc/hull.svg")]
-///
 /// The vertices are a subset of the points, bit for bit. Which points are vertices, and which facets bound them, is
 /// decided exactly; facets that differ from one plane by rounding only are then merged into one face, and
 /// [`Hull::planarity_error`] says by how much such a face is not flat.

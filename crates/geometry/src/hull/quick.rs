@@ -24,6 +24,7 @@ use std::collections::BinaryHeap;
 const NONE: u32 = u32::MAX;
 
 /// A triangle of the growing hull.
+#[derive(Clone)]
 struct Triangle {
     /// Counter-clockwise from outside.
     corners: [u32; 3],
@@ -61,6 +62,7 @@ pub(super) enum Measure {
 }
 
 /// A hull that grows by its furthest points.
+#[derive(Clone)]
 pub(super) struct Growth<'a> {
     points: &'a [Vec3],
     filter: Filter,
@@ -145,6 +147,12 @@ impl<'a> Growth<'a> {
             self.distribute(&orphans, new);
         }
         true
+    }
+
+    /// How far the fourth point of the first tetrahedron was from the plane of the others, in metres.
+    pub(super) fn first_height(&self) -> f64 {
+        let (base, apex) = (&self.triangles[0], self.triangles[1].corners[2]);
+        base.reach(self.points[apex as usize]).abs() * base.per_length
     }
 
     fn push(&mut self, corners: [u32; 3], neighbours: [u32; 3]) {
@@ -317,11 +325,13 @@ impl<'a> Growth<'a> {
     /// Whether all corners of one triangle lie in the plane of another: exact.
     fn is_coplanar(&self, plane: usize, triangle: u32) -> bool {
         let plane = &self.triangles[plane];
-        self.triangles[triangle as usize].corners.iter().all(|&corner| {
-            let reach = plane.reach(self.points[corner as usize]).abs();
-            let is_clear = reach > plane.slack || self.filter.is_exact();
-            if is_clear { reach == 0.0 } else { outside(self.points, plane.corners, corner) == 0.0 }
-        })
+        self.triangles[triangle as usize].corners.iter().filter(|corner| !plane.corners.contains(corner)).all(
+            |&corner| {
+                let reach = plane.reach(self.points[corner as usize]).abs();
+                let is_clear = reach > plane.slack || self.filter.is_exact();
+                if is_clear { reach == 0.0 } else { outside(self.points, plane.corners, corner) == 0.0 }
+            },
+        )
     }
 
     /// An upper bound on how far outside the hull, as it is now, any of the points lies, in metres.

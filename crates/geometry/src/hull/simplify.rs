@@ -15,14 +15,9 @@ impl Hull {
     ///
     /// ```
     /// use asunder_geometry::{Hull, glam::Vec3};
-    /// // A ball of 400 points, as a hull of 32.
-    /// let points: Vec<Vec3> = (0..400_u16)
-    ///     .map(|i| {
-    ///         let z = (f32::from(i) + 0.5) / 200.0 - 1.0;
-    ///         let (sin, cos) = asunder_geometry::glam::Vec2::from_angle(2.4 * f32::from(i)).into();
-    ///         Vec3::new(sin, cos, 0.0) * (1.0 - z * z).sqrt() + Vec3::Z * z
-    ///     })
-    ///     .collect();
+    /// // A ball of 512 points, as a hull of 32.
+    /// let place = |i: u16| Vec3::new(f32::from(i % 8), f32::from(i / 8 % 8), f32::from(i / 64)) - Vec3::splat(3.5);
+    /// let points: Vec<Vec3> = (0..512).map(|i| place(i).normalize()).collect();
     /// let hull = Hull::simplify(&points, 32)?;
     /// assert!(hull.vertices().len() <= 32 && hull.error() < 0.25);
     /// # Ok::<(), asunder_geometry::HullError>(())
@@ -34,11 +29,6 @@ impl Hull {
         if !(4..=MAX_HULL_VERTICES).contains(&max_vertices) {
             return Err(HullError::VertexLimit { max_vertices });
         }
-        let cloud = Cloud::new(points, 4)?;
-        match Self::solid(&cloud) {
-            Ok(hull) if hull.vertices().len() <= max_vertices => Ok(hull),
-            Ok(_) | Err(HullError::TooManyVertices { .. }) => Self::budgeted(&cloud, max_vertices),
-            Err(error) => Err(error),
-        }
+        Self::limited(&Cloud::new(points, 4)?, max_vertices)
     }
 }

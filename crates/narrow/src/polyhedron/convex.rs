@@ -224,7 +224,7 @@ impl Convex<'_> {
                 evidence: Evidence::Axes(axes, None),
             });
         }
-        let witness = self.witness(a, b, best);
+        let Some(witness) = self.witness(a, b, best) else { return self.all_but_touching(a, b, axes) };
         // Where both bounds meet up to rounding, the projection went through less of it.
         let gap = witness.distance - witness.at_least;
         let core =
@@ -243,26 +243,33 @@ impl Convex<'_> {
         })
     }
 
+    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they overlapped.
+    fn all_but_touching(&self, a: &Solid, b: &Solid, axes: Axes) -> Probe {
+        let precision = self.precision();
+        let best = axes.best();
+        let overlapping = self.radii() > 0.0;
+        let separation = best.separation.max(0.0) - self.radii();
+        let touch = touch(a, b, &axes, None, 0.0, self.preference());
+        let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        Probe::Near(Near {
+            overlapping,
+            separation: signed(separation, overlapping),
+            error: precision.of_separation(separation),
+            normal: best.normal,
+            closest: deepest.filter(|_| !overlapping).map(|point| [point.on_a, point.on_b]),
+            hint: hint_of(best),
+            evidence: Evidence::Axes(axes, None),
+        })
+    }
+
     /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the best
-    /// axis'.
-    fn witness(&self, a: &Solid, b: &Solid, best: &Axis) -> Witness {
-        let mut witness = distance(a, b, best.normal, self.precision().size).unwrap_or_else(|| {
-            // Too close to tell apart by points: the support vertices along the axis are as good as any.
-            let (in_a, in_b) = (a.support(best.normal).vertex, b.support(-best.normal).vertex);
-            let on_a = a.point(in_a);
-            Witness {
-                distance: best.separation.max(0.0),
-                at_least: best.separation,
-                normal: best.normal,
-                point_a: on_a,
-                point_b: on_a + best.normal * best.separation.max(0.0),
-                corners: core::iter::once([in_a, in_b]).collect(),
-            }
-        });
+    /// axis'. Nothing where the points are too close to tell apart.
+    fn witness(&self, a: &Solid, b: &Solid, best: &Axis) -> Option<Witness> {
+        let mut witness = distance(a, b, best.normal, self.precision().size)?;
         if best.separation >= witness.at_least {
             (witness.at_least, witness.normal) = (best.separation, best.normal);
         }
-        witness
+        Some(witness)
     }
 
     /// Points of the cores moved out to the shapes' surfaces.

@@ -3,7 +3,7 @@
 //! Of all directions only the plane's own normal can show a gap or a finite depth, so the separation is exact up to
 //! rounding: the least height of a vertex over the plane.
 
-use super::manifold::{Point, Touch, opposed_face_at};
+use super::manifold::{Point, Touch, opposed_face};
 use super::reduce::reduce_to_four;
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
@@ -60,8 +60,9 @@ impl Plane {
     /// The corners, at most four, of the face that looks at the plane, and no more than `within` above it. Corners of the core
     /// no higher than `deep` are as deep as any.
     pub(crate) fn touch(&self, core: &Solid, deep: f64, within: f64) -> Touch {
+        let slack = deep - self.lowest(core).1;
         let (lowest, _) = self.lowest(core);
-        let face = opposed_face_at(core, lowest, self.normal);
+        let face = opposed_face(core, self.normal, slack);
         // What is higher belongs to a tilted face, whose surface lies out along its own normal.
         let outwards = core.outwards(face, -self.normal) * core.radius;
         let mut points: ArrayVec<Point, MAX_HULL_VERTICES> = ArrayVec::new();

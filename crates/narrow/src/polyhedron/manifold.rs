@@ -25,7 +25,7 @@ use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::ALIGNED_FACES;
+use asunder_geometry::tolerance::{ALIGNED_FACES, MAX_HULL_VERTICES};
 
 /// The most corners a clipped face can have: those of both faces.
 const MAX_CORNERS: usize = 512;
@@ -82,7 +82,7 @@ pub(crate) fn touch(
         }
         // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
         // deeper than zero: a body that rests exactly on a face rests on all of its corners.
-        let depths = Depths { deep, within: margin.max(least) };
+        let depths = Depths { deep, within: margin.max(least), slack: preference };
         let points = match axis.of {
             AxisOf::FaceA(face) => face_points(a, b, face, axis.normal, depths, false),
             AxisOf::FaceB(face) => face_points(b, a, face, -axis.normal, depths, true),
@@ -96,8 +96,9 @@ pub(crate) fn touch(
         }
     }
     if let Some(witness) = witness
-        && let Some(points) = aligned_faces(a, b, witness.normal, Depths { deep, within: margin.max(least) })
-            .filter(|points| is_deep(points))
+        && let Some(points) =
+            aligned_faces(a, b, witness.normal, Depths { deep, within: margin.max(least), slack: preference })
+                .filter(|points| is_deep(points))
     {
         return Touch { normal: witness.normal, points };
     }
@@ -114,6 +115,8 @@ struct Depths {
     deep: f64,
     /// Points of the shapes no further apart than this are wanted.
     within: f64,
+    /// Vertices that differ by no more are as far as each other.
+    slack: f64,
 }
 
 fn preferred(axes: &Axes, overlapping: bool, preference: f64) -> &Axis {
@@ -152,8 +155,8 @@ fn aligned_faces(a: &Solid, b: &Solid, normal: DVec3, depths: Depths) -> Option<
     if a.is_slender() || b.is_slender() {
         return None;
     }
-    let face_a = opposed_face_at(a, a.support(normal).vertex, -normal);
-    let face_b = opposed_face_at(b, b.support(-normal).vertex, normal);
+    let face_a = opposed_face(a, -normal, depths.slack);
+    let face_b = opposed_face(b, normal, depths.slack);
     let (facing_a, facing_b) = (a.normal(face_a), b.normal(face_b));
     if facing_a.dot(normal) < ALIGNED_FACES || facing_b.dot(normal) > -ALIGNED_FACES {
         return None;
@@ -291,8 +294,7 @@ fn face_points(
     is_b: bool,
 ) -> ArrayVec<Point, 4> {
     let reference = Reference::of(solid, normal, normal, is_b);
-    let deepest = incident.support(-normal).vertex;
-    let incident_face = opposed_face_at(incident, deepest, normal);
+    let incident_face = opposed_face(incident, normal, depths.slack);
     clipped_points((solid, face), (incident, incident_face), &reference, depths)
 }
 
@@ -328,19 +330,30 @@ fn clipped_points(
     reduce_to_four(&points, reference.along)
 }
 
-/// Of the faces around a vertex, the one that looks most against `normal`. A point or segment has one loop, which is it.
-pub(super) fn opposed_face_at(solid: &Solid, vertex: usize, normal: DVec3) -> usize {
+/// The face with which a shape looks against `normal`: of those that have the most of its furthest vertices, the most opposed.
+/// Vertices within `slack` of the furthest are as far. A point or segment has one loop, which is it.
+///
+/// Of two vertices that are equally far, one may have a third face that is more opposed than both of their edge's own; what
+/// touches may be at the other.
+pub(super) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> usize {
     if solid.is_slender() {
         return 0;
     }
-    let mut best = (f64::INFINITY, 0);
-    for half_edge in solid.topology.half_edges().iter().filter(|h| h.origin as usize == vertex) {
-        let facing = solid.normal(half_edge.face as usize).dot(normal);
-        if (facing, half_edge.face as usize) < best {
-            best = (facing, half_edge.face as usize);
+    let least = solid.support(-normal).reach - slack;
+    let is_far: ArrayVec<bool, MAX_HULL_VERTICES> =
+        (0..solid.vertices.len()).map(|vertex| -normal.dot(solid.point(vertex)) >= least).collect();
+    let mut best = (0, f64::INFINITY, 0);
+    for face in 0..solid.face_count() {
+        let far = solid.topology.face_vertices(face).filter(|&vertex| is_far[vertex]).count();
+        if far < best.0 || far == 0 {
+            continue;
+        }
+        let facing = solid.normal(face).dot(normal);
+        if far > best.0 || facing < best.1 {
+            best = (far, facing, face);
         }
     }
-    best.1
+    best.2
 }
 
 /// A polygon being clipped. Large, so that any two faces fit: it is filled in place and never moved.
