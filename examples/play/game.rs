@@ -34,7 +34,8 @@ pub(crate) struct Counts {
     pub(crate) deepest: f64,
 }
 
-/// A shape that moves and has no mass: without an inside, without an end, or too thin for its mass to be told from zero.
+/// A shape that moves and has no mass: without an inside, without an end, or too thin for its mass to be told from
+/// zero.
 #[derive(Debug)]
 pub(crate) struct NoMass;
 

@@ -1,7 +1,8 @@
 //! Plays a scene and says what it cost: `cargo run --release --example play -- --help`.
 //!
 //! The engine answers what touches; the game around it, here, gives bodies mass and lets contacts push them apart.
-//! The default scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Scene files are described in `asunder_scenes::level`.
+//! The default scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Scene files are described
+//! in `asunder_scenes::level`.
 
 mod game;
 mod heap;

@@ -49,8 +49,8 @@ impl Camera {
         DVec3::new(direction.dot(self.right), direction.dot(self.up), direction.dot(self.toward_viewer))
     }
 
-    /// The same camera, moved so that what it shows is centred on a point, and smaller if that does not fit the room there.
-    /// `frame` gives the rectangle of the picture around what a camera shows.
+    /// The same camera, moved so that what it shows is centred on a point, and smaller if that does not fit the room
+    /// there. `frame` gives the rectangle of the picture around what a camera shows.
     pub(crate) fn fitted(self, room: DVec2, center: DVec2, frame: impl Fn(&Self) -> [DVec2; 2]) -> Self {
         let [low, high] = frame(&self);
         let camera = self.scaled(self.scale * (room / (high - low)).min_element().min(1.0));

@@ -1,8 +1,9 @@
 //! Draws every shape in contact with every other: `cargo run --release --example shapes`.
 //!
-//! The second body of a pair is lowered on the first until they overlap by a few centimetres; the engine says how they touch.
-//! Then each contact point is held against both surfaces, and a point that is on none of them, or none at all where bodies
-//! touch, ends the program with an error. `--docs` also draws the small pictures of the shapes' documentation.
+//! The second body of a pair is lowered on the first until they overlap by a few centimetres; the engine says how
+//! they touch. Then each contact point is held against both surfaces, and a point that is on none of them, or none at
+//! all where bodies touch, ends the program with an error. `--docs` also draws the small pictures of the shapes'
+//! documentation.
 
 mod camera;
 mod canvas;

@@ -12,8 +12,8 @@ pub(crate) struct Body<'a, S, P> {
 
 /// The parts, those furthest from the viewer first.
 ///
-/// The engine says which of two parts is nearer: the normal from one to the other either points towards the viewer or away
-/// (Newell, Newell and Sancha, "A solution to the hidden surface problem", 1972, with whole parts for faces).
+/// The engine says which of two parts is nearer: the normal from one to the other either points towards the viewer or
+/// away (Newell, Newell and Sancha, "A solution to the hidden surface problem", 1972, with whole parts for faces).
 pub(crate) fn far_to_near<'a>(
     mut left: Vec<Body<'a, Shape3, Pose3>>,
     toward_viewer: DVec3,

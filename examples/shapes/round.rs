@@ -35,8 +35,8 @@ pub(crate) fn ring(axis: DVec3) -> Vec<DVec3> {
     (0..TURN).map(at).collect()
 }
 
-/// The angles about an edge's axis between the normals of its two faces, as far as the viewer sees them: 0 and pi are the
-/// silhouettes, and pi/2 is nearest to him.
+/// The angles about an edge's axis between the normals of its two faces, as far as the viewer sees them: 0 and pi are
+/// the silhouettes, and pi/2 is nearest to him.
 pub(crate) fn strip_range(axis: DVec3, sides: [DVec3; 2]) -> Option<[f64; 2]> {
     let [across, front] = around(axis)?;
     let [one, other] = sides.map(|side| libm::atan2(side.dot(front), side.dot(across)));
@@ -50,7 +50,8 @@ pub(crate) fn strip_range(axis: DVec3, sides: [DVec3; 2]) -> Option<[f64; 2]> {
     }
 }
 
-/// Two unit normals of a cylinder about an axis: at its silhouette, and nearest to the viewer. Nothing if he looks along it.
+/// Two unit normals of a cylinder about an axis: at its silhouette, and nearest to the viewer. Nothing if he looks
+/// along it.
 pub(crate) fn around(axis: DVec3) -> Option<[DVec3; 2]> {
     let across = DVec3::new(-axis.y, axis.x, 0.0).try_normalize()?;
     let front = axis.cross(across);

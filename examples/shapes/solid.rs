@@ -1,9 +1,10 @@
 //! Convex bodies in space, drawn by their features: faces, edges, vertices.
 //!
 //! A body with a radius is the hull of balls about its core's vertices. Its surface is flat over faces, a strip of a
-//! cylinder along edges and a patch of a ball at vertices. Under a parallel projection, and with a light that depends on a
-//! normal's place on the screen ([`Tint::shade`]), a strip is one linear gradient and a patch one round gradient: exact,
-//! with few elements. Seen from outside no two patches of a convex body hide each other, so their order does not matter.
+//! cylinder along edges and a patch of a ball at vertices. Under a parallel projection, and with a light that depends
+//! on a normal's place on the screen ([`Tint::shade`]), a strip is one linear gradient and a patch one round
+//! gradient: exact, with few elements. Seen from outside no two patches of a convex body hide each other, so their
+//! order does not matter.
 
 use crate::camera::Camera;
 use crate::canvas::{Canvas, Paint};
@@ -179,7 +180,8 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// A strip of the cylinder about an edge, its normals between two angles about the axis: 0 and pi are its silhouettes.
+    /// A strip of the cylinder about an edge, its normals between two angles about the axis: 0 and pi are its
+    /// silhouettes.
     fn draw_strip(&self, canvas: &mut Canvas, [from, to]: [DVec2; 2], axis: DVec3, [low, high]: [f64; 2]) {
         let Some([across, front]) = around(axis) else { return };
         let normal = |angle: f64| across * libm::cos(angle) + front * libm::sin(angle);
@@ -236,8 +238,8 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// The corners of the piece of a half-space that is shown: four on its plane, counter-clockwise from outside, and below each
-/// another.
+/// The corners of the piece of a half-space that is shown: four on its plane, counter-clockwise from outside, and
+/// below each another.
 fn slab(half_space: &HalfSpace) -> [DVec3; 8] {
     let normal = half_space.unit_normal();
     let aside = if normal.x.abs() < 0.5 { DVec3::X } else { DVec3::Z };

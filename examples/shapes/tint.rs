@@ -54,8 +54,8 @@ impl Tint {
 
     /// The shade of a surface from its unit normal, seen from the viewer: x right, y up, z towards him.
     ///
-    /// It depends on nothing but the distance between the normal's x and y and the light's. So one round gradient shades
-    /// a ball exactly, flat faces have one shade, and where they meet no seam shows.
+    /// It depends on nothing but the distance between the normal's x and y and the light's. So one round gradient
+    /// shades a ball exactly, flat faces have one shade, and where they meet no seam shows.
     pub(crate) fn shade(&self, normal: DVec3) -> Color {
         let away = ((normal.truncate() - LIGHT).length() / REACH).min(1.0);
         let [lit, base, dark] = self.ramp;

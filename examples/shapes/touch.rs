@@ -87,8 +87,8 @@ impl From<PoseError> for TouchError {
 }
 
 impl<S, P> Touch<'_, S, P> {
-    /// Whether the points are as they should be. Two half-spaces overlap without end, and have points only where they look
-    /// exactly away from each other.
+    /// Whether the points are as they should be. Two half-spaces overlap without end, and have points only where they
+    /// look exactly away from each other.
     pub(crate) fn check(&self) -> Result<(), TouchError> {
         let (a, b) = (self.a.name, self.b.name);
         let is_endless = a == b && a.starts_with("half-");
@@ -178,11 +178,11 @@ pub(crate) fn touch2<'a>(
     Ok(touch)
 }
 
-/// Where B overlaps A by [`DEPTH`], or touches it, when it is lowered from above a place; `answer` gives the separation and
-/// normal for a place of B.
+/// Where B overlaps A by [`DEPTH`], or touches it, when it is lowered from above a place; `answer` gives the
+/// separation and normal for a place of B.
 ///
-/// A gap may safely be walked at once. From the first touch on, the steps are small: deep down, the shortest way out may be
-/// another one. If B may slide, it goes where the normal pushes it, until it is pushed up or back.
+/// A gap may safely be walked at once. From the first touch on, the steps are small: deep down, the shortest way out
+/// may be another one. If B may slide, it goes where the normal pushes it, until it is pushed up or back.
 fn lowered(start: DVec3, may_slide: bool, answer: impl Fn(DVec3) -> Option<(f64, DVec3)>) -> Option<DVec3> {
     let mut touching = first_touch(start, &answer)?;
     let (mut stride, mut last) = (0.10, DVec3::ZERO);

@@ -1,7 +1,7 @@
 //! Prints how long hulls of points take beside parry3d's, in the same run: `hulls [rounds]`.
 //!
-//! Thread CPU time, the two in turns, medians. Only the ratios count. Where the true hull has more vertices than ours may
-//! have, ours is the simplified one, and the search that finds out is part of its time.
+//! Thread CPU time, the two in turns, medians. Only the ratios count. Where the true hull has more vertices than ours
+//! may have, ours is the simplified one, and the search that finds out is part of its time.
 
 use asunder_benches::clock::{Samples, time};
 use asunder_geometry::Hull;

@@ -1,8 +1,9 @@
 //! A collision engine for games: which bodies touch, how deep, and how sure it is.
 //!
-//! A world holds bodies, each a convex shape with a pose. Move them as your game pleases and call `update` once a frame:
-//! a broad phase sorts and sweeps their boxes, a narrow phase runs the separating axis test on the pairs left, and the
-//! world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]). It moves nothing itself.
+//! A world holds bodies, each a convex shape with a pose. Move them as your game pleases and call `update` once a
+//! frame: a broad phase sorts and sweeps their boxes, a narrow phase runs the separating axis test on the pairs left,
+//! and the world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]). It moves nothing
+//! itself.
 //!
 //! ```
 //! use asunder::{Collider3, Cuboid, Event3, Pose3, World3, glam::Vec3};

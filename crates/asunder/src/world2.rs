@@ -75,13 +75,14 @@ impl World<Plane> {
         self.candidates.iter().map(|candidate| candidate.keys)
     }
 
-    /// Pairs within their margins of each other at the last update, in pair order. A body removed since is still among them.
+    /// Pairs within their margins of each other at the last update, in pair order. A body removed since is still
+    /// among them.
     pub fn contacts(&self) -> impl ExactSizeIterator<Item = Contact2<'_>> + Clone {
         self.show_contacts()
     }
 
-    /// Contacts of one body with bodies that are still there, in order of the other's slot; none for a stale key. Cost: a
-    /// binary search.
+    /// Contacts of one body with bodies that are still there, in order of the other's slot; none for a stale key.
+    /// Cost: a binary search.
     pub fn contacts_of(&self, key: BodyKey2) -> impl Iterator<Item = Contact2<'_>> + Clone {
         self.records_of(key).map(|record| record.show::<Plane>(&self.manifolds))
     }

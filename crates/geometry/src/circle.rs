@@ -11,8 +11,8 @@ use glam::DVec2;
 #[doc = include_str!("../doc/circle.svg")]
 ///
 /// # Costs and limits
-/// The cheapest shape: two circles cost one root, a circle and a half-plane one dot product. A contact is always one point.
-/// Radius 1e-6 to 1e6 m.
+/// The cheapest shape: two circles cost one root, a circle and a half-plane one dot product. A contact is always one
+/// point. Radius 1e-6 to 1e6 m.
 ///
 /// ```
 /// use asunder_geometry::{Circle, glam::DVec2};

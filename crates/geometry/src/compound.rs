@@ -13,9 +13,9 @@ use std::sync::Arc;
 ///
 #[doc = include_str!("../doc/compound2.svg")]
 ///
-/// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its own;
-/// parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a bounding
-/// circle test for each pair of parts, and the cost of the parts that pass.
+/// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its
+/// own; parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a
+/// bounding circle test for each pair of parts, and the cost of the parts that pass.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Compound2, Pose2, Rect, Shape2, glam::{DVec2, Vec2}};
@@ -148,9 +148,9 @@ impl Compound2 {
 ///
 #[doc = include_str!("../doc/compound3.svg")]
 ///
-/// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its own;
-/// parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a bounding
-/// sphere test for each pair of parts, and the cost of the parts that pass.
+/// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its
+/// own; parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a
+/// bounding sphere test for each pair of parts, and the cost of the parts that pass.
 ///
 /// ```
 /// use asunder_geometry::{Compound3, Cuboid, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};

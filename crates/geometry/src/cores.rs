@@ -25,8 +25,8 @@ impl<T: Copy, const N: usize> Held<'_, T, N> {
 
 /// The core of a shape in the plane: the shape is everything within [`Shape2::radius`] of it.
 ///
-/// A point has one vertex and no edges. A segment has two vertices and two edges, one for each side of it; a polygon has
-/// as many edges as vertices, edge `i` from vertex `i` to the next. A half-plane and a compound have no vertices.
+/// A point has one vertex and no edges. A segment has two vertices and two edges, one for each side of it; a polygon
+/// has as many edges as vertices, edge `i` from vertex `i` to the next. A half-plane and a compound have no vertices.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Segment2, Shape2, glam::{DVec2, Vec2}};
@@ -44,8 +44,8 @@ pub struct Core2<'a> {
 
 /// The core of a shape in space: the shape is everything within [`Shape3::radius`] of it.
 ///
-/// A polyhedron has a normal for each face. A triangle or flat hull has two faces, back to back. A segment has one edge and a
-/// point none; both have one face loop and no normals. A half-space and a compound have no vertices.
+/// A polyhedron has a normal for each face. A triangle or flat hull has two faces, back to back. A segment has one
+/// edge and a point none; both have one face loop and no normals. A half-space and a compound have no vertices.
 ///
 /// ```
 /// use asunder_geometry::{Capsule3, Shape3, Triangle3, glam::{DVec3, Vec3}};

@@ -17,8 +17,8 @@ use std::sync::LazyLock;
 /// -x, +x, -y, +y, -z, +z.
 ///
 /// # Costs and limits
-/// Two cuboids cost fifteen axes in closed form; a contact has up to four points. Half extents above zero, however thin, and a bounding
-/// radius of 1e-6 to 1e6 m.
+/// Two cuboids cost fifteen axes in closed form; a contact has up to four points. Half extents above zero, however
+/// thin, and a bounding radius of 1e-6 to 1e6 m.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, glam::Vec3};

@@ -11,13 +11,13 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 ///
 #[doc = include_str!("../doc/half_plane.svg")]
 ///
-/// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its place by
-/// the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the other shape.
-/// Two of them overlap unless they look exactly away from each other.
+/// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its
+/// place by the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the
+/// other shape. Two of them overlap unless they look exactly away from each other.
 ///
 /// # Costs and limits
-/// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other body is a candidate
-/// for a pair with it, unless its normal is an axis.
+/// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other
+/// body is a candidate for a pair with it, unless its normal is an axis.
 ///
 /// ```
 /// use asunder_geometry::{HalfPlane, Pose2, glam::{DVec2, Vec2}};
@@ -85,13 +85,13 @@ impl HalfPlane {
 ///
 #[doc = include_str!("../doc/half_space.svg")]
 ///
-/// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its place by
-/// the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the other shape.
-/// Two of them overlap unless they look exactly away from each other.
+/// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its
+/// place by the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the
+/// other shape. Two of them overlap unless they look exactly away from each other.
 ///
 /// # Costs and limits
-/// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other body is a candidate
-/// for a pair with it, unless its normal is an axis.
+/// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other
+/// body is a candidate for a pair with it, unless its normal is an axis.
 ///
 /// ```
 /// use asunder_geometry::{HalfSpace, Pose3, glam::{DVec3, Vec3}};

@@ -43,8 +43,8 @@ impl Rect {
         Ok(Self { half_extents, core_radius, radius: 0.0 })
     }
 
-    /// The same rectangle with everything within `radius` metres added: round corners, and larger by the radius on every
-    /// side. Zero takes the rounding away.
+    /// The same rectangle with everything within `radius` metres added: round corners, and larger by the radius on
+    /// every side. Zero takes the rounding away.
     ///
     /// ```
     /// use asunder_geometry::{Rect, glam::{DVec2, Vec2}};

@@ -14,8 +14,8 @@ use robust::{Coord, orient2d};
 #[doc = include_str!("../doc/segment2.svg")]
 ///
 /// # Costs and limits
-/// It overlaps what it crosses, with the depth that moves it out to one of its two sides; on another segment, that is zero where they
-/// merely cross. Two normals. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
+/// It overlaps what it crosses, with the depth that moves it out to one of its two sides; on another segment, that is
+/// zero where they merely cross. Two normals. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Segment2, glam::{DVec2, Vec2}};
@@ -34,8 +34,8 @@ pub struct Segment2 {
 #[doc = include_str!("../doc/capsule2.svg")]
 ///
 /// # Costs and limits
-/// As a segment: two normals. Lying on an edge it has two contact points. Radius from 1e-6 m; all of it within 1e6 m of the shape's
-/// origin.
+/// As a segment: two normals. Lying on an edge it has two contact points. Radius from 1e-6 m; all of it within 1e6 m
+/// of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Capsule2, glam::{DVec2, Vec2}};
@@ -154,8 +154,8 @@ impl Capsule2 {
 #[doc = include_str!("../doc/segment3.svg")]
 ///
 /// # Costs and limits
-/// Two segments, or a segment and a capsule, cost a closed form; against faces it adds one edge to the test. Two segments that
-/// cross have depth zero. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
+/// Two segments, or a segment and a capsule, cost a closed form; against faces it adds one edge to the test. Two
+/// segments that cross have depth zero. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Segment3, glam::{DVec3, Vec3}};
@@ -174,8 +174,8 @@ pub struct Segment3 {
 #[doc = include_str!("../doc/capsule3.svg")]
 ///
 /// # Costs and limits
-/// Two capsules cost a closed form; a capsule against a hull of n edges n arc tests. Lying on a face, or beside another capsule, it has
-/// two contact points. Radius from 1e-6 m; all of it within 1e6 m of the shape's origin.
+/// Two capsules cost a closed form; a capsule against a hull of n edges n arc tests. Lying on a face, or beside
+/// another capsule, it has two contact points. Radius from 1e-6 m; all of it within 1e6 m of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Capsule3, glam::{DVec3, Vec3}};

@@ -104,8 +104,8 @@ impl Shape2 {
         }
     }
 
-    /// Bounding radius about [`Shape2::center`], in metres, rounded up. Tolerances of a pair are relative to the sum of two.
-    /// Infinite for a half-plane.
+    /// Bounding radius about [`Shape2::center`], in metres, rounded up. Tolerances of a pair are relative to the sum
+    /// of two. Infinite for a half-plane.
     pub fn outer_radius(&self) -> f32 {
         match self {
             Self::Circle(circle) => circle.radius(),
@@ -151,8 +151,8 @@ impl Shape2 {
         }
     }
 
-    /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first vertex.
-    /// Nothing for a half-plane, or a direction that is zero or not finite. Cost: linear in the vertices.
+    /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first
+    /// vertex. Nothing for a half-plane, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec2>) -> Option<DVec2> {
         let direction = direction.into();
         let along = direction.try_normalize()?;
@@ -196,8 +196,8 @@ impl Shape3 {
         }
     }
 
-    /// Bounding radius about [`Shape3::center`], in metres, rounded up. Tolerances of a pair are relative to the sum of two.
-    /// Infinite for a half-space.
+    /// Bounding radius about [`Shape3::center`], in metres, rounded up. Tolerances of a pair are relative to the sum
+    /// of two. Infinite for a half-space.
     pub fn outer_radius(&self) -> f32 {
         match self {
             Self::Sphere(sphere) => sphere.radius(),
@@ -245,8 +245,8 @@ impl Shape3 {
         }
     }
 
-    /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first vertex.
-    /// Nothing for a half-space, or a direction that is zero or not finite. Cost: linear in the vertices.
+    /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first
+    /// vertex. Nothing for a half-space, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec3>) -> Option<DVec3> {
         let direction = direction.into();
         let along = direction.try_normalize()?;

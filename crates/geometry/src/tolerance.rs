@@ -46,7 +46,8 @@ pub const ALIGNED_FACES: f64 = 0.995;
 
 /// Share of a pair's size that is always part of a reported separation's error.
 ///
-/// Covers the axes that nearly parallel edges leave out, and the noise of those just above that limit. The derivation stands in `docs/accuracy.md`.
+/// Covers the axes that nearly parallel edges leave out, and the noise of those just above that limit. The derivation
+/// stands in `docs/accuracy.md`.
 pub const SEPARATION_ERROR: f64 = 1.5e-7;
 
 /// Share of a pair's size at which the distance iteration stops: the gap between its two certified bounds.
@@ -55,8 +56,9 @@ pub const DISTANCE_GAP: f64 = 1e-12;
 /// Share of a cloud's size by which a point must stand out of the hull of those before it to count as a vertex that no
 /// merging of facets takes away: 64 times [`COPLANAR`].
 ///
-/// Only hulls with more than four times the allowed number of such points are refused by it, early. A smaller value could
-/// refuse what merging would make small; a larger one lets hopeless clouds be built to the end before they are refused.
+/// Only hulls with more than four times the allowed number of such points are refused by it, early. A smaller value
+/// could refuse what merging would make small; a larger one lets hopeless clouds be built to the end before they are
+/// refused.
 pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 
 /// The smallest bounding radius a shape may have, in metres.

@@ -16,8 +16,8 @@ use std::sync::LazyLock;
 /// Face 0 is the side from which the vertices wind counter-clockwise, face 1 the other.
 ///
 /// # Costs and limits
-/// Two faces and three edges. It has no inside: a body that it cuts is pushed out on the nearer side. Height over the longest side from
-/// 1e-7 of that side; bounding radius from 1e-6 m; vertices within 1e6 m of the shape's origin.
+/// Two faces and three edges. It has no inside: a body that it cuts is pushed out on the nearer side. Height over the
+/// longest side from 1e-7 of that side; bounding radius from 1e-6 m; vertices within 1e6 m of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Triangle3, glam::{DVec3, Vec3}};

@@ -21,8 +21,8 @@ use asunder_geometry::{Pose2, Shape2};
 /// | rectangle, polygon, capsule, segment, circle, with each other | edge normals | GJK | clipped edges |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 ///
-/// Radii (of circles, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off. A segment has
-/// two edges, back to back.
+/// Radii (of circles, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off.
+/// A segment has two edges, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Rect, Pose2, Shape2, glam::Vec2};
@@ -89,10 +89,10 @@ impl<'a> Pair2<'a> {
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
-    /// Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as
-    /// no limit, and a negative limit as zero. Two half-planes have separation -inf unless they look exactly away from each
-    /// other. Cost: the product of the vertex counts; in a gap within the limit a few support searches more, for the
-    /// Euclidean distance.
+    /// Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as no
+    /// limit, and a negative limit as zero. Two half-planes have separation -inf unless they look exactly away from
+    /// each other. Cost: the product of the vertex counts; in a gap within the limit a few support searches more, for
+    /// the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
         match self.nearest(limit) {
@@ -105,7 +105,8 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a limit.
+    /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a
+    /// limit.
     pub fn distance(&self) -> Option<Closest2> {
         let (parts, near) = self.nearest(f64::INFINITY).ok()?;
         let [on_a, on_b] = near.closest?;
@@ -120,8 +121,9 @@ impl<'a> Pair2<'a> {
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
     ///
-    /// A point may lie up to the margin outside. Of compounds, the deepest pair of parts; [`Pair2::manifolds`] has them all.
-    /// Nothing for two half-planes that overlap without end. Cost: as the separation, plus clipping two edges.
+    /// A point may lie up to the margin outside. Of compounds, the deepest pair of parts; [`Pair2::manifolds`] has
+    /// them all. Nothing for two half-planes that overlap without end. Cost: as the separation, plus clipping two
+    /// edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
         let manifolds = self.manifolds(margin);
         manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
@@ -225,8 +227,8 @@ impl<'a> Pair2<'a> {
         matches!(self.shape_a, Shape2::Compound(_)) || matches!(self.shape_b, Shape2::Compound(_))
     }
 
-    /// A lower bound on the separation of two parts: the gap between their bounding circles, less what it may have lost to
-    /// rounding.
+    /// A lower bound on the separation of two parts: the gap between their bounding circles, less what it may have
+    /// lost to rounding.
     fn gap(&self, a: &Part, b: &Part) -> f64 {
         let center = |part: &Part| part.shift + part.turn.turn(part.shape.center().as_dvec2());
         let apart = (self.between + center(b) - center(a)).length();

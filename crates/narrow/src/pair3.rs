@@ -21,8 +21,8 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 /// | cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | clipped faces, or crossing edges |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 ///
-/// Radii (of spheres, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off. Triangles and
-/// flat hulls have two faces, back to back.
+/// Radii (of spheres, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off.
+/// Triangles and flat hulls have two faces, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -83,10 +83,10 @@ impl<'a> Pair3<'a> {
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
-    /// Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as
-    /// no limit, and a negative limit as zero. Two half-spaces have separation -inf unless they look exactly away from each
-    /// other. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes for cuboids; in a gap within the limit
-    /// a few support searches more, for the Euclidean distance.
+    /// Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as no
+    /// limit, and a negative limit as zero. Two half-spaces have separation -inf unless they look exactly away from
+    /// each other. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes for cuboids; in a gap
+    /// within the limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
         match self.nearest(limit) {
@@ -99,7 +99,8 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a limit.
+    /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a
+    /// limit.
     pub fn distance(&self) -> Option<Closest3> {
         let (parts, near) = self.nearest(f64::INFINITY).ok()?;
         let [on_a, on_b] = near.closest?;
@@ -114,8 +115,9 @@ impl<'a> Pair3<'a> {
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
     ///
-    /// A point may lie up to the margin outside. Of compounds, the deepest pair of parts; [`Pair3::manifolds`] has them all.
-    /// Nothing for two half-spaces that overlap without end. Cost: as the separation, plus clipping two faces.
+    /// A point may lie up to the margin outside. Of compounds, the deepest pair of parts; [`Pair3::manifolds`] has
+    /// them all. Nothing for two half-spaces that overlap without end. Cost: as the separation, plus clipping two
+    /// faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
         let manifolds = self.manifolds(margin);
         manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
@@ -219,8 +221,8 @@ impl<'a> Pair3<'a> {
         matches!(self.shape_a, Shape3::Compound(_)) || matches!(self.shape_b, Shape3::Compound(_))
     }
 
-    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have lost to
-    /// rounding.
+    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have
+    /// lost to rounding.
     fn gap(&self, a: &Part, b: &Part) -> f64 {
         let center = |part: &Part| part.shift + part.basis.turn(part.shape.center().as_dvec3());
         let apart = (self.between + center(b) - center(a)).length();

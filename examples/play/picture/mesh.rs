@@ -1,7 +1,7 @@
 //! Shapes as flat faces, for drawing.
 //!
-//! A round shape is drawn as the hull of points on its surface, found by its support mapping. A shape without an end is drawn
-//! as far as a level goes.
+//! A round shape is drawn as the hull of points on its surface, found by its support mapping. A shape without an end
+//! is drawn as far as a level goes.
 
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{Collider2, Collider3, Hull, Part3, Polygon, Pose2, Pose3, Shape2, Shape3};

@@ -28,13 +28,14 @@ pub use error::DecomposeError;
 
 /// Splits a polygon that may be concave into convex ones, in metres. The outline may wind either way.
 ///
-/// The parts' vertices are the outline's, bit for bit; their interiors are disjoint, and together they are the polygon
-/// that the outline encloses. At most 4096 vertices; vertices on a line with their neighbours are fine. There are never
-/// more than four times as many parts as the fewest there could be (Hertel and Mehlhorn, "Fast triangulation of simple
-/// polygons", 1983), and mostly a few more than the fewest. All parts have the identity for a pose. Every decision is an exact orientation test.
+/// The parts' vertices are the outline's, bit for bit; their interiors are disjoint, and together they are the
+/// polygon that the outline encloses. At most 4096 vertices; vertices on a line with their neighbours are fine. There
+/// are never more than four times as many parts as the fewest there could be (Hertel and Mehlhorn, "Fast
+/// triangulation of simple polygons", 1983), and mostly a few more than the fewest. All parts have the identity for a
+/// pose. Every decision is an exact orientation test.
 ///
-/// A part with a bounding radius below [`MIN_RADIUS`](crate::tolerance::MIN_RADIUS) is no shape. Beside a larger part it
-/// is left out, and all that is lost lies within 2e-6 m of what is kept; elsewhere the outline is refused.
+/// A part with a bounding radius below [`MIN_RADIUS`](crate::tolerance::MIN_RADIUS) is no shape. Beside a larger part
+/// it is left out, and all that is lost lies within 2e-6 m of what is kept; elsewhere the outline is refused.
 ///
 /// Cost: n log n in practice: 3 to 10 ms for 4096 vertices, and 50 ms where thousands of long edges lie side by side.
 ///

@@ -8,9 +8,9 @@
 //!     compare the pairs that have become neighbours in the list
 //! ```
 //!
-//! Shamos and Hoey, "Geometric intersection problems" (1976). Edges that meet are neighbours in the list before the sweep
-//! line comes to where they meet, and the first such pair ends it: up to there the list is in order. All comparisons are
-//! of a vertex with an edge, and exact.
+//! Shamos and Hoey, "Geometric intersection problems" (1976). Edges that meet are neighbours in the list before the
+//! sweep line comes to where they meet, and the first such pair ends it: up to there the list is in order. All
+//! comparisons are of a vertex with an edge, and exact.
 
 use super::error::DecomposeError;
 use crate::polygon::predicate::{is_before, order, orientation};

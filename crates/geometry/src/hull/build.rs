@@ -191,8 +191,8 @@ impl Solid<'_> {
         self.finish(&facets)
     }
 
-    /// Derives everything else from the loops of places in `kept`: numbers first, which must not depend on the order of the
-    /// user's points, then the vertices in that order.
+    /// Derives everything else from the loops of places in `kept`: numbers first, which must not depend on the order
+    /// of the user's points, then the vertices in that order.
     fn finish(self, faces: &[Vec<u32>]) -> Result<Hull, HullError> {
         let count = self.kept.len();
         if count > MAX_HULL_VERTICES {

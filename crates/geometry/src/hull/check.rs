@@ -96,12 +96,13 @@ impl core::fmt::Display for HullFault {
 impl core::error::Error for HullFault {}
 
 impl Hull {
-    /// Checks the hull, without its rounding, against the points it was made of: closed, of Euler's formula, simple loops,
-    /// outward unit normals, convex within [`Hull::planarity_error`], spheres that hold, vertices that are points bit for
-    /// bit, every point within [`Hull::error`], and no neighbouring faces that should have been merged.
+    /// Checks the hull, without its rounding, against the points it was made of: closed, of Euler's formula, simple
+    /// loops, outward unit normals, convex within [`Hull::planarity_error`], spheres that hold, vertices that are
+    /// points bit for bit, every point within [`Hull::error`], and no neighbouring faces that should have been
+    /// merged.
     ///
-    /// Every hull that can be made passes; this is for tests, and for whoever doubts. Everything is worked out again from
-    /// vertices and loops. Cost: the points, times the faces' corners.
+    /// Every hull that can be made passes; this is for tests, and for whoever doubts. Everything is worked out again
+    /// from vertices and loops. Cost: the points, times the faces' corners.
     ///
     /// # Errors
     /// The first fault found, in the order above. Points other than those the hull was made of are faults too.
@@ -264,8 +265,9 @@ impl<'a> Examiner<'a> {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Two neighbours are one face if the smaller lies within the tolerance of the larger one's plane and both together have
-    /// one simple outline. A hull that is itself no thicker than twice the tolerance may have them: merging could flatten it.
+    /// Two neighbours are one face if the smaller lies within the tolerance of the larger one's plane and both
+    /// together have one simple outline. A hull that is itself no thicker than twice the tolerance may have them:
+    /// merging could flatten it.
     fn merged(&self) -> Result<(), HullFault> {
         let depth =
             |face| self.vertices.iter().map(|&v| self.height(face, v)).fold(f64::INFINITY, f64::min).abs();

@@ -8,9 +8,9 @@ use robust::{Coord, Coord3D, orient2d, orient3d};
 impl Hull {
     /// Whether the closed shape holds a local point, in metres.
     ///
-    /// Without rounding, a hull of dimension 3 holds what no face has outside. A flat hull, a segment and a point hold what
-    /// lies in them exactly. With rounding, what is within the radius of the nearest feature. Cost: linear in the
-    /// faces' corners.
+    /// Without rounding, a hull of dimension 3 holds what no face has outside. A flat hull, a segment and a point
+    /// hold what lies in them exactly. With rounding, what is within the radius of the nearest feature. Cost: linear
+    /// in the faces' corners.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         // Far beyond any shape, where squares would overflow.
@@ -57,8 +57,8 @@ impl HullData {
         self.triangles().map(|corners| to_triangle(p, corners)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The largest of the bounds above over many points. A point that is nearer than the furthest so far to any triangle
-    /// need not know which is nearest.
+    /// The largest of the bounds above over many points. A point that is nearer than the furthest so far to any
+    /// triangle need not know which is nearest.
     pub(super) fn furthest_outside(&self, points: impl Iterator<Item = DVec3>) -> f64 {
         let triangles: Vec<[DVec3; 3]> = self.triangles().collect();
         let (mut most, mut hint) = (0.0, 0);

@@ -11,8 +11,8 @@ use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 impl Hull {
-    /// The hull of 1 to 65,535 points, whatever they span: like [`Hull::from_points`], but points that lie in one plane, on
-    /// one line or at one place, exactly, give a flat hull, a segment or a point. Cost: about n log n.
+    /// The hull of 1 to 65,535 points, whatever they span: like [`Hull::from_points`], but points that lie in one
+    /// plane, on one line or at one place, exactly, give a flat hull, a segment or a point. Cost: about n log n.
     ///
     /// A flat hull has its vertices in order around and two faces back to back; a segment and a point have no
     /// normals. [`Hull::dimension`] tells them apart. A cloud that is a rounding off its plane has a volume.
@@ -30,8 +30,8 @@ impl Hull {
     /// ```
     ///
     /// # Errors
-    /// No points, or too many, not finite or out of range; more than 256 vertices; a bounding radius below 1e-6 m, unless
-    /// all points are at one place.
+    /// No points, or too many, not finite or out of range; more than 256 vertices; a bounding radius below 1e-6 m,
+    /// unless all points are at one place.
     pub fn of_any_dimension(points: &[Vec3]) -> Result<Self, HullError> {
         let cloud = Cloud::new(points, 1)?;
         match Self::solid(&cloud) {

@@ -7,8 +7,8 @@
 //! repeat with the faces as facets until nothing grows
 //! vertices that no outline visits lie inside a face: they are reported, and the hull is built again without them
 //! ```
-//! Growing from the largest facet measures distance from the best-conditioned plane, never from a sliver's. A region that
-//! would close around an island waits until the island is part of it, or leaves one facet out.
+//! Growing from the largest facet measures distance from the best-conditioned plane, never from a sliver's. A region
+//! that would close around an island waits until the island is part of it, or leaves one facet out.
 
 use super::normal::{areas_and_normals, neighbours};
 use glam::{DVec3, Vec3};

@@ -120,8 +120,8 @@ impl Hull {
         self.radius
     }
 
-    /// Radius of a sphere about [`Hull::center`] that holds the shape, in metres, rounded up. At least 1e-6 m: that is also a
-    /// point's.
+    /// Radius of a sphere about [`Hull::center`] that holds the shape, in metres, rounded up. At least 1e-6 m: that
+    /// is also a point's.
     #[inline]
     pub fn outer_radius(&self) -> f32 {
         grown(self.data.outer_radius, self.radius)
@@ -133,7 +133,8 @@ impl Hull {
         round_down(f64::from(self.data.inner_radius) + f64::from(self.radius)).max(0.0)
     }
 
-    /// Whether the inscribed radius of the vertices' hull is below [`THIN`] of its bounding one: always so without a volume.
+    /// Whether the inscribed radius of the vertices' hull is below [`THIN`] of its bounding one: always so without a
+    /// volume.
     #[inline]
     pub fn is_thin(&self) -> bool {
         self.data.inner_radius < THIN * self.data.outer_radius
@@ -161,7 +162,8 @@ impl Hull {
 }
 
 impl HullData {
-    /// The same with the inscribed radius made negative where the centre lies outside, so that it holds with rounding too.
+    /// The same with the inscribed radius made negative where the centre lies outside, so that it holds with rounding
+    /// too.
     fn with_center_outside(mut self) -> Self {
         if self.inner_radius <= 0.0 {
             let distance = self.distance_outside(self.center.as_dvec3());

@@ -4,13 +4,14 @@ use glam::{DVec3, Vec3};
 
 /// Newell's area vector of a loop: twice the area, along the normal.
 ///
-/// About an end of the shortest edge. From far away, two corners that are closer than the distance rounds to would be one,
-/// and the direction of a long triangle on a short base would be lost.
+/// About an end of the shortest edge. From far away, two corners that are closer than the distance rounds to would be
+/// one, and the direction of a long triangle on a short base would be lost.
 pub(super) fn area_vector(count: usize, corner: impl Fn(usize) -> Vec3) -> DVec3 {
     newell(count, corner).0
 }
 
-/// The area vector, and the sum of the lengths of what was multiplied for it: its rounding is a few f64::EPSILON of that.
+/// The area vector, and the sum of the lengths of what was multiplied for it: its rounding is a few f64::EPSILON of
+/// that.
 fn newell(count: usize, corner: impl Fn(usize) -> Vec3) -> (DVec3, f64) {
     let at = |i: usize| corner(i % count).as_dvec3();
     let edge = |i: &usize| (at(*i + 1) - at(*i)).length_squared();
@@ -50,8 +51,8 @@ fn longest_edges(count: usize, corner: impl Fn(usize) -> Vec3) -> Vec<(f64, usiz
 
 /// Areas and unit normals of the faces of a hull, given the faces across their edges.
 ///
-/// A face whose area is noise lies along its longest edge, up to rounding, and so in the plane of the face beyond: it takes
-/// that one's normal.
+/// A face whose area is noise lies along its longest edge, up to rounding, and so in the plane of the face beyond: it
+/// takes that one's normal.
 pub(super) fn areas_and_normals<Index: Copy + Into<u32>>(
     points: &[Vec3],
     faces: &[Vec<Index>],

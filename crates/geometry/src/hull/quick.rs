@@ -10,9 +10,9 @@
 //! ```
 //! Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls" (1996), over exact determinants (Shewchuk
 //! 1997). A point in a facet's plane counts as not outside of it, so that the new triangles at the horizon are never
-//! flat: a point on the line of a horizon edge would lie in the plane of the facet that it is strictly outside of. "Furthest"
-//! is the only rounded number, and decides nothing but the order; where the search stops early, it makes what is left out
-//! small. Cost: about n log n.
+//! flat: a point on the line of a horizon edge would lie in the plane of the facet that it is strictly outside of.
+//! "Furthest" is the only rounded number, and decides nothing but the order; where the search stops early, it makes
+//! what is left out small. Cost: about n log n.
 
 use super::HullError;
 use super::predicate::{Filter, affine_basis, canonical, is_collinear, outside, planar_hull};
@@ -56,8 +56,8 @@ impl Triangle {
 pub(super) enum Measure {
     /// Height above the highest plane that a point is outside of: cheap, and all that the exact hull needs.
     Height,
-    /// Distance to the nearest of the triangles that it is outside of. At the rim of a thin disc, that is what a search that
-    /// stops early leaves out; the height hardly shows it.
+    /// Distance to the nearest of the triangles that it is outside of. At the rim of a thin disc, that is what a
+    /// search that stops early leaves out; the height hardly shows it.
     Distance,
 }
 
@@ -116,8 +116,8 @@ impl<'a> Growth<'a> {
         Ok(growth)
     }
 
-    /// Adds the furthest waiting point as long as `go_on` agrees, which is told how many points the hull has been made of
-    /// and how far outside the next one lies. Returns whether nobody waits any more.
+    /// Adds the furthest waiting point as long as `go_on` agrees, which is told how many points the hull has been
+    /// made of and how far outside the next one lies. Returns whether nobody waits any more.
     pub(super) fn grow_while(&mut self, mut go_on: impl FnMut(usize, f64) -> bool) -> bool {
         let mut orphans: Vec<u32> = Vec::new();
         while let Some(&(distance, Reverse(apex), Reverse(first))) = self.furthest.peek() {
@@ -185,7 +185,8 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Makes each point wait at one of the newest triangles that it is strictly outside of; the rest are inside for good.
+    /// Makes each point wait at one of the newest triangles that it is strictly outside of; the rest are inside for
+    /// good.
     ///
     /// Any of them would do for the exact hull. The best place makes the order, and so what an early stop leaves out.
     fn distribute(&mut self, waiting: &[u32], first_new: usize) {
@@ -336,8 +337,8 @@ impl<'a> Growth<'a> {
 
     /// An upper bound on how far outside the hull, as it is now, any of the points lies, in metres.
     ///
-    /// Every point outside waits at a triangle. From there it walks from neighbour to neighbour as long as they are nearer;
-    /// the distance to any triangle is a bound.
+    /// Every point outside waits at a triangle. From there it walks from neighbour to neighbour as long as they are
+    /// nearer; the distance to any triangle is a bound.
     pub(super) fn outlying(&self) -> f64 {
         let mut most = 0.0_f64;
         for (index, triangle) in

@@ -9,9 +9,9 @@ impl Hull {
     /// A hull of at most `max_vertices` of up to 65,535 points, 4 to 256, that leaves as little outside as taking
     /// the furthest point next can do. Cost: about n log n.
     ///
-    /// Its vertices are points of the cloud, bit for bit, so it lies inside the true hull; [`Hull::error`] bounds how far
-    /// outside any of the points is. Where [`Hull::from_points`] needs no more vertices than that, this is
-    /// the same hull.
+    /// Its vertices are points of the cloud, bit for bit, so it lies inside the true hull; [`Hull::error`] bounds how
+    /// far outside any of the points is. Where [`Hull::from_points`] needs no more vertices than that, this is the
+    /// same hull.
     ///
     /// ```
     /// use asunder_geometry::{Hull, glam::Vec3};

@@ -1,7 +1,7 @@
 //! The triangles of the true surface.
 //!
-//! A face may be several facets that were merged, flat up to rounding only. Of a thin hull that rounding may be most of the
-//! volume, so its corners are joined again as their hull has them:
+//! A face may be several facets that were merged, flat up to rounding only. Of a thin hull that rounding may be most
+//! of the volume, so its corners are joined again as their hull has them:
 //!
 //! ```text
 //! facets(chain of corners, from edge first-last):
@@ -13,7 +13,8 @@ use crate::cores::Core3;
 use glam::Vec3;
 use robust::{Coord3D, orient3d};
 
-/// Visits vertex numbers, counter-clockwise seen from outside. Cost: n log n for the corners of a flat face, n^2 at worst.
+/// Visits vertex numbers, counter-clockwise seen from outside. Cost: n log n for the corners of a flat face, n^2 at
+/// worst.
 pub(super) fn each_facet(core: &Core3<'_>, mut visit: impl FnMut([usize; 3])) {
     for face in 0..core.normals().len() {
         let around: Vec<usize> = core.topology().face_vertices(face).collect();

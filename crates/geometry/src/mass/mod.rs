@@ -10,9 +10,10 @@
 //!   |  2 |    1    | 2  |
 //! ```
 //!
-//! Each piece adds its volume, first and second moments about an inner point, so that a shape far from its own origin loses
-//! nothing; the parallel axis theorem then takes them to the centre of mass. The split is Steiner's; the moment of a
-//! sector of a ball, whose directions are a spherical polygon, becomes a sum over that polygon's arcs: Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian phenomena" (SIGGRAPH 1995).
+//! Each piece adds its volume, first and second moments about an inner point, so that a shape far from its own origin
+//! loses nothing; the parallel axis theorem then takes them to the centre of mass. The split is Steiner's; the moment
+//! of a sector of a ball, whose directions are a spherical polygon, becomes a sum over that polygon's arcs: Arvo,
+//! "Applications of irradiance tensors to the simulation of non-Lambertian phenomena" (SIGGRAPH 1995).
 
 mod facets;
 mod plane;
@@ -64,9 +65,9 @@ impl core::error::Error for MassError {}
 impl Shape2 {
     /// Mass, centre of mass and inertia for a density in kg/m^2.
     ///
-    /// Exact up to rounding: to about 1e-15 for compact shapes, times length over thickness for thin ones. A segment has no
-    /// area, so its mass is zero. A compound is the sum of its parts: *where parts overlap, matter counts twice.* Cost:
-    /// linear in the vertices.
+    /// Exact up to rounding: to about 1e-15 for compact shapes, times length over thickness for thin ones. A segment
+    /// has no area, so its mass is zero. A compound is the sum of its parts: *where parts overlap, matter counts
+    /// twice.* Cost: linear in the vertices.
     ///
     /// ```
     /// use asunder_geometry::{Rect, Shape2, glam::{DVec2, Vec2}};
@@ -98,11 +99,11 @@ impl Shape2 {
 impl Shape3 {
     /// Mass, centre of mass and inertia for a density in kg/m^3.
     ///
-    /// Exact up to rounding: to about 1e-15 for compact shapes, times length over thickness for thin ones; what a rounding adds
-    /// to faces that were merged, to their [planarity error](crate::Hull::planarity_error). Points, segments and flat shapes
-    /// without rounding have no volume, so their mass is zero. A compound is the sum of its parts: *where parts overlap,
-    /// matter counts twice.* Cost: linear in the vertices and edges, save that a face with n corners costs n log n; a few
-    /// allocations.
+    /// Exact up to rounding: to about 1e-15 for compact shapes, times length over thickness for thin ones; what a
+    /// rounding adds to faces that were merged, to their [planarity error](crate::Hull::planarity_error). Points,
+    /// segments and flat shapes without rounding have no volume, so their mass is zero. A compound is the sum of its
+    /// parts: *where parts overlap, matter counts twice.* Cost: linear in the vertices and edges, save that a face
+    /// with n corners costs n log n; a few allocations.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Shape3, glam::{DVec3, Vec3}};

@@ -28,7 +28,8 @@ impl Moments {
 /// A rectangle, whose symmetry is worth keeping in every bit: the centre is its origin.
 pub(super) fn of_rect(rect: &Rect, density: f64) -> MassProperties2 {
     let (h, r) = (rect.half_extents().as_dvec2(), f64::from(rect.radius()));
-    // Second moment along one axis: core and the strips beside it, the strips at its ends, and one circle in four quarters.
+    // Second moment along one axis: core and the strips beside it, the strips at its ends, and one circle in four
+    // quarters.
     let along = |a: f64, b: f64| {
         let (a2, r2) = (a * a, r * r);
         4.0 * a * (b + r) * a2 / 3.0

@@ -5,7 +5,8 @@ use crate::pose2::Pose2;
 use crate::pose3::{Basis3, Pose3};
 use glam::{DMat3, DVec2, DVec3};
 
-/// Mass, centre of mass and inertia of a shape in the plane, from [`Shape2::mass_properties`](crate::Shape2::mass_properties).
+/// Mass, centre of mass and inertia of a shape in the plane, from
+/// [`Shape2::mass_properties`](crate::Shape2::mass_properties).
 ///
 /// ```
 /// use asunder_geometry::{Circle, MassProperties2, Pose2, Shape2, glam::DVec2};
@@ -28,9 +29,11 @@ pub struct MassProperties2 {
     pub inertia: f64,
 }
 
-/// Mass, centre of mass and inertia of a shape in space, from [`Shape3::mass_properties`](crate::Shape3::mass_properties).
+/// Mass, centre of mass and inertia of a shape in space, from
+/// [`Shape3::mass_properties`](crate::Shape3::mass_properties).
 ///
-/// The tensor is the full symmetric one, as a plain `DMat3`: the inertia in the world's axes is R I R^T, which is also what
+/// The tensor is the full symmetric one, as a plain `DMat3`: the inertia in the world's axes is R I R^T, which is
+/// also what
 /// [`MassProperties3::posed`] gives, and its inverse is one call away. It is not split into principal axes, which
 /// flip between equals from one shape to the next.
 ///
@@ -55,16 +58,16 @@ pub struct MassProperties3 {
     pub mass: f64,
     /// Centre of mass, in the shape's axes, in metres. Of a shape without volume, its centroid.
     pub center: DVec3,
-    /// Inertia tensor about the centre of mass, in the shape's axes, in kg m^2: symmetric; up to rounding no principal moment
-    /// is negative, or larger than the sum of the other two.
+    /// Inertia tensor about the centre of mass, in the shape's axes, in kg m^2: symmetric; up to rounding no
+    /// principal moment is negative, or larger than the sum of the other two.
     pub inertia: DMat3,
 }
 
 impl MassProperties2 {
     /// The same matter after a pose, as the body of a compound's part sees it.
     ///
-    /// A stored rotation means its matrix, which stretches by its length: that is one up to the rounding of f32, and counts
-    /// here as everywhere.
+    /// A stored rotation means its matrix, which stretches by its length: that is one up to the rounding of f32, and
+    /// counts here as everywhere.
     pub fn posed(&self, pose: &Pose2) -> Self {
         let (c, s) = (f64::from(pose.rotation().cos()), f64::from(pose.rotation().sin()));
         let stretch = c * c + s * s;
@@ -80,8 +83,8 @@ impl MassProperties2 {
         self.inertia + self.mass * (self.center - point.into()).length_squared()
     }
 
-    /// Several as one rigid body. They must be given in the same axes: see [`MassProperties2::posed`]. Nothing has no mass;
-    /// where no part has mass, the centre is the mean of theirs.
+    /// Several as one rigid body. They must be given in the same axes: see [`MassProperties2::posed`]. Nothing has no
+    /// mass; where no part has mass, the centre is the mean of theirs.
     pub fn combined(parts: &[Self]) -> Self {
         let mass: f64 = parts.iter().map(|part| part.mass).sum();
         let Some(first) = parts.first() else { return Self::default() };
@@ -94,8 +97,8 @@ impl MassProperties2 {
 }
 
 impl MassProperties3 {
-    /// The same matter after a pose: in the world, or as the body of a compound's part sees it. Exact up to rounding for any
-    /// quaternion.
+    /// The same matter after a pose: in the world, or as the body of a compound's part sees it. Exact up to rounding
+    /// for any quaternion.
     pub fn posed(&self, pose: &Pose3) -> Self {
         let inertia = turned(&self.inertia, &pose.basis());
         Self { mass: self.mass, center: pose.transform(self.center), inertia }
@@ -107,8 +110,8 @@ impl MassProperties3 {
         sum(&self.inertia, &shift)
     }
 
-    /// Several as one rigid body. They must be given in the same axes: see [`MassProperties3::posed`]. Nothing has no mass;
-    /// where no part has mass, the centre is the mean of theirs.
+    /// Several as one rigid body. They must be given in the same axes: see [`MassProperties3::posed`]. Nothing has no
+    /// mass; where no part has mass, the centre is the mean of theirs.
     pub fn combined(parts: &[Self]) -> Self {
         let mass: f64 = parts.iter().map(|part| part.mass).sum();
         let Some(first) = parts.first() else { return Self::default() };

@@ -11,9 +11,9 @@
 //! once: the integral of rho^2 w w^T, which no vertex scales: all the sectors together make one ball
 //! ```
 //!
-//! The pull is Lambert's formula, the first of Arvo's irradiance tensors: for a region left of arcs about unit axes k, it is
-//! the sum of angle k / 2; here k is -e at the edge's origin and e at its end. No quotient has the sine of an angle below it,
-//! so nothing happens where neighbouring faces are nearly one plane or back to back.
+//! The pull is Lambert's formula, the first of Arvo's irradiance tensors: for a region left of arcs about unit axes
+//! k, it is the sum of angle k / 2; here k is -e at the edge's origin and e at its end. No quotient has the sine of
+//! an angle below it, so nothing happens where neighbouring faces are nearly one plane or back to back.
 
 use super::second::{Second, cross};
 use super::volume::Moments;

@@ -64,8 +64,8 @@ impl core::ops::Mul<f64> for Second {
     }
 }
 
-/// The cross product, every component right to a few units of its own last place: two long edges of a needle span an area
-/// that is far smaller than the products it is the difference of.
+/// The cross product, every component right to a few units of its own last place: two long edges of a needle span an
+/// area that is far smaller than the products it is the difference of.
 pub(super) fn cross(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(
         product_difference(a.y, b.z, a.z, b.y),

@@ -61,8 +61,8 @@ pub(super) fn of_convex(shape: &Shape3, density: f64) -> MassProperties3 {
 fn of_cuboid(cuboid: &Cuboid, density: f64) -> MassProperties3 {
     let (h, r) = (cuboid.half_extents().as_dvec3(), f64::from(cuboid.radius()));
     let (r2, r3) = (r * r, r * r * r);
-    // Second moment along one axis. In order: what has the core's extent there (core, four slabs, four edges), the two slabs
-    // at its ends, the eight edges across it (as two whole cylinders), the corners (as one ball).
+    // Second moment along one axis. In order: what has the core's extent there (core, four slabs, four edges), the
+    // two slabs at its ends, the eight edges across it (as two whole cylinders), the corners (as one ball).
     let along = |a: f64, b: f64, c: f64| {
         let a2 = a * a;
         a2 / 3.0 * (8.0 * a * (b * c + r * (b + c)) + 2.0 * PI * r2 * a)

@@ -7,11 +7,12 @@
 //! everything else:                  edge normals                               (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
-//! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as touching: bodies on
-//! a grid touch exactly and often, and are never apart by so little.
+//! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as
+//! touching: bodies on a grid touch exactly and often, and are never apart by so little.
 //!
-//! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting line
-//! out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the best.
+//! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
+//! line out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
+//! best.
 
 use super::distance::{Witness, distance};
 use super::half_plane::Line;
@@ -239,7 +240,8 @@ impl Convex<'_> {
         })
     }
 
-    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they overlapped.
+    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
+    /// overlapped.
     fn all_but_touching(&self, a: &Outline, b: &Outline, axes: Axes) -> Probe {
         let precision = self.precision();
         let best = axes.best();
@@ -258,8 +260,8 @@ impl Convex<'_> {
         })
     }
 
-    /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the best
-    /// axis'. Nothing where the points are too close to tell apart.
+    /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the
+    /// best axis'. Nothing where the points are too close to tell apart.
     fn witness(&self, a: &Outline, b: &Outline, best: &Axis) -> Option<Witness> {
         let mut witness = distance(a, b, best.normal, self.precision().size)?;
         if best.separation >= witness.at_least {

@@ -8,7 +8,8 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::DISTANCE_GAP;
 
-/// Steps after which the iteration gives up narrowing. A large polygon needs about as many as its vertex count has bits.
+/// Steps after which the iteration gives up narrowing. A large polygon needs about as many as its vertex count has
+/// bits.
 const MAX_STEPS: usize = 64;
 
 /// Witness points and the bounds they leave.

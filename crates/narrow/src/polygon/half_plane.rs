@@ -1,7 +1,7 @@
 //! A half-plane against a core: two dot products for the nearest vertex, one axis in all.
 //!
-//! Of all directions only the line's own normal can show a gap or a finite depth, so the separation is exact up to rounding:
-//! the least height of a vertex over the line.
+//! Of all directions only the line's own normal can show a gap or a finite depth, so the separation is exact up to
+//! rounding: the least height of a vertex over the line.
 
 use super::manifold::{Point, Touch};
 use super::outline::Outline;
@@ -9,8 +9,8 @@ use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 
-/// Sine of the angle up to which two lines count as parallel: a few roundings of two unit normals. Lines that lean by less would
-/// meet a million times further out than any world reaches.
+/// Sine of the angle up to which two lines count as parallel: a few roundings of two unit normals. Lines that lean by
+/// less would meet a million times further out than any world reaches.
 const PARALLEL: f64 = 8.0 * f64::EPSILON;
 
 /// The line of a half-plane, in the frame of the pair.
@@ -55,8 +55,8 @@ impl Line {
         [self, other].map(|line| middle - line.normal * line.height(middle))
     }
 
-    /// The lowest vertex and the other end of the edge there that looks most at the line, if that is no more than `within` above the line. Vertices of the core
-    /// no higher than `deep` are as deep as any.
+    /// The lowest vertex and the other end of the edge there that looks most at the line, if that is no more than
+    /// `within` above the line. Vertices of the core no higher than `deep` are as deep as any.
     pub(crate) fn touch(&self, core: &Outline, deep: f64, within: f64) -> Touch {
         let (lowest, _) = self.lowest(core);
         let (before, after) = (core.before(lowest), core.after(lowest));

@@ -7,8 +7,9 @@
 //! keep the ends within the margin of the reference line
 //! if the deepest point was clipped away, ask the axis that is best of all; then the witness points of the gap
 //! ```
-//! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest, along the
-//! normal; the other end of a tilted edge along that edge's own normal, since the shape's surface beyond it looks that way.
+//! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest,
+//! along the normal; the other end of a tilted edge along that edge's own normal, since the shape's surface beyond it
+//! looks that way.
 
 use super::distance::Witness;
 use super::outline::Outline;
@@ -216,8 +217,8 @@ fn edge_points(
     points
 }
 
-/// The ends of the incident edge, moved by `aside` and held to the width of the reference edge; none where they face past
-/// each other.
+/// The ends of the incident edge, moved by `aside` and held to the width of the reference edge; none where they face
+/// past each other.
 fn clip(
     (outline, edge): (&Outline, usize),
     (incident, incident_edge): (&Outline, usize),

@@ -37,8 +37,8 @@ impl Turn {
     }
 }
 
-/// A core in the frame of a pair: the world's axes, about A's position. Most often a polygon; a segment has two edges back
-/// to back, a point none.
+/// A core in the frame of a pair: the world's axes, about A's position. Most often a polygon; a segment has two edges
+/// back to back, a point none.
 ///
 /// The stored rotation is within rounding of one and not exactly one, so turned normals are normalised again and
 /// both shapes are turned, where in space a relative rotation would do.

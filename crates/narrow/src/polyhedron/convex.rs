@@ -8,11 +8,12 @@
 //! everything else:                  faces and edge pairs                       (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
-//! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as touching: bodies on
-//! a grid touch exactly and often, and are never apart by so little.
+//! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as
+//! touching: bodies on a grid touch exactly and often, and are never apart by so little.
 //!
-//! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting plane
-//! out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the best.
+//! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
+//! plane out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
+//! best.
 
 use super::cuboids::Cuboids;
 use super::distance::{Witness, distance};
@@ -243,7 +244,8 @@ impl Convex<'_> {
         })
     }
 
-    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they overlapped.
+    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
+    /// overlapped.
     fn all_but_touching(&self, a: &Solid, b: &Solid, axes: Axes) -> Probe {
         let precision = self.precision();
         let best = axes.best();
@@ -262,8 +264,8 @@ impl Convex<'_> {
         })
     }
 
-    /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the best
-    /// axis'. Nothing where the points are too close to tell apart.
+    /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the
+    /// best axis'. Nothing where the points are too close to tell apart.
     fn witness(&self, a: &Solid, b: &Solid, best: &Axis) -> Option<Witness> {
         let mut witness = distance(a, b, best.normal, self.precision().size)?;
         if best.separation >= witness.at_least {
@@ -297,10 +299,10 @@ impl Convex<'_> {
 
     /// Whether faces and edges may miss a gap.
     ///
-    /// Of a hull so thin that its faces are all but antipodal, the directions along the plate or across the needle are no
-    /// normals, and face and edge axes show a gap in them only scaled by the thickness: too little to tell from rounding.
-    /// Two cores without an inside may lie in one plane, and have no axes in it at all. A cuboid has the normals of its
-    /// sides, however thin it is.
+    /// Of a hull so thin that its faces are all but antipodal, the directions along the plate or across the needle
+    /// are no normals, and face and edge axes show a gap in them only scaled by the thickness: too little to tell
+    /// from rounding. Two cores without an inside may lie in one plane, and have no axes in it at all. A cuboid has
+    /// the normals of its sides, however thin it is.
     fn is_thin(&self, a: &Solid, b: &Solid) -> bool {
         let thin = |shape: &Shape3| matches!(shape, Shape3::Hull(hull) if hull.is_thin());
         thin(self.shape_a) || thin(self.shape_b) || (a.is_flat() && b.is_flat())

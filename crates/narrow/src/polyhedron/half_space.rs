@@ -11,8 +11,8 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
-/// Sine of the angle up to which two planes count as parallel: a few roundings of two unit normals. Planes that lean by less would
-/// meet a million times further out than any world reaches.
+/// Sine of the angle up to which two planes count as parallel: a few roundings of two unit normals. Planes that lean
+/// by less would meet a million times further out than any world reaches.
 const PARALLEL: f64 = 8.0 * f64::EPSILON;
 
 /// The plane of a half-space, in the frame of the pair.
@@ -57,8 +57,8 @@ impl Plane {
         [self, other].map(|plane| middle - plane.normal * plane.height(middle))
     }
 
-    /// The corners, at most four, of the face that looks at the plane, and no more than `within` above it. Corners of the core
-    /// no higher than `deep` are as deep as any.
+    /// The corners, at most four, of the face that looks at the plane, and no more than `within` above it. Corners of
+    /// the core no higher than `deep` are as deep as any.
     pub(crate) fn touch(&self, core: &Solid, deep: f64, within: f64) -> Touch {
         let slack = deep - self.lowest(core).1;
         let (lowest, _) = self.lowest(core);

@@ -10,9 +10,9 @@
 //! each other across it; then the witness points
 //! reduce to four
 //! ```
-//! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest, along the
-//! normal; a corner of a tilted face that is less deep, along that face's own normal, since the shape's surface beyond it looks
-//! that way.
+//! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest,
+//! along the normal; a corner of a tilted face that is less deep, along that face's own normal, since the shape's
+//! surface beyond it looks that way.
 //!
 //! Side planes are made from the reference face's own edges and not from neighbouring faces, so that a face which is
 //! flat only up to rounding clips like one that is flat. Every corner of the clipped polygon carries the features it
@@ -255,8 +255,8 @@ impl Reference {
         (self.facing.dot(point) - self.reach) / self.facing.dot(self.along)
     }
 
-    /// The contact of a point of the other shape's core with its foot on the core's plane, both moved out to the surfaces along
-    /// the direction of measurement. Features: the reference's first.
+    /// The contact of a point of the other shape's core with its foot on the core's plane, both moved out to the
+    /// surfaces along the direction of measurement. Features: the reference's first.
     fn lowest(&self, point: DVec3, radius: f64, features: (Feature, Feature)) -> Point {
         let height = self.height(point);
         let foot = point - self.along * (height - self.radius);
@@ -330,11 +330,11 @@ fn clipped_points(
     reduce_to_four(&points, reference.along)
 }
 
-/// The face with which a shape looks against `normal`: of those that have the most of its furthest vertices, the most opposed.
-/// Vertices within `slack` of the furthest are as far. A point or segment has one loop, which is it.
+/// The face with which a shape looks against `normal`: of those that have the most of its furthest vertices, the most
+/// opposed. Vertices within `slack` of the furthest are as far. A point or segment has one loop, which is it.
 ///
-/// Of two vertices that are equally far, one may have a third face that is more opposed than both of their edge's own; what
-/// touches may be at the other.
+/// Of two vertices that are equally far, one may have a third face that is more opposed than both of their edge's
+/// own; what touches may be at the other.
 pub(super) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> usize {
     if solid.is_slender() {
         return 0;

@@ -10,8 +10,8 @@
 //! An edge pair bounds the Minkowski difference exactly when the arc between the normals at A's edge crosses the arc
 //! between the (negated) normals at B's (Gregorius, "The separating axis test between convex polyhedra", GDC 2013).
 //! The arc test here only saves time, and errs towards keeping a pair: what it keeps is verified by full projection,
-//! so noise in a cross product can make an axis useless but never wrong. Which way a cross product points is told by the
-//! arc of A's edge, and not by the centres, which may coincide.
+//! so noise in a cross product can make an axis useless but never wrong. Which way a cross product points is told by
+//! the arc of A's edge, and not by the centres, which may coincide.
 //!
 //! Cost: faces times vertices, plus edge pairs, plus kept edge pairs times vertices.
 
@@ -151,7 +151,8 @@ fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
 
 fn edge_axis(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Option<Axis> {
     let axis = cross_of_edges(a.edge_direction(edge_a), b.edge_direction(edge_b))?.normalize();
-    // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's edge tells.
+    // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's edge
+    // tells.
     let outwards = match a.arc(edge_a).middle {
         DVec3::ZERO => -b.arc(edge_b).middle,
         middle => middle,

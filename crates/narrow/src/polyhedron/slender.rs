@@ -72,7 +72,8 @@ pub(crate) fn nearest(a: &Solid, b: &Solid, rounding: f64) -> Nearest {
 
 /// The unit axis between closest points, square to each segment that has its point in its inside.
 ///
-/// Between points that all but coincide the axis from one to the other is rounding; what it is square to tells it again.
+/// Between points that all but coincide the axis from one to the other is rounding; what it is square to tells it
+/// again.
 fn square_to(between: DVec3, along: [DVec3; 2], places: [f64; 2]) -> Option<DVec3> {
     let is_inside = places.map(|place| place > 0.0 && place < 1.0);
     let cross = along[0].cross(along[1]);
@@ -87,8 +88,8 @@ fn square_to(between: DVec3, along: [DVec3; 2], places: [f64; 2]) -> Option<DVec
 
 /// How they touch: where they are closest, or on both ends of the stretch along which two segments lie side by side.
 ///
-/// Points are at most `within` apart. The stretch is taken only if one end of it is as close as the closest points, up to
-/// `preference`: segments that cross at a small angle touch in one point.
+/// Points are at most `within` apart. The stretch is taken only if one end of it is as close as the closest points,
+/// up to `preference`: segments that cross at a small angle touch in one point.
 pub(crate) fn touch(a: &Solid, b: &Solid, nearest: &Nearest, within: f64, preference: f64) -> Touch {
     let normal = nearest.normal;
     let least = nearest.distance - a.radius - b.radius + preference;
@@ -141,7 +142,8 @@ fn across(along_a: DVec3, along_b: DVec3, between: DVec3) -> DVec3 {
     if axis.dot(between) < 0.0 { -axis } else { axis }
 }
 
-/// Points on both ends of the stretch along which two nearly parallel segments lie one above the other as seen along the normal.
+/// Points on both ends of the stretch along which two nearly parallel segments lie one above the other as seen along
+/// the normal.
 fn shared_stretch(a: &Solid, b: &Solid, normal: DVec3, distance: f64, preference: f64) -> ArrayVec<Point, 2> {
     let none = ArrayVec::new();
     let deep = distance + preference;
@@ -170,8 +172,8 @@ fn shared_stretch(a: &Solid, b: &Solid, normal: DVec3, distance: f64, preference
     // Seen along the normal, the surface beyond a segment that leans by t lies r / cos t over it; over its near end, r.
     let cosine = |along: DVec3| (1.0 - normal.dot(along) * normal.dot(along) / along.length_squared()).sqrt();
     let (rise_a, rise_b) = (a.radius / cosine(along_a), b.radius / cosine(along_b));
-    // Segments that cross at a small angle lie beside each other at the ends. Points that meet half way leave the surfaces by
-    // the square of that.
+    // Segments that cross at a small angle lie beside each other at the ends. Points that meet half way leave the
+    // surfaces by the square of that.
     let aside_most = (8.0 * a.radius.min(b.radius) * preference).sqrt().max(preference);
     let opposite = |(place, feature): (f64, FeatureId)| {
         let (s, t) = (place / end_a, (place - from_b) / (to_b - from_b));

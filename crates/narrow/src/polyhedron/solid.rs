@@ -4,8 +4,8 @@ use super::sat::Arc;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Core3, Topology};
 
-/// A core in the frame of a pair: A's axes, about A's position. Most often a polyhedron; a triangle or flat hull has two
-/// faces back to back, a segment or point none.
+/// A core in the frame of a pair: A's axes, about A's position. Most often a polyhedron; a triangle or flat hull has
+/// two faces back to back, a segment or point none.
 ///
 /// Vertices are not transformed: a direction is turned into local axes instead, once a projection. That leaves A's
 /// coordinates exact and B's with one rounding step less.
@@ -74,8 +74,8 @@ impl<'a> Solid<'a> {
         across.try_normalize().unwrap_or(towards)
     }
 
-    /// Outward normal of a face, of any length: enough for a yes or no, and rounded less. Newell's area vector, about the
-    /// first corner; for coordinates of few digits it is exact.
+    /// Outward normal of a face, of any length: enough for a yes or no, and rounded less. Newell's area vector, about
+    /// the first corner; for coordinates of few digits it is exact.
     #[inline]
     pub(crate) fn outward(&self, face: usize) -> DVec3 {
         let mut corners = self.topology.face_vertices(face).map(|vertex| self.vertices[vertex].as_dvec3());

@@ -62,8 +62,8 @@ pub(super) fn cloud(count: usize, seed: u64, shape: impl Fn(Vec3) -> Vec3) -> Ve
 
 pub(super) const KINDS: u64 = 32;
 
-/// A cloud of up to 80 points: coplanar, collinear, cocircular, repeated, nearly flat, thin, at the ends of the range, and
-/// several of these at once.
+/// A cloud of up to 80 points: coplanar, collinear, cocircular, repeated, nearly flat, thin, at the ends of the
+/// range, and several of these at once.
 pub(super) fn nasty(seed: u64) -> Vec<Vec3> {
     let random = &mut Random::new(seed);
     let count = 4 + random.below(60);
