@@ -17,7 +17,8 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 ///
 /// # Costs and limits
 /// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other
-/// body is a candidate for a pair with it, unless its normal is an axis.
+/// body is a candidate for a pair with it, unless its normal is an axis. Its contact anchors are relative to its
+/// position, in f32 as all are: a millimetre is lost 10 km from there, on its side of a contact only.
 ///
 /// ```
 /// use asunder_geometry::{HalfPlane, Pose2, glam::{DVec2, Vec2}};
@@ -91,7 +92,8 @@ impl HalfPlane {
 ///
 /// # Costs and limits
 /// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other
-/// body is a candidate for a pair with it, unless its normal is an axis.
+/// body is a candidate for a pair with it, unless its normal is an axis. Its contact anchors are relative to its
+/// position, in f32 as all are: a millimetre is lost 10 km from there, on its side of a contact only.
 ///
 /// ```
 /// use asunder_geometry::{HalfSpace, Pose3, glam::{DVec3, Vec3}};

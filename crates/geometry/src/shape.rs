@@ -5,7 +5,7 @@
 
 use crate::aabb::{Aabb2, Aabb3};
 use crate::circle::Circle;
-use crate::compound::{Compound2, Compound3};
+use crate::compound::{Compound2, Compound3, Part2, Part3};
 use crate::cores::{Core2, Core3};
 use crate::cuboid::Cuboid;
 use crate::half_space::{HalfPlane, HalfSpace};
@@ -157,11 +157,13 @@ impl Shape2 {
         let direction = direction.into();
         let along = direction.try_normalize()?;
         if let Self::Compound(compound) = self {
-            let points = compound.parts().iter().filter_map(|part| {
-                let local = part.shape().support(part.pose().turn_back(along))?;
-                Some(part.pose().transform(local))
-            });
-            return furthest(points, |point| point.dot(along));
+            let of_part = |part: &Part2| {
+                let core = part.shape().core();
+                let vertices = core.vertices().iter().map(|&vertex| part.pose().transform(vertex));
+                let vertex = furthest(vertices, |vertex| vertex.dot(along))?;
+                Some(vertex + along * f64::from(part.shape().radius()))
+            };
+            return furthest(compound.parts().iter().filter_map(of_part), |point| point.dot(along));
         }
         let core = self.core();
         let vertex = furthest(core.vertices().iter().map(|vertex| vertex.as_dvec2()), |v| v.dot(along))?;
@@ -251,11 +253,13 @@ impl Shape3 {
         let direction = direction.into();
         let along = direction.try_normalize()?;
         if let Self::Compound(compound) = self {
-            let points = compound.parts().iter().filter_map(|part| {
-                let local = part.shape().support(part.pose().turn_back(along))?;
-                Some(part.pose().transform(local))
-            });
-            return furthest(points, |point| point.dot(along));
+            let of_part = |part: &Part3| {
+                let core = part.shape().core();
+                let vertices = core.vertices().iter().map(|&vertex| part.pose().transform(vertex));
+                let vertex = furthest(vertices, |vertex| vertex.dot(along))?;
+                Some(vertex + along * f64::from(part.shape().radius()))
+            };
+            return furthest(compound.parts().iter().filter_map(of_part), |point| point.dot(along));
         }
         let core = self.core();
         let vertex = furthest(core.vertices().iter().map(|vertex| vertex.as_dvec3()), |v| v.dot(along))?;

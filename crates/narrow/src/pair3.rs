@@ -179,7 +179,7 @@ impl<'a> Pair3<'a> {
     /// The pair of parts with the least separation, or a bound where all are beyond the limit.
     fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
         let mut best: Option<(Parts<'a>, Near)> = None;
-        let (mut at_least, mut beyond) = (limit, f32::INFINITY);
+        let (mut at_least, mut beyond, mut lowest) = (limit, f32::INFINITY, f64::INFINITY);
         for_parts(self.shape_a, &self.basis_a, |a| {
             for_parts(self.shape_b, &self.basis_b, |b| {
                 if let Some(bound) =
@@ -192,6 +192,7 @@ impl<'a> Pair3<'a> {
                 match parts.convex.probe(at_least, Hint::NONE) {
                     Probe::Beyond(bound, _) => beyond = beyond.min(bound),
                     Probe::Near(near) => {
+                        lowest = lowest.min(f64::from(near.separation) - f64::from(near.error));
                         if best.as_ref().is_none_or(|(_, known)| near.separation < known.separation) {
                             at_least = at_least.min(f64::from(near.separation).max(0.0));
                             best = Some((parts, near));
@@ -201,11 +202,17 @@ impl<'a> Pair3<'a> {
                 false
             })
         });
+        let (parts, mut near) = best.ok_or(beyond)?;
         // Beyond the limit, parts that were given up on may be nearer than the one that was measured.
-        match best {
-            Some((_, near)) if f64::from(near.separation) > limit && near.separation > beyond => Err(beyond),
-            best => best.ok_or(beyond),
+        if f64::from(near.separation) > limit && near.separation > beyond {
+            return Err(beyond);
         }
+        // The nearest may truly be another pair of parts, whose error is larger.
+        let short = f64::from(near.separation) - lowest;
+        if short > f64::from(near.error) {
+            near.error = (short as f32).next_up();
+        }
+        Ok((parts, near))
     }
 
     /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.

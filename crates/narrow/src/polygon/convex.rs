@@ -120,7 +120,7 @@ impl Convex<'_> {
             Evidence::HalfPlanes(a, b) => {
                 let [on_a, on_b] = a.points_with(b);
                 let separation = a.separation_from(b);
-                let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
+                let feature = FeatureId::new(Feature::Edge(0), Feature::Edge(0));
                 let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
                 (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
             }
