@@ -46,9 +46,15 @@ pub struct Compound2 {
 pub struct Part2 {
     pose: Pose2,
     shape: Shape2,
+    center: DVec2,
 }
 
 impl Part2 {
+    fn new(pose: Pose2, shape: Shape2) -> Self {
+        let center = pose.transform(shape.center());
+        Self { pose, shape, center }
+    }
+
     /// Where the part is in the compound.
     #[inline]
     pub const fn pose(&self) -> &Pose2 {
@@ -63,8 +69,8 @@ impl Part2 {
 
     /// Centre of its bounding circle, in the compound's axes.
     #[inline]
-    pub fn center(&self) -> DVec2 {
-        self.pose.transform(self.shape.center())
+    pub const fn center(&self) -> DVec2 {
+        self.center
     }
 }
 
@@ -74,7 +80,7 @@ impl Compound2 {
     /// # Errors
     /// No parts, or more than [`MAX_PARTS`]; a part that is a compound or unbounded, or that reaches beyond 1e6 m.
     pub fn new(parts: impl IntoIterator<Item = (Pose2, Shape2)>) -> Result<Self, CompoundError> {
-        let parts: Arc<[Part2]> = parts.into_iter().map(|(pose, shape)| Part2 { pose, shape }).collect();
+        let parts: Arc<[Part2]> = parts.into_iter().map(|(pose, shape)| Part2::new(pose, shape)).collect();
         if parts.is_empty() {
             return Err(CompoundError::NoParts);
         }
@@ -181,9 +187,15 @@ pub struct Compound3 {
 pub struct Part3 {
     pose: Pose3,
     shape: Shape3,
+    center: DVec3,
 }
 
 impl Part3 {
+    fn new(pose: Pose3, shape: Shape3) -> Self {
+        let center = pose.transform(shape.center());
+        Self { pose, shape, center }
+    }
+
     /// Where the part is in the compound.
     #[inline]
     pub const fn pose(&self) -> &Pose3 {
@@ -198,8 +210,8 @@ impl Part3 {
 
     /// Centre of its bounding sphere, in the compound's axes.
     #[inline]
-    pub fn center(&self) -> DVec3 {
-        self.pose.transform(self.shape.center())
+    pub const fn center(&self) -> DVec3 {
+        self.center
     }
 }
 
@@ -209,7 +221,7 @@ impl Compound3 {
     /// # Errors
     /// No parts, or more than [`MAX_PARTS`]; a part that is a compound or unbounded, or that reaches beyond 1e6 m.
     pub fn new(parts: impl IntoIterator<Item = (Pose3, Shape3)>) -> Result<Self, CompoundError> {
-        let parts: Arc<[Part3]> = parts.into_iter().map(|(pose, shape)| Part3 { pose, shape }).collect();
+        let parts: Arc<[Part3]> = parts.into_iter().map(|(pose, shape)| Part3::new(pose, shape)).collect();
         if parts.is_empty() {
             return Err(CompoundError::NoParts);
         }

@@ -49,16 +49,17 @@ pub struct Pair2<'a> {
 struct Part<'a> {
     index: u32,
     shape: &'a Shape2,
-    /// Its rotation in the world.
-    turn: Turn,
-    /// Its origin less the body's position, in world axes.
-    shift: DVec2,
+    /// Where it is in its compound; a shape that is none is its own only part.
+    local: Option<&'a Pose2>,
+    /// Its bounding circle's centre less the body's position, in world axes.
+    center: DVec2,
 }
 
 /// Two convex parts in the frame of the pair, and the way back from there.
 struct Parts<'a> {
-    a: Part<'a>,
-    b: Part<'a>,
+    indices: [u32; 2],
+    /// Each part's origin less its body's position, in world axes.
+    shifts: [DVec2; 2],
     convex: Convex<'a>,
 }
 
@@ -234,45 +235,52 @@ impl<'a> Pair2<'a> {
         matches!(self.shape_a, Shape2::Compound(_)) || matches!(self.shape_b, Shape2::Compound(_))
     }
 
-    /// A lower bound on the separation of two parts: the gap between their bounding circles, less what it may have
-    /// lost to rounding.
+    /// A lower bound on the separation of two parts: the gap between their bounding circles, less what it may have lost to
+    /// rounding.
     fn gap(&self, a: &Part, b: &Part) -> f64 {
-        let center = |part: &Part| part.shift + part.turn.turn(part.shape.center().as_dvec2());
-        let apart = (self.between + center(b) - center(a)).length();
+        let apart = (self.between + b.center - a.center).length();
         // A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
         let stretch = 1.0 + 4.0 * f64::from(f32::EPSILON);
         let radii = (f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius())) * stretch;
-        let reach = self.between.length() + a.shift.length() + b.shift.length() + radii;
+        let reach = self.between.length() + a.center.length() + b.center.length() + radii;
         apart - radii - 64.0 * f64::EPSILON * reach
     }
 
     fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
-        // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
-        let between = self.between + (b.shift - a.shift);
+        let (turn_a, shift_a) = a.placed(&self.turn_a);
+        let (turn_b, shift_b) = b.placed(&self.turn_b);
+        let is_compound = self.is_compound();
+        let summed = self.between.length() + shift_a.length() + shift_b.length();
         let convex = Convex {
             shape_a: a.shape,
             shape_b: b.shape,
-            turn_a: a.turn,
-            turn_b: b.turn,
-            offset: between,
-            summed: if self.is_compound() {
-                self.between.length() + a.shift.length() + b.shift.length()
-            } else {
-                0.0
-            },
+            turn_a,
+            turn_b,
+            // Positions first, then the parts' places: what is far from the origin cancels.
+            offset: self.between + (shift_b - shift_a),
+            summed: if is_compound { summed } else { 0.0 },
         };
-        Parts { a, b, convex }
+        Parts { indices: [a.index, b.index], shifts: [shift_a, shift_b], convex }
+    }
+}
+
+impl Part<'_> {
+    /// Its rotation in the world, and its origin less the body's position.
+    fn placed(&self, body: &Turn) -> (Turn, DVec2) {
+        let Some(pose) = self.local else { return (*body, DVec2::ZERO) };
+        (body.of_part(pose.rotation()), body.turn(pose.position()))
     }
 }
 
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
 fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
     let Shape2::Compound(compound) = shape else {
-        return visit(Part { index: 0, shape, turn: *turn, shift: DVec2::ZERO });
+        let center = turn.turn(shape.center().as_dvec2());
+        return visit(Part { index: 0, shape, local: None, center });
     };
     compound.parts().iter().zip(0..).any(|(part, index)| {
-        let shift = turn.turn(part.pose().position());
-        visit(Part { index, shape: part.shape(), turn: turn.of_part(part.pose().rotation()), shift })
+        let center = turn.turn(part.center());
+        visit(Part { index, shape: part.shape(), local: Some(part.pose()), center })
     })
 }
 
@@ -286,8 +294,8 @@ impl Parts<'_> {
             feature: point.feature,
         });
         Some(Manifold2 {
-            part_a: self.a.index,
-            part_b: self.b.index,
+            part_a: self.indices[0],
+            part_b: self.indices[1],
             normal: touch.normal.as_vec2(),
             separation: near.separation,
             error: near.error,
@@ -297,12 +305,12 @@ impl Parts<'_> {
 
     /// From the frame of the pair to a world vector from A's position.
     fn anchor_a(&self, point: DVec2) -> Vec2 {
-        (point + self.a.shift).as_vec2()
+        (point + self.shifts[0]).as_vec2()
     }
 
     /// From the frame of the pair to a world vector from B's position.
     fn anchor_b(&self, point: DVec2) -> Vec2 {
-        (point - self.convex.offset + self.b.shift).as_vec2()
+        (point - self.convex.offset + self.shifts[1]).as_vec2()
     }
 }
 

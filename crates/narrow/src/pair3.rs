@@ -49,16 +49,19 @@ pub struct Pair3<'a> {
 struct Part<'a> {
     index: u32,
     shape: &'a Shape3,
-    /// Its axes in the world.
-    basis: Basis3,
-    /// Its origin less the body's position, in world axes.
-    shift: DVec3,
+    /// Where it is in its compound; a shape that is none is its own only part.
+    local: Option<&'a Pose3>,
+    /// Its bounding sphere's centre less the body's position, in world axes.
+    center: DVec3,
 }
 
 /// Two convex parts in the frame of the first, and the way back from there.
 struct Parts<'a> {
-    a: Part<'a>,
-    b: Part<'a>,
+    indices: [u32; 2],
+    /// A's axes in the world.
+    basis: Basis3,
+    /// Each part's origin less its body's position, in world axes.
+    shifts: [DVec3; 2],
     convex: Convex<'a>,
 }
 
@@ -93,7 +96,7 @@ impl<'a> Pair3<'a> {
             Ok((parts, near)) => Separation3::Measured(Measured3 {
                 separation: near.separation,
                 error: near.error,
-                normal: parts.a.basis.turn(near.normal).as_vec3(),
+                normal: parts.basis.turn(near.normal).as_vec3(),
             }),
             Err(at_least) => Separation3::AtLeast(at_least),
         }
@@ -107,7 +110,7 @@ impl<'a> Pair3<'a> {
         Some(Closest3 {
             distance: near.separation,
             error: near.error,
-            normal: parts.a.basis.turn(near.normal).as_vec3(),
+            normal: parts.basis.turn(near.normal).as_vec3(),
             anchor_a: parts.anchor_a(on_a),
             anchor_b: parts.anchor_b(on_b),
         })
@@ -228,44 +231,52 @@ impl<'a> Pair3<'a> {
         matches!(self.shape_a, Shape3::Compound(_)) || matches!(self.shape_b, Shape3::Compound(_))
     }
 
-    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have
-    /// lost to rounding.
+    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have lost to
+    /// rounding.
     fn gap(&self, a: &Part, b: &Part) -> f64 {
-        let center = |part: &Part| part.shift + part.basis.turn(part.shape.center().as_dvec3());
-        let apart = (self.between + center(b) - center(a)).length();
+        let apart = (self.between + b.center - a.center).length();
         let radii = f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius());
-        let reach = self.between.length() + a.shift.length() + b.shift.length() + radii;
+        let reach = self.between.length() + a.center.length() + b.center.length() + radii;
         apart - radii - 64.0 * f64::EPSILON * reach
     }
 
     fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
+        let (basis, shift_a) = a.placed(&self.basis_a);
+        let (basis_b, shift_b) = b.placed(&self.basis_b);
         // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
-        let between = self.between + (b.shift - a.shift);
+        let between = self.between + (shift_b - shift_a);
+        let is_compound = self.is_compound();
+        let summed = self.between.length() + shift_a.length() + shift_b.length();
         let convex = Convex {
             shape_a: a.shape,
             shape_b: b.shape,
-            relative: b.basis.relative_to(&a.basis),
-            offset: a.basis.turn_back(between),
-            summed: if self.is_compound() {
-                self.between.length() + a.shift.length() + b.shift.length()
-            } else {
-                0.0
-            },
+            relative: basis_b.relative_to(&basis),
+            offset: basis.turn_back(between),
+            summed: if is_compound { summed } else { 0.0 },
         };
-        Parts { a, b, convex }
+        Parts { indices: [a.index, b.index], basis, shifts: [shift_a, shift_b], convex }
+    }
+}
+
+impl Part<'_> {
+    /// Its axes in the world, and its origin less the body's position.
+    fn placed(&self, body: &Basis3) -> (Basis3, DVec3) {
+        let Some(pose) = self.local else { return (*body, DVec3::ZERO) };
+        let local = pose.basis();
+        let basis = Basis3 { x: body.turn(local.x), y: body.turn(local.y), z: body.turn(local.z) };
+        (basis, body.turn(pose.position()))
     }
 }
 
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
 fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
     let Shape3::Compound(compound) = shape else {
-        return visit(Part { index: 0, shape, basis: *basis, shift: DVec3::ZERO });
+        let center = basis.turn(shape.center().as_dvec3());
+        return visit(Part { index: 0, shape, local: None, center });
     };
     compound.parts().iter().zip(0..).any(|(part, index)| {
-        let local = part.pose().basis();
-        let basis_of_part = Basis3 { x: basis.turn(local.x), y: basis.turn(local.y), z: basis.turn(local.z) };
-        let shift = basis.turn(part.pose().position());
-        visit(Part { index, shape: part.shape(), basis: basis_of_part, shift })
+        let center = basis.turn(part.center());
+        visit(Part { index, shape: part.shape(), local: Some(part.pose()), center })
     })
 }
 
@@ -279,9 +290,9 @@ impl Parts<'_> {
             feature: point.feature,
         });
         Some(Manifold3 {
-            part_a: self.a.index,
-            part_b: self.b.index,
-            normal: self.a.basis.turn(touch.normal).as_vec3(),
+            part_a: self.indices[0],
+            part_b: self.indices[1],
+            normal: self.basis.turn(touch.normal).as_vec3(),
             separation: near.separation,
             error: near.error,
             points: points.collect(),
@@ -290,12 +301,12 @@ impl Parts<'_> {
 
     /// From the frame of the pair to a world vector from A's position.
     fn anchor_a(&self, point: DVec3) -> Vec3 {
-        (self.a.basis.turn(point) + self.a.shift).as_vec3()
+        (self.basis.turn(point) + self.shifts[0]).as_vec3()
     }
 
     /// From the frame of the pair to a world vector from B's position.
     fn anchor_b(&self, point: DVec3) -> Vec3 {
-        (self.a.basis.turn(point - self.convex.offset) + self.b.shift).as_vec3()
+        (self.basis.turn(point - self.convex.offset) + self.shifts[1]).as_vec3()
     }
 }
 
