@@ -187,11 +187,17 @@ impl<'a> Pair2<'a> {
     fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
         let mut best: Option<(Parts<'a>, Near)> = None;
         let (mut at_least, mut beyond, mut lowest) = (limit, f32::INFINITY, f64::INFINITY);
+        let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
+        let whole_b = Part::whole(self.shape_b, &self.turn_b);
         for_parts(self.shape_a, &self.turn_a, |a| {
+            let bound = gap(&a, &whole_b);
+            if bound > at_least {
+                beyond = beyond.min(rounded_down(bound));
+                return false;
+            }
             for_parts(self.shape_b, &self.turn_b, |b| {
-                if let Some(bound) =
-                    self.is_compound().then(|| self.gap(&a, &b)).filter(|gap| *gap > at_least)
-                {
+                let bound = gap(&a, &b);
+                if bound > at_least {
                     beyond = beyond.min(rounded_down(bound));
                     return false;
                 }
@@ -224,10 +230,11 @@ impl<'a> Pair2<'a> {
 
     /// Whether the answer is yes for any pair of parts whose bounding circles are at most `within` apart.
     fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
+        let is_far = |a: &Part, b: &Part| self.is_compound() && self.gap(a, b) > within;
+        let whole_b = Part::whole(self.shape_b, &self.turn_b);
         for_parts(self.shape_a, &self.turn_a, |a| {
-            for_parts(self.shape_b, &self.turn_b, |b| {
-                !(self.is_compound() && self.gap(&a, &b) > within) && ask(&self.parts(a, b))
-            })
+            !is_far(&a, &whole_b)
+                && for_parts(self.shape_b, &self.turn_b, |b| !is_far(&a, &b) && ask(&self.parts(a, b)))
         })
     }
 
@@ -264,7 +271,13 @@ impl<'a> Pair2<'a> {
     }
 }
 
-impl Part<'_> {
+impl<'a> Part<'a> {
+    /// A shape as a part of nothing: a compound by its bounding circle alone.
+    fn whole(shape: &'a Shape2, turn: &Turn) -> Self {
+        let center = turn.turn(shape.center().as_dvec2());
+        Self { index: 0, shape, local: None, center }
+    }
+
     /// Its rotation in the world, and its origin less the body's position.
     fn placed(&self, body: &Turn) -> (Turn, DVec2) {
         let Some(pose) = self.local else { return (*body, DVec2::ZERO) };
@@ -275,8 +288,7 @@ impl Part<'_> {
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
 fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
     let Shape2::Compound(compound) = shape else {
-        let center = turn.turn(shape.center().as_dvec2());
-        return visit(Part { index: 0, shape, local: None, center });
+        return visit(Part::whole(shape, turn));
     };
     compound.parts().iter().zip(0..).any(|(part, index)| {
         let center = turn.turn(part.center());

@@ -183,11 +183,17 @@ impl<'a> Pair3<'a> {
     fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
         let mut best: Option<(Parts<'a>, Near)> = None;
         let (mut at_least, mut beyond, mut lowest) = (limit, f32::INFINITY, f64::INFINITY);
+        let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
+        let whole_b = Part::whole(self.shape_b, &self.basis_b);
         for_parts(self.shape_a, &self.basis_a, |a| {
+            let bound = gap(&a, &whole_b);
+            if bound > at_least {
+                beyond = beyond.min(rounded_down(bound));
+                return false;
+            }
             for_parts(self.shape_b, &self.basis_b, |b| {
-                if let Some(bound) =
-                    self.is_compound().then(|| self.gap(&a, &b)).filter(|gap| *gap > at_least)
-                {
+                let bound = gap(&a, &b);
+                if bound > at_least {
                     beyond = beyond.min(rounded_down(bound));
                     return false;
                 }
@@ -220,10 +226,11 @@ impl<'a> Pair3<'a> {
 
     /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.
     fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
+        let is_far = |a: &Part, b: &Part| self.is_compound() && self.gap(a, b) > within;
+        let whole_b = Part::whole(self.shape_b, &self.basis_b);
         for_parts(self.shape_a, &self.basis_a, |a| {
-            for_parts(self.shape_b, &self.basis_b, |b| {
-                !(self.is_compound() && self.gap(&a, &b) > within) && ask(&self.parts(a, b))
-            })
+            !is_far(&a, &whole_b)
+                && for_parts(self.shape_b, &self.basis_b, |b| !is_far(&a, &b) && ask(&self.parts(a, b)))
         })
     }
 
@@ -258,7 +265,13 @@ impl<'a> Pair3<'a> {
     }
 }
 
-impl Part<'_> {
+impl<'a> Part<'a> {
+    /// A shape as a part of nothing: a compound by its bounding sphere alone.
+    fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
+        let center = basis.turn(shape.center().as_dvec3());
+        Self { index: 0, shape, local: None, center }
+    }
+
     /// Its axes in the world, and its origin less the body's position.
     fn placed(&self, body: &Basis3) -> (Basis3, DVec3) {
         let Some(pose) = self.local else { return (*body, DVec3::ZERO) };
@@ -271,8 +284,7 @@ impl Part<'_> {
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
 fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
     let Shape3::Compound(compound) = shape else {
-        let center = basis.turn(shape.center().as_dvec3());
-        return visit(Part { index: 0, shape, local: None, center });
+        return visit(Part::whole(shape, basis));
     };
     compound.parts().iter().zip(0..).any(|(part, index)| {
         let center = basis.turn(part.center());
