@@ -1,4 +1,4 @@
-//! A crate is lowered onto a floor: the first twenty lines with asunder.
+//! A crate is lowered onto a floor: first steps with asunder.
 
 use asunder::{Collider3, Cuboid, Event3, Pose3, World3, glam::Vec3};
 

@@ -208,6 +208,8 @@ impl<S: Space> Collider<S> {
     /// Sets the gap, in metres, at which contacts appear: a pair has a contact while its separation is at most the
     /// sum of both margins. Also the hysteresis between `Began` and `Ended`.
     ///
+    /// (A [`Pair3`](crate::Pair3) takes a margin below zero as zero; a body, which keeps it, refuses it.)
+    ///
     /// # Errors
     /// What is not finite, below zero, or above 1e6.
     pub fn margin(mut self, margin: f32) -> Result<Self, MarginError> {

@@ -18,7 +18,8 @@ pub struct Contact<'a, K, M> {
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
-    /// One manifold for each pair of convex parts that touch. Normals point from `a` to `b`.
+    /// One manifold for each pair of convex parts that touch. Normals point from `a` to `b`. None for a sensor, nor
+    /// for two half-spaces that overlap without end: fix all but one of those, as a level's are, and they never pair.
     pub manifolds: &'a [M],
 }
 

@@ -46,7 +46,7 @@ pub use asunder_geometry::{
     CompoundError, Core2, Core3, Cuboid, DecomposeError, DirectionError, ExtentError, HalfEdge, HalfPlane,
     HalfSpace, Hull, HullError, HullFault, MassError, MassProperties2, MassProperties3, Part2, Part3,
     Polygon, PolygonError, Pose2, Pose3, PoseError, RadiusError, Ray2, Ray3, RayError, Rect, Rotation2,
-    Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, VertexError, glam, tolerance,
+    Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, VertexError, decompose, glam, tolerance,
 };
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Manifold2, Manifold3,

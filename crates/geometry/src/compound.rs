@@ -143,7 +143,8 @@ impl Compound2 {
             let core = part.shape.core();
             let points = core.vertices().iter().map(|&vertex| part.pose.transform(vertex));
             // A part far from the compound's origin may come back near it: what its place lost to rounding shows then.
-            let lost = 64.0 * f64::EPSILON * part.pose.position().length();
+            let lost =
+                64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
             around2(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
         };
         self.parts.iter().map(box_of).reduce(|one, other| one.union(&other)).unwrap_or(Aabb2::NOTHING)
@@ -282,7 +283,8 @@ impl Compound3 {
             let core = part.shape.core();
             let points = core.vertices().iter().map(|&vertex| part.pose.transform(vertex));
             // A part far from the compound's origin may come back near it: what its place lost to rounding shows then.
-            let lost = 64.0 * f64::EPSILON * part.pose.position().length();
+            let lost =
+                64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
             around3(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
         };
         self.parts.iter().map(box_of).reduce(|one, other| one.union(&other)).unwrap_or(Aabb3::NOTHING)
@@ -328,7 +330,9 @@ impl core::fmt::Display for CompoundError {
             Self::TooManyParts { count } => {
                 write!(f, "{count} parts are more than {MAX_PARTS}: make several bodies of one owner")
             }
-            Self::Nested { index } => write!(f, "part {index} is a compound: give its parts instead"),
+            Self::Nested { index } => {
+                write!(f, "part {index} is made of several parts itself: give those instead")
+            }
             Self::Unbounded { index } => {
                 write!(f, "part {index} has no end: make it a body of its own")
             }

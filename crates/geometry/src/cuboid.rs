@@ -2,7 +2,7 @@
 
 use crate::aabb::Aabb3;
 use crate::extent::{ExtentError, bounding_radius};
-use crate::outward::{interval, round_down};
+use crate::outward::{interval, lost, round_down};
 use crate::pose3::Pose3;
 use crate::radius::{RadiusError, check_rounding, grown};
 use crate::topology::Topology;
@@ -125,9 +125,10 @@ impl Cuboid {
         let reach = basis.x.abs() * h.x + basis.y.abs() * h.y + basis.z.abs() * h.z;
         let p = pose.position();
         let grow = f64::from(margin) + f64::from(self.radius);
-        let x = interval(p.x, -reach.x, reach.x, grow);
-        let y = interval(p.y, -reach.y, reach.y, grow);
-        let z = interval(p.z, -reach.z, reach.z, grow);
+        let lost = lost(p.abs().element_sum(), reach.element_sum(), grow);
+        let x = interval(p.x, -reach.x, reach.x, grow, lost);
+        let y = interval(p.y, -reach.y, reach.y, grow, lost);
+        let z = interval(p.z, -reach.z, reach.z, grow, lost);
         Aabb3::new(Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
     }
 }

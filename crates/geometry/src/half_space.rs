@@ -2,7 +2,7 @@
 
 use crate::aabb::{Aabb2, Aabb3};
 use crate::direction::{DirectionError, check_direction};
-use crate::outward::interval;
+use crate::outward::{interval, lost};
 use crate::pose2::Pose2;
 use crate::pose3::Pose3;
 use glam::{DVec2, DVec3, Vec2, Vec3};
@@ -13,7 +13,8 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 ///
 /// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its
 /// place by the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the
-/// other shape. Two of them overlap unless they look exactly away from each other.
+/// other shape. Two of them overlap unless they look exactly away from each
+/// other, and then have no contact points.
 ///
 /// # Costs and limits
 /// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other
@@ -68,7 +69,8 @@ impl HalfPlane {
         let normal = pose.rotation().turn(self.normal.as_dvec2());
         let p = pose.position();
         let side = |axis: usize, position: f64| {
-            let (low, high) = interval(position, 0.0, 0.0, f64::from(margin));
+            let lost = lost(p.abs().element_sum(), 0.0, f64::from(margin));
+            let (low, high) = interval(position, 0.0, 0.0, f64::from(margin), lost);
             let is_axis = normal[axis] != 0.0 && (0..2).all(|other| other == axis || normal[other] == 0.0);
             match is_axis {
                 true if normal[axis] > 0.0 => (f32::NEG_INFINITY, high),
@@ -88,7 +90,8 @@ impl HalfPlane {
 ///
 /// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its
 /// place by the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the
-/// other shape. Two of them overlap unless they look exactly away from each other.
+/// other shape. Two of them overlap unless they look exactly away from each
+/// other, and then have no contact points.
 ///
 /// # Costs and limits
 /// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other
@@ -143,7 +146,8 @@ impl HalfSpace {
         let normal = pose.basis().turn(self.normal.as_dvec3());
         let p = pose.position();
         let side = |axis: usize, position: f64| {
-            let (low, high) = interval(position, 0.0, 0.0, f64::from(margin));
+            let lost = lost(p.abs().element_sum(), 0.0, f64::from(margin));
+            let (low, high) = interval(position, 0.0, 0.0, f64::from(margin), lost);
             let is_axis = normal[axis] != 0.0 && (0..3).all(|other| other == axis || normal[other] == 0.0);
             match is_axis {
                 true if normal[axis] > 0.0 => (f32::NEG_INFINITY, high),

@@ -19,14 +19,21 @@ pub(crate) fn round_up(value: f64) -> f32 {
     if f64::from(nearest) < value { nearest.next_up() } else { nearest }
 }
 
-/// One side of a box: `low..high` relative to `position`, widened by `margin` and by what f64 may have lost.
+/// One side of a box: `low..high` relative to `position`, widened by `grow`, and by `lost`, what f64 may have lost.
 ///
 /// Rounding comes last, after translation and margin: a box rounded first and moved later can lose a contact.
 #[inline]
-pub(crate) fn interval(position: f64, low: f64, high: f64, margin: f64) -> (f32, f32) {
-    // A projection is a sum of three products of entries with a handful of roundings each: 32 units cover them.
-    let slack = 32.0 * f64::EPSILON * (position.abs() + low.abs().max(high.abs()) + margin);
-    (round_down(position + low - margin - slack), round_up(position + high + margin + slack))
+pub(crate) fn interval(position: f64, low: f64, high: f64, grow: f64, lost: f64) -> (f32, f32) {
+    (round_down(position + low - grow - lost), round_up(position + high + grow + lost))
+}
+
+/// What f64 may lose of a body's projection on an axis, from its coordinates added up.
+///
+/// As much as the narrow phase allows a pair, from both bodies' own: all coordinates count, and not only those on the
+/// axis. What counts as touching there must not be apart here.
+#[inline]
+pub(crate) fn lost(position: f64, reach: f64, grow: f64) -> f64 {
+    64.0 * f64::EPSILON * (position + reach + grow)
 }
 
 /// The box around points in the plane, posed, grown by `grow` metres. There must be a point.
@@ -37,8 +44,9 @@ pub(crate) fn around2(points: impl Iterator<Item = DVec2>, pose: &Pose2, grow: f
         (low, high) = (low.min(turned), high.max(turned));
     }
     let p = pose.position();
-    let x = interval(p.x, low.x, high.x, grow);
-    let y = interval(p.y, low.y, high.y, grow);
+    let lost = lost(p.abs().element_sum(), low.abs().max(high.abs()).element_sum(), grow);
+    let x = interval(p.x, low.x, high.x, grow, lost);
+    let y = interval(p.y, low.y, high.y, grow, lost);
     Aabb2::new(Vec2::new(x.0, y.0), Vec2::new(x.1, y.1))
 }
 
@@ -51,9 +59,10 @@ pub(crate) fn around3(points: impl Iterator<Item = DVec3>, pose: &Pose3, grow: f
         (low, high) = (low.min(turned), high.max(turned));
     }
     let p = pose.position();
-    let x = interval(p.x, low.x, high.x, grow);
-    let y = interval(p.y, low.y, high.y, grow);
-    let z = interval(p.z, low.z, high.z, grow);
+    let lost = lost(p.abs().element_sum(), low.abs().max(high.abs()).element_sum(), grow);
+    let x = interval(p.x, low.x, high.x, grow, lost);
+    let y = interval(p.y, low.y, high.y, grow, lost);
+    let z = interval(p.z, low.z, high.z, grow, lost);
     Aabb3::new(Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
 }
 
@@ -71,7 +80,7 @@ mod tests {
 
     #[test]
     fn a_margin_survives_far_from_the_origin() {
-        let (low, high) = interval(1e9 + 0.123, -0.5, 0.5, 0.02);
+        let (low, high) = interval(1e9 + 0.123, -0.5, 0.5, 0.02, lost(1e9, 0.5, 0.02));
         assert!(f64::from(low) <= 1e9 + 0.123 - 0.52 && f64::from(high) >= 1e9 + 0.123 + 0.52);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::aabb::Aabb2;
 use crate::extent::{ExtentError, bounding_radius};
-use crate::outward::{interval, round_down};
+use crate::outward::{interval, lost, round_down};
 use crate::pose2::Pose2;
 use crate::radius::{RadiusError, check_rounding, grown};
 use glam::{DVec2, Vec2};
@@ -106,8 +106,9 @@ impl Rect {
         let reach = DVec2::new(c * h.x + s * h.y, s * h.x + c * h.y);
         let p = pose.position();
         let grow = f64::from(margin) + f64::from(self.radius);
-        let x = interval(p.x, -reach.x, reach.x, grow);
-        let y = interval(p.y, -reach.y, reach.y, grow);
+        let lost = lost(p.abs().element_sum(), reach.element_sum(), grow);
+        let x = interval(p.x, -reach.x, reach.x, grow, lost);
+        let y = interval(p.y, -reach.y, reach.y, grow, lost);
         Aabb2::new(Vec2::new(x.0, y.0), Vec2::new(x.1, y.1))
     }
 }

@@ -111,8 +111,11 @@ impl Capsule2 {
     /// A capsule that stands upright along y, about its own origin. Its segment has twice the `half_height`.
     ///
     /// # Errors
-    /// As [`Capsule2::new`].
+    /// As [`Capsule2::new`], and a negative half height.
     pub fn from_half_height(half_height: f32, radius: f32) -> Result<Self, CapsuleError> {
+        if half_height < 0.0 {
+            return Err(CapsuleError::HalfHeight { value: half_height });
+        }
         Self::new(Vec2::Y * -half_height, Vec2::Y * half_height, radius)
     }
 
@@ -251,8 +254,11 @@ impl Capsule3 {
     /// A capsule that stands upright along y, about its own origin. Its segment has twice the `half_height`.
     ///
     /// # Errors
-    /// As [`Capsule3::new`].
+    /// As [`Capsule3::new`], and a negative half height.
     pub fn from_half_height(half_height: f32, radius: f32) -> Result<Self, CapsuleError> {
+        if half_height < 0.0 {
+            return Err(CapsuleError::HalfHeight { value: half_height });
+        }
         Self::new(Vec3::Y * -half_height, Vec3::Y * half_height, radius)
     }
 
@@ -300,6 +306,11 @@ impl Capsule3 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CapsuleError {
+    /// A half height below zero.
+    HalfHeight {
+        /// What was given, in metres.
+        value: f32,
+    },
     /// What is wrong with its segment.
     Ends(VertexError),
     /// What is wrong with its radius.
@@ -309,6 +320,9 @@ pub enum CapsuleError {
 impl core::fmt::Display for CapsuleError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
+            Self::HalfHeight { value } => {
+                write!(f, "half height {value} m is negative: give half of the segment's length")
+            }
             Self::Ends(VertexError::Repeated { .. }) => {
                 write!(f, "both ends are the same point: use a circle or sphere")
             }

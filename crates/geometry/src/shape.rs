@@ -155,7 +155,8 @@ impl Shape2 {
     /// vertex. Nothing for a half-plane, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec2>) -> Option<DVec2> {
         let direction = direction.into();
-        let along = direction.try_normalize()?;
+        // By its largest component first: squares of very long and very short ones leave the range of f64.
+        let along = (direction / direction.abs().max_element()).try_normalize()?;
         if let Self::Compound(compound) = self {
             let of_part = |part: &Part2| {
                 let core = part.shape().core();
@@ -251,7 +252,8 @@ impl Shape3 {
     /// vertex. Nothing for a half-space, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec3>) -> Option<DVec3> {
         let direction = direction.into();
-        let along = direction.try_normalize()?;
+        // By its largest component first: squares of very long and very short ones leave the range of f64.
+        let along = (direction / direction.abs().max_element()).try_normalize()?;
         if let Self::Compound(compound) = self {
             let of_part = |part: &Part3| {
                 let core = part.shape().core();

@@ -37,7 +37,8 @@ impl Precision {
 
     /// Error of a distance known to lie in an interval of this length.
     pub(crate) fn of_distance(&self, distance: f64, gap: f64) -> f32 {
-        self.rounded_up(gap.max(0.0) + 4.0 * self.projection(), distance)
+        // Bounds the wrong way round are rounding too.
+        self.rounded_up(gap.abs() + 4.0 * self.projection(), distance)
     }
 
     fn rounded_up(&self, error: f64, value: f64) -> f32 {

@@ -52,7 +52,7 @@
 //! | `segment` | 2, 3 | `points`: its two ends |
 //! | `triangle` | 3 | `points`: its three vertices |
 //! | `half_plane`, `half_space` | 2, 3 | `normal`: out of it, of any length |
-//! | `compound` | 2, 3 | `parts`: a list of `shape` (as here), `position`, and `rotation`, which is optional |
+//! | `compound` | 2, 3 | `parts`: a list of `shape` (as here, but one convex piece: no `outline`, no `compound`), `position`, and `rotation`, which is optional |
 //!
 //! | field of a body | value | where it is left out |
 //! |---|---|---|

@@ -177,7 +177,7 @@ fn messages_say_what_to_do() {
         (Box::new(DirectionError::NotFinite { axis: 1, value: f32::INFINITY }), ["axis 1", "check"]),
         (Box::new(DirectionError::Zero), ["zero", "give"]),
         (Box::new(CompoundError::TooManyParts { count: 5000 }), ["5000", "several bodies"]),
-        (Box::new(CompoundError::Nested { index: 3 }), ["3", "give its parts"]),
+        (Box::new(CompoundError::Nested { index: 3 }), ["3", "give those instead"]),
         (Box::new(CompoundError::Unbounded { index: 4 }), ["4", "body of its own"]),
     ];
     for (error, parts) in messages {

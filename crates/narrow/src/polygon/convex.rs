@@ -105,17 +105,16 @@ impl Convex<'_> {
                 Some(self.with_outlines(|a, b| touch(a, b, axes, witness.as_ref(), margin, preference)))
             }
             Evidence::Points => {
-                let separation = f64::from(near.separation) + self.radii();
                 let feature = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
-                let (on_a, on_b) = (DVec2::ZERO, near.normal * separation);
-                let point = Point { separation, on_a, on_b, feature };
-                let point = self.with_outlines(|a, b| point.on_surfaces(a, b, near.normal));
+                let point = self.with_outlines(|a, b| {
+                    let (on_a, on_b) = (a.point(0), b.point(0));
+                    let separation = near.normal.dot(on_b - on_a);
+                    Point { separation, on_a, on_b, feature }.on_surfaces(a, b, near.normal)
+                });
                 Some(Touch { normal: near.normal, points: core::iter::once(point).collect() })
             }
             Evidence::HalfPlane(line) => {
-                let least = f64::from(near.separation) + preference;
-                let (deep, within) = (least + self.radii(), margin.max(least));
-                Some(self.with_outlines(|a, b| line.touch(if line.is_b { a } else { b }, deep, within)))
+                Some(self.with_outlines(|a, b| line.touch(if line.is_b { a } else { b }, margin, preference)))
             }
             Evidence::HalfPlanes(a, b) => {
                 let [on_a, on_b] = a.points_with(b);
@@ -130,7 +129,7 @@ impl Convex<'_> {
     fn probe_half_planes(&self, a: Line, b: Line, limit: f64) -> Probe {
         let precision = self.precision();
         let separation = a.separation_from(&b);
-        if separation > limit {
+        if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
         let overlapping = separation <= precision.projection();
@@ -228,7 +227,7 @@ impl Convex<'_> {
             if radii > 0.0 && gap <= precision.projection() { witness.at_least } else { witness.distance };
         let separation = core - radii;
         let overlapping = radii > 0.0 && separation <= precision.projection();
-        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.normal);
+        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
         Probe::Near(Near {
             overlapping,
             separation: signed(separation, overlapping),
@@ -265,6 +264,9 @@ impl Convex<'_> {
     fn witness(&self, a: &Outline, b: &Outline, best: &Axis) -> Option<Witness> {
         let mut witness = distance(a, b, best.normal, self.precision().size)?;
         if best.separation >= witness.at_least {
+            if witness.across == witness.normal {
+                witness.across = best.normal;
+            }
             (witness.at_least, witness.normal) = (best.separation, best.normal);
         }
         Some(witness)

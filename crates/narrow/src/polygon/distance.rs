@@ -12,6 +12,9 @@ use asunder_geometry::tolerance::DISTANCE_GAP;
 /// bits.
 const MAX_STEPS: usize = 64;
 
+/// Share of the size above which the axis from one witness point to the other is not rounding.
+const TELLING: f64 = 1e-6;
+
 /// Witness points and the bounds they leave.
 #[derive(Clone, Debug)]
 pub(crate) struct Witness {
@@ -21,6 +24,8 @@ pub(crate) struct Witness {
     pub(crate) at_least: f64,
     /// The unit axis of that projection, from A to B.
     pub(crate) normal: DVec2,
+    /// The unit axis from one witness point to the other; that of the projection where they are too close to tell.
+    pub(crate) across: DVec2,
     pub(crate) point_a: DVec2,
     pub(crate) point_b: DVec2,
     /// Vertices of A and of B that carry the witness points, in pairs.
@@ -63,12 +68,19 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, size: f64) ->
         }
         (simplex, v) = (nearest, place);
     }
+    // Weighted differences from the first corner, and not weighted corners: what the weights' sum lost shrinks with
+    // them.
     let weighted = |outline: &Outline, which: usize| {
-        simplex.iter().map(|(vertices, _, weight)| outline.point(vertices[which]) * *weight).sum::<DVec2>()
+        let first = outline.point(simplex[0].0[which]);
+        let offsets =
+            simplex.iter().map(|(vertices, _, weight)| (outline.point(vertices[which]) - first) * *weight);
+        first + offsets.sum::<DVec2>()
     };
     let (point_a, point_b) = (weighted(a, 0), weighted(b, 1));
     let corners = simplex.iter().map(|&(vertices, ..)| vertices).collect();
-    Some(Witness { distance: (point_b - point_a).length(), at_least, normal, point_a, point_b, corners })
+    let distance = (point_b - point_a).length();
+    let across = if distance > TELLING * size { (point_b - point_a) / distance } else { normal };
+    Some(Witness { distance, at_least, normal, across, point_a, point_b, corners })
 }
 
 /// The corners that carry the nearest point, and that point; nothing where a triangle holds the origin.
@@ -81,7 +93,8 @@ fn nearest_to_origin(simplex: &Simplex) -> Option<(Simplex, DVec2)> {
     }
     let mut best: Option<(Simplex, DVec2)> = None;
     let mut offer = |corners: Simplex| {
-        let place = corners.iter().map(|&(_, point, weight)| point * weight).sum::<DVec2>();
+        let first = corners[0].1;
+        let place = first + corners.iter().map(|&(_, point, weight)| (point - first) * weight).sum::<DVec2>();
         if best.as_ref().is_none_or(|(_, known)| place.length_squared() < known.length_squared()) {
             best = Some((corners, place));
         }

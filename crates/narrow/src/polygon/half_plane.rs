@@ -56,9 +56,11 @@ impl Line {
     }
 
     /// The lowest vertex and the other end of the edge there that looks most at the line, if that is no more than
-    /// `within` above the line. Vertices of the core no higher than `deep` are as deep as any.
-    pub(crate) fn touch(&self, core: &Outline, deep: f64, within: f64) -> Touch {
-        let (lowest, _) = self.lowest(core);
+    /// `margin` above the line. Vertices that are no higher than the lowest, up to `preference`, are as deep as any.
+    pub(crate) fn touch(&self, core: &Outline, margin: f64, preference: f64) -> Touch {
+        let (lowest, height) = self.lowest(core);
+        let deep = height + preference;
+        let within = margin.max(deep - core.radius);
         let (before, after) = (core.before(lowest), core.after(lowest));
         let facing =
             |edge: usize| if edge < core.edge_count() { core.normal(edge).dot(self.normal) } else { 0.0 };

@@ -78,7 +78,7 @@ pub(crate) fn touch(
         }
     }
     match witness {
-        Some(witness) => Touch { normal: witness.normal, points: closest_point(a, b, witness) },
+        Some(witness) => Touch { normal: witness.across, points: closest_point(a, b, witness) },
         None => Touch { normal: axes.best().normal, points: deepest_point(a, b, axes.best()) },
     }
 }
@@ -130,7 +130,7 @@ fn closest_point(a: &Outline, b: &Outline, witness: &Witness) -> ArrayVec<Point,
         on_b: witness.point_b,
         feature: FeatureId::new(carrier(a, 0, witness.normal), carrier(b, 1, -witness.normal)),
     };
-    core::iter::once(point.on_surfaces(a, b, witness.normal)).collect()
+    core::iter::once(point.on_surfaces(a, b, witness.across)).collect()
 }
 
 /// A line to measure contact points from: that of the reference edge's surface.

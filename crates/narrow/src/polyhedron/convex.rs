@@ -118,9 +118,7 @@ impl Convex<'_> {
                 Some(self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference)))
             }
             Evidence::HalfSpace(plane) => {
-                let least = f64::from(near.separation) + preference;
-                let (deep, within) = (least + self.radii(), margin.max(least));
-                Some(self.with_solids(|a, b| plane.touch(if plane.is_b { a } else { b }, deep, within)))
+                Some(self.with_solids(|a, b| plane.touch(if plane.is_b { a } else { b }, margin, preference)))
             }
             Evidence::HalfSpaces(a, b) => {
                 let [on_a, on_b] = a.points_with(b);
@@ -135,7 +133,7 @@ impl Convex<'_> {
     fn probe_half_spaces(&self, a: Plane, b: Plane, limit: f64) -> Probe {
         let precision = self.precision();
         let separation = a.separation_from(&b);
-        if separation > limit {
+        if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
         let overlapping = separation <= precision.projection();
@@ -232,7 +230,7 @@ impl Convex<'_> {
             if radii > 0.0 && gap <= precision.projection() { witness.at_least } else { witness.distance };
         let separation = core - radii;
         let overlapping = radii > 0.0 && separation <= precision.projection();
-        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.normal);
+        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
         Probe::Near(Near {
             overlapping,
             separation: signed(separation, overlapping),
@@ -269,6 +267,9 @@ impl Convex<'_> {
     fn witness(&self, a: &Solid, b: &Solid, best: &Axis) -> Option<Witness> {
         let mut witness = distance(a, b, best.normal, self.precision().size)?;
         if best.separation >= witness.at_least {
+            if witness.across == witness.normal {
+                witness.across = best.normal;
+            }
             (witness.at_least, witness.normal) = (best.separation, best.normal);
         }
         Some(witness)

@@ -5,8 +5,9 @@
 //! repeat
 //!   w = the vertex of A - B furthest towards the origin from v
 //!   |v| bounds the distance from above (it has witness points), v.w/|v| from below (it is a projection)
-//!   stop where they meet, or where w brings nothing new
+//!   stop where they meet
 //!   v = the nearest point to the origin of the simplex of v's corners and w; keep the corners it needs
+//!   where w brings nothing new, look square to the simplex instead of from v; stop where that brings nothing either
 //! ```
 //! Gilbert, Johnson and Keerthi, "A fast procedure for computing the distance between complex objects in
 //! three-dimensional space" (1988). Whatever rounding does to the iteration, both bounds hold for what is returned:
@@ -21,6 +22,9 @@ use asunder_geometry::tolerance::DISTANCE_GAP;
 /// Steps after which the iteration gives up narrowing. Sets of random hulls need 4 to 12.
 const MAX_STEPS: usize = 64;
 
+/// Share of the size above which the axis from one witness point to the other is not rounding.
+const TELLING: f64 = 1e-6;
+
 /// Witness points and the bounds they leave.
 #[derive(Clone, Debug)]
 pub(crate) struct Witness {
@@ -30,10 +34,22 @@ pub(crate) struct Witness {
     pub(crate) at_least: f64,
     /// The unit axis of that projection, from A to B.
     pub(crate) normal: DVec3,
+    /// The unit axis from one witness point to the other; that of the projection where they are too close to tell.
+    pub(crate) across: DVec3,
     pub(crate) point_a: DVec3,
     pub(crate) point_b: DVec3,
     /// Vertices of A and of B that carry the witness points, in pairs.
     pub(crate) corners: ArrayVec<[usize; 2], 4>,
+}
+
+/// Corners of the difference A - B that carry its nearest point to the origin so far.
+#[derive(Clone)]
+struct Simplex {
+    /// The vertices of A and of B, and the place of their difference.
+    corners: ArrayVec<([usize; 2], DVec3), 4>,
+    /// The corners' shares of the nearest point.
+    weights: [f64; 4],
+    nearest: DVec3,
 }
 
 /// Narrows the distance down; nothing where the shapes cannot be told apart. `size` is the size of the pair.
@@ -42,55 +58,78 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, size: f64) -> Opt
         let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
         ([in_a, in_b], a.point(in_a) - b.point(in_b))
     };
-    let mut simplex: ArrayVec<([usize; 2], DVec3), 4> = ArrayVec::new();
-    simplex.push(corner(towards_b));
-    let mut v = simplex[0].1;
-    let mut weights = [1.0, 0.0, 0.0, 0.0];
+    let mut simplex = Simplex::of(corner(towards_b));
     let (mut at_least, mut normal) = (f64::NEG_INFINITY, towards_b);
-    for _ in 0..MAX_STEPS {
-        let length = v.length();
+    'steps: for _ in 0..MAX_STEPS {
+        let length = simplex.nearest.length();
         if length <= f64::EPSILON * size {
             return None;
         }
-        let direction = -v / length;
-        let (vertices, w) = corner(direction);
-        let bound = -direction.dot(w);
-        if bound > at_least {
-            (at_least, normal) = (bound, direction);
-        }
-        let brings_nothing = simplex.iter().any(|&(known, _)| known == vertices);
-        if length - at_least <= DISTANCE_GAP * size || brings_nothing || simplex.is_full() {
-            break;
-        }
-        simplex.push((vertices, w));
-        let points: ArrayVec<DVec3, 4> = simplex.iter().map(|&(_, point)| point).collect();
-        let nearest = nearest_to_origin(&points)?;
-        if nearest.point.length() >= length {
-            simplex.pop();
-            break;
-        }
-        v = nearest.point;
-        let mut slot = 0;
-        let mut index = 0;
-        weights = [0.0; 4];
-        simplex.retain(|_| {
-            let keep = nearest.corners >> index & 1 == 1;
-            if keep {
-                weights[slot] = nearest.weights[index];
-                slot += 1;
+        for direction in simplex.to_origin() {
+            let found = corner(direction);
+            let bound = -direction.dot(found.1);
+            if bound > at_least {
+                (at_least, normal) = (bound, direction);
             }
-            index += 1;
-            keep
-        });
+            if length - at_least <= DISTANCE_GAP * size {
+                break 'steps;
+            }
+            if simplex.corners.iter().all(|&(known, _)| known != found.0) && !simplex.corners.is_full() {
+                let grown = simplex.grown(found)?;
+                if grown.nearest.length() < length {
+                    simplex = grown;
+                    continue 'steps;
+                }
+            }
+        }
+        break;
     }
-    let weighted = |solid: &Solid, which: usize| {
-        simplex
-            .iter()
-            .zip(weights)
-            .map(|((corner, _), weight)| solid.point(corner[which]) * weight)
-            .sum::<DVec3>()
-    };
-    let (point_a, point_b) = (weighted(a, 0), weighted(b, 1));
-    let corners = simplex.iter().map(|&(corner, _)| corner).collect();
-    Some(Witness { distance: (point_b - point_a).length(), at_least, normal, point_a, point_b, corners })
+    let (point_a, point_b) = (simplex.weighted(a, 0), simplex.weighted(b, 1));
+    let corners = simplex.corners.iter().map(|&(corner, _)| corner).collect();
+    let distance = (point_b - point_a).length();
+    let across = if distance > TELLING * size { (point_b - point_a) / distance } else { normal };
+    Some(Witness { distance, at_least, normal, across, point_a, point_b, corners })
+}
+
+impl Simplex {
+    fn of(corner: ([usize; 2], DVec3)) -> Self {
+        Self { corners: core::iter::once(corner).collect(), weights: [1.0, 0.0, 0.0, 0.0], nearest: corner.1 }
+    }
+
+    /// With one corner more, and without those that do not carry the nearest point; nothing where it holds the origin.
+    fn grown(&self, corner: ([usize; 2], DVec3)) -> Option<Self> {
+        let mut corners = self.corners.clone();
+        corners.push(corner);
+        let points: ArrayVec<DVec3, 4> = corners.iter().map(|&(_, point)| point).collect();
+        let nearest = nearest_to_origin(&points)?;
+        let carrying = corners.into_iter().zip(nearest.weights).zip(0..);
+        let carrying = carrying.filter(|&(_, index)| nearest.corners >> index & 1 == 1);
+        let mut grown = Self { corners: ArrayVec::new(), weights: [0.0; 4], nearest: nearest.point };
+        for ((corner, weight), _) in carrying {
+            grown.weights[grown.corners.len()] = weight;
+            grown.corners.push(corner);
+        }
+        Some(grown)
+    }
+
+    /// Unit directions from the nearest point to the origin: straight, and square to the simplex. Where the origin is
+    /// all but on the simplex the straight one is rounding, and the other one tells.
+    fn to_origin(&self) -> [DVec3; 2] {
+        let straight = -self.nearest.normalize();
+        let square = match *self.corners.as_slice() {
+            [(_, a), (_, b), (_, c)] => (b - a).cross(c - a),
+            [(_, a), (_, b)] => straight - (b - a) * (straight.dot(b - a) / (b - a).length_squared()),
+            _ => straight,
+        };
+        let square = square.try_normalize().unwrap_or(straight);
+        [straight, if square.dot(straight) < 0.0 { -square } else { square }]
+    }
+
+    /// The point of A or B that the weights make. Of differences from the first corner, and not of the corners: what
+    /// the weights' sum lost to rounding shrinks with them.
+    fn weighted(&self, solid: &Solid, which: usize) -> DVec3 {
+        let first = solid.point(self.corners[0].0[which]);
+        let terms = self.corners.iter().zip(self.weights);
+        terms.fold(first, |sum, ((corner, _), weight)| sum + (solid.point(corner[which]) - first) * weight)
+    }
 }

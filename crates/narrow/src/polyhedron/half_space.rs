@@ -57,12 +57,13 @@ impl Plane {
         [self, other].map(|plane| middle - plane.normal * plane.height(middle))
     }
 
-    /// The corners, at most four, of the face that looks at the plane, and no more than `within` above it. Corners of
-    /// the core no higher than `deep` are as deep as any.
-    pub(crate) fn touch(&self, core: &Solid, deep: f64, within: f64) -> Touch {
-        let slack = deep - self.lowest(core).1;
-        let (lowest, _) = self.lowest(core);
-        let face = opposed_face(core, self.normal, slack);
+    /// The corners, at most four, of the face that looks at the plane, and no more than `margin` above it. Corners
+    /// that are no higher than the lowest, up to `preference`, are as deep as any.
+    pub(crate) fn touch(&self, core: &Solid, margin: f64, preference: f64) -> Touch {
+        let (lowest, height) = self.lowest(core);
+        let deep = height + preference;
+        let within = margin.max(deep - core.radius);
+        let face = opposed_face(core, self.normal, preference);
         // What is higher belongs to a tilted face, whose surface lies out along its own normal.
         let outwards = core.outwards(face, -self.normal) * core.radius;
         let mut points: ArrayVec<Point, MAX_HULL_VERTICES> = ArrayVec::new();

@@ -7,7 +7,7 @@
 //!             clip it against planes through the reference face's edges, along the normal
 //!             keep the points within the margin of the reference plane
 //! if the deepest point was clipped away, ask the axis that is best of all; then, in a gap, the faces that nearly look at
-//! each other across it; then the witness points
+//! each other across it; then edges that lie side by side; then the witness points
 //! reduce to four
 //! ```
 //! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest,
@@ -20,6 +20,7 @@
 
 use super::distance::Witness;
 use super::reduce::reduce_to_four;
+use super::rods::side_by_side;
 use super::sat::{Axes, Axis, AxisOf};
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
@@ -88,22 +89,24 @@ pub(crate) fn touch(
             AxisOf::FaceB(face) => face_points(b, a, face, -axis.normal, depths, true),
             AxisOf::Edges(..) if !overlapping => continue,
             AxisOf::Edges(edge_a, edge_b) => aligned_faces(a, b, axis.normal, depths)
-                .filter(|points| is_deep(points))
+                .filter(is_deep)
                 .unwrap_or_else(|| edge_point(a, b, (edge_a, edge_b), axis.normal)),
         };
         if is_deep(&points) {
             return Touch { normal: axis.normal, points };
         }
     }
-    if let Some(witness) = witness
-        && let Some(points) =
-            aligned_faces(a, b, witness.normal, Depths { deep, within: margin.max(least), slack: preference })
-                .filter(|points| is_deep(points))
-    {
-        return Touch { normal: witness.normal, points };
+    if let Some(witness) = witness {
+        let within = margin.max(least);
+        let normal = witness.across;
+        let faces = aligned_faces(a, b, normal, Depths { deep, within, slack: preference }).filter(is_deep);
+        let points = faces.or_else(|| side_by_side((a, b), normal, at_stake, within, preference));
+        if let Some(points) = points {
+            return Touch { normal, points };
+        }
     }
     match witness {
-        Some(witness) => Touch { normal: witness.normal, points: closest_point(a, b, witness) },
+        Some(witness) => Touch { normal: witness.across, points: closest_point(a, b, witness) },
         None => Touch { normal: axes.best().normal, points: deepest_point(a, b, axes.best()) },
     }
 }
@@ -195,7 +198,7 @@ fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> ArrayVec<Point, 4> 
         on_b: witness.point_b,
         feature: FeatureId::new(carrier(a, 0), carrier(b, 1)),
     };
-    core::iter::once(point.on_surfaces(a, b, witness.normal)).collect()
+    core::iter::once(point.on_surfaces(a, b, witness.across)).collect()
 }
 
 /// The least feature that holds all of these vertices.
@@ -339,7 +342,8 @@ pub(super) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> usize {
     if solid.is_slender() {
         return 0;
     }
-    let least = solid.support(-normal).reach - slack;
+    debug_assert!(slack >= 0.0, "no vertex would be far");
+    let least = solid.support(-normal).reach - slack.max(0.0);
     let is_far: ArrayVec<bool, MAX_HULL_VERTICES> =
         (0..solid.vertices.len()).map(|vertex| -normal.dot(solid.point(vertex)) >= least).collect();
     let mut best = (0, f64::INFINITY, 0);

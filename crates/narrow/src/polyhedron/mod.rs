@@ -8,6 +8,7 @@ mod distance;
 mod half_space;
 mod manifold;
 mod reduce;
+mod rods;
 mod sat;
 mod simplex;
 mod slender;

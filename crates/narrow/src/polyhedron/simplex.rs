@@ -43,10 +43,11 @@ pub(crate) fn nearest_to_origin(corners: &[DVec3]) -> Option<Nearest> {
 }
 
 fn weigh(corners: &[DVec3], terms: [(usize, f64); 3]) -> Nearest {
-    let mut nearest = Nearest { point: DVec3::ZERO, corners: 0, weights: [0.0; 4] };
+    let first = corners[terms[0].0];
+    let mut nearest = Nearest { point: first, corners: 0, weights: [0.0; 4] };
     for (i, weight) in terms {
         if weight > 0.0 {
-            nearest.point += corners[i] * weight;
+            nearest.point += (corners[i] - first) * weight;
             nearest.corners |= 1 << i;
             nearest.weights[i] += weight;
         }
@@ -61,10 +62,11 @@ fn segment_weights(a: DVec3, b: DVec3) -> Option<[f64; 2]> {
 }
 
 fn triangle_weights(a: DVec3, b: DVec3, c: DVec3) -> Option<[f64; 3]> {
-    let normal = (b - a).cross(c - a);
+    let (to_b, to_c) = (b - a, c - a);
+    let normal = to_b.cross(to_c);
     let area = normal.length_squared();
-    let weights =
-        [b.cross(c).dot(normal) / area, c.cross(a).dot(normal) / area, a.cross(b).dot(normal) / area];
+    let (at_b, at_c) = (to_c.cross(a).dot(normal) / area, a.cross(to_b).dot(normal) / area);
+    let weights = [1.0 - at_b - at_c, at_b, at_c];
     weights.iter().all(|&weight| weight > 0.0).then_some(weights)
 }
 

@@ -8,11 +8,11 @@
 //! inside, so that their separation is never below zero.
 
 use super::manifold::{Point, Touch};
+use super::rods::{Rod, shared_stretch};
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::ALIGNED_FACES;
 
 /// The closest points of two slender cores, in the frame of the pair.
 #[derive(Clone, Copy, Debug)]
@@ -95,8 +95,10 @@ pub(crate) fn touch(a: &Solid, b: &Solid, nearest: &Nearest, within: f64, prefer
     let least = nearest.distance - a.radius - b.radius + preference;
     let within = within.max(least);
     let mut points: ArrayVec<Point, 4> = ArrayVec::new();
-    let stretch = shared_stretch(a, b, normal, nearest.distance, preference);
-    points.extend(stretch.into_iter().filter(|point| point.separation <= within));
+    if let (Some(rod_a), Some(rod_b)) = (Rod::of_slender(a), Rod::of_slender(b)) {
+        let stretch = shared_stretch(&rod_a, &rod_b, normal, nearest.distance, preference);
+        points.extend(stretch.into_iter().filter(|point| point.separation <= within));
+    }
     if !points.iter().any(|point| point.separation <= least) {
         points.clear();
         let feature = FeatureId::new(feature_at(a, nearest.places[0]), feature_at(b, nearest.places[1]));
@@ -140,57 +142,6 @@ fn across(along_a: DVec3, along_b: DVec3, between: DVec3) -> DVec3 {
     };
     let axis = axis.normalize();
     if axis.dot(between) < 0.0 { -axis } else { axis }
-}
-
-/// Points on both ends of the stretch along which two nearly parallel segments lie one above the other as seen along
-/// the normal.
-fn shared_stretch(a: &Solid, b: &Solid, normal: DVec3, distance: f64, preference: f64) -> ArrayVec<Point, 2> {
-    let none = ArrayVec::new();
-    let deep = distance + preference;
-    let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
-    let (along_a, along_b) = (a1 - a0, b1 - b0);
-    let cosine_squared = along_a.dot(along_b) * along_a.dot(along_b);
-    let lengths_squared = along_a.length_squared() * along_b.length_squared();
-    if !(lengths_squared > 0.0 && cosine_squared >= ALIGNED_FACES * ALIGNED_FACES * lengths_squared) {
-        return none;
-    }
-    // Places along the part of A's direction that lies across the normal; none to speak of where they lie in one line.
-    let side = along_a - normal * normal.dot(along_a);
-    if side.length_squared() < 0.5 * along_a.length_squared() {
-        return none;
-    }
-    let at = |point: DVec3| side.dot(point - a0);
-    let (end_a, from_b, to_b) = (at(a1), at(b0), at(b1));
-    let (low, high) = if from_b <= to_b { ((from_b, 0), (to_b, 1)) } else { ((to_b, 1), (from_b, 0)) };
-    let on_b = |vertex: u32| FeatureId::new(Feature::Edge(0), Feature::Vertex(vertex));
-    let on_a = |vertex: u32| FeatureId::new(Feature::Vertex(vertex), Feature::Edge(0));
-    let begin = if low.0 >= 0.0 { (low.0, on_b(low.1)) } else { (0.0, on_a(0)) };
-    let end = if high.0 <= end_a { (high.0, on_b(high.1)) } else { (end_a, on_a(1)) };
-    if begin.0 >= end.0 {
-        return none;
-    }
-    // Seen along the normal, the surface beyond a segment that leans by t lies r / cos t over it; over its near end, r.
-    let cosine = |along: DVec3| (1.0 - normal.dot(along) * normal.dot(along) / along.length_squared()).sqrt();
-    let (rise_a, rise_b) = (a.radius / cosine(along_a), b.radius / cosine(along_b));
-    // Segments that cross at a small angle lie beside each other at the ends. Points that meet half way leave the
-    // surfaces by the square of that.
-    let aside_most = (8.0 * a.radius.min(b.radius) * preference).sqrt().max(preference);
-    let opposite = |(place, feature): (f64, FeatureId)| {
-        let (s, t) = (place / end_a, (place - from_b) / (to_b - from_b));
-        let (on_a, on_b) = (a0 + along_a * s.clamp(0.0, 1.0), b0 + along_b * t.clamp(0.0, 1.0));
-        let separation = normal.dot(on_b - on_a);
-        let aside = on_b - on_a - normal * separation;
-        if aside.length_squared() > aside_most * aside_most {
-            return None;
-        }
-        let (on_a, on_b) = (on_a + aside * 0.5, on_b - aside * 0.5);
-        if separation <= deep {
-            return Some(Point { separation, on_a, on_b, feature }.on_surfaces(a, b, normal));
-        }
-        let (on_a, on_b) = (on_a + normal * rise_a, on_b - normal * rise_b);
-        Some(Point { separation: separation - rise_a - rise_b, on_a, on_b, feature })
-    };
-    [opposite(begin), opposite(end)].into_iter().flatten().collect()
 }
 
 fn feature_at(core: &Solid, place: f64) -> Feature {
