@@ -1,5 +1,7 @@
 //! What went wrong once, as the smallest scene that shows it: symptom, cause, scene.
 
+mod shapes;
+
 use asunder::{BodyKey3, Collider3, World3};
 use asunder_geometry::{Cuboid, Hull, Pose3, Shape3};
 use asunder_narrow::{Pair3, Separation3};
