@@ -230,8 +230,11 @@ impl<'a> Pair2<'a> {
 
     /// Whether the answer is yes for any pair of parts whose bounding circles are at most `within` apart.
     fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
-        let is_far = |a: &Part, b: &Part| self.is_compound() && self.gap(a, b) > within;
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
+        if !self.is_compound() {
+            return ask(&self.parts(Part::whole(self.shape_a, &self.turn_a), whole_b));
+        }
+        let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
         for_parts(self.shape_a, &self.turn_a, |a| {
             !is_far(&a, &whole_b)
                 && for_parts(self.shape_b, &self.turn_b, |b| !is_far(&a, &b) && ask(&self.parts(a, b)))
@@ -253,20 +256,18 @@ impl<'a> Pair2<'a> {
         apart - radii - 64.0 * f64::EPSILON * reach
     }
 
+    /// How long the vectors are that the way from part to part is a sum of, where it is one of several.
+    fn summed(&self, shift_a: DVec2, shift_b: DVec2) -> f64 {
+        if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
+    }
+
     fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
         let (turn_a, shift_a) = a.placed(&self.turn_a);
         let (turn_b, shift_b) = b.placed(&self.turn_b);
-        let is_compound = self.is_compound();
-        let summed = self.between.length() + shift_a.length() + shift_b.length();
-        let convex = Convex {
-            shape_a: a.shape,
-            shape_b: b.shape,
-            turn_a,
-            turn_b,
-            // Positions first, then the parts' places: what is far from the origin cancels.
-            offset: self.between + (shift_b - shift_a),
-            summed: if is_compound { summed } else { 0.0 },
-        };
+        // Positions first, then the parts' places: what is far from the origin cancels.
+        let offset = self.between + (shift_b - shift_a);
+        let summed = self.summed(shift_a, shift_b);
+        let convex = Convex::new([a.shape, b.shape], [turn_a, turn_b], offset, summed);
         Parts { indices: [a.index, b.index], shifts: [shift_a, shift_b], convex }
     }
 }

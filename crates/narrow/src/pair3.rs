@@ -226,8 +226,11 @@ impl<'a> Pair3<'a> {
 
     /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.
     fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
-        let is_far = |a: &Part, b: &Part| self.is_compound() && self.gap(a, b) > within;
         let whole_b = Part::whole(self.shape_b, &self.basis_b);
+        if !self.is_compound() {
+            return ask(&self.parts(Part::whole(self.shape_a, &self.basis_a), whole_b));
+        }
+        let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
         for_parts(self.shape_a, &self.basis_a, |a| {
             !is_far(&a, &whole_b)
                 && for_parts(self.shape_b, &self.basis_b, |b| !is_far(&a, &b) && ask(&self.parts(a, b)))
@@ -247,20 +250,22 @@ impl<'a> Pair3<'a> {
         apart - radii - 64.0 * f64::EPSILON * reach
     }
 
+    /// How long the vectors are that the way from part to part is a sum of, where it is one of several.
+    fn summed(&self, shift_a: DVec3, shift_b: DVec3) -> f64 {
+        if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
+    }
+
     fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
         let (basis, shift_a) = a.placed(&self.basis_a);
         let (basis_b, shift_b) = b.placed(&self.basis_b);
         // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
         let between = self.between + (shift_b - shift_a);
-        let is_compound = self.is_compound();
-        let summed = self.between.length() + shift_a.length() + shift_b.length();
-        let convex = Convex {
-            shape_a: a.shape,
-            shape_b: b.shape,
-            relative: basis_b.relative_to(&basis),
-            offset: basis.turn_back(between),
-            summed: if is_compound { summed } else { 0.0 },
-        };
+        let convex = Convex::new(
+            [a.shape, b.shape],
+            basis_b.relative_to(&basis),
+            basis.turn_back(between),
+            self.summed(shift_a, shift_b),
+        );
         Parts { indices: [a.index, b.index], basis, shifts: [shift_a, shift_b], convex }
     }
 }

@@ -33,8 +33,9 @@ pub(crate) struct Convex<'a> {
     pub(crate) turn_b: Turn,
     /// B's position less A's.
     pub(crate) offset: DVec2,
-    /// How long the vectors were that `offset` is a sum of, in metres, where it is one of several.
-    pub(crate) summed: f64,
+    precision: Precision,
+    /// Both radii, in metres.
+    radii: f64,
 }
 
 /// What a pair looks like within a limit.
@@ -72,7 +73,22 @@ enum Evidence {
     HalfPlanes(Line, Line),
 }
 
-impl Convex<'_> {
+impl<'a> Convex<'a> {
+    /// Two shapes, how they are turned, and B's position less A's. `summed` is how long the vectors were that the
+    /// position is a sum of, in metres, where it is one of several.
+    pub(crate) fn new(shapes: [&'a Shape2; 2], turns: [Turn; 2], offset: DVec2, summed: f64) -> Self {
+        let ([shape_a, shape_b], [turn_a, turn_b]) = (shapes, turns);
+        let radii = f64::from(shape_a.radius()) + f64::from(shape_b.radius());
+        // What errors are relative to: the cores' sizes, since radii are added exactly.
+        let size = core_size(shape_a) + core_size(shape_b);
+        // Sums of coordinates bound lengths, and need no root.
+        let length = |v: DVec2| v.abs().element_sum();
+        let off_center = length(shape_a.center().as_dvec2()) + length(shape_b.center().as_dvec2());
+        let reach = size + radii + off_center + length(offset) + summed;
+        let precision = Precision { size, reach, planarity: 0.0 };
+        Self { shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
+    }
+
     /// The separation where it is at most `limit` metres; the hinted axis is tried first.
     pub(crate) fn probe(&self, limit: f64, hint: Hint) -> Probe {
         match self.lines() {
@@ -90,7 +106,7 @@ impl Convex<'_> {
 
     /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
     pub(crate) fn overlaps(&self) -> bool {
-        if self.lines() == [None, None] && self.radii() == 0.0 {
+        if self.lines() == [None, None] && self.radii == 0.0 {
             return self.with_outlines(|a, b| self.decide(a, b));
         }
         matches!(self.probe(0.0, Hint::NONE), Probe::Near(near) if near.overlapping)
@@ -127,7 +143,7 @@ impl Convex<'_> {
     }
 
     fn probe_half_planes(&self, a: Line, b: Line, limit: f64) -> Probe {
-        let precision = self.precision();
+        let precision = self.precision;
         let separation = a.separation_from(&b);
         if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
@@ -147,18 +163,18 @@ impl Convex<'_> {
     }
 
     fn probe_half_plane(&self, line: Line, limit: f64) -> Probe {
-        let precision = self.precision();
+        let precision = self.precision;
         let (vertex, height) = self.with_outlines(|a, b| {
             let core = if line.is_b { a } else { b };
             let (vertex, height) = line.lowest(core);
             (core.point(vertex), height)
         });
-        let separation = height - self.radii();
+        let separation = height - self.radii;
         if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
         let overlapping = separation <= precision.projection();
-        let on_shape = vertex - line.normal * self.radii();
+        let on_shape = vertex - line.normal * self.radii;
         let on_line = vertex - line.normal * height;
         let closest = if line.is_b { [on_shape, on_line] } else { [on_line, on_shape] };
         Probe::Near(Near {
@@ -173,11 +189,11 @@ impl Convex<'_> {
     }
 
     fn probe_points(&self, a: &Outline, b: &Outline, limit: f64) -> Probe {
-        let precision = self.precision();
+        let precision = self.precision;
         let (on_a, on_b) = (a.point(0), b.point(0));
         let distance = (on_b - on_a).length();
         let normal = if distance > 0.0 { (on_b - on_a) / distance } else { DVec2::Y };
-        let separation = distance - self.radii();
+        let separation = distance - self.radii;
         if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
@@ -195,8 +211,8 @@ impl Convex<'_> {
 
     /// Axes first; the decision next; then the number that agrees with it.
     fn probe_outlines(&self, a: &Outline, b: &Outline, limit: f64, hint: Hint) -> Probe {
-        let precision = self.precision();
-        let radii = self.radii();
+        let precision = self.precision;
+        let radii = self.radii;
         let axes = match separating_axes(a, b, limit + radii + precision.projection(), hint) {
             Outcome::Beyond(axis) => {
                 return Probe::Beyond(at_least(axis.separation - radii, &precision), hint_of(&axis));
@@ -242,10 +258,10 @@ impl Convex<'_> {
     /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
     /// overlapped.
     fn all_but_touching(&self, a: &Outline, b: &Outline, axes: Axes) -> Probe {
-        let precision = self.precision();
+        let precision = self.precision;
         let best = axes.best();
-        let overlapping = self.radii() > 0.0;
-        let separation = best.separation.max(0.0) - self.radii();
+        let overlapping = self.radii > 0.0;
+        let separation = best.separation.max(0.0) - self.radii;
         let touch = touch(a, b, &axes, None, 0.0, self.preference());
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         Probe::Near(Near {
@@ -262,7 +278,7 @@ impl Convex<'_> {
     /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the
     /// best axis'. Nothing where the points are too close to tell apart.
     fn witness(&self, a: &Outline, b: &Outline, best: &Axis) -> Option<Witness> {
-        let mut witness = distance(a, b, best.normal, self.precision().size)?;
+        let mut witness = distance(a, b, best.normal, self.precision.size)?;
         if best.separation >= witness.at_least {
             if witness.across == witness.normal {
                 witness.across = best.normal;
@@ -288,7 +304,7 @@ impl Convex<'_> {
     /// Whether the distance iteration finds an axis that parts the cores. It needs no normals, and its axis is
     /// believed only after full projection.
     fn is_parted(&self, a: &Outline, b: &Outline) -> bool {
-        let precision = self.precision();
+        let precision = self.precision;
         let witness = distance(a, b, DVec2::X, precision.size);
         witness.is_some_and(|witness| witness.at_least > precision.projection())
     }
@@ -303,11 +319,6 @@ impl Convex<'_> {
         [line(self.shape_a, false), line(self.shape_b, true)]
     }
 
-    /// Both radii, in metres.
-    fn radii(&self) -> f64 {
-        f64::from(self.shape_a.radius()) + f64::from(self.shape_b.radius())
-    }
-
     pub(crate) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
         let (core_a, core_b): (Core2, Core2) = (self.shape_a.core(), self.shape_b.core());
         let a = Outline::new(&core_a, self.turn_a, DVec2::ZERO, f64::from(self.shape_a.radius()));
@@ -319,19 +330,7 @@ impl Convex<'_> {
     /// floor may be all of a pebble. Never below rounding.
     fn preference(&self) -> f64 {
         let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
-        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision().projection())
-    }
-
-    /// What errors are relative to: the cores' sizes, since radii are added exactly.
-    pub(crate) fn precision(&self) -> Precision {
-        let size = core_size(self.shape_a) + core_size(self.shape_b);
-        let off_center =
-            self.shape_a.center().as_dvec2().length() + self.shape_b.center().as_dvec2().length();
-        Precision {
-            size,
-            reach: size + self.radii() + off_center + self.offset.length() + self.summed,
-            planarity: 0.0,
-        }
+        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision.projection())
     }
 }
 

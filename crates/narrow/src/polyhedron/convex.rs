@@ -36,8 +36,9 @@ pub(crate) struct Convex<'a> {
     pub(crate) relative: Basis3,
     /// B's position seen from A.
     pub(crate) offset: DVec3,
-    /// How long the vectors were that `offset` is a sum of, in metres, where it is one of several.
-    pub(crate) summed: f64,
+    pub(crate) precision: Precision,
+    /// Both radii, in metres.
+    radii: f64,
 }
 
 /// What a pair looks like within a limit.
@@ -76,7 +77,29 @@ enum Evidence {
 
 const IDENTITY: Basis3 = Basis3 { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
 
-impl Convex<'_> {
+impl<'a> Convex<'a> {
+    /// Two shapes, B's axes and position as A sees them. `summed` is how long the vectors were that the position is a
+    /// sum of, in metres, where it is one of several.
+    pub(crate) fn new(shapes: [&'a Shape3; 2], relative: Basis3, offset: DVec3, summed: f64) -> Self {
+        let [shape_a, shape_b] = shapes;
+        let radii = f64::from(shape_a.radius()) + f64::from(shape_b.radius());
+        let planarity = |shape: &Shape3| match shape {
+            Shape3::Hull(hull) => f64::from(Hull::planarity_error(hull)),
+            _ => 0.0,
+        };
+        // What errors are relative to: the cores' sizes, since radii are added exactly.
+        let size = core_size(shape_a) + core_size(shape_b);
+        // Sums of coordinates bound lengths, and need no root.
+        let length = |v: DVec3| v.abs().element_sum();
+        let off_center = length(shape_a.center().as_dvec3()) + length(shape_b.center().as_dvec3());
+        let precision = Precision {
+            size,
+            reach: size + radii + off_center + length(offset) + summed,
+            planarity: planarity(shape_a) + planarity(shape_b),
+        };
+        Self { shape_a, shape_b, relative, offset, precision, radii }
+    }
+
     /// The separation where it is at most `limit` metres; the hinted axis is tried first.
     pub(crate) fn probe(&self, limit: f64, hint: Hint) -> Probe {
         match self.planes() {
@@ -94,10 +117,15 @@ impl Convex<'_> {
 
     /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
     pub(crate) fn overlaps(&self) -> bool {
-        if self.planes() == [None, None] && self.radii() == 0.0 {
+        if self.radii == 0.0
+            && let Some(cuboids) = self.cuboids()
+        {
+            return cuboids.overlaps();
+        }
+        if self.planes() == [None, None] && self.radii == 0.0 {
             return self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
-                    slender::nearest(a, b, self.precision().projection()).distance == 0.0
+                    slender::nearest(a, b, self.precision.projection()).distance == 0.0
                 } else {
                     self.decide(a, b)
                 }
@@ -131,7 +159,7 @@ impl Convex<'_> {
     }
 
     fn probe_half_spaces(&self, a: Plane, b: Plane, limit: f64) -> Probe {
-        let precision = self.precision();
+        let precision = self.precision;
         let separation = a.separation_from(&b);
         if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
@@ -151,18 +179,18 @@ impl Convex<'_> {
     }
 
     fn probe_half_space(&self, plane: Plane, limit: f64) -> Probe {
-        let precision = self.precision();
+        let precision = self.precision;
         let (vertex, height) = self.with_solids(|a, b| {
             let core = if plane.is_b { a } else { b };
             let (vertex, height) = plane.lowest(core);
             (core.point(vertex), height)
         });
-        let separation = height - self.radii();
+        let separation = height - self.radii;
         if separation > limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
         let overlapping = separation <= precision.projection();
-        let on_shape = vertex - plane.normal * self.radii();
+        let on_shape = vertex - plane.normal * self.radii;
         let on_plane = vertex - plane.normal * height;
         let closest = if plane.is_b { [on_shape, on_plane] } else { [on_plane, on_shape] };
         Probe::Near(Near {
@@ -177,11 +205,11 @@ impl Convex<'_> {
     }
 
     fn probe_slender(&self, a: &Solid, b: &Solid, limit: f64) -> Probe {
-        let precision = self.precision();
+        let precision = self.precision;
         let nearest = slender::nearest(a, b, precision.projection());
-        let separation = nearest.distance - self.radii();
-        if nearest.at_least - self.radii() > limit + precision.projection() {
-            return Probe::Beyond(at_least(nearest.at_least - self.radii(), &precision), Hint::NONE);
+        let separation = nearest.distance - self.radii;
+        if nearest.at_least - self.radii > limit + precision.projection() {
+            return Probe::Beyond(at_least(nearest.at_least - self.radii, &precision), Hint::NONE);
         }
         let overlapping = separation <= precision.projection();
         let closest = self.on_surfaces([nearest.on_a, nearest.on_b], nearest.normal);
@@ -198,8 +226,8 @@ impl Convex<'_> {
 
     /// Axes first; the decision next; then the number that agrees with it.
     fn probe_solids(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Probe {
-        let precision = self.precision();
-        let radii = self.radii();
+        let precision = self.precision;
+        let radii = self.radii;
         let axes = match self.axes(a, b, limit + radii + precision.projection(), hint) {
             Outcome::Beyond(axis) => {
                 return Probe::Beyond(at_least(axis.separation - radii, &precision), hint_of(&axis));
@@ -245,10 +273,10 @@ impl Convex<'_> {
     /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
     /// overlapped.
     fn all_but_touching(&self, a: &Solid, b: &Solid, axes: Axes) -> Probe {
-        let precision = self.precision();
+        let precision = self.precision;
         let best = axes.best();
-        let overlapping = self.radii() > 0.0;
-        let separation = best.separation.max(0.0) - self.radii();
+        let overlapping = self.radii > 0.0;
+        let separation = best.separation.max(0.0) - self.radii;
         let touch = touch(a, b, &axes, None, 0.0, self.preference());
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         Probe::Near(Near {
@@ -265,7 +293,7 @@ impl Convex<'_> {
     /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the
     /// best axis'. Nothing where the points are too close to tell apart.
     fn witness(&self, a: &Solid, b: &Solid, best: &Axis) -> Option<Witness> {
-        let mut witness = distance(a, b, best.normal, self.precision().size)?;
+        let mut witness = distance(a, b, best.normal, self.precision.size)?;
         if best.separation >= witness.at_least {
             if witness.across == witness.normal {
                 witness.across = best.normal;
@@ -284,7 +312,7 @@ impl Convex<'_> {
         match self.cuboids() {
             Some(cuboids) => cuboids.separating_axes(a, b, limit, hint),
             None => {
-                let slack = self.preference() + 4.0 * self.precision().planarity;
+                let slack = self.preference() + 4.0 * self.precision.planarity;
                 separating_axes(a, b, limit, hint, slack)
             }
         }
@@ -312,7 +340,7 @@ impl Convex<'_> {
     /// Whether the distance iteration finds an axis that parts the cores. It needs no normals, and its axis is
     /// believed only after full projection.
     fn is_parted(&self, a: &Solid, b: &Solid) -> bool {
-        let precision = self.precision();
+        let precision = self.precision;
         let witness = distance(a, b, DVec3::X, precision.size);
         witness.is_some_and(|witness| witness.at_least > precision.projection())
     }
@@ -333,11 +361,6 @@ impl Convex<'_> {
         [plane(self.shape_a, false), plane(self.shape_b, true)]
     }
 
-    /// Both radii, in metres.
-    fn radii(&self) -> f64 {
-        f64::from(self.shape_a.radius()) + f64::from(self.shape_b.radius())
-    }
-
     pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
         let (core_a, core_b): (Core3, Core3) = (self.shape_a.core(), self.shape_b.core());
         let a = Solid::new(&core_a, IDENTITY, DVec3::ZERO, f64::from(self.shape_a.radius()));
@@ -349,23 +372,7 @@ impl Convex<'_> {
     /// floor may be all of a pebble. Never below rounding.
     fn preference(&self) -> f64 {
         let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
-        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision().projection())
-    }
-
-    /// What errors are relative to: the cores' sizes, since radii are added exactly.
-    pub(crate) fn precision(&self) -> Precision {
-        let planarity = |shape: &Shape3| match shape {
-            Shape3::Hull(hull) => f64::from(Hull::planarity_error(hull)),
-            _ => 0.0,
-        };
-        let size = core_size(self.shape_a) + core_size(self.shape_b);
-        let off_center =
-            self.shape_a.center().as_dvec3().length() + self.shape_b.center().as_dvec3().length();
-        Precision {
-            size,
-            reach: size + self.radii() + off_center + self.offset.length() + self.summed,
-            planarity: planarity(self.shape_a) + planarity(self.shape_b),
-        }
+        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision.projection())
     }
 }
 

@@ -54,13 +54,8 @@ impl Random {
 
 /// A pair in A's axes.
 fn convex<'a>(shape_a: &'a Shape3, pose_a: Pose3, shape_b: &'a Shape3, pose_b: Pose3) -> Convex<'a> {
-    Convex {
-        shape_a,
-        shape_b,
-        relative: pose_b.basis().relative_to(&pose_a.basis()),
-        offset: pose_a.transform_back(pose_b.position()),
-        summed: 0.0,
-    }
+    let relative = pose_b.basis().relative_to(&pose_a.basis());
+    Convex::new([shape_a, shape_b], relative, pose_a.transform_back(pose_b.position()), 0.0)
 }
 
 /// The greatest separation along any cross product of edges, whichever way it points.
@@ -97,7 +92,7 @@ fn pruned_and_exhaustive_agree_within_the_reported_error() {
             assert!(pruned <= exhaustive, "case {case}");
             // In a gap the greatest axis of all need not be one whose arcs cross; there the distance decides.
             if exhaustive <= 0.0 {
-                let error = f64::from(pair.precision().of_separation(pruned));
+                let error = f64::from(pair.precision.of_separation(pruned));
                 assert!(
                     exhaustive - pruned <= error,
                     "case {case}: {pruned} against {exhaustive}, error {error}"
@@ -137,7 +132,7 @@ fn half_circles_and_whole_circles_lose_no_axis_either() {
             let faces = axes.face_a.separation.max(axes.face_b.separation);
             let exhaustive = faces.max(all_edge_pairs(a, b));
             if exhaustive <= 0.0 {
-                let error = f64::from(pair.precision().of_separation(exhaustive));
+                let error = f64::from(pair.precision.of_separation(exhaustive));
                 assert!(exhaustive - axes.best().separation <= error, "case {case}: {exhaustive}");
                 decided_by_edges += usize::from(axes.edges.separation > faces);
             }
