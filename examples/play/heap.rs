@@ -80,7 +80,7 @@ fn shape(number: usize, random: &mut Random) -> Result<Shape3, Box<dyn Error>> {
         }
         4 => {
             let head = Cuboid::from_half_extents(Vec3::new(0.22, 0.1, 0.1))?.rounded(0.03)?;
-            let handle = Capsule3::from_half_height(0.3, 0.06)?;
+            let handle = Capsule3::from_half_height(0.26, 0.09)?;
             let parts = [(Pose3::at([0.0, 0.3, 0.0])?, head.into()), (Pose3::IDENTITY, handle.into())];
             Compound3::new(parts)?.into()
         }
