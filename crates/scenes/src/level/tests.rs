@@ -287,7 +287,7 @@ fn content_faults_name_their_path_in_space() {
         (
             "[0, 1, 0], [0, 0, 1]",
             "[0, 1, 0], [1, 1, 0]",
-            "shapes[\"rock\"].hull: the points lie in one plane: move one off it",
+            "shapes[\"rock\"].hull: the points lie in one plane: use Hull::of_any_dimension, or move one off it",
         ),
         (
             "[0, 0, 1]]",
