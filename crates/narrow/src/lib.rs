@@ -28,6 +28,7 @@
 mod answer;
 mod batch;
 mod feature;
+mod least;
 mod pair2;
 mod pair3;
 mod polygon;

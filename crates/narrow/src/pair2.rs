@@ -3,9 +3,9 @@
 use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2};
 use crate::batch::Batch2;
 use crate::feature::Hint;
+use crate::least::Least;
 use crate::polygon::convex::{Convex, Near, Probe};
 use crate::polygon::outline::Turn;
-use crate::precision::rounded_down;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
@@ -185,46 +185,29 @@ impl<'a> Pair2<'a> {
 
     /// The pair of parts with the least separation, or a bound where all are beyond the limit.
     fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
-        let mut best: Option<(Parts<'a>, Near)> = None;
-        let (mut at_least, mut beyond, mut lowest) = (limit, f32::INFINITY, f64::INFINITY);
+        let mut least = Least::within(limit);
         let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
         for_parts(self.shape_a, &self.turn_a, |a| {
-            let bound = gap(&a, &whole_b);
-            if bound > at_least {
-                beyond = beyond.min(rounded_down(bound));
+            if least.passes_over(gap(&a, &whole_b)) {
                 return false;
             }
             for_parts(self.shape_b, &self.turn_b, |b| {
-                let bound = gap(&a, &b);
-                if bound > at_least {
-                    beyond = beyond.min(rounded_down(bound));
-                    return false;
-                }
-                let parts = self.parts(a, b);
-                match parts.convex.probe(at_least, Hint::NONE) {
-                    Probe::Beyond(bound, _) => beyond = beyond.min(bound),
-                    Probe::Near(near) => {
-                        lowest = lowest.min(f64::from(near.separation) - f64::from(near.error));
-                        if best.as_ref().is_none_or(|(_, known)| near.separation < known.separation) {
-                            at_least = at_least.min(f64::from(near.separation).max(0.0));
-                            best = Some((parts, near));
+                if !least.passes_over(gap(&a, &b)) {
+                    let parts = self.parts(a, b);
+                    match parts.convex.probe(least.reach(), Hint::NONE) {
+                        Probe::Beyond(at_least, _) => least.give_up(at_least),
+                        Probe::Near(near) => {
+                            let (separation, error) = (near.separation, near.error);
+                            least.offer((parts, near), separation, error);
                         }
                     }
                 }
                 false
             })
         });
-        let (parts, mut near) = best.ok_or(beyond)?;
-        // Beyond the limit, parts that were given up on may be nearer than the one that was measured.
-        if f64::from(near.separation) > limit && near.separation > beyond {
-            return Err(beyond);
-        }
-        // The nearest may truly be another pair of parts, whose error is larger.
-        let short = f64::from(near.separation) - lowest;
-        if short > f64::from(near.error) {
-            near.error = (short as f32).next_up();
-        }
+        let ((parts, mut near), error) = least.finish()?;
+        near.error = error;
         Ok((parts, near))
     }
 

@@ -1,0 +1,108 @@
+//! The least of several separations: what two bodies made of parts are apart.
+
+use crate::precision::rounded_down;
+
+/// Pairs of parts, asked one after the other, of which the nearest counts. The dimension does not matter here.
+pub(crate) struct Least<P> {
+    /// Beyond it nobody wants to know.
+    limit: f64,
+    /// Parts further apart than this need no looking at: the limit, or the least separation so far.
+    reach: f64,
+    /// The least bound of parts that were given up on.
+    beyond: f32,
+    /// The least that any separation may truly be.
+    lowest: f64,
+    best: Option<Nearest<P>>,
+}
+
+struct Nearest<P> {
+    parts: P,
+    separation: f32,
+    error: f32,
+}
+
+impl<P> Least<P> {
+    pub(crate) fn within(limit: f64) -> Self {
+        Self { limit, reach: limit, beyond: f32::INFINITY, lowest: f64::INFINITY, best: None }
+    }
+
+    /// How near parts must be to matter.
+    pub(crate) fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// Whether parts at least so far apart need no looking at; if so they are done with.
+    pub(crate) fn passes_over(&mut self, at_least: f64) -> bool {
+        let is_out_of_reach = at_least > self.reach;
+        if is_out_of_reach {
+            self.give_up(rounded_down(at_least));
+        }
+        is_out_of_reach
+    }
+
+    /// Parts that turned out to be at least so far apart, and that beyond reach.
+    pub(crate) fn give_up(&mut self, at_least: f32) {
+        self.beyond = self.beyond.min(at_least);
+    }
+
+    /// Parts whose separation was measured. Of equals, the first counts.
+    pub(crate) fn offer(&mut self, parts: P, separation: f32, error: f32) {
+        self.lowest = self.lowest.min(f64::from(separation) - f64::from(error));
+        if self.best.as_ref().is_none_or(|known| separation < known.separation) {
+            self.reach = self.reach.min(f64::from(separation).max(0.0));
+            self.best = Some(Nearest { parts, separation, error });
+        }
+    }
+
+    /// The nearest parts, and an error that covers all others; or how far apart all are at least, beyond the limit.
+    pub(crate) fn finish(self) -> Result<(P, f32), f32> {
+        let Nearest { parts, separation, error } = self.best.ok_or(self.beyond)?;
+        // Beyond the limit, parts that were given up on may be nearer than the one that was measured.
+        if f64::from(separation) > self.limit && separation > self.beyond {
+            return Err(self.beyond);
+        }
+        // Others may truly be nearer, if their errors are larger.
+        let short = f64::from(separation) - self.lowest;
+        Ok((parts, if short > f64::from(error) { (short as f32).next_up() } else { error }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_counts_and_its_error_covers_the_others() {
+        let mut least = Least::within(f64::INFINITY);
+        least.offer("far", 3.0, 0.1);
+        least.offer("wide", 2.0, 0.75);
+        least.offer("near", 1.5, 0.1);
+        assert_eq!(least.reach(), 1.5);
+        assert!(least.passes_over(1.6) && !least.passes_over(1.4));
+        let (parts, error) = least.finish().unwrap();
+        // "wide" may be as near as 1.25.
+        assert!(parts == "near" && (0.25..0.2501).contains(&error), "{parts} {error}");
+    }
+
+    #[test]
+    fn beyond_the_limit_a_measured_separation_is_no_better_than_a_bound() {
+        let mut least = Least::within(1.0);
+        least.offer("measured", 5.0, 0.0);
+        least.give_up(1.25);
+        assert_eq!(least.finish(), Err(1.25));
+        let mut least = Least::within(1.0);
+        least.give_up(1.25);
+        least.offer("measured", 1.125, 0.0);
+        assert_eq!(least.finish(), Ok(("measured", 0.0)));
+        assert_eq!(Least::<&str>::within(1.0).finish(), Err(f32::INFINITY));
+    }
+
+    #[test]
+    fn overlap_hides_nothing_deeper() {
+        let mut least = Least::within(0.0);
+        least.offer("shallow", -0.5, 0.0);
+        assert_eq!(least.reach(), 0.0);
+        least.offer("deep", -2.0, 0.0);
+        assert_eq!(least.finish(), Ok(("deep", 0.0)));
+    }
+}
