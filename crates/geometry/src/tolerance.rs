@@ -44,7 +44,7 @@ pub const FACE_PREFERENCE: f64 = 5e-7;
 /// boxes standing on one point; at a larger one the far corners are out of any useful margin.
 pub const ALIGNED_FACES: f64 = 0.995;
 
-/// Share of a pair's size that is always part of a reported separation's error.
+/// Share of a pair's size that is part of every error of a separation in overlap that axes were tried for.
 ///
 /// Covers the axes that nearly parallel edges leave out, and the noise of those just above that limit. The derivation
 /// stands in `docs/accuracy.md`.

@@ -76,8 +76,9 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// The sum of the two bounding radii, in metres: what tolerances of this pair are relative to. Infinite with a
-    /// half-plane, whose pairs have tolerances relative to the other shape.
+    /// The sum of the two bounding radii, in metres: the measure of this pair. Errors are relative to what is left of
+    /// it without the rounding radii. Infinite with a half-plane, whose pairs have tolerances relative to the other
+    /// shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
@@ -228,8 +229,8 @@ impl<'a> Pair2<'a> {
         matches!(self.shape_a, Shape2::Compound(_)) || matches!(self.shape_b, Shape2::Compound(_))
     }
 
-    /// A lower bound on the separation of two parts: the gap between their bounding circles, less what it may have lost to
-    /// rounding.
+    /// A lower bound on the separation of two parts: the gap between their bounding circles, less what it may have
+    /// lost to rounding.
     fn gap(&self, a: &Part, b: &Part) -> f64 {
         let apart = (self.between + b.center - a.center).length();
         // A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.

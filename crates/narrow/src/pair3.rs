@@ -17,8 +17,8 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 /// | half-space, anything | its plane's normal alone: one dot product a vertex | lowest vertex | face that looks at the plane |
 /// | half-space, half-space | planes that look exactly away from each other; else they overlap without end | half way | one, or none |
 /// | sphere, capsule, segment among themselves | closest points of segments, in closed form | the same | one, or two where they lie side by side |
-/// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, or crossing edges |
-/// | cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | clipped faces, or crossing edges |
+/// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, crossing edges, or edges side by side |
+/// | cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | as for cuboids |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 ///
 /// Radii (of spheres, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off.
@@ -72,8 +72,9 @@ impl<'a> Pair3<'a> {
         Self { shape_a, shape_b, basis_a: pose_a.basis(), basis_b: pose_b.basis(), between }
     }
 
-    /// The sum of the two bounding radii, in metres: what tolerances of this pair are relative to. Infinite with a
-    /// half-space, whose pairs have tolerances relative to the other shape.
+    /// The sum of the two bounding radii, in metres: the measure of this pair. Errors are relative to what is left of
+    /// it without the rounding radii. Infinite with a half-space, whose pairs have tolerances relative to the other
+    /// shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
@@ -224,8 +225,8 @@ impl<'a> Pair3<'a> {
         matches!(self.shape_a, Shape3::Compound(_)) || matches!(self.shape_b, Shape3::Compound(_))
     }
 
-    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have lost to
-    /// rounding.
+    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have
+    /// lost to rounding.
     fn gap(&self, a: &Part, b: &Part) -> f64 {
         let apart = (self.between + b.center - a.center).length();
         let radii = f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius());

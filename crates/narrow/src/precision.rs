@@ -16,7 +16,7 @@ use asunder_geometry::tolerance::SEPARATION_ERROR;
 /// Everything about a pair that its error depends on, in metres.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Precision {
-    /// Sum of the two bounding radii.
+    /// Sum of the cores' bounding radii; a half-space has none.
     pub(crate) size: f64,
     /// The largest coordinate that a projection can meet.
     pub(crate) reach: f64,

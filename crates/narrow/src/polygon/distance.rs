@@ -32,6 +32,13 @@ pub(crate) struct Witness {
     pub(crate) corners: ArrayVec<[usize; 2], 3>,
 }
 
+impl Witness {
+    /// Whether the points are so close for a pair of this size that the axis from one to the other is rounding.
+    pub(crate) fn is_close(&self, size: f64) -> bool {
+        self.distance <= TELLING * size
+    }
+}
+
 /// Corners of the difference A - B in use: their vertices, their places, their shares of the nearest point.
 type Simplex = ArrayVec<([usize; 2], DVec2, f64), 3>;
 
@@ -45,28 +52,31 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, size: f64) ->
     simplex.push(corner(towards_b));
     let mut v = simplex[0].1;
     let (mut at_least, mut normal) = (f64::NEG_INFINITY, towards_b);
-    for _ in 0..MAX_STEPS {
+    'steps: for _ in 0..MAX_STEPS {
         let length = v.length();
         if length <= f64::EPSILON * size {
             return None;
         }
-        let direction = -v / length;
-        let found = corner(direction);
-        let bound = -direction.dot(found.1);
-        if bound > at_least {
-            (at_least, normal) = (bound, direction);
+        for direction in to_origin(&simplex, v) {
+            let found = corner(direction);
+            let bound = -direction.dot(found.1);
+            if bound > at_least {
+                (at_least, normal) = (bound, direction);
+            }
+            if length - at_least <= DISTANCE_GAP * size {
+                break 'steps;
+            }
+            if simplex.iter().all(|known| known.0 != found.0) && !simplex.is_full() {
+                let mut wider = simplex.clone();
+                wider.push(found);
+                let (nearest, place) = nearest_to_origin(&wider)?;
+                if place.length() < length {
+                    (simplex, v) = (nearest, place);
+                    continue 'steps;
+                }
+            }
         }
-        let brings_nothing = simplex.iter().any(|known| known.0 == found.0);
-        if length - at_least <= DISTANCE_GAP * size || brings_nothing || simplex.is_full() {
-            break;
-        }
-        let mut wider = simplex.clone();
-        wider.push(found);
-        let (nearest, place) = nearest_to_origin(&wider)?;
-        if place.length() >= length {
-            break;
-        }
-        (simplex, v) = (nearest, place);
+        break;
     }
     // Weighted differences from the first corner, and not weighted corners: what the weights' sum lost shrinks with
     // them.
@@ -79,8 +89,21 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, size: f64) ->
     let (point_a, point_b) = (weighted(a, 0), weighted(b, 1));
     let corners = simplex.iter().map(|&(vertices, ..)| vertices).collect();
     let distance = (point_b - point_a).length();
-    let across = if distance > TELLING * size { (point_b - point_a) / distance } else { normal };
-    Some(Witness { distance, at_least, normal, across, point_a, point_b, corners })
+    let mut witness = Witness { distance, at_least, normal, across: normal, point_a, point_b, corners };
+    if !witness.is_close(size) {
+        witness.across = (point_b - point_a) / distance;
+    }
+    Some(witness)
+}
+
+/// Unit directions from the nearest point to the origin: straight, and square to the simplex, as in space.
+fn to_origin(simplex: &Simplex, nearest: DVec2) -> [DVec2; 2] {
+    let straight = -nearest.normalize();
+    let square = match *simplex.as_slice() {
+        [(_, a, _), (_, b, _)] => (b - a).perp().try_normalize().unwrap_or(straight),
+        _ => straight,
+    };
+    [straight, if square.dot(straight) < 0.0 { -square } else { square }]
 }
 
 /// The corners that carry the nearest point, and that point; nothing where a triangle holds the origin.

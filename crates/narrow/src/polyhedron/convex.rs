@@ -9,7 +9,7 @@
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
 //! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as
-//! touching: bodies on a grid touch exactly and often, and are never apart by so little.
+//! touching: bodies on a grid touch exactly and often, and are hardly ever apart by so little.
 //!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
 //! plane out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
@@ -295,7 +295,7 @@ impl<'a> Convex<'a> {
     fn witness(&self, a: &Solid, b: &Solid, best: &Axis) -> Option<Witness> {
         let mut witness = distance(a, b, best.normal, self.precision.size)?;
         if best.separation >= witness.at_least {
-            if witness.across == witness.normal {
+            if witness.is_close(self.precision.size) {
                 witness.across = best.normal;
             }
             (witness.at_least, witness.normal) = (best.separation, best.normal);

@@ -42,6 +42,13 @@ pub(crate) struct Witness {
     pub(crate) corners: ArrayVec<[usize; 2], 4>,
 }
 
+impl Witness {
+    /// Whether the points are so close for a pair of this size that the axis from one to the other is rounding.
+    pub(crate) fn is_close(&self, size: f64) -> bool {
+        self.distance <= TELLING * size
+    }
+}
+
 /// Corners of the difference A - B that carry its nearest point to the origin so far.
 #[derive(Clone)]
 struct Simplex {
@@ -87,8 +94,11 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, size: f64) -> Opt
     let (point_a, point_b) = (simplex.weighted(a, 0), simplex.weighted(b, 1));
     let corners = simplex.corners.iter().map(|&(corner, _)| corner).collect();
     let distance = (point_b - point_a).length();
-    let across = if distance > TELLING * size { (point_b - point_a) / distance } else { normal };
-    Some(Witness { distance, at_least, normal, across, point_a, point_b, corners })
+    let mut witness = Witness { distance, at_least, normal, across: normal, point_a, point_b, corners };
+    if !witness.is_close(size) {
+        witness.across = (point_b - point_a) / distance;
+    }
+    Some(witness)
 }
 
 impl Simplex {

@@ -65,12 +65,13 @@ impl Plane {
         let within = margin.max(deep - core.radius);
         let face = opposed_face(core, self.normal, preference);
         // What is higher belongs to a tilted face, whose surface lies out along its own normal.
-        let outwards = core.outwards(face, -self.normal) * core.radius;
+        let outwards = core.outwards(face, -self.normal);
         let mut points: ArrayVec<Point, MAX_HULL_VERTICES> = ArrayVec::new();
         for vertex in core.topology.face_vertices(face) {
             let corner = core.point(vertex);
-            let is_deep = self.height(corner) <= deep;
-            let point = if is_deep { corner - self.normal * core.radius } else { corner + outwards };
+            let is_deep = vertex == lowest || self.height(corner) <= deep;
+            let Some(outwards) = (if is_deep { Some(-self.normal) } else { outwards }) else { continue };
+            let point = corner + outwards * core.radius;
             let separation = if is_deep { self.height(corner) - core.radius } else { self.height(point) };
             if separation > within && vertex != lowest {
                 continue;

@@ -311,7 +311,10 @@ fn clipped_points(
     let mut points: ArrayVec<Point, MAX_CORNERS> = ArrayVec::new();
     let mut rings = [Ring::new_const(), Ring::new_const()];
     let mut offer = |new: Point| {
-        if new.separation <= depths.within && points.iter().all(|known| known.feature != new.feature) {
+        // Where edges run over corners, several features meet in one place: the first names it.
+        let is_known =
+            |known: &Point| known.feature == new.feature || (known.on_a - new.on_a).length() <= depths.slack;
+        if new.separation <= depths.within && !points.iter().any(is_known) {
             let _ = points.try_push(new);
         }
     };
@@ -322,10 +325,10 @@ fn clipped_points(
             offer(reference.lowest(corner.point, incident.radius, corner.features));
         }
     }
-    if !is_sharp {
-        // What is less deep belongs to a tilted face, and lies out along its normal; there the corners are cut again.
-        let outwards = incident.outwards(incident_face, -reference.along) * incident.radius;
-        let sides = [reference.facing * solid.radius, outwards];
+    // What is less deep belongs to a tilted face, and lies out along its normal; there the corners are cut again.
+    let outwards = incident.outwards(incident_face, -reference.along).filter(|_| !is_sharp);
+    if let Some(outwards) = outwards {
+        let sides = [reference.facing * solid.radius, outwards * incident.radius];
         for corner in clip((solid, face), (incident, incident_face), reference.along, sides, &mut rings) {
             offer(reference.over_surface(corner.point, corner.features));
         }

@@ -10,6 +10,9 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::ALIGNED_FACES;
 
+/// Share of a rod's length by which a place on it may be past its end, and count as the end.
+const SHARE: f64 = 1e-9;
+
 /// An edge of a core, or all of a segment.
 pub(super) struct Rod {
     ends: [DVec3; 2],
@@ -151,6 +154,7 @@ impl Over {
         let (lean, squared) = (outwards.dot(rod.along()), rod.along().length_squared());
         let rise = rod.radius / (1.0 - lean * lean / squared).sqrt();
         let foot = place + rise * lean / squared;
-        (0.0..=1.0).contains(&foot).then_some(rise)
+        // The end of a stretch is most often the end of a rod, and square to the normal up to rounding.
+        (-SHARE..=1.0 + SHARE).contains(&foot).then_some(rise)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::sat::Arc;
 use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::tolerance::ALIGNED_FACES;
 use asunder_geometry::{Basis3, Core3, Topology};
 
 /// A core in the frame of a pair: A's axes, about A's position. Most often a polyhedron; a triangle or flat hull has
@@ -62,16 +63,16 @@ impl<'a> Solid<'a> {
         self.basis.turn(self.normals[face])
     }
 
-    /// The direction in which the shape's surface lies beyond a face of its core; beyond a point or segment, the one
-    /// nearest to `towards`, which is of unit length.
-    pub(crate) fn outwards(&self, face: usize, towards: DVec3) -> DVec3 {
+    /// The direction in which the shape's surface lies beyond a face of its core; beyond a segment, the one across it
+    /// that is nearest to `towards`, which is of unit length. Nothing for a segment that all but points there, nor
+    /// for a point: nothing of them but the end looks that way.
+    pub(crate) fn outwards(&self, face: usize, towards: DVec3) -> Option<DVec3> {
         if !self.is_slender() {
-            return self.normal(face);
+            return Some(self.normal(face));
         }
-        let along = self.point(self.vertices.len() - 1) - self.point(0);
-        let share = along.dot(towards) / along.length_squared();
-        let across = if share.is_nan() { towards } else { towards - along * share };
-        across.try_normalize().unwrap_or(towards)
+        let along = (self.point(self.vertices.len() - 1) - self.point(0)).try_normalize()?;
+        let across = towards - along * along.dot(towards);
+        (across.length_squared() > 1.0 - ALIGNED_FACES * ALIGNED_FACES).then(|| across.normalize())
     }
 
     /// Outward normal of a face, of any length: enough for a yes or no, and rounded less. Newell's area vector, about
