@@ -133,3 +133,52 @@ fn nearly_touching_is_told_alike_from_both_sides() {
         assert!((from_one - from_other).abs() < 1e-9, "step {step}: {from_one}, {from_other}");
     }
 }
+
+/// Symptom: a third of the poses of one pill lying on another had one point, the rest two. Cause: whether a point lay past the
+/// end of a segment was asked without slack, of points that lie exactly on it.
+#[test]
+fn a_lean_of_a_hair_costs_no_point() {
+    let below: Shape3 = Capsule3::new(Vec3::NEG_X, Vec3::X, 0.25).unwrap().into();
+    let above: Shape3 = Capsule3::new(Vec3::X * -0.8, Vec3::X * 0.8, 0.1).unwrap().into();
+    for lean in [0.0, 1e-5, -1e-3, 1e-2] {
+        for step in 0..300 {
+            let place = DVec3::new(0.3, 0.33 + 1e-9 * f64::from(step), 0.003);
+            let there = Pose3::new(place, Quat::from_xyzw(0.0, 0.0, 0.5 * lean, 1.0)).unwrap();
+            let manifold = Pair3::new(&below, &Pose3::IDENTITY, &above, &there).manifold(0.1).unwrap();
+            assert_eq!(manifold.points.len(), 2, "lean {lean}, step {step}");
+        }
+    }
+}
+
+/// Symptom: an upright pill had a contact point at its own centre. Cause: the far end of its segment was within a wide margin,
+/// and its surface was looked for across a segment that points at the floor.
+#[test]
+fn an_upright_capsule_stands_on_its_lower_end_alone() {
+    let pill: Shape3 = Capsule3::from_half_height(0.1, 0.1).unwrap().into();
+    let grounds = [(floor(), 0.0), (cube(0.5), -0.5)];
+    for (ground, level) in grounds {
+        for turn in [0.0, 1e-9, 1e-3] {
+            let here = Pose3::at([0.0, level, 0.0]).unwrap();
+            let there = Pose3::new(DVec3::Y * 0.21, Quat::from_xyzw(0.0, 0.0, turn, 1.0)).unwrap();
+            let manifold = Pair3::new(&ground, &here, &pill, &there).manifold(0.35).unwrap();
+            let heights: Vec<f32> = manifold.points.iter().map(|point| point.anchor_b.y).collect();
+            assert!(heights.len() == 1 && heights[0] < -0.19, "turn {turn}: {heights:?}");
+        }
+    }
+}
+
+/// Symptom: a box that touched a box at a corner had three points there. Cause: points were told apart by their names alone.
+#[test]
+fn a_place_is_one_point_whatever_meets_there() {
+    let boxes = [Vec3::new(0.58761305, 0.4661633, 0.1709751), Vec3::new(0.5592223, 0.69282347, 0.15741427)];
+    let [a, b] = boxes.map(|half| Shape3::from(Cuboid::from_half_extents(half).unwrap()));
+    let here = Pose3::new(DVec3::ZERO, Quat::from_xyzw(0.008610252, 0.0, 0.0, 0.9999629)).unwrap();
+    let place = DVec3::new(0.36914862153427636, 1.1669343495264553, -0.35940147500106884);
+    let turn = Quat::from_xyzw(0.001102973, 0.9938608, 0.009948812, 0.11018416);
+    let manifold = Pair3::new(&a, &here, &b, &Pose3::new(place, turn).unwrap()).manifold(0.05).unwrap();
+    for (i, point) in manifold.points.iter().enumerate() {
+        for other in &manifold.points[..i] {
+            assert!((point.anchor_a - other.anchor_a).length() > 1e-5, "{manifold:?}");
+        }
+    }
+}
