@@ -10,7 +10,7 @@ use core::f64::consts::{PI, TAU};
 /// Half the side of a half-space's square, and of a half-plane's, in metres.
 const FAR: f64 = 30.0;
 /// Steps of a full turn on a round surface.
-const TURN: usize = 20;
+const TURN: usize = 16;
 
 /// A face in the world.
 pub(super) struct Face {
@@ -66,9 +66,11 @@ fn surface(shape: &Shape3) -> Vec<Vec3> {
     let corners = core.normals().iter().enumerate().flat_map(|(face, normal)| {
         core.topology().face_vertices(face).map(|i| core.vertices()[i].as_dvec3() + *normal * radius)
     });
-    let rings = (1..TURN / 2).flat_map(|ring| {
-        let (sin, cos) = libm::sincos(PI * ring as f64 / (TURN / 2) as f64);
-        circle().map(move |facing| DVec3::new(facing.x * sin, cos, facing.y * sin))
+    // Round edges are narrow beside the flat sides: fewer steps will do.
+    let turn = if core.normals().is_empty() { TURN } else { TURN / 2 };
+    let rings = (1..turn / 2).flat_map(|ring| {
+        let (sin, cos) = libm::sincos(PI * ring as f64 / (turn / 2) as f64);
+        circle(turn).map(move |facing| DVec3::new(facing.x * sin, cos, facing.y * sin))
     });
     let round = rings.chain([DVec3::Y, DVec3::NEG_Y]).filter_map(|direction| shape.support(direction));
     corners.chain(round).map(DVec3::as_vec3).collect()
@@ -100,7 +102,7 @@ fn outline(shape: &Shape2) -> Vec<DVec2> {
                 let ends = [edge, (edge + 1) % core.vertices().len()];
                 ends.map(|i| core.vertices()[i].as_dvec2() + *normal * f64::from(shape.radius()))
             });
-            let round = circle().filter_map(|direction| shape.support(direction));
+            let round = circle(2 * TURN).filter_map(|direction| shape.support(direction));
             let points: Vec<Vec2> = sides.chain(round).map(DVec2::as_vec2).collect();
             Polygon::hull_of(&points).map_or(Vec::new(), |polygon| polygon.vertices().to_vec())
         }
@@ -110,9 +112,9 @@ fn outline(shape: &Shape2) -> Vec<DVec2> {
 }
 
 /// Directions all around.
-fn circle() -> impl Iterator<Item = DVec2> + Clone {
-    (0..TURN).map(|i| {
-        let (sin, cos) = libm::sincos(TAU * i as f64 / TURN as f64);
+fn circle(turn: usize) -> impl Iterator<Item = DVec2> + Clone {
+    (0..turn).map(move |i| {
+        let (sin, cos) = libm::sincos(TAU * i as f64 / turn as f64);
         DVec2::new(cos, sin)
     })
 }

@@ -121,6 +121,9 @@ impl Solid {
 
     fn draw(&self, canvas: &mut Canvas, view: &View, number: usize) {
         let color = self.color(number);
+        if let Some(ends) = self.rod() {
+            return self.draw_rod(canvas, view, ends, color);
+        }
         for face in self.faces.iter().filter(|face| face.normal.dot(view.toward_viewer) > 0.0) {
             let shaded = view.shade(color, face.normal);
             let corners: Vec<DVec2> = face.corners.iter().map(|&corner| view.project(corner)).collect();
@@ -138,6 +141,27 @@ impl Solid {
             } else if matches!(self.part.shape(), Shape3::Cuboid(_)) && !is_round {
                 draw_boards(canvas, &corners, Pen::line(shaded * 0.72, 0.6));
             }
+        }
+    }
+
+    /// The ends of a ball's or a capsule's segment in the world.
+    fn rod(&self) -> Option<[DVec3; 2]> {
+        let core = self.part.shape().core();
+        let (&first, &last) = (core.vertices().first()?, core.vertices().last()?);
+        let is_round = self.part.shape().radius() > 0.0 && core.normals().is_empty();
+        is_round.then(|| [first, last].map(|vertex| self.part.pose().transform(vertex)))
+    }
+
+    /// Seen from afar in parallel, a capsule is a thick line with round ends, and so is the light on it: a few strokes in
+    /// place of a hundred faces.
+    fn draw_rod(&self, canvas: &mut Canvas, view: &View, ends: [DVec3; 2], color: Color) {
+        let radius = f64::from(self.part.shape().radius());
+        let lit = DVec2::new(view.light.dot(view.right), view.light.dot(view.up));
+        let opacity = if self.part.is_sensor() { 0.4 } else { 1.0 };
+        for (share, tone) in [(1.0, 0.5), (0.86, 0.66), (0.66, 0.82), (0.42, 0.95), (0.18, 1.06)] {
+            let [from, to] = ends.map(|end| view.project(end) + lit * (radius * 0.55 * (1.0 - share)));
+            let pen = Pen::line(color * tone, 2.0 * radius * share * canvas.pixels);
+            canvas.line(from, to, pen.faint(opacity));
         }
     }
 
