@@ -63,6 +63,18 @@ pub(crate) struct Near {
     evidence: Evidence,
 }
 
+/// What a kernel in closed form says of two shapes.
+struct Told {
+    separation: f64,
+    /// A lower bound on it.
+    at_least: f64,
+    /// Unit axis from A to B.
+    normal: DVec2,
+    /// Closest points on the surfaces; they mean nothing in overlap.
+    closest: [DVec2; 2],
+    evidence: Evidence,
+}
+
 #[allow(clippy::large_enum_variant, reason = "as Probe")]
 enum Evidence {
     /// The best axes; closest points of the cores, where those do not overlap.
@@ -143,69 +155,62 @@ impl<'a> Convex<'a> {
     }
 
     fn probe_half_planes(&self, a: Line, b: Line, limit: f64) -> Probe {
-        let precision = self.precision;
         let separation = a.separation_from(&b);
-        if separation > limit + precision.projection() {
-            return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
-        }
-        let overlapping = separation <= precision.projection();
-        let error =
-            if separation == f64::NEG_INFINITY { 0.0 } else { precision.of_distance(separation, 0.0) };
-        Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
-            error,
-            normal: a.axis(),
-            closest: (!overlapping).then(|| a.points_with(&b)),
-            hint: Hint::NONE,
-            evidence: Evidence::HalfPlanes(a, b),
-        })
+        self.told(
+            Told {
+                separation,
+                at_least: separation,
+                normal: a.axis(),
+                closest: a.points_with(&b),
+                evidence: Evidence::HalfPlanes(a, b),
+            },
+            limit,
+        )
     }
 
     fn probe_half_plane(&self, line: Line, limit: f64) -> Probe {
-        let precision = self.precision;
         let (vertex, height) = self.with_outlines(|a, b| {
             let core = if line.is_b { a } else { b };
             let (vertex, height) = line.lowest(core);
             (core.point(vertex), height)
         });
         let separation = height - self.radii;
-        if separation > limit + precision.projection() {
-            return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
-        }
-        let overlapping = separation <= precision.projection();
         let on_shape = vertex - line.normal * self.radii;
         let on_line = vertex - line.normal * height;
         let closest = if line.is_b { [on_shape, on_line] } else { [on_line, on_shape] };
-        Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
-            error: precision.of_distance(separation, 0.0),
-            normal: line.axis(),
-            closest: (!overlapping).then_some(closest),
-            hint: Hint::NONE,
-            evidence: Evidence::HalfPlane(line),
-        })
+        let evidence = Evidence::HalfPlane(line);
+        self.told(Told { separation, at_least: separation, normal: line.axis(), closest, evidence }, limit)
     }
 
     fn probe_points(&self, a: &Outline, b: &Outline, limit: f64) -> Probe {
-        let precision = self.precision;
         let (on_a, on_b) = (a.point(0), b.point(0));
         let distance = (on_b - on_a).length();
         let normal = if distance > 0.0 { (on_b - on_a) / distance } else { DVec2::Y };
         let separation = distance - self.radii;
-        if separation > limit + precision.projection() {
-            return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
+        let closest = self.on_surfaces([on_a, on_b], normal);
+        let evidence = Evidence::Points;
+        self.told(Told { separation, at_least: separation, normal, closest, evidence }, limit)
+    }
+
+    /// What a kernel without axes to try has told, within the limit: here a number decides, up to rounding.
+    fn told(&self, told: Told, limit: f64) -> Probe {
+        let Told { separation, at_least: bound, normal, closest, evidence } = told;
+        let precision = self.precision;
+        if bound > limit + precision.projection() {
+            return Probe::Beyond(at_least(bound, &precision), Hint::NONE);
         }
         let overlapping = separation <= precision.projection();
+        // Half-spaces that overlap without end do so exactly.
+        let is_endless = separation == f64::NEG_INFINITY;
+        let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
         Probe::Near(Near {
             overlapping,
             separation: signed(separation, overlapping),
-            error: precision.of_distance(separation, 0.0),
+            error,
             normal,
-            closest: (!overlapping).then(|| self.on_surfaces([on_a, on_b], normal)),
+            closest: (!overlapping).then_some(closest),
             hint: Hint::NONE,
-            evidence: Evidence::Points,
+            evidence,
         })
     }
 

@@ -66,6 +66,18 @@ pub(crate) struct Near {
     evidence: Evidence,
 }
 
+/// What a kernel in closed form says of two shapes.
+struct Told {
+    separation: f64,
+    /// A lower bound on it.
+    at_least: f64,
+    /// Unit axis from A to B.
+    normal: DVec3,
+    /// Closest points on the surfaces; they mean nothing in overlap.
+    closest: [DVec3; 2],
+    evidence: Evidence,
+}
+
 #[allow(clippy::large_enum_variant, reason = "as Probe")]
 enum Evidence {
     /// The best axes; closest points of the cores, where those do not overlap.
@@ -159,68 +171,66 @@ impl<'a> Convex<'a> {
     }
 
     fn probe_half_spaces(&self, a: Plane, b: Plane, limit: f64) -> Probe {
-        let precision = self.precision;
         let separation = a.separation_from(&b);
-        if separation > limit + precision.projection() {
-            return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
-        }
-        let overlapping = separation <= precision.projection();
-        let error =
-            if separation == f64::NEG_INFINITY { 0.0 } else { precision.of_distance(separation, 0.0) };
-        Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
-            error,
-            normal: a.axis(),
-            closest: (!overlapping).then(|| a.points_with(&b)),
-            hint: Hint::NONE,
-            evidence: Evidence::HalfSpaces(a, b),
-        })
+        self.told(
+            Told {
+                separation,
+                at_least: separation,
+                normal: a.axis(),
+                closest: a.points_with(&b),
+                evidence: Evidence::HalfSpaces(a, b),
+            },
+            limit,
+        )
     }
 
     fn probe_half_space(&self, plane: Plane, limit: f64) -> Probe {
-        let precision = self.precision;
         let (vertex, height) = self.with_solids(|a, b| {
             let core = if plane.is_b { a } else { b };
             let (vertex, height) = plane.lowest(core);
             (core.point(vertex), height)
         });
         let separation = height - self.radii;
-        if separation > limit + precision.projection() {
-            return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
-        }
-        let overlapping = separation <= precision.projection();
         let on_shape = vertex - plane.normal * self.radii;
         let on_plane = vertex - plane.normal * height;
         let closest = if plane.is_b { [on_shape, on_plane] } else { [on_plane, on_shape] };
-        Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
-            error: precision.of_distance(separation, 0.0),
-            normal: plane.axis(),
-            closest: (!overlapping).then_some(closest),
-            hint: Hint::NONE,
-            evidence: Evidence::HalfSpace(plane),
-        })
+        let evidence = Evidence::HalfSpace(plane);
+        self.told(Told { separation, at_least: separation, normal: plane.axis(), closest, evidence }, limit)
     }
 
     fn probe_slender(&self, a: &Solid, b: &Solid, limit: f64) -> Probe {
+        let nearest = slender::nearest(a, b, self.precision.projection());
+        self.told(
+            Told {
+                separation: nearest.distance - self.radii,
+                at_least: nearest.at_least - self.radii,
+                normal: nearest.normal,
+                closest: self.on_surfaces([nearest.on_a, nearest.on_b], nearest.normal),
+                evidence: Evidence::Slender(nearest),
+            },
+            limit,
+        )
+    }
+
+    /// What a kernel without axes to try has told, within the limit: here a number decides, up to rounding.
+    fn told(&self, told: Told, limit: f64) -> Probe {
+        let Told { separation, at_least: bound, normal, closest, evidence } = told;
         let precision = self.precision;
-        let nearest = slender::nearest(a, b, precision.projection());
-        let separation = nearest.distance - self.radii;
-        if nearest.at_least - self.radii > limit + precision.projection() {
-            return Probe::Beyond(at_least(nearest.at_least - self.radii, &precision), Hint::NONE);
+        if bound > limit + precision.projection() {
+            return Probe::Beyond(at_least(bound, &precision), Hint::NONE);
         }
         let overlapping = separation <= precision.projection();
-        let closest = self.on_surfaces([nearest.on_a, nearest.on_b], nearest.normal);
+        // Half-spaces that overlap without end do so exactly.
+        let is_endless = separation == f64::NEG_INFINITY;
+        let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
         Probe::Near(Near {
             overlapping,
             separation: signed(separation, overlapping),
-            error: precision.of_distance(separation, nearest.distance - nearest.at_least),
-            normal: nearest.normal,
+            error,
+            normal,
             closest: (!overlapping).then_some(closest),
             hint: Hint::NONE,
-            evidence: Evidence::Slender(nearest),
+            evidence,
         })
     }
 
