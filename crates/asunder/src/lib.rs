@@ -50,7 +50,7 @@ pub use asunder_geometry::{
 };
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Manifold2, Manifold3,
-    Measured2, Measured3, Pair2, Pair3, Separation2, Separation3,
+    Measured2, Measured3, Pair2, Pair3, Separation2, Separation3, Tier, Verdict,
 };
 pub use collider::{Collider, Collider2, Collider3, Layers, MarginError};
 pub use contact::{Contact, Contact2, Contact3};

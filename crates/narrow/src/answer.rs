@@ -24,6 +24,35 @@ pub enum Answer {
     },
 }
 
+/// Which tier of precision settled whether two shapes overlap.
+///
+/// ```
+/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
+/// use asunder_narrow::{Pair3, Tier};
+/// let brick = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.1, 0.05, 0.2))?);
+/// let (here, next) = (Pose3::IDENTITY, Pose3::at([0.3, 0.0, 0.0])?);
+/// assert_eq!(Pair3::new(&brick, &here, &brick, &next).verdict().tier, Tier::Bound);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Tier {
+    /// The separation is further from zero than its error.
+    Bound,
+    /// A certificate in f64: an axis that parts them, or a common point, each further off than rounding.
+    Double,
+    /// Exact arithmetic.
+    Exact,
+}
+
+/// Whether two shapes overlap, and how that was settled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Verdict {
+    /// Whether the shapes share a point; touching counts. Exact, whichever the tier.
+    pub overlapping: bool,
+    /// The highest tier that was asked.
+    pub tier: Tier,
+}
+
 /// A separation in the plane, or a bound on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Separation2 {

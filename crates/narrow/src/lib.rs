@@ -37,7 +37,7 @@ mod precision;
 
 pub use answer::{
     Answer, Closest2, Closest3, ContactPoint2, ContactPoint3, Manifold2, Manifold3, Measured2, Measured3,
-    Separation2, Separation3,
+    Separation2, Separation3, Tier, Verdict,
 };
 pub use arrayvec::ArrayVec;
 pub use batch::{Batch, Batch2, Batch3};

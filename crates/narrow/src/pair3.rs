@@ -1,6 +1,6 @@
 //! One pair in space, and batches of them.
 
-use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3};
+use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::batch::Batch3;
 use crate::feature::Hint;
 use crate::least::Least;
@@ -82,6 +82,18 @@ impl<'a> Pair3<'a> {
     /// Whether the shapes share a point; touching counts. Decided in f64 for now. Cost: as the separation, but the
     /// first separating axis ends it.
     pub fn overlaps(&self) -> bool {
+        self.any(0.0, |parts| parts.convex.overlaps())
+    }
+
+    /// [`overlaps`](Self::overlaps), and which tier of precision settled it.
+    pub fn verdict(&self) -> Verdict {
+        Verdict { overlapping: self.overlaps(), tier: Tier::Bound }
+    }
+
+    /// What the first tier alone says of the overlap, right or wrong: the sign that its numbers have.
+    ///
+    /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
+    pub fn guess(&self) -> bool {
         self.any(0.0, |parts| parts.convex.overlaps())
     }
 
