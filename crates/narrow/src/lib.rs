@@ -27,6 +27,8 @@
 
 mod answer;
 mod batch;
+
+mod exact;
 mod feature;
 mod least;
 mod pair2;

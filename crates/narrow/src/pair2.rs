@@ -2,6 +2,7 @@
 
 use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2, Tier, Verdict};
 use crate::batch::Batch2;
+use crate::exact::Site2;
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::polygon::convex::{Convex, Near, Probe};
@@ -38,6 +39,8 @@ use asunder_geometry::{Pose2, Shape2};
 pub struct Pair2<'a> {
     shape_a: &'a Shape2,
     shape_b: &'a Shape2,
+    pose_a: Pose2,
+    pose_b: Pose2,
     turn_a: Turn,
     turn_b: Turn,
     /// B's position less A's.
@@ -70,6 +73,8 @@ impl<'a> Pair2<'a> {
         Self {
             shape_a,
             shape_b,
+            pose_a: *pose_a,
+            pose_b: *pose_b,
             turn_a: Turn::of(pose_a.rotation()),
             turn_b: Turn::of(pose_b.rotation()),
             between,
@@ -83,22 +88,41 @@ impl<'a> Pair2<'a> {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
 
-    /// Whether the shapes share a point; touching counts. Decided in f64 for now. Cost: as the separation, but the
-    /// first separating axis ends it.
+    /// Whether the shapes share a point, exactly; touching counts.
+    ///
+    /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
+    /// [`verdict`](Self::verdict) says which. Cost: as the separation, but the first separating axis ends it; for
+    /// shapes that touch up to rounding some microseconds more.
     pub fn overlaps(&self) -> bool {
-        self.any(0.0, |parts| parts.convex.overlaps())
+        self.verdict().overlapping
     }
 
-    /// [`overlaps`](Self::overlaps), and which tier of precision settled it.
+    /// [`overlaps`](Self::overlaps), and the highest tier of precision that it took.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rect, Rotation2, Shape2, glam::Vec2};
+    /// use asunder_narrow::{Pair2, Tier};
+    /// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
+    /// let next = Pose2::at([2.0, 0.0])?;
+    /// let touching = Pair2::new(&square, &Pose2::IDENTITY, &square, &next).verdict();
+    /// assert_eq!((touching.overlapping, touching.tier), (true, Tier::Exact));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn verdict(&self) -> Verdict {
-        Verdict { overlapping: self.overlaps(), tier: Tier::Bound }
+        let mut tier = Tier::Bound;
+        let overlapping = self.any(0.0, |parts| {
+            let verdict = parts.convex.verdict();
+            tier = tier.max(verdict.tier);
+            verdict.overlapping
+        });
+        Verdict { overlapping, tier }
     }
 
     /// What the first tier alone says of the overlap, right or wrong: the sign that its numbers have.
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
     pub fn guess(&self) -> bool {
-        self.any(0.0, |parts| parts.convex.overlaps())
+        self.any(0.0, |parts| parts.convex.guess())
     }
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
@@ -184,8 +208,9 @@ impl<'a> Pair2<'a> {
                 Probe::Near(near) => near,
             };
             next_hint = near.hint;
-            if near.overlapping || f64::from(near.separation) <= margin {
-                touch = Some(touch.unwrap_or(false) || near.overlapping);
+            let is_touching = near.verdict.overlapping;
+            if is_touching || f64::from(near.separation) <= margin {
+                touch = Some(touch.unwrap_or(false) || is_touching);
                 if let Some(manifolds) = &mut manifolds {
                     manifolds.extend(parts.manifold(&near, margin));
                 }
@@ -263,7 +288,8 @@ impl<'a> Pair2<'a> {
         // Positions first, then the parts' places: what is far from the origin cancels.
         let offset = self.between + (shift_b - shift_a);
         let summed = self.summed(shift_a, shift_b);
-        let convex = Convex::new([a.shape, b.shape], [turn_a, turn_b], offset, summed);
+        let convex =
+            Convex::new([a.site(&self.pose_a), b.site(&self.pose_b)], [turn_a, turn_b], offset, summed);
         Parts { indices: [a.index, b.index], shifts: [shift_a, shift_b], convex }
     }
 }
@@ -273,6 +299,11 @@ impl<'a> Part<'a> {
     fn whole(shape: &'a Shape2, turn: &Turn) -> Self {
         let center = turn.turn(shape.center().as_dvec2());
         Self { index: 0, shape, local: None, center }
+    }
+
+    /// Shape and poses as they were given, for exact questions.
+    fn site(&self, body: &Pose2) -> Site2<'a> {
+        Site2 { shape: self.shape, body: *body, part: self.local }
     }
 
     /// Its rotation in the world, and its origin less the body's position.

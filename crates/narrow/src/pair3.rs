@@ -2,6 +2,7 @@
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::batch::Batch3;
+use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::polyhedron::convex::{Convex, Near, Probe};
@@ -38,6 +39,8 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 pub struct Pair3<'a> {
     shape_a: &'a Shape3,
     shape_b: &'a Shape3,
+    pose_a: Pose3,
+    pose_b: Pose3,
     basis_a: Basis3,
     basis_b: Basis3,
     /// B's position less A's.
@@ -69,7 +72,8 @@ impl<'a> Pair3<'a> {
     /// A pair of posed shapes. Cost: two rotations to matrices.
     pub fn new(shape_a: &'a Shape3, pose_a: &Pose3, shape_b: &'a Shape3, pose_b: &Pose3) -> Self {
         let between = pose_b.position() - pose_a.position();
-        Self { shape_a, shape_b, basis_a: pose_a.basis(), basis_b: pose_b.basis(), between }
+        let (basis_a, basis_b) = (pose_a.basis(), pose_b.basis());
+        Self { shape_a, shape_b, pose_a: *pose_a, pose_b: *pose_b, basis_a, basis_b, between }
     }
 
     /// The sum of the two bounding radii, in metres: the measure of this pair. Errors are relative to what is left of
@@ -79,22 +83,44 @@ impl<'a> Pair3<'a> {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
 
-    /// Whether the shapes share a point; touching counts. Decided in f64 for now. Cost: as the separation, but the
-    /// first separating axis ends it.
+    /// Whether the shapes share a point, exactly; touching counts.
+    ///
+    /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
+    /// [`verdict`](Self::verdict) says which. Cost: as the separation, but the first separating axis ends it; for
+    /// shapes that touch up to rounding some microseconds more.
     pub fn overlaps(&self) -> bool {
-        self.any(0.0, |parts| parts.convex.overlaps())
+        self.verdict().overlapping
     }
 
-    /// [`overlaps`](Self::overlaps), and which tier of precision settled it.
+    /// [`overlaps`](Self::overlaps), and the highest tier of precision that it took.
+    ///
+    /// ```
+    /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::{Quat, Vec3}};
+    /// use asunder_narrow::{Pair3, Tier};
+    /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
+    /// let tilted = Quat::from_xyzw(1.0, 2.0, 3.0, 4.0);
+    /// let (here, there) = (Pose3::new(Vec3::ZERO, tilted)?, Pose3::new(Vec3::new(2.0, 0.0, 0.0), tilted)?);
+    /// assert_eq!(Pair3::new(&cube, &here, &cube, &there).verdict().tier, Tier::Bound);
+    /// let next = Pose3::at([2.0, 0.0, 0.0])?;
+    /// let touching = Pair3::new(&cube, &Pose3::IDENTITY, &cube, &next).verdict();
+    /// assert_eq!((touching.overlapping, touching.tier), (true, Tier::Exact));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn verdict(&self) -> Verdict {
-        Verdict { overlapping: self.overlaps(), tier: Tier::Bound }
+        let mut tier = Tier::Bound;
+        let overlapping = self.any(0.0, |parts| {
+            let verdict = parts.convex.verdict();
+            tier = tier.max(verdict.tier);
+            verdict.overlapping
+        });
+        Verdict { overlapping, tier }
     }
 
     /// What the first tier alone says of the overlap, right or wrong: the sign that its numbers have.
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
     pub fn guess(&self) -> bool {
-        self.any(0.0, |parts| parts.convex.overlaps())
+        self.any(0.0, |parts| parts.convex.guess())
     }
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
@@ -180,8 +206,9 @@ impl<'a> Pair3<'a> {
                 Probe::Near(near) => near,
             };
             next_hint = near.hint;
-            if near.overlapping || f64::from(near.separation) <= margin {
-                touch = Some(touch.unwrap_or(false) || near.overlapping);
+            let is_touching = near.verdict.overlapping;
+            if is_touching || f64::from(near.separation) <= margin {
+                touch = Some(touch.unwrap_or(false) || is_touching);
                 if let Some(manifolds) = &mut manifolds {
                     manifolds.extend(parts.manifold(&near, margin));
                 }
@@ -257,7 +284,7 @@ impl<'a> Pair3<'a> {
         // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
         let between = self.between + (shift_b - shift_a);
         let convex = Convex::new(
-            [a.shape, b.shape],
+            [a.site(&self.pose_a), b.site(&self.pose_b)],
             basis_b.relative_to(&basis),
             basis.turn_back(between),
             self.summed(shift_a, shift_b),
@@ -271,6 +298,11 @@ impl<'a> Part<'a> {
     fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
         let center = basis.turn(shape.center().as_dvec3());
         Self { index: 0, shape, local: None, center }
+    }
+
+    /// Shape and poses as they were given, for exact questions.
+    fn site(&self, body: &Pose3) -> Site3<'a> {
+        Site3 { shape: self.shape, body: *body, part: self.local }
     }
 
     /// Its axes in the world, and its origin less the body's position.

@@ -7,18 +7,26 @@
 //! everything else:                  edge normals                               (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
-//! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as
-//! touching: bodies on a grid touch exactly and often, and are hardly ever apart by so little.
+//! Whether they overlap is settled in three tiers, each asked only where the one before cannot tell:
+//!
+//! ```text
+//! Bound    the separation is further from zero than its error
+//! Double   an axis that parts them, or corners around a common point, each further off than rounding   (distance)
+//! Exact    integers, from the corners where f64 stopped                                               (exact)
+//! ```
+//! The number then takes the decision's sign: where it says otherwise, it is rounding.
 //!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
 //! line out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
-use super::distance::{Witness, distance};
+use super::distance::{Close, Reached, Witness, distance};
 use super::half_plane::Line;
 use super::manifold::{Point, Touch, touch};
 use super::outline::{Outline, Turn};
-use super::sat::{Axes, Axis, Outcome, hint_of, overlaps, separating_axes};
+use super::sat::{Axes, Axis, Outcome, Sides, hint_of, overlaps, separating_axes, sides};
+use crate::answer::{Tier, Verdict};
+use crate::exact::{self, Corner, Site2};
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{Precision, at_least, signed};
 use asunder_geometry::glam::DVec2;
@@ -27,6 +35,7 @@ use asunder_geometry::{Core2, Shape2};
 
 /// Two convex shapes in the frame of the pair: the world's axes, about A's position.
 pub(crate) struct Convex<'a> {
+    sites: [Site2<'a>; 2],
     pub(crate) shape_a: &'a Shape2,
     pub(crate) shape_b: &'a Shape2,
     pub(crate) turn_a: Turn,
@@ -52,7 +61,7 @@ pub(crate) enum Probe {
 
 /// The separation of two shapes, and where it was seen.
 pub(crate) struct Near {
-    pub(crate) overlapping: bool,
+    pub(crate) verdict: Verdict,
     pub(crate) separation: f32,
     pub(crate) error: f32,
     /// Unit axis from A to B.
@@ -88,8 +97,8 @@ enum Evidence {
 impl<'a> Convex<'a> {
     /// Two shapes, how they are turned, and B's position less A's. `summed` is how long the vectors were that the
     /// position is a sum of, in metres, where it is one of several.
-    pub(crate) fn new(shapes: [&'a Shape2; 2], turns: [Turn; 2], offset: DVec2, summed: f64) -> Self {
-        let ([shape_a, shape_b], [turn_a, turn_b]) = (shapes, turns);
+    pub(crate) fn new(sites: [Site2<'a>; 2], turns: [Turn; 2], offset: DVec2, summed: f64) -> Self {
+        let ([shape_a, shape_b], [turn_a, turn_b]) = (sites.map(|site| site.shape), turns);
         let radii = f64::from(shape_a.radius()) + f64::from(shape_b.radius());
         // What errors are relative to: the cores' sizes, since radii are added exactly.
         let size = core_size(shape_a) + core_size(shape_b);
@@ -98,17 +107,17 @@ impl<'a> Convex<'a> {
         let off_center = length(shape_a.center().as_dvec2()) + length(shape_b.center().as_dvec2());
         let reach = size + radii + off_center + length(offset) + summed;
         let precision = Precision { size, reach, planarity: 0.0 };
-        Self { shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
+        Self { sites, shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
     }
 
     /// The separation where it is at most `limit` metres; the hinted axis is tried first.
     pub(crate) fn probe(&self, limit: f64, hint: Hint) -> Probe {
         match self.lines() {
-            [Some(a), Some(b)] => self.probe_half_planes(a, b, limit),
-            [Some(line), None] | [None, Some(line)] => self.probe_half_plane(line, limit),
+            [Some(a), Some(b)] => self.told(self.told_half_planes(a, b), limit),
+            [Some(line), None] | [None, Some(line)] => self.told(self.told_half_plane(line), limit),
             [None, None] => self.with_outlines(|a, b| {
                 if a.edge_count() + b.edge_count() == 0 {
-                    self.probe_points(a, b, limit)
+                    self.told(self.told_points(a, b), limit)
                 } else {
                     self.probe_outlines(a, b, limit, hint)
                 }
@@ -117,11 +126,49 @@ impl<'a> Convex<'a> {
     }
 
     /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
-    pub(crate) fn overlaps(&self) -> bool {
-        if self.lines() == [None, None] && self.radii == 0.0 {
-            return self.with_outlines(|a, b| self.decide(a, b));
+    pub(crate) fn verdict(&self) -> Verdict {
+        if self.radii == 0.0 && self.lines() == [None, None] {
+            let settled = |overlapping: bool| Verdict { overlapping, tier: Tier::Bound };
+            return self.with_outlines(|a, b| {
+                if a.edge_count() + b.edge_count() == 0 {
+                    return self.told_verdict(&self.told_points(a, b));
+                }
+                let rounding = self.precision.projection();
+                match sides(a, b, rounding, f64::from(self.precision.of_separation(0.0))) {
+                    Sides::Apart => settled(false),
+                    Sides::Overlapping if !is_thin(a, b) => settled(true),
+                    _ => self.look_closer(a, b, None).0,
+                }
+            });
         }
-        matches!(self.probe(0.0, Hint::NONE), Probe::Near(near) if near.overlapping)
+        match self.probe(0.0, Hint::NONE) {
+            Probe::Beyond(..) => Verdict { overlapping: false, tier: Tier::Bound },
+            Probe::Near(near) => near.verdict,
+        }
+    }
+
+    /// What the first tier's numbers say of the overlap, within their error of zero too.
+    pub(crate) fn guess(&self) -> bool {
+        match self.lines() {
+            [None, None] => self.with_outlines(|a, b| {
+                if a.edge_count() + b.edge_count() == 0 {
+                    return self.told_points(a, b).separation <= 0.0;
+                }
+                if self.radii == 0.0 {
+                    return overlaps(a, b);
+                }
+                match separating_axes(a, b, self.radii, Hint::NONE) {
+                    Outcome::Beyond(_) => false,
+                    Outcome::Within(axes) if axes.best().separation <= 0.0 => true,
+                    Outcome::Within(axes) => match distance(a, b, axes.best().normal, &self.precision) {
+                        Reached::Between(witness) => witness.distance <= self.radii,
+                        Reached::Origin(_) => true,
+                    },
+                }
+            }),
+            [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
+            [Some(line), None] | [None, Some(line)] => self.told_half_plane(line).separation <= 0.0,
+        }
     }
 
     /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-planes that overlap
@@ -146,7 +193,7 @@ impl<'a> Convex<'a> {
             }
             Evidence::HalfPlanes(a, b) => {
                 let [on_a, on_b] = a.points_with(b);
-                let separation = a.separation_from(b);
+                let separation = near.separation.into();
                 let feature = FeatureId::new(Feature::Edge(0), Feature::Edge(0));
                 let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
                 (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
@@ -154,21 +201,18 @@ impl<'a> Convex<'a> {
         }
     }
 
-    fn probe_half_planes(&self, a: Line, b: Line, limit: f64) -> Probe {
-        let separation = a.separation_from(&b);
-        self.told(
-            Told {
-                separation,
-                at_least: separation,
-                normal: a.axis(),
-                closest: a.points_with(&b),
-                evidence: Evidence::HalfPlanes(a, b),
-            },
-            limit,
-        )
+    fn told_half_planes(&self, a: Line, b: Line) -> Told {
+        let separation = a.separation_from(&b, || exact::are_opposed2([&self.sites[0], &self.sites[1]]));
+        Told {
+            separation,
+            at_least: separation,
+            normal: a.axis(),
+            closest: a.points_with(&b),
+            evidence: Evidence::HalfPlanes(a, b),
+        }
     }
 
-    fn probe_half_plane(&self, line: Line, limit: f64) -> Probe {
+    fn told_half_plane(&self, line: Line) -> Told {
         let (vertex, height) = self.with_outlines(|a, b| {
             let core = if line.is_b { a } else { b };
             let (vertex, height) = line.lowest(core);
@@ -179,36 +223,44 @@ impl<'a> Convex<'a> {
         let on_line = vertex - line.normal * height;
         let closest = if line.is_b { [on_shape, on_line] } else { [on_line, on_shape] };
         let evidence = Evidence::HalfPlane(line);
-        self.told(Told { separation, at_least: separation, normal: line.axis(), closest, evidence }, limit)
+        Told { separation, at_least: separation, normal: line.axis(), closest, evidence }
     }
 
-    fn probe_points(&self, a: &Outline, b: &Outline, limit: f64) -> Probe {
+    fn told_points(&self, a: &Outline, b: &Outline) -> Told {
         let (on_a, on_b) = (a.point(0), b.point(0));
         let distance = (on_b - on_a).length();
         let normal = if distance > 0.0 { (on_b - on_a) / distance } else { DVec2::Y };
         let separation = distance - self.radii;
         let closest = self.on_surfaces([on_a, on_b], normal);
-        let evidence = Evidence::Points;
-        self.told(Told { separation, at_least: separation, normal, closest, evidence }, limit)
+        Told { separation, at_least: separation, normal, closest, evidence: Evidence::Points }
     }
 
-    /// What a kernel without axes to try has told, within the limit: here a number decides, up to rounding.
-    fn told(&self, told: Told, limit: f64) -> Probe {
-        let Told { separation, at_least: bound, normal, closest, evidence } = told;
-        let precision = self.precision;
-        if bound > limit + precision.projection() {
-            return Probe::Beyond(at_least(bound, &precision), Hint::NONE);
+    /// Whether the shapes overlap, where closed-form kernels have told two bounds.
+    fn told_verdict(&self, told: &Told) -> Verdict {
+        let doubt = 2.0 * self.precision.projection();
+        if told.at_least > doubt || told.separation < -doubt {
+            return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
         }
-        let overlapping = separation <= precision.projection();
-        // Half-spaces that overlap without end do so exactly.
+        self.exactly(&[])
+    }
+
+    /// What a kernel without axes to try has told, within the limit.
+    fn told(&self, told: Told, limit: f64) -> Probe {
+        let precision = self.precision;
+        if told.at_least > limit + precision.projection() {
+            return Probe::Beyond(at_least(told.at_least, &precision), Hint::NONE);
+        }
+        let verdict = self.told_verdict(&told);
+        let Told { separation, at_least: bound, normal, closest, evidence } = told;
+        // Half-planes that overlap without end do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
         let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
         Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
+            verdict,
+            separation: signed(separation, verdict.overlapping),
             error,
             normal,
-            closest: (!overlapping).then_some(closest),
+            closest: (!verdict.overlapping).then_some(closest),
             hint: Hint::NONE,
             evidence,
         })
@@ -217,101 +269,118 @@ impl<'a> Convex<'a> {
     /// Axes first; the decision next; then the number that agrees with it.
     fn probe_outlines(&self, a: &Outline, b: &Outline, limit: f64, hint: Hint) -> Probe {
         let precision = self.precision;
-        let radii = self.radii;
-        let axes = match separating_axes(a, b, limit + radii + precision.projection(), hint) {
+        let axes = match separating_axes(a, b, limit + self.radii + precision.projection(), hint) {
             Outcome::Beyond(axis) => {
-                return Probe::Beyond(at_least(axis.separation - radii, &precision), hint_of(&axis));
+                return Probe::Beyond(at_least(axis.separation - self.radii, &precision), hint_of(&axis));
             }
             Outcome::Within(axes) => axes,
         };
-        let best = axes.best();
-        let hint = hint_of(best);
-        // Within its error of zero a sign is not the number's to tell: `decide` does, so that both always agree.
-        let is_clear = best.separation.abs() > f64::from(precision.of_separation(0.0)) && !is_thin(a, b);
-        let cores_overlap = if is_clear { best.separation < 0.0 } else { self.decide(a, b) };
-        if cores_overlap {
-            let depth = best.separation.min(0.0) - radii;
-            return Probe::Near(Near {
-                overlapping: true,
-                separation: signed(depth, true),
-                error: precision.of_separation(best.separation - radii),
-                normal: best.normal,
-                closest: None,
-                hint,
-                evidence: Evidence::Axes(axes, None),
-            });
+        let is_clear = axes.best().separation < -f64::from(precision.of_separation(0.0));
+        if is_clear && !is_thin(a, b) {
+            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound });
         }
-        let Some(witness) = self.witness(a, b, best) else { return self.all_but_touching(a, b, axes) };
+        let (verdict, witness) = self.look_closer(a, b, Some(axes.best()));
+        match witness {
+            Some(witness) => self.gap_of_cores(axes, verdict, witness),
+            None if verdict.overlapping => self.overlap_of_cores(axes, verdict),
+            None => self.all_but_touching(a, b, axes, verdict),
+        }
+    }
+
+    /// Shapes whose cores overlap, as deep as the best axis says.
+    fn overlap_of_cores(&self, axes: Axes, verdict: Verdict) -> Probe {
+        let best = *axes.best();
+        let depth = best.separation.min(0.0) - self.radii;
+        Probe::Near(Near {
+            verdict,
+            separation: signed(depth, true),
+            error: self.precision.of_separation(best.separation - self.radii),
+            normal: best.normal,
+            closest: None,
+            hint: hint_of(&best),
+            evidence: Evidence::Axes(axes, None),
+        })
+    }
+
+    /// Shapes with a gap between their cores, which their radii may close.
+    fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness) -> Probe {
+        let precision = self.precision;
         // Where both bounds meet up to rounding, the projection went through less of it.
         let gap = witness.distance - witness.at_least;
-        let core =
-            if radii > 0.0 && gap <= precision.projection() { witness.at_least } else { witness.distance };
-        let separation = core - radii;
-        let overlapping = radii > 0.0 && separation <= precision.projection();
+        let is_met = self.radii > 0.0 && gap <= precision.projection();
+        let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
         let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
         Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
+            verdict,
+            separation: signed(separation, verdict.overlapping),
             error: precision.of_distance(separation, gap),
             normal: witness.normal,
-            closest: (!overlapping).then_some(closest),
-            hint,
+            closest: (!verdict.overlapping).then_some(closest),
+            hint: hint_of(axes.best()),
             evidence: Evidence::Axes(axes, Some(witness)),
         })
     }
 
+    /// The second tier and the third, with the witness points of the cores where they are known to have a gap. `best`
+    /// is the axis that the first tier found best.
+    ///
+    /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
+    fn look_closer(&self, a: &Outline, b: &Outline, best: Option<&Axis>) -> (Verdict, Option<Witness>) {
+        let doubt = self.precision.projection();
+        let towards = best.map_or(DVec2::X, |axis| axis.normal);
+        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
+        let mut witness = match distance(a, b, towards, &self.precision) {
+            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), None),
+            Reached::Origin(close) => return (self.exactly(&close.corners), None),
+            Reached::Between(witness) => witness,
+        };
+        let mut tier = Tier::Double;
+        if let Some(best) = best.filter(|best| best.separation >= witness.at_least) {
+            if witness.is_close(self.precision.size) {
+                witness.across = best.normal;
+            }
+            (witness.at_least, witness.normal) = (best.separation, best.normal);
+            tier = Tier::Bound;
+        }
+        if witness.at_least - self.radii > doubt {
+            return (Verdict { overlapping: false, tier }, Some(witness));
+        }
+        if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
+            return (double(true), (witness.at_least > doubt).then_some(witness));
+        }
+        let verdict = self.exactly(&witness.corners);
+        let has_gap = if self.radii > 0.0 { witness.at_least > doubt } else { !verdict.overlapping };
+        (verdict, has_gap.then_some(witness))
+    }
+
+    /// The third tier, from the corners where f64 stopped.
+    fn exactly(&self, start: &[Corner]) -> Verdict {
+        let overlapping = exact::overlaps2([&self.sites[0], &self.sites[1]], start);
+        Verdict { overlapping, tier: Tier::Exact }
+    }
+
     /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
     /// overlapped.
-    fn all_but_touching(&self, a: &Outline, b: &Outline, axes: Axes) -> Probe {
+    fn all_but_touching(&self, a: &Outline, b: &Outline, axes: Axes, verdict: Verdict) -> Probe {
         let precision = self.precision;
         let best = axes.best();
-        let overlapping = self.radii > 0.0;
         let separation = best.separation.max(0.0) - self.radii;
         let touch = touch(a, b, &axes, None, 0.0, self.preference());
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
+            verdict,
+            separation: signed(separation, verdict.overlapping),
             error: precision.of_separation(separation),
             normal: best.normal,
-            closest: deepest.filter(|_| !overlapping).map(|point| [point.on_a, point.on_b]),
+            closest: deepest.map(|point| [point.on_a, point.on_b]),
             hint: hint_of(best),
             evidence: Evidence::Axes(axes, None),
         })
     }
 
-    /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the
-    /// best axis'. Nothing where the points are too close to tell apart.
-    fn witness(&self, a: &Outline, b: &Outline, best: &Axis) -> Option<Witness> {
-        let mut witness = distance(a, b, best.normal, self.precision.size)?;
-        if best.separation >= witness.at_least {
-            if witness.is_close(self.precision.size) {
-                witness.across = best.normal;
-            }
-            (witness.at_least, witness.normal) = (best.separation, best.normal);
-        }
-        Some(witness)
-    }
-
     /// Points of the cores moved out to the shapes' surfaces.
     fn on_surfaces(&self, [on_a, on_b]: [DVec2; 2], normal: DVec2) -> [DVec2; 2] {
         [on_a + normal * f64::from(self.shape_a.radius()), on_b - normal * f64::from(self.shape_b.radius())]
-    }
-
-    /// Whether the cores share a point. Decided in f64.
-    fn decide(&self, a: &Outline, b: &Outline) -> bool {
-        if a.edge_count() + b.edge_count() == 0 {
-            return a.point(0) == b.point(0);
-        }
-        overlaps(a, b) && !(is_thin(a, b) && self.is_parted(a, b))
-    }
-
-    /// Whether the distance iteration finds an axis that parts the cores. It needs no normals, and its axis is
-    /// believed only after full projection.
-    fn is_parted(&self, a: &Outline, b: &Outline) -> bool {
-        let precision = self.precision;
-        let witness = distance(a, b, DVec2::X, precision.size);
-        witness.is_some_and(|witness| witness.at_least > precision.projection())
     }
 
     /// The lines of half-planes.

@@ -4,6 +4,7 @@
 //! corners.
 
 use super::outline::Outline;
+use crate::precision::Precision;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::DISTANCE_GAP;
@@ -14,6 +15,24 @@ const MAX_STEPS: usize = 64;
 
 /// Share of the size above which the axis from one witness point to the other is not rounding.
 const TELLING: f64 = 1e-6;
+
+/// How far the iteration came.
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]
+pub(crate) enum Reached {
+    /// Two bounds on a distance, however far apart.
+    Between(Witness),
+    /// The difference of the shapes is too close to the origin to tell, or holds it.
+    Origin(Close),
+}
+
+/// Corners of the difference that are at the origin as far as f64 can tell.
+#[derive(Clone, Debug)]
+pub(crate) struct Close {
+    /// Vertices of A and of B, in pairs.
+    pub(crate) corners: ArrayVec<[usize; 2], 3>,
+    /// Whether they hold the origin for certain: the shapes share a point.
+    pub(crate) is_proved: bool,
+}
 
 /// Witness points and the bounds they leave.
 #[derive(Clone, Debug)]
@@ -42,8 +61,9 @@ impl Witness {
 /// Corners of the difference A - B in use: their vertices, their places, their shares of the nearest point.
 type Simplex = ArrayVec<([usize; 2], DVec2, f64), 3>;
 
-/// Narrows the distance down; nothing where the shapes cannot be told apart. `size` is the size of the pair.
-pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, size: f64) -> Option<Witness> {
+/// Narrows the distance down. The precision is that of the pair.
+pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, precision: &Precision) -> Reached {
+    let size = precision.size;
     let corner = |direction: DVec2| {
         let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
         ([in_a, in_b], a.point(in_a) - b.point(in_b), 1.0)
@@ -55,7 +75,7 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, size: f64) ->
     'steps: for _ in 0..MAX_STEPS {
         let length = v.length();
         if length <= f64::EPSILON * size {
-            return None;
+            return Reached::Origin(Close { corners: vertices(&simplex), is_proved: false });
         }
         for direction in to_origin(&simplex, v) {
             let found = corner(direction);
@@ -69,7 +89,10 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, size: f64) ->
             if simplex.iter().all(|known| known.0 != found.0) && !simplex.is_full() {
                 let mut wider = simplex.clone();
                 wider.push(found);
-                let (nearest, place) = nearest_to_origin(&wider)?;
+                let Some((nearest, place)) = nearest_to_origin(&wider) else {
+                    let is_proved = is_around_origin(&wider, precision);
+                    return Reached::Origin(Close { corners: vertices(&wider), is_proved });
+                };
                 if place.length() < length {
                     (simplex, v) = (nearest, place);
                     continue 'steps;
@@ -87,13 +110,29 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, size: f64) ->
         first + offsets.sum::<DVec2>()
     };
     let (point_a, point_b) = (weighted(a, 0), weighted(b, 1));
-    let corners = simplex.iter().map(|&(vertices, ..)| vertices).collect();
+    let corners = vertices(&simplex);
     let distance = (point_b - point_a).length();
     let mut witness = Witness { distance, at_least, normal, across: normal, point_a, point_b, corners };
     if !witness.is_close(size) {
         witness.across = (point_b - point_a) / distance;
     }
-    Some(witness)
+    Reached::Between(witness)
+}
+
+fn vertices(simplex: &Simplex) -> ArrayVec<[usize; 2], 3> {
+    simplex.iter().map(|&(vertices, ..)| vertices).collect()
+}
+
+/// Whether three corners hold the origin for certain: the areas that it spans with each side have one sign.
+///
+/// A corner is off by at most `projection` in each coordinate, so that an area of corners no longer than m is off by
+/// less than 4 m of that, and by less than 4 roundings of m^2.
+fn is_around_origin(simplex: &Simplex, precision: &Precision) -> bool {
+    let [a, b, c] = simplex.as_slice() else { return false };
+    let longest = simplex.iter().map(|corner| corner.1.abs().element_sum()).fold(0.0, f64::max);
+    let doubt = longest * (4.0 * precision.projection() + 2.0 * f64::EPSILON * longest);
+    let areas = [a.1.perp_dot(b.1), b.1.perp_dot(c.1), c.1.perp_dot(a.1)];
+    areas.iter().all(|&area| area > doubt) || areas.iter().all(|&area| area < -doubt)
 }
 
 /// Unit directions from the nearest point to the origin: straight, and square to the simplex, as in space.

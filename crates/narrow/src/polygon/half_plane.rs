@@ -9,9 +9,8 @@ use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 
-/// Sine of the angle up to which two lines count as parallel: a few roundings of two unit normals. Lines that lean by
-/// less would meet a million times further out than any world reaches.
-const PARALLEL: f64 = 8.0 * f64::EPSILON;
+/// Sine of the angle up to which two lines may be parallel: far more than the roundings of two unit normals.
+const PARALLEL: f64 = 1e-12;
 
 /// The line of a half-plane, in the frame of the pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,12 +40,11 @@ impl Line {
     }
 
     /// Two half-planes: the distance of lines that look exactly away from each other; else they overlap without end.
-    pub(crate) fn separation_from(&self, other: &Self) -> f64 {
-        if self.normal.perp_dot(other.normal).abs() <= PARALLEL && self.normal.dot(other.normal) < 0.0 {
-            self.height(other.origin)
-        } else {
-            f64::NEG_INFINITY
-        }
+    /// Whether they do is asked only of those that may.
+    pub(crate) fn separation_from(&self, other: &Self, are_opposed: impl FnOnce() -> bool) -> f64 {
+        let may_be =
+            self.normal.perp_dot(other.normal).abs() <= PARALLEL && self.normal.dot(other.normal) < 0.0;
+        if may_be && are_opposed() { self.height(other.origin) } else { f64::NEG_INFINITY }
     }
 
     /// A point of each line, half way between their origins.

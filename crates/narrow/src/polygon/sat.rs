@@ -81,6 +81,40 @@ pub(crate) fn separating_axes(a: &Outline, b: &Outline, limit: f64, hint: Hint) 
     Outcome::Within(best)
 }
 
+/// Which side of touching all edge normals put two shapes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sides {
+    /// One axis parts them for certain.
+    Apart,
+    /// Every axis shows more overlap than its error.
+    Overlapping,
+    /// Some axis is too close to call.
+    Unclear,
+}
+
+/// Which side of touching the shapes are on: an axis by its separation is off by no more than `rounding`, all of them
+/// together by no more than `error`. No axis is normalised.
+pub(crate) fn sides(a: &Outline, b: &Outline, rounding: f64, error: f64) -> Sides {
+    let mut sides = Sides::Overlapping;
+    let mut settles = |one: &Outline, other: &Outline, edge: usize| {
+        let outward = one.outward(edge);
+        let separation = -other.support(-outward).reach - one.support(outward).reach;
+        // The sum of absolute values bounds the length, and needs no root.
+        let length = outward.abs().element_sum();
+        if separation > rounding * length {
+            sides = Sides::Apart;
+            return true;
+        }
+        if separation >= -error * length {
+            sides = Sides::Unclear;
+        }
+        false
+    };
+    let _ = (0..a.edge_count()).any(|edge| settles(a, b, edge))
+        || (0..b.edge_count()).any(|edge| settles(b, a, edge));
+    sides
+}
+
 /// Whether no edge normal parts the shapes. Asks for a yes or no only, so no axis is normalised.
 pub(crate) fn overlaps(a: &Outline, b: &Outline) -> bool {
     let parts = |one: &Outline, other: &Outline, edge: usize| {

@@ -8,20 +8,28 @@
 //! everything else:                  faces and edge pairs                       (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
-//! Where a number decides whether shapes overlap, and not a test of axes, within rounding of touching counts as
-//! touching: bodies on a grid touch exactly and often, and are hardly ever apart by so little.
+//! Whether they overlap is settled in three tiers, each asked only where the one before cannot tell:
+//!
+//! ```text
+//! Bound    the separation is further from zero than its error
+//! Double   an axis that parts them, or corners around a common point, each further off than rounding   (distance)
+//! Exact    integers, from the corners where f64 stopped                                               (exact)
+//! ```
+//! The number then takes the decision's sign: where it says otherwise, it is rounding.
 //!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
 //! plane out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
 use super::cuboids::Cuboids;
-use super::distance::{Witness, distance};
+use super::distance::{Close, Reached, Witness, distance};
 use super::half_space::Plane;
 use super::manifold::{Point, Touch, touch};
-use super::sat::{Axes, Axis, Outcome, hint_of, overlaps, separating_axes};
+use super::sat::{self, Axes, Axis, Outcome, Sides, hint_of, separating_axes};
 use super::slender::{self, Nearest};
 use super::solid::Solid;
+use crate::answer::{Tier, Verdict};
+use crate::exact::{self, Corner, Site3};
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{Precision, at_least, signed};
 use asunder_geometry::glam::DVec3;
@@ -30,6 +38,7 @@ use asunder_geometry::{Basis3, Core3, Hull, Shape3};
 
 /// Two convex shapes in the frame of the pair: A's axes, about A's position.
 pub(crate) struct Convex<'a> {
+    sites: [Site3<'a>; 2],
     pub(crate) shape_a: &'a Shape3,
     pub(crate) shape_b: &'a Shape3,
     /// B's axes seen from A.
@@ -55,7 +64,7 @@ pub(crate) enum Probe {
 
 /// The separation of two shapes, and where it was seen.
 pub(crate) struct Near {
-    pub(crate) overlapping: bool,
+    pub(crate) verdict: Verdict,
     pub(crate) separation: f32,
     pub(crate) error: f32,
     /// Unit axis from A to B.
@@ -92,8 +101,8 @@ const IDENTITY: Basis3 = Basis3 { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
 impl<'a> Convex<'a> {
     /// Two shapes, B's axes and position as A sees them. `summed` is how long the vectors were that the position is a
     /// sum of, in metres, where it is one of several.
-    pub(crate) fn new(shapes: [&'a Shape3; 2], relative: Basis3, offset: DVec3, summed: f64) -> Self {
-        let [shape_a, shape_b] = shapes;
+    pub(crate) fn new(sites: [Site3<'a>; 2], relative: Basis3, offset: DVec3, summed: f64) -> Self {
+        let [shape_a, shape_b] = sites.map(|site| site.shape);
         let radii = f64::from(shape_a.radius()) + f64::from(shape_b.radius());
         let planarity = |shape: &Shape3| match shape {
             Shape3::Hull(hull) => f64::from(Hull::planarity_error(hull)),
@@ -109,17 +118,17 @@ impl<'a> Convex<'a> {
             reach: size + radii + off_center + length(offset) + summed,
             planarity: planarity(shape_a) + planarity(shape_b),
         };
-        Self { shape_a, shape_b, relative, offset, precision, radii }
+        Self { sites, shape_a, shape_b, relative, offset, precision, radii }
     }
 
     /// The separation where it is at most `limit` metres; the hinted axis is tried first.
     pub(crate) fn probe(&self, limit: f64, hint: Hint) -> Probe {
         match self.planes() {
-            [Some(a), Some(b)] => self.probe_half_spaces(a, b, limit),
-            [Some(plane), None] | [None, Some(plane)] => self.probe_half_space(plane, limit),
+            [Some(a), Some(b)] => self.told(self.told_half_spaces(a, b), limit),
+            [Some(plane), None] | [None, Some(plane)] => self.told(self.told_half_space(plane), limit),
             [None, None] => self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
-                    self.probe_slender(a, b, limit)
+                    self.told(self.told_slender(a, b), limit)
                 } else {
                     self.probe_solids(a, b, limit, hint)
                 }
@@ -128,22 +137,48 @@ impl<'a> Convex<'a> {
     }
 
     /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
-    pub(crate) fn overlaps(&self) -> bool {
-        if self.radii == 0.0
-            && let Some(cuboids) = self.cuboids()
-        {
-            return cuboids.overlaps();
-        }
-        if self.planes() == [None, None] && self.radii == 0.0 {
+    pub(crate) fn verdict(&self) -> Verdict {
+        if self.radii == 0.0 && self.planes() == [None, None] {
+            let settled = |overlapping: bool| Verdict { overlapping, tier: Tier::Bound };
             return self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
-                    slender::nearest(a, b, self.precision.projection()).distance == 0.0
-                } else {
-                    self.decide(a, b)
+                    return self.told_verdict(&self.told_slender(a, b));
+                }
+                match self.sides(a, b) {
+                    Sides::Apart => settled(false),
+                    Sides::Overlapping if self.is_complete(a, b) => settled(true),
+                    _ => self.look_closer(a, b, None).0,
                 }
             });
         }
-        matches!(self.probe(0.0, Hint::NONE), Probe::Near(near) if near.overlapping)
+        match self.probe(0.0, Hint::NONE) {
+            Probe::Beyond(..) => Verdict { overlapping: false, tier: Tier::Bound },
+            Probe::Near(near) => near.verdict,
+        }
+    }
+
+    /// What the first tier's numbers say of the overlap, within their error of zero too.
+    pub(crate) fn guess(&self) -> bool {
+        match self.planes() {
+            [None, None] => self.with_solids(|a, b| {
+                if a.is_slender() && b.is_slender() {
+                    return self.told_slender(a, b).separation <= 0.0;
+                }
+                if self.radii == 0.0 {
+                    return self.cuboids().map_or_else(|| sat::overlaps(a, b), |cuboids| cuboids.overlaps());
+                }
+                match self.axes(a, b, self.radii, Hint::NONE) {
+                    Outcome::Beyond(_) => false,
+                    Outcome::Within(axes) if axes.best().separation <= 0.0 => true,
+                    Outcome::Within(axes) => match distance(a, b, axes.best().normal, &self.precision) {
+                        Reached::Between(witness) => witness.distance <= self.radii,
+                        Reached::Origin(_) => true,
+                    },
+                }
+            }),
+            [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
+            [Some(plane), None] | [None, Some(plane)] => self.told_half_space(plane).separation <= 0.0,
+        }
     }
 
     /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-spaces that overlap
@@ -162,7 +197,7 @@ impl<'a> Convex<'a> {
             }
             Evidence::HalfSpaces(a, b) => {
                 let [on_a, on_b] = a.points_with(b);
-                let separation = a.separation_from(b);
+                let separation = near.separation.into();
                 let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
                 let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
                 (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
@@ -170,21 +205,18 @@ impl<'a> Convex<'a> {
         }
     }
 
-    fn probe_half_spaces(&self, a: Plane, b: Plane, limit: f64) -> Probe {
-        let separation = a.separation_from(&b);
-        self.told(
-            Told {
-                separation,
-                at_least: separation,
-                normal: a.axis(),
-                closest: a.points_with(&b),
-                evidence: Evidence::HalfSpaces(a, b),
-            },
-            limit,
-        )
+    fn told_half_spaces(&self, a: Plane, b: Plane) -> Told {
+        let separation = a.separation_from(&b, || exact::are_opposed3([&self.sites[0], &self.sites[1]]));
+        Told {
+            separation,
+            at_least: separation,
+            normal: a.axis(),
+            closest: a.points_with(&b),
+            evidence: Evidence::HalfSpaces(a, b),
+        }
     }
 
-    fn probe_half_space(&self, plane: Plane, limit: f64) -> Probe {
+    fn told_half_space(&self, plane: Plane) -> Told {
         let (vertex, height) = self.with_solids(|a, b| {
             let core = if plane.is_b { a } else { b };
             let (vertex, height) = plane.lowest(core);
@@ -195,40 +227,46 @@ impl<'a> Convex<'a> {
         let on_plane = vertex - plane.normal * height;
         let closest = if plane.is_b { [on_shape, on_plane] } else { [on_plane, on_shape] };
         let evidence = Evidence::HalfSpace(plane);
-        self.told(Told { separation, at_least: separation, normal: plane.axis(), closest, evidence }, limit)
+        Told { separation, at_least: separation, normal: plane.axis(), closest, evidence }
     }
 
-    fn probe_slender(&self, a: &Solid, b: &Solid, limit: f64) -> Probe {
+    fn told_slender(&self, a: &Solid, b: &Solid) -> Told {
         let nearest = slender::nearest(a, b, self.precision.projection());
-        self.told(
-            Told {
-                separation: nearest.distance - self.radii,
-                at_least: nearest.at_least - self.radii,
-                normal: nearest.normal,
-                closest: self.on_surfaces([nearest.on_a, nearest.on_b], nearest.normal),
-                evidence: Evidence::Slender(nearest),
-            },
-            limit,
-        )
+        Told {
+            separation: nearest.distance - self.radii,
+            at_least: nearest.at_least - self.radii,
+            normal: nearest.normal,
+            closest: self.on_surfaces([nearest.on_a, nearest.on_b], nearest.normal),
+            evidence: Evidence::Slender(nearest),
+        }
     }
 
-    /// What a kernel without axes to try has told, within the limit: here a number decides, up to rounding.
-    fn told(&self, told: Told, limit: f64) -> Probe {
-        let Told { separation, at_least: bound, normal, closest, evidence } = told;
-        let precision = self.precision;
-        if bound > limit + precision.projection() {
-            return Probe::Beyond(at_least(bound, &precision), Hint::NONE);
+    /// Whether the shapes overlap, where closed-form kernels have told two bounds.
+    fn told_verdict(&self, told: &Told) -> Verdict {
+        let doubt = 2.0 * self.precision.projection();
+        if told.at_least > doubt || told.separation < -doubt {
+            return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
         }
-        let overlapping = separation <= precision.projection();
+        self.exactly(&[])
+    }
+
+    /// What a kernel without axes to try has told, within the limit.
+    fn told(&self, told: Told, limit: f64) -> Probe {
+        let precision = self.precision;
+        if told.at_least > limit + precision.projection() {
+            return Probe::Beyond(at_least(told.at_least, &precision), Hint::NONE);
+        }
+        let verdict = self.told_verdict(&told);
+        let Told { separation, at_least: bound, normal, closest, evidence } = told;
         // Half-spaces that overlap without end do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
         let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
         Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
+            verdict,
+            separation: signed(separation, verdict.overlapping),
             error,
             normal,
-            closest: (!overlapping).then_some(closest),
+            closest: (!verdict.overlapping).then_some(closest),
             hint: Hint::NONE,
             evidence,
         })
@@ -237,80 +275,113 @@ impl<'a> Convex<'a> {
     /// Axes first; the decision next; then the number that agrees with it.
     fn probe_solids(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Probe {
         let precision = self.precision;
-        let radii = self.radii;
-        let axes = match self.axes(a, b, limit + radii + precision.projection(), hint) {
+        let axes = match self.axes(a, b, limit + self.radii + precision.projection(), hint) {
             Outcome::Beyond(axis) => {
-                return Probe::Beyond(at_least(axis.separation - radii, &precision), hint_of(&axis));
+                return Probe::Beyond(at_least(axis.separation - self.radii, &precision), hint_of(&axis));
             }
             Outcome::Within(axes) => axes,
         };
-        let best = axes.best();
-        let hint = hint_of(best);
-        // Within its error of zero a sign is not the number's to tell: `decide` does, so that both always agree.
-        let is_clear = best.separation.abs() > f64::from(precision.of_separation(0.0)) && !self.is_thin(a, b);
-        let cores_overlap = if is_clear { best.separation < 0.0 } else { self.decide(a, b) };
-        if cores_overlap {
-            let depth = best.separation.min(0.0) - radii;
-            return Probe::Near(Near {
-                overlapping: true,
-                separation: signed(depth, true),
-                error: precision.of_separation(best.separation - radii),
-                normal: best.normal,
-                closest: None,
-                hint,
-                evidence: Evidence::Axes(axes, None),
-            });
+        let is_clear = axes.best().separation < -f64::from(precision.of_separation(0.0));
+        if is_clear && self.is_complete(a, b) {
+            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound });
         }
-        let Some(witness) = self.witness(a, b, best) else { return self.all_but_touching(a, b, axes) };
-        // Where both bounds meet up to rounding, the projection went through less of it.
-        let gap = witness.distance - witness.at_least;
-        let core =
-            if radii > 0.0 && gap <= precision.projection() { witness.at_least } else { witness.distance };
-        let separation = core - radii;
-        let overlapping = radii > 0.0 && separation <= precision.projection();
-        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
-        Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
-            error: precision.of_distance(separation, gap),
-            normal: witness.normal,
-            closest: (!overlapping).then_some(closest),
-            hint,
-            evidence: Evidence::Axes(axes, Some(witness)),
-        })
+        let (verdict, witness) = self.look_closer(a, b, Some(axes.best()));
+        match witness {
+            Some(witness) => self.gap_of_cores(axes, verdict, witness),
+            None if verdict.overlapping => self.overlap_of_cores(axes, verdict),
+            None => self.all_but_touching(a, b, axes, verdict),
+        }
     }
 
-    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
-    /// overlapped.
-    fn all_but_touching(&self, a: &Solid, b: &Solid, axes: Axes) -> Probe {
-        let precision = self.precision;
-        let best = axes.best();
-        let overlapping = self.radii > 0.0;
-        let separation = best.separation.max(0.0) - self.radii;
-        let touch = touch(a, b, &axes, None, 0.0, self.preference());
-        let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+    /// Shapes whose cores overlap, as deep as the best axis says.
+    fn overlap_of_cores(&self, axes: Axes, verdict: Verdict) -> Probe {
+        let best = *axes.best();
+        let depth = best.separation.min(0.0) - self.radii;
         Probe::Near(Near {
-            overlapping,
-            separation: signed(separation, overlapping),
-            error: precision.of_separation(separation),
+            verdict,
+            separation: signed(depth, true),
+            error: self.precision.of_separation(best.separation - self.radii),
             normal: best.normal,
-            closest: deepest.filter(|_| !overlapping).map(|point| [point.on_a, point.on_b]),
-            hint: hint_of(best),
+            closest: None,
+            hint: hint_of(&best),
             evidence: Evidence::Axes(axes, None),
         })
     }
 
-    /// Witness points of a gap between the cores, with the better of the two lower bounds: the iteration's, and the
-    /// best axis'. Nothing where the points are too close to tell apart.
-    fn witness(&self, a: &Solid, b: &Solid, best: &Axis) -> Option<Witness> {
-        let mut witness = distance(a, b, best.normal, self.precision.size)?;
-        if best.separation >= witness.at_least {
+    /// Shapes with a gap between their cores, which their radii may close.
+    fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness) -> Probe {
+        let precision = self.precision;
+        // Where both bounds meet up to rounding, the projection went through less of it.
+        let gap = witness.distance - witness.at_least;
+        let is_met = self.radii > 0.0 && gap <= precision.projection();
+        let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
+        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
+        Probe::Near(Near {
+            verdict,
+            separation: signed(separation, verdict.overlapping),
+            error: precision.of_distance(separation, gap),
+            normal: witness.normal,
+            closest: (!verdict.overlapping).then_some(closest),
+            hint: hint_of(axes.best()),
+            evidence: Evidence::Axes(axes, Some(witness)),
+        })
+    }
+
+    /// The second tier and the third, with the witness points of the cores where they are known to have a gap. `best`
+    /// is the axis that the first tier found best.
+    ///
+    /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
+    fn look_closer(&self, a: &Solid, b: &Solid, best: Option<&Axis>) -> (Verdict, Option<Witness>) {
+        let doubt = self.precision.projection();
+        let towards = best.map_or(DVec3::X, |axis| axis.normal);
+        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
+        let mut witness = match distance(a, b, towards, &self.precision) {
+            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), None),
+            Reached::Origin(close) => return (self.exactly(&close.corners), None),
+            Reached::Between(witness) => witness,
+        };
+        let mut tier = Tier::Double;
+        if let Some(best) = best.filter(|best| best.separation >= witness.at_least) {
             if witness.is_close(self.precision.size) {
                 witness.across = best.normal;
             }
             (witness.at_least, witness.normal) = (best.separation, best.normal);
+            tier = Tier::Bound;
         }
-        Some(witness)
+        if witness.at_least - self.radii > doubt {
+            return (Verdict { overlapping: false, tier }, Some(witness));
+        }
+        if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
+            return (double(true), (witness.at_least > doubt).then_some(witness));
+        }
+        let verdict = self.exactly(&witness.corners);
+        let has_gap = if self.radii > 0.0 { witness.at_least > doubt } else { !verdict.overlapping };
+        (verdict, has_gap.then_some(witness))
+    }
+
+    /// The third tier, from the corners where f64 stopped.
+    fn exactly(&self, start: &[Corner]) -> Verdict {
+        let overlapping = exact::overlaps3([&self.sites[0], &self.sites[1]], start);
+        Verdict { overlapping, tier: Tier::Exact }
+    }
+
+    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
+    /// overlapped.
+    fn all_but_touching(&self, a: &Solid, b: &Solid, axes: Axes, verdict: Verdict) -> Probe {
+        let precision = self.precision;
+        let best = axes.best();
+        let separation = best.separation.max(0.0) - self.radii;
+        let touch = touch(a, b, &axes, None, 0.0, self.preference());
+        let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        Probe::Near(Near {
+            verdict,
+            separation: signed(separation, verdict.overlapping),
+            error: precision.of_separation(separation),
+            normal: best.normal,
+            closest: deepest.map(|point| [point.on_a, point.on_b]),
+            hint: hint_of(best),
+            evidence: Evidence::Axes(axes, None),
+        })
     }
 
     /// Points of the cores moved out to the shapes' surfaces.
@@ -328,31 +399,25 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// Whether the cores share a point. Decided in f64.
-    fn decide(&self, a: &Solid, b: &Solid) -> bool {
+    /// Which side of touching all axes put the cores on, if they have no radii.
+    fn sides(&self, a: &Solid, b: &Solid) -> Sides {
+        let rounding = self.precision.projection();
+        let error = f64::from(self.precision.of_separation(0.0));
         match self.cuboids() {
-            Some(cuboids) => cuboids.overlaps(),
-            None => overlaps(a, b) && !(self.is_thin(a, b) && self.is_parted(a, b)),
+            Some(cuboids) => cuboids.sides(rounding, error),
+            None => sat::sides(a, b, rounding, error),
         }
     }
 
-    /// Whether faces and edges may miss a gap.
+    /// Whether faces and edges leave no gap out, so that an overlap that they all show is one.
     ///
-    /// Of a hull so thin that its faces are all but antipodal, the directions along the plate or across the needle
-    /// are no normals, and face and edge axes show a gap in them only scaled by the thickness: too little to tell
-    /// from rounding. Two cores without an inside may lie in one plane, and have no axes in it at all. A cuboid has
-    /// the normals of its sides, however thin it is.
-    fn is_thin(&self, a: &Solid, b: &Solid) -> bool {
-        let thin = |shape: &Shape3| matches!(shape, Shape3::Hull(hull) if hull.is_thin());
-        thin(self.shape_a) || thin(self.shape_b) || (a.is_flat() && b.is_flat())
-    }
-
-    /// Whether the distance iteration finds an axis that parts the cores. It needs no normals, and its axis is
-    /// believed only after full projection.
-    fn is_parted(&self, a: &Solid, b: &Solid) -> bool {
-        let precision = self.precision;
-        let witness = distance(a, b, DVec3::X, precision.size);
-        witness.is_some_and(|witness| witness.at_least > precision.projection())
+    /// Merged faces stand for facets whose normals are not tried. Of a hull so thin that its faces are all but
+    /// antipodal, the directions along the plate or across the needle are no normals. Two cores without an inside may
+    /// lie in one plane, and have no axes in it at all. A cuboid has the normals of its sides, however thin it is.
+    fn is_complete(&self, a: &Solid, b: &Solid) -> bool {
+        let is_thin = |shape: &Shape3| matches!(shape, Shape3::Hull(hull) if hull.is_thin());
+        let has_thin = is_thin(self.shape_a) || is_thin(self.shape_b);
+        self.precision.planarity == 0.0 && !has_thin && !(a.is_flat() && b.is_flat())
     }
 
     fn cuboids(&self) -> Option<Cuboids> {

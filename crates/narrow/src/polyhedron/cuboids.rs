@@ -8,7 +8,7 @@
 //! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). A projection radius in closed form takes the place of the
 //! eight vertices; everything else is as in the general test, the axis of nearly parallel edges included.
 
-use super::sat::{Axes, Axis, AxisOf, Outcome};
+use super::sat::{Axes, Axis, AxisOf, Outcome, Sides};
 use super::solid::Solid;
 use crate::feature::{Feature, Hint};
 use asunder_geometry::Basis3;
@@ -52,6 +52,17 @@ impl Cuboids {
         (0..3).all(|i| self.along(UNIT[i]) <= 0.0)
             && (0..3).all(|j| self.along(self.axis_b(j)) <= 0.0)
             && (0..9).all(|k| self.cross(k / 3, k % 3).is_none_or(|cross| self.along(cross) <= 0.0))
+    }
+
+    /// Which side of touching the axes put them on; see [`super::sat::sides`].
+    pub(crate) fn sides(&self, rounding: f64, error: f64) -> Sides {
+        let mut sides = Sides::Overlapping;
+        let mut settles = |axis: DVec3, length: f64| sides.meet(self.along(axis), length, rounding, error);
+        let _ = (0..3).any(|i| settles(UNIT[i], 1.0))
+            || (0..3).any(|j| settles(self.axis_b(j), 1.0))
+            // A cross product of unit vectors is no longer than 1.
+            || (0..9).any(|k| self.cross(k / 3, k % 3).is_some_and(|cross| settles(cross, cross.abs().element_sum())));
+        sides
     }
 
     /// All fifteen axes, the hinted one first; the outcome within the limit does not depend on the hint.

@@ -15,6 +15,7 @@
 
 use super::simplex::nearest_to_origin;
 use super::solid::Solid;
+use crate::precision::Precision;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::DISTANCE_GAP;
@@ -24,6 +25,24 @@ const MAX_STEPS: usize = 64;
 
 /// Share of the size above which the axis from one witness point to the other is not rounding.
 const TELLING: f64 = 1e-6;
+
+/// How far the iteration came.
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]
+pub(crate) enum Reached {
+    /// Two bounds on a distance, however far apart.
+    Between(Witness),
+    /// The difference of the shapes is too close to the origin to tell, or holds it.
+    Origin(Close),
+}
+
+/// Corners of the difference that are at the origin as far as f64 can tell.
+#[derive(Clone, Debug)]
+pub(crate) struct Close {
+    /// Vertices of A and of B, in pairs.
+    pub(crate) corners: ArrayVec<[usize; 2], 4>,
+    /// Whether they hold the origin for certain: the shapes share a point.
+    pub(crate) is_proved: bool,
+}
 
 /// Witness points and the bounds they leave.
 #[derive(Clone, Debug)]
@@ -49,18 +68,21 @@ impl Witness {
     }
 }
 
+/// A vertex of A and one of B, and the place of their difference.
+type Vertex = ([usize; 2], DVec3);
+
 /// Corners of the difference A - B that carry its nearest point to the origin so far.
 #[derive(Clone)]
 struct Simplex {
-    /// The vertices of A and of B, and the place of their difference.
-    corners: ArrayVec<([usize; 2], DVec3), 4>,
+    corners: ArrayVec<Vertex, 4>,
     /// The corners' shares of the nearest point.
     weights: [f64; 4],
     nearest: DVec3,
 }
 
-/// Narrows the distance down; nothing where the shapes cannot be told apart. `size` is the size of the pair.
-pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, size: f64) -> Option<Witness> {
+/// Narrows the distance down. The precision is that of the pair.
+pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, precision: &Precision) -> Reached {
+    let size = precision.size;
     let corner = |direction: DVec3| {
         let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
         ([in_a, in_b], a.point(in_a) - b.point(in_b))
@@ -70,7 +92,7 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, size: f64) -> Opt
     'steps: for _ in 0..MAX_STEPS {
         let length = simplex.nearest.length();
         if length <= f64::EPSILON * size {
-            return None;
+            return Reached::Origin(Close { corners: simplex.vertices(), is_proved: false });
         }
         for direction in simplex.to_origin() {
             let found = corner(direction);
@@ -82,7 +104,14 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, size: f64) -> Opt
                 break 'steps;
             }
             if simplex.corners.iter().all(|&(known, _)| known != found.0) && !simplex.corners.is_full() {
-                let grown = simplex.grown(found)?;
+                let grown = match simplex.grown(found) {
+                    Ok(grown) => grown,
+                    Err(around) => {
+                        let is_proved = is_around_origin(around.each_ref().map(|corner| corner.1), precision);
+                        let corners = around.iter().map(|corner| corner.0).collect();
+                        return Reached::Origin(Close { corners, is_proved });
+                    }
+                };
                 if grown.nearest.length() < length {
                     simplex = grown;
                     continue 'steps;
@@ -92,26 +121,47 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, size: f64) -> Opt
         break;
     }
     let (point_a, point_b) = (simplex.weighted(a, 0), simplex.weighted(b, 1));
-    let corners = simplex.corners.iter().map(|&(corner, _)| corner).collect();
+    let corners = simplex.vertices();
     let distance = (point_b - point_a).length();
     let mut witness = Witness { distance, at_least, normal, across: normal, point_a, point_b, corners };
     if !witness.is_close(size) {
         witness.across = (point_b - point_a) / distance;
     }
-    Some(witness)
+    Reached::Between(witness)
+}
+
+/// Whether four corners hold the origin for certain.
+///
+/// They do where the origin lies on the same side of all four faces: the four volumes that it spans with them have one
+/// sign. A corner is off by at most `projection` in each coordinate, so that a volume of corners no longer than m is off
+/// by less than 6 m^2 of that, and by less than 16 roundings of m^3.
+fn is_around_origin([a, b, c, d]: [DVec3; 4], precision: &Precision) -> bool {
+    let longest = [a, b, c, d].iter().map(|corner| corner.abs().element_sum()).fold(0.0, f64::max);
+    let doubt = longest * longest * (6.0 * precision.projection() + 8.0 * f64::EPSILON * longest);
+    let volume = |p: DVec3, q: DVec3, r: DVec3| p.cross(q).dot(r);
+    let volumes = [volume(b, c, d), -volume(a, c, d), volume(a, b, d), -volume(a, b, c)];
+    volumes.iter().all(|&volume| volume > doubt) || volumes.iter().all(|&volume| volume < -doubt)
 }
 
 impl Simplex {
-    fn of(corner: ([usize; 2], DVec3)) -> Self {
+    fn of(corner: Vertex) -> Self {
         Self { corners: core::iter::once(corner).collect(), weights: [1.0, 0.0, 0.0, 0.0], nearest: corner.1 }
     }
 
-    /// With one corner more, and without those that do not carry the nearest point; nothing where it holds the origin.
-    fn grown(&self, corner: ([usize; 2], DVec3)) -> Option<Self> {
+    fn vertices(&self) -> ArrayVec<[usize; 2], 4> {
+        self.corners.iter().map(|&(corner, _)| corner).collect()
+    }
+
+    /// With one corner more, and without those that do not carry the nearest point; the four corners where they hold
+    /// the origin.
+    fn grown(&self, corner: Vertex) -> Result<Self, [Vertex; 4]> {
         let mut corners = self.corners.clone();
         corners.push(corner);
         let points: ArrayVec<DVec3, 4> = corners.iter().map(|&(_, point)| point).collect();
-        let nearest = nearest_to_origin(&points)?;
+        let Some(nearest) = nearest_to_origin(&points) else {
+            // Only four corners hold anything.
+            return Err(core::array::from_fn(|i| corners[i.min(corners.len() - 1)]));
+        };
         let carrying = corners.into_iter().zip(nearest.weights).zip(0..);
         let carrying = carrying.filter(|&(_, index)| nearest.corners >> index & 1 == 1);
         let mut grown = Self { corners: ArrayVec::new(), weights: [0.0; 4], nearest: nearest.point };
@@ -119,7 +169,7 @@ impl Simplex {
             grown.weights[grown.corners.len()] = weight;
             grown.corners.push(corner);
         }
-        Some(grown)
+        Ok(grown)
     }
 
     /// Unit directions from the nearest point to the origin: straight, and square to the simplex. Where the origin is

@@ -11,9 +11,8 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
-/// Sine of the angle up to which two planes count as parallel: a few roundings of two unit normals. Planes that lean
-/// by less would meet a million times further out than any world reaches.
-const PARALLEL: f64 = 8.0 * f64::EPSILON;
+/// Sine of the angle up to which two planes may be parallel: far more than the roundings of two unit normals.
+const PARALLEL: f64 = 1e-12;
 
 /// The plane of a half-space, in the frame of the pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,12 +42,11 @@ impl Plane {
     }
 
     /// Two half-spaces: the distance of planes that look exactly away from each other; else they overlap without end.
-    pub(crate) fn separation_from(&self, other: &Self) -> f64 {
-        if self.normal.cross(other.normal).length() <= PARALLEL && self.normal.dot(other.normal) < 0.0 {
-            self.height(other.origin)
-        } else {
-            f64::NEG_INFINITY
-        }
+    /// Whether they do is asked only of those that may.
+    pub(crate) fn separation_from(&self, other: &Self, are_opposed: impl FnOnce() -> bool) -> f64 {
+        let may_be =
+            self.normal.cross(other.normal).length() <= PARALLEL && self.normal.dot(other.normal) < 0.0;
+        if may_be && are_opposed() { self.height(other.origin) } else { f64::NEG_INFINITY }
     }
 
     /// A point of each plane, half way between their origins.

@@ -120,6 +120,50 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, limit: f64, hint: Hint, slac
     beyond.map_or(Outcome::Within(axes), Outcome::Beyond)
 }
 
+/// Which side of touching all candidate axes put two shapes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sides {
+    /// One axis parts them for certain.
+    Apart,
+    /// Every axis shows more overlap than its error.
+    Overlapping,
+    /// Some axis is too close to call.
+    Unclear,
+}
+
+impl Sides {
+    /// Takes in a separation along an axis of any length, scaled by that length, or by what is no less. Returns whether
+    /// that settles it.
+    #[inline]
+    pub(crate) fn meet(&mut self, separation: f64, length: f64, rounding: f64, error: f64) -> bool {
+        if separation > rounding * length {
+            *self = Self::Apart;
+            return true;
+        }
+        if separation >= -error * length {
+            *self = Self::Unclear;
+        }
+        false
+    }
+}
+
+/// Which side of touching the shapes are on: an axis by its separation is off by no more than `rounding`, all of them
+/// together by no more than `error`. No axis is normalised.
+pub(crate) fn sides(a: &Solid, b: &Solid, rounding: f64, error: f64) -> Sides {
+    let mut sides = Sides::Overlapping;
+    let mut settles = |outward: DVec3| {
+        let separation = -b.support(-outward).reach - a.support(outward).reach;
+        // The sum of absolute values bounds the length, and needs no root.
+        sides.meet(separation, outward.abs().element_sum(), rounding, error)
+    };
+    let by_face = (0..a.face_count()).any(|face| settles(a.outward(face)))
+        || (0..b.face_count()).any(|face| settles(-b.outward(face)));
+    if !by_face {
+        for_edge_pairs(a, b, |edge_a, edge_b| cross_outwards(a, b, edge_a, edge_b).is_some_and(&mut settles));
+    }
+    sides
+}
+
 /// Whether no candidate axis parts the shapes. Asks for a yes or no only, so no axis is normalised.
 pub(crate) fn overlaps(a: &Solid, b: &Solid) -> bool {
     let parts = |axis: DVec3| {
@@ -149,15 +193,20 @@ fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
     Axis { separation, normal, of: AxisOf::FaceB(face) }
 }
 
-fn edge_axis(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Option<Axis> {
-    let axis = cross_of_edges(a.edge_direction(edge_a), b.edge_direction(edge_b))?.normalize();
+/// The cross product of two edges, turned from A to B; nothing where it would be noise.
+fn cross_outwards(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Option<DVec3> {
+    let axis = cross_of_edges(a.edge_direction(edge_a), b.edge_direction(edge_b))?;
     // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's edge
     // tells.
     let outwards = match a.arc(edge_a).middle {
         DVec3::ZERO => -b.arc(edge_b).middle,
         middle => middle,
     };
-    let normal = if axis.dot(outwards) < 0.0 { -axis } else { axis };
+    Some(if axis.dot(outwards) < 0.0 { -axis } else { axis })
+}
+
+fn edge_axis(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Option<Axis> {
+    let normal = cross_outwards(a, b, edge_a, edge_b)?.normalize();
     let separation = -b.support(-normal).reach - a.support(normal).reach;
     Some(Axis { separation, normal, of: AxisOf::Edges(edge_a, edge_b) })
 }

@@ -1,6 +1,7 @@
 //! Pruning by arcs must not lose the axis that decides.
 
 use super::*;
+use crate::exact::Site3;
 use crate::polyhedron::convex::Convex;
 use asunder_geometry::glam::{Quat, Vec3};
 use asunder_geometry::{Capsule3, Hull, Pose3, Shape3, Triangle3};
@@ -55,7 +56,9 @@ impl Random {
 /// A pair in A's axes.
 fn convex<'a>(shape_a: &'a Shape3, pose_a: Pose3, shape_b: &'a Shape3, pose_b: Pose3) -> Convex<'a> {
     let relative = pose_b.basis().relative_to(&pose_a.basis());
-    Convex::new([shape_a, shape_b], relative, pose_a.transform_back(pose_b.position()), 0.0)
+    let site = |shape, pose: &Pose3| Site3 { shape, body: *pose, part: None };
+    let sites = [site(shape_a, &pose_a), site(shape_b, &pose_b)];
+    Convex::new(sites, relative, pose_a.transform_back(pose_b.position()), 0.0)
 }
 
 /// The greatest separation along any cross product of edges, whichever way it points.

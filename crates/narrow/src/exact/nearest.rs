@@ -1,0 +1,197 @@
+//! The point of an exact simplex that is nearest to the origin, and the corners that carry it.
+//!
+//! ```text
+//! corners carry the nearest point exactly if
+//!   the point of their flat that is nearest to the origin has a positive share of each, and
+//!   no corner left out lies nearer along it
+//! one corner:     G[i][k] >= G[i][i] for every other k
+//! two:            shares G[j][j] - G[i][j] and G[i][i] - G[i][j]; their mean's product with k less that with i
+//! three:          shares from the 2 x 2 system of their edges; the other corner on the side away from the origin
+//! none of these:  four corners around the origin
+//! ```
+//! G is the Gram matrix, G[i][j] = p_i . p_j. At most fourteen candidates, all tried: exactly one set of independent
+//! corners passes, whatever the rest is.
+
+use super::Corner;
+use super::int::{Int, cross3, dot3};
+use arrayvec::ArrayVec;
+use core::cmp::Ordering;
+
+/// One to four corners.
+#[derive(Clone)]
+pub(super) struct Simplex {
+    points: ArrayVec<[Int; 3], 4>,
+    corners: ArrayVec<Corner, 4>,
+    /// Products of corners, the later one first.
+    gram: [[Int; 4]; 4],
+    /// Whether the corners but the last carried the nearest point of before, so that the last is among those that do.
+    is_grown: bool,
+}
+
+/// What carries the nearest point.
+
+pub(super) enum Carried {
+    /// The origin is in the simplex.
+    Origin,
+    /// Corners; the nearest point lies in this direction, of any length.
+    By([Int; 3]),
+}
+
+impl Simplex {
+    pub(super) fn new() -> Self {
+        let row = || [Int::ZERO, Int::ZERO, Int::ZERO, Int::ZERO];
+        Self {
+            points: ArrayVec::new(),
+            corners: ArrayVec::new(),
+            gram: [row(), row(), row(), row()],
+            is_grown: false,
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// One corner more; nothing happens where it is known, or where there are four.
+    pub(super) fn push(&mut self, corner: Corner, point: [Int; 3]) {
+        if self.points.is_full() || self.corners.contains(&corner) {
+            return;
+        }
+        let last = self.points.len();
+        for (i, other) in self.points.iter().enumerate() {
+            self.gram[last][i] = dot3(&point, other);
+        }
+        self.gram[last][last] = dot3(&point, &point);
+        self.points.push(point);
+        self.corners.push(corner);
+    }
+
+    /// One of the corners. All that carry the nearest point have the same projection on it.
+    pub(super) fn first(&self) -> &[Int; 3] {
+        &self.points[0]
+    }
+
+    /// Drops all corners that do not carry the nearest point.
+    pub(super) fn reduce(&mut self) -> Carried {
+        let count = self.points.len();
+        // Once reduced, only sets with the newest corner can have a nearer point.
+        let is_new = |set: &[usize]| !self.is_grown || set.contains(&(count - 1));
+        for i in (0..count).rev() {
+            if is_new(&[i]) && self.carries_one(i) {
+                return self.carried(&[i], self.points[i].clone());
+            }
+        }
+        for i in (0..count).rev() {
+            for j in (0..i).rev() {
+                if is_new(&[i, j])
+                    && let Some(towards) = self.carries_two(i, j)
+                {
+                    return self.carried(&[j, i], towards);
+                }
+            }
+        }
+        for i in (0..count).rev() {
+            for (j, k) in (0..i).rev().flat_map(|j| (0..j).rev().map(move |k| (j, k))) {
+                if is_new(&[i, j, k])
+                    && let Some(towards) = self.carries_three([i, j, k])
+                {
+                    return self.carried(&[k, j, i], towards);
+                }
+            }
+        }
+        Carried::Origin
+    }
+
+    fn carried(&mut self, set: &[usize], towards: [Int; 3]) -> Carried {
+        if towards.iter().all(Int::is_zero) {
+            return Carried::Origin;
+        }
+        let points = set.iter().map(|&i| self.points[i].clone()).collect();
+        let corners = set.iter().map(|&i| self.corners[i]).collect();
+        // The set is in order, so that products move down only.
+        for (to_i, &i) in set.iter().enumerate() {
+            for (to_j, &j) in set[..=to_i].iter().enumerate() {
+                self.gram[to_i][to_j] = self.gram[i][j].clone();
+            }
+        }
+        (self.points, self.corners, self.is_grown) = (points, corners, true);
+        Carried::By(towards)
+    }
+
+    fn product(&self, i: usize, j: usize) -> &Int {
+        if i >= j { &self.gram[i][j] } else { &self.gram[j][i] }
+    }
+
+    fn others<'s>(&self, set: &'s [usize]) -> impl Iterator<Item = usize> + use<'s> {
+        (0..self.points.len()).filter(move |k| !set.contains(k))
+    }
+
+    fn carries_one(&self, i: usize) -> bool {
+        self.others(&[i]).all(|k| self.product(i, k) >= self.product(i, i))
+    }
+
+    /// The direction of the nearest point, if two corners carry it; zero where it is the origin.
+    fn carries_two(&self, i: usize, j: usize) -> Option<[Int; 3]> {
+        let cross = self.product(i, j);
+        let share_i = self.product(j, j) - cross;
+        let share_j = self.product(i, i) - cross;
+        if !is_positive(&share_i) || !is_positive(&share_j) {
+            return None;
+        }
+        let has_none_before = |k: usize| {
+            let mut ahead = &share_i * &(self.product(i, k) - self.product(i, i));
+            ahead.add_product(&share_j, &(self.product(j, k) - cross));
+            ahead.sign() != Ordering::Less
+        };
+        let is_nearest = self.others(&[i, j]).all(has_none_before);
+        let mean = |axis: usize| {
+            let mut sum = &share_i * &self.points[i][axis];
+            sum.add_product(&share_j, &self.points[j][axis]);
+            sum
+        };
+        is_nearest.then(|| [mean(0), mean(1), mean(2)])
+    }
+
+    /// The direction of the nearest point, if three corners carry it; zero where it is the origin.
+    fn carries_three(&self, set: [usize; 3]) -> Option<[Int; 3]> {
+        let [i, j, k] = set;
+        // Edges from k, seen from k.
+        let (at_k, at_i, at_j) = (self.product(k, k), self.product(i, k), self.product(j, k));
+        let (along_i, along_j) = (at_i - at_k, at_j - at_k);
+        let ii = &(self.product(i, i) - at_i) - &along_i;
+        let jj = &(self.product(j, j) - at_j) - &along_j;
+        let ij = &(self.product(i, j) - at_j) - &along_i;
+        let mut share_i = &ij * &along_j;
+        share_i.sub_product(&jj, &along_i);
+        let mut share_j = &ij * &along_i;
+        share_j.sub_product(&ii, &along_j);
+        if !is_positive(&share_i) || !is_positive(&share_j) {
+            return None;
+        }
+        let mut share_k = &ii * &jj;
+        share_k.sub_product(&ij, &ij);
+        share_k -= &share_i;
+        share_k -= &share_j;
+        if !is_positive(&share_k) {
+            return None;
+        }
+        let from_k = |other: usize| {
+            let (p, q) = (&self.points[other], &self.points[k]);
+            [&p[0] - &q[0], &p[1] - &q[1], &p[2] - &q[2]]
+        };
+        let across = cross3(&from_k(i), &from_k(j));
+        let side = dot3(&across, &self.points[k]).sign();
+        if side == Ordering::Equal {
+            return Some([Int::ZERO, Int::ZERO, Int::ZERO]);
+        }
+        let is_nearest = self.others(&set).all(|l| {
+            let beyond = dot3(&across, &from_k(l)).sign();
+            beyond == Ordering::Equal || beyond == side
+        });
+        is_nearest.then(|| if side == Ordering::Greater { across } else { across.map(|c| -c) })
+    }
+}
+
+fn is_positive(value: &Int) -> bool {
+    value.sign() == Ordering::Greater
+}
