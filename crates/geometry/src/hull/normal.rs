@@ -10,9 +10,12 @@ pub(super) fn area_vector(count: usize, corner: impl Fn(usize) -> Vec3) -> DVec3
     newell(count, corner).0
 }
 
-/// The area vector, and the sum of the lengths of what was multiplied for it: its rounding is a few f64::EPSILON of
-/// that.
+/// The area vector, and the sum of the lengths of what was multiplied for it, as far as that was rounded: its rounding is
+/// a few f64::EPSILON of that.
 fn newell(count: usize, corner: impl Fn(usize) -> Vec3) -> (DVec3, f64) {
+    if count == 3 {
+        return triangle([corner(0), corner(1), corner(2)]);
+    }
     let at = |i: usize| corner(i % count).as_dvec3();
     let edge = |i: &usize| (at(*i + 1) - at(*i)).length_squared();
     let start = (0..count).min_by(|a, b| edge(a).total_cmp(&edge(b))).unwrap_or(0);
@@ -24,6 +27,46 @@ fn newell(count: usize, corner: impl Fn(usize) -> Vec3) -> (DVec3, f64) {
         last = arm;
     }
     (sum, lengths)
+}
+
+/// The same of a triangle, right in all but its last bits however long and thin it is: a sliver's normal may be the
+/// only one that looks its way.
+fn triangle([a, b, c]: [Vec3; 3]) -> (DVec3, f64) {
+    let (u, u_lost) = difference(b, a);
+    let (v, v_lost) = difference(c, a);
+    let (ux, uy, uz) = (u.x, u.y, u.z);
+    let (vx, vy, vz) = (v.x, v.y, v.z);
+    let area = DVec3::new(minor(uy, vz, uz, vy), minor(uz, vx, ux, vz), minor(ux, vy, uy, vx));
+    // What the differences lost matters only where coordinates are a billion times apart.
+    let lost = u_lost.cross(v) + u.cross(v_lost);
+    (area + lost, u.length() * v.length() * 1e-14)
+}
+
+/// A difference and what rounding took from it, exactly (Knuth, "The art of computer programming", vol. 2, 4.2.2).
+fn difference(to: Vec3, from: Vec3) -> (DVec3, DVec3) {
+    let (to, from) = (to.as_dvec3(), -from.as_dvec3());
+    let sum = to + from;
+    let part = sum - to;
+    (sum, (to - (sum - part)) + (from - part))
+}
+
+/// a b - c d, with what both products lost.
+fn minor(a: f64, b: f64, c: f64, d: f64) -> f64 {
+    let ((ab, ab_lost), (cd, cd_lost)) = (product(a, b), product(c, d));
+    (ab - cd) + (ab_lost - cd_lost)
+}
+
+/// A product and what rounding took from it, exactly (Dekker, "A floating-point technique for extending the available
+/// precision", 1971).
+fn product(a: f64, b: f64) -> (f64, f64) {
+    let split = |value: f64| {
+        let scaled = value * 134_217_729.0;
+        let high = scaled - (scaled - value);
+        (high, value - high)
+    };
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let rounded = a * b;
+    (rounded, ((a_high * b_high - rounded) + a_high * b_low + a_low * b_high) + a_low * b_low)
 }
 
 /// Unit vector along a loop's area. Where that vanishes even in f64 it is x.
@@ -109,4 +152,29 @@ pub(super) fn neighbours<Index: Copy + Into<u32>>(faces: &[Vec<Index>]) -> Vec<V
         }
     }
     neighbours
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sliver_has_the_normal_that_integers_give() {
+        // In steps of 2^-45: one corner next to the origin, so that differences have more digits than f32.
+        let (long, near) = (1_i128 << 45, [12_345_677_i128, -2_345_679, 3_456_789]);
+        for (b, c) in [
+            ([long, long / 2, -long], [long + (1 << 22), long / 2 + (1 << 23), -long + (1 << 24)]),
+            ([long, 0, 0], [long - (1 << 21), 1, 0]),
+            ([-long, -248_527, 4_505_365], [-long / 2, -1_297_102, 3_981_077]),
+        ] {
+            let (u, v) = ([0, 1, 2].map(|i| b[i] - near[i]), [0, 1, 2].map(|i| c[i] - near[i]));
+            let cross = [0, 1, 2].map(|i| u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3]);
+            let truth = DVec3::from_array(cross.map(|value| value as f64)).normalize();
+            let point =
+                |corner: [i128; 3]| Vec3::from_array(corner.map(|value| (value as f64 / long as f64) as f32));
+            let points = [near, b, c].map(point);
+            let found = unit(area_vector(3, |i| points[i % 3]));
+            assert!((found - truth).length() < 1e-15, "{found} is not {truth}");
+        }
+    }
 }
