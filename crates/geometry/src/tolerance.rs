@@ -19,11 +19,11 @@ pub const THIN: f32 = 1e-3;
 
 /// Sine of the angle between two edges below which their cross product is not used as an axis.
 ///
-/// At this angle the f64 cross product still points within 3e-8 rad of the truth. Below it the axis is noise, and
-/// the face normals beside the edges give the same depth within this share of the pair's size. A larger value
-/// loses depth accuracy on nearly parallel edges; a smaller one only wastes time, since every axis is verified by
-/// full projection.
-pub const PARALLEL_EDGES: f64 = 1e-8;
+/// Above it, the axis is off by rounding over the sine; below it, the face normals beside the edges give the same
+/// depth within a few sines of the pair's size. Here both are some 1e-7 at worst; every axis is verified by full
+/// projection, and every pair carries what its own edges leave open in its error. A larger or smaller value makes that
+/// larger on one side.
+pub const PARALLEL_EDGES: f64 = 4e-8;
 
 /// Slack, in units of unit vectors' dot products, within which two arcs of the Gauss map are kept as crossing.
 ///
@@ -43,12 +43,6 @@ pub const FACE_PREFERENCE: f64 = 5e-7;
 /// Only the choice of contact points depends on it, never an axis or a depth. A smaller angle leaves slightly tilted
 /// boxes standing on one point; at a larger one the far corners are out of any useful margin.
 pub const ALIGNED_FACES: f64 = 0.995;
-
-/// Share of a pair's size that is part of every error of a separation in overlap that axes were tried for.
-///
-/// Covers the axes that nearly parallel edges leave out, and the noise of those just above that limit. The derivation
-/// stands in `docs/accuracy.md`.
-pub const SEPARATION_ERROR: f64 = 1.5e-7;
 
 /// Share of a pair's size at which the distance iteration stops: the gap between its two certified bounds.
 pub const DISTANCE_GAP: f64 = 1e-12;

@@ -1,17 +1,17 @@
 //! The error that goes with a separation: one place for the whole crate.
 //!
 //! Kernels propose an axis and evaluate it by full projection in f64. What separates the reported number from the
-//! truth is, in metres:
+//! truth is, in metres (`docs/accuracy.md` derives each constant):
 //!
-//! 1. rounding in f64: the terms of a projection are at most `reach`, the largest coordinate that entered, and each
-//!    went through fewer than 64 roundings of 2^-53;
-//! 2. the candidates left out: axes of nearly parallel edges, and the directional noise of those just above that
-//!    limit, both below `SEPARATION_ERROR` of the pair's size (`docs/accuracy.md`);
-//! 3. faces that are flat only up to the planarity error;
-//! 4. the gap between the two certified bounds, where a distance was iterated;
-//! 5. rounding the answer to f32: half an ulp.
-
-use asunder_geometry::tolerance::SEPARATION_ERROR;
+//! 1. *projection*: rounding in f64. Terms are at most `reach`, the sum of all lengths that enter; in space a projection
+//!    is off by less than 64 units of 2^-53 of that, in the plane by less than 16, for parts of compounds twice as much;
+//! 2. *ceiling*, in overlap: the true best axis may be one that was proposed a little beside its place. An axis that is
+//!    off by an angle shows at most that times `reach` too little: once more the projection error for a face, and that
+//!    over the sine of their angle for two edges. What is left is by how much any candidate could beat the best;
+//! 3. edges so nearly parallel that they propose nothing: [`Precision::of_parallel_edges`];
+//! 4. faces that are flat only up to the planarity error;
+//! 5. the gap between the two certified bounds, where a distance was iterated;
+//! 6. rounding the answer to f32: half an ulp.
 
 /// Everything about a pair that its error depends on, in metres.
 #[derive(Clone, Copy, Debug)]
@@ -22,17 +22,49 @@ pub(crate) struct Precision {
     pub(crate) reach: f64,
     /// Sum of the two planarity errors.
     pub(crate) planarity: f64,
+    /// Roundings of a projection, in units of 2^-53 of the reach: one of the constants below.
+    pub(crate) roundings: f64,
 }
+
+/// Roundings of a projection in space.
+pub(crate) const IN_SPACE: f64 = 64.0;
+
+/// Roundings of a projection in the plane, where the stored matrix is used as it stands.
+pub(crate) const IN_PLANE: f64 = 16.0;
+
+/// How many times as many for parts of a compound: two rotations and two shifts in place of one.
+pub(crate) const OF_PARTS: f64 = 2.0;
 
 impl Precision {
     /// Rounding of a projection in f64: below this, a sign means nothing.
+    #[inline]
     pub(crate) fn projection(&self) -> f64 {
-        64.0 * (f64::EPSILON / 2.0) * self.reach
+        self.roundings * (f64::EPSILON / 2.0) * self.reach
     }
 
-    /// Error of a separation found by exhausting the candidate axes.
-    pub(crate) fn of_separation(&self, separation: f64) -> f32 {
-        self.rounded_up(SEPARATION_ERROR * self.size + 4.0 * self.planarity + self.projection(), separation)
+    /// How much less than the truth an axis may show that is normal to a face.
+    #[inline]
+    pub(crate) fn of_face(&self) -> f64 {
+        self.projection()
+    }
+
+    /// How much less than the truth an axis may show that is normal to two edges; by the square of the sine between
+    /// them.
+    #[inline]
+    pub(crate) fn of_edges(&self, squared_sine: f64) -> f64 {
+        self.projection() / squared_sine.sqrt()
+    }
+
+    /// By how much the best axis may fall short for a pair of edges that proposed none, by the square of the sine
+    /// between them.
+    #[inline]
+    pub(crate) fn of_parallel_edges(&self, squared_sine: f64) -> f64 {
+        4.0 * (squared_sine.sqrt() * self.reach + self.projection())
+    }
+
+    /// Error of a separation found by exhausting the candidate axes, which could be greater by `short`.
+    pub(crate) fn of_separation(&self, separation: f64, short: f64) -> f32 {
+        self.rounded_up(short.max(0.0) + 2.0 * self.projection() + 4.0 * self.planarity, separation)
     }
 
     /// Error of a distance known to lie in an interval of this length.
@@ -78,10 +110,17 @@ mod tests {
     }
 
     #[test]
-    fn errors_grow_with_size_reach_and_value() {
-        let small = Precision { size: 1.0, reach: 2.0, planarity: 0.0 };
-        assert!(small.of_separation(0.0) < small.of_separation(100.0));
-        assert!(small.of_separation(0.0) < Precision { size: 10.0, ..small }.of_separation(0.0));
+    fn errors_grow_with_reach_value_and_what_was_left_out() {
+        let small = Precision { size: 1.0, reach: 2.0, planarity: 0.0, roundings: IN_SPACE };
+        assert!(small.of_separation(0.0, 0.0) < small.of_separation(100.0, 0.0));
+        assert!(small.of_separation(0.0, 0.0) < Precision { reach: 1e9, ..small }.of_separation(0.0, 0.0));
+        assert!(small.of_separation(0.0, 0.0) < small.of_separation(0.0, 1e-9));
+        assert_eq!(
+            small.of_separation(0.0, 0.0),
+            small.of_separation(0.0, -1.0),
+            "no candidate beats the best"
+        );
         assert!(small.of_distance(1.0, 0.0) < Precision { reach: 1e9, ..small }.of_distance(1.0, 0.0));
+        assert!(small.of_edges(1e-12) > 1e5 * small.of_face());
     }
 }

@@ -4,12 +4,14 @@
 //! trigonometry is by `libm`, sums run in a fixed order. Equal arguments give equal bits on every machine.
 //!
 //! - [`boxes`]: moving boxes for a broad phase.
+//! - [`hard`]: pairs on which collision tests go wrong, family by family.
 //! - [`level`]: scene files.
 //! - [`pairs`]: posed pairs of shapes for a narrow phase.
 //! - [`worlds`]: bodies with simple motion for a whole frame.
 #![deny(missing_docs)]
 
 pub mod boxes;
+pub mod hard;
 pub mod level;
 pub mod pairs;
 pub mod random;

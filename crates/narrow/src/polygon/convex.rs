@@ -28,7 +28,7 @@ use super::sat::{Axes, Axis, Outcome, Sides, hint_of, overlaps, separating_axes,
 use crate::answer::{Tier, Verdict};
 use crate::exact::{self, Corner, Site2};
 use crate::feature::{Feature, FeatureId, Hint};
-use crate::precision::{Precision, at_least, signed};
+use crate::precision::{IN_PLANE, OF_PARTS, Precision, at_least, signed};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Core2, Shape2};
@@ -106,7 +106,8 @@ impl<'a> Convex<'a> {
         let length = |v: DVec2| v.abs().element_sum();
         let off_center = length(shape_a.center().as_dvec2()) + length(shape_b.center().as_dvec2());
         let reach = size + radii + off_center + length(offset) + summed;
-        let precision = Precision { size, reach, planarity: 0.0 };
+        let roundings = if summed > 0.0 { IN_PLANE * OF_PARTS } else { IN_PLANE };
+        let precision = Precision { size, reach, planarity: 0.0, roundings };
         Self { sites, shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
     }
 
@@ -133,8 +134,7 @@ impl<'a> Convex<'a> {
                 if a.edge_count() + b.edge_count() == 0 {
                     return self.told_verdict(&self.told_points(a, b));
                 }
-                let rounding = self.precision.projection();
-                match sides(a, b, rounding, f64::from(self.precision.of_separation(0.0))) {
+                match sides(a, b, &self.precision) {
                     Sides::Apart => settled(false),
                     Sides::Overlapping if !is_thin(a, b) => settled(true),
                     _ => self.look_closer(a, b, None).0,
@@ -275,7 +275,8 @@ impl<'a> Convex<'a> {
             }
             Outcome::Within(axes) => axes,
         };
-        let is_clear = axes.best().separation < -f64::from(precision.of_separation(0.0));
+        // Every edge normal was tried, each as far off its place as any.
+        let is_clear = axes.best().separation < -(precision.of_face() + 2.0 * precision.projection());
         if is_clear && !is_thin(a, b) {
             return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound });
         }
@@ -294,7 +295,7 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(depth, true),
-            error: self.precision.of_separation(best.separation - self.radii),
+            error: self.precision.of_separation(best.separation - self.radii, self.precision.of_face()),
             normal: best.normal,
             closest: None,
             hint: hint_of(&best),
@@ -370,7 +371,7 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error: precision.of_separation(separation),
+            error: precision.of_separation(separation, precision.of_face()),
             normal: best.normal,
             closest: deepest.map(|point| [point.on_a, point.on_b]),
             hint: hint_of(best),

@@ -9,6 +9,7 @@
 
 use super::outline::Outline;
 use crate::feature::{Feature, FeatureId, Hint};
+use crate::precision::Precision;
 use asunder_geometry::glam::DVec2;
 
 /// What an axis is the normal of.
@@ -92,9 +93,10 @@ pub(crate) enum Sides {
     Unclear,
 }
 
-/// Which side of touching the shapes are on: an axis by its separation is off by no more than `rounding`, all of them
-/// together by no more than `error`. No axis is normalised.
-pub(crate) fn sides(a: &Outline, b: &Outline, rounding: f64, error: f64) -> Sides {
+/// Which side of touching the shapes are on. No axis is normalised.
+pub(crate) fn sides(a: &Outline, b: &Outline, precision: &Precision) -> Sides {
+    let rounding = precision.projection();
+    let error = rounding + precision.of_face();
     let mut sides = Sides::Overlapping;
     let mut settles = |one: &Outline, other: &Outline, edge: usize| {
         let outward = one.outward(edge);

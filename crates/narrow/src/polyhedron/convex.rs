@@ -25,13 +25,13 @@ use super::cuboids::Cuboids;
 use super::distance::{Close, Reached, Witness, distance};
 use super::half_space::Plane;
 use super::manifold::{Point, Touch, touch};
-use super::sat::{self, Axes, Axis, Outcome, Sides, hint_of, separating_axes};
+use super::sat::{self, Axes, Axis, Outcome, Search, Sides, hint_of, separating_axes};
 use super::slender::{self, Nearest};
 use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
 use crate::exact::{self, Corner, Site3};
 use crate::feature::{Feature, FeatureId, Hint};
-use crate::precision::{Precision, at_least, signed};
+use crate::precision::{IN_SPACE, OF_PARTS, Precision, at_least, signed};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Basis3, Core3, Hull, Shape3};
@@ -117,6 +117,7 @@ impl<'a> Convex<'a> {
             size,
             reach: size + radii + off_center + length(offset) + summed,
             planarity: planarity(shape_a) + planarity(shape_b),
+            roundings: if summed > 0.0 { IN_SPACE * OF_PARTS } else { IN_SPACE },
         };
         Self { sites, shape_a, shape_b, relative, offset, precision, radii }
     }
@@ -144,11 +145,11 @@ impl<'a> Convex<'a> {
                 if a.is_slender() && b.is_slender() {
                     return self.told_verdict(&self.told_slender(a, b));
                 }
-                match self.sides(a, b) {
-                    Sides::Apart => settled(false),
-                    Sides::Overlapping if self.is_complete(a, b) => settled(true),
-                    _ => self.look_closer(a, b, None).0,
+                let sides = self.sides(a, b);
+                if sides.are_apart || sides.are_overlapping() && self.is_complete(a, b) {
+                    return settled(!sides.are_apart);
                 }
+                self.look_closer(a, b, None).0
             });
         }
         match self.probe(0.0, Hint::NONE) {
@@ -281,7 +282,7 @@ impl<'a> Convex<'a> {
             }
             Outcome::Within(axes) => axes,
         };
-        let is_clear = axes.best().separation < -f64::from(precision.of_separation(0.0));
+        let is_clear = axes.best().separation + axes.short() < -2.0 * precision.projection();
         if is_clear && self.is_complete(a, b) {
             return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound });
         }
@@ -300,7 +301,7 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(depth, true),
-            error: self.precision.of_separation(best.separation - self.radii),
+            error: self.precision.of_separation(best.separation - self.radii, axes.short()),
             normal: best.normal,
             closest: None,
             hint: hint_of(&best),
@@ -376,7 +377,7 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error: precision.of_separation(separation),
+            error: precision.of_separation(separation, axes.short()),
             normal: best.normal,
             closest: deepest.map(|point| [point.on_a, point.on_b]),
             hint: hint_of(best),
@@ -390,23 +391,18 @@ impl<'a> Convex<'a> {
     }
 
     pub(crate) fn axes(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Outcome {
+        let slack = self.preference() + 4.0 * self.precision.planarity;
+        let search = Search { limit, hint, slack, precision: &self.precision };
         match self.cuboids() {
-            Some(cuboids) => cuboids.separating_axes(a, b, limit, hint),
-            None => {
-                let slack = self.preference() + 4.0 * self.precision.planarity;
-                separating_axes(a, b, limit, hint, slack)
-            }
+            Some(cuboids) => cuboids.separating_axes(a, b, &search),
+            None => separating_axes(a, b, &search),
         }
     }
 
     /// Which side of touching all axes put the cores on, if they have no radii.
     fn sides(&self, a: &Solid, b: &Solid) -> Sides {
-        let rounding = self.precision.projection();
-        let error = f64::from(self.precision.of_separation(0.0));
-        match self.cuboids() {
-            Some(cuboids) => cuboids.sides(rounding, error),
-            None => sat::sides(a, b, rounding, error),
-        }
+        self.cuboids()
+            .map_or_else(|| sat::sides(a, b, &self.precision), |cuboids| cuboids.sides(&self.precision))
     }
 
     /// Whether faces and edges leave no gap out, so that an overlap that they all show is one.
@@ -417,7 +413,7 @@ impl<'a> Convex<'a> {
     fn is_complete(&self, a: &Solid, b: &Solid) -> bool {
         let is_thin = |shape: &Shape3| matches!(shape, Shape3::Hull(hull) if hull.is_thin());
         let has_thin = is_thin(self.shape_a) || is_thin(self.shape_b);
-        self.precision.planarity == 0.0 && !has_thin && !(a.is_flat() && b.is_flat())
+        self.precision.planarity <= self.precision.projection() && !has_thin && !(a.is_flat() && b.is_flat())
     }
 
     fn cuboids(&self) -> Option<Cuboids> {

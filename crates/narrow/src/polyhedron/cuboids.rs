@@ -8,9 +8,10 @@
 //! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). A projection radius in closed form takes the place of the
 //! eight vertices; everything else is as in the general test, the axis of nearly parallel edges included.
 
-use super::sat::{Axes, Axis, AxisOf, Outcome, Sides};
+use super::sat::{Axes, Axis, AxisOf, Outcome, Search, Sides};
 use super::solid::Solid;
 use crate::feature::{Feature, Hint};
+use crate::precision::Precision;
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::PARALLEL_EDGES;
@@ -41,32 +42,45 @@ impl Cuboids {
         axis.dot(self.offset).abs() - radius_a - radius_b
     }
 
-    /// The cross product of edges along two axes, or nothing where they are nearly parallel.
-    fn cross(&self, i: usize, j: usize) -> Option<DVec3> {
+    /// The cross product of edges along two axes; where they are nearly parallel, the square of the sine between them.
+    fn cross(&self, i: usize, j: usize) -> Result<DVec3, f64> {
         let cross = UNIT[i].cross(self.axis_b(j));
-        (cross.length_squared() > PARALLEL_EDGES * PARALLEL_EDGES).then_some(cross)
+        let squared_sine = cross.length_squared();
+        if squared_sine > PARALLEL_EDGES * PARALLEL_EDGES { Ok(cross) } else { Err(squared_sine) }
     }
 
     /// Whether no axis parts them. No axis is normalised.
     pub(crate) fn overlaps(&self) -> bool {
         (0..3).all(|i| self.along(UNIT[i]) <= 0.0)
             && (0..3).all(|j| self.along(self.axis_b(j)) <= 0.0)
-            && (0..9).all(|k| self.cross(k / 3, k % 3).is_none_or(|cross| self.along(cross) <= 0.0))
+            && (0..9).all(|k| self.cross(k / 3, k % 3).map_or(true, |cross| self.along(cross) <= 0.0))
     }
 
     /// Which side of touching the axes put them on; see [`super::sat::sides`].
-    pub(crate) fn sides(&self, rounding: f64, error: f64) -> Sides {
-        let mut sides = Sides::Overlapping;
-        let mut settles = |axis: DVec3, length: f64| sides.meet(self.along(axis), length, rounding, error);
-        let _ = (0..3).any(|i| settles(UNIT[i], 1.0))
-            || (0..3).any(|j| settles(self.axis_b(j), 1.0))
-            // A cross product of unit vectors is no longer than 1.
-            || (0..9).any(|k| self.cross(k / 3, k % 3).is_some_and(|cross| settles(cross, cross.abs().element_sum())));
+    pub(crate) fn sides(&self, precision: &Precision) -> Sides {
+        let mut sides = Sides::NONE;
+        let mut settles = |axis: DVec3| sides.meet(self.along(axis), precision.of_face(), 1.0, precision);
+        if (0..3).any(|i| settles(UNIT[i])) || (0..3).any(|j| settles(self.axis_b(j))) {
+            return sides;
+        }
+        for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
+            match self.cross(i, j) {
+                // Of unit vectors: the rounding of the axis over the sine, times its length, which is the sine.
+                Ok(cross) => {
+                    let length = cross.abs().element_sum();
+                    if sides.meet(self.along(cross), precision.of_face(), length, precision) {
+                        break;
+                    }
+                }
+                Err(squared_sine) => sides.leave_out(precision.of_parallel_edges(squared_sine)),
+            }
+        }
         sides
     }
 
     /// All fifteen axes, the hinted one first; the outcome within the limit does not depend on the hint.
-    pub(crate) fn separating_axes(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Outcome {
+    pub(crate) fn separating_axes(&self, a: &Solid, b: &Solid, search: &Search) -> Outcome {
+        let Search { limit, hint, precision, .. } = *search;
         if let Some(axis) = self.hinted_axis(a, b, hint)
             && axis.separation > limit
         {
@@ -85,11 +99,20 @@ impl Cuboids {
                 return Outcome::Beyond(axes.face_b);
             }
         }
+        axes.raise(axes.best().separation, precision.of_face());
         let mut best = (f64::NEG_INFINITY, DVec3::X, 0, 0);
         for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
-            let Some(cross) = self.cross(i, j) else { continue };
-            let normal = cross.normalize();
+            let cross = match self.cross(i, j) {
+                Ok(cross) => cross,
+                Err(squared_sine) => {
+                    axes.leave_out(precision.of_parallel_edges(squared_sine));
+                    continue;
+                }
+            };
+            let length = cross.length();
+            let normal = cross / length;
             let separation = self.along(normal);
+            axes.raise(separation, precision.of_face() / length);
             if separation > best.0 {
                 best = (separation, normal, i, j);
             }
@@ -144,7 +167,7 @@ impl Cuboids {
             (_, Feature::Face(face)) if b.has_face(face) => Some(self.face_axis_b(face as usize / 2)),
             (Feature::Edge(edge_a), Feature::Edge(edge_b)) if a.has_edge(edge_a) && b.has_edge(edge_b) => {
                 let (i, j) = (axis_of_edge(a, edge_a as usize), axis_of_edge(b, edge_b as usize));
-                let normal = self.cross(i, j)?.normalize();
+                let normal = self.cross(i, j).ok()?.normalize();
                 Some(self.edge_axis(a, b, (i, j), self.along(normal), normal))
             }
             _ => None,

@@ -13,10 +13,14 @@
 //! so noise in a cross product can make an axis useless but never wrong. Which way a cross product points is told by
 //! the arc of A's edge, and not by the centres, which may coincide.
 //!
+//! An axis that is a little off its place shows a little less than it should, never more. How much that may be is kept
+//! beside the best separation ([`Axes::short`]): one edge pair at a small angle costs only its own pair's precision.
+//!
 //! Cost: faces times vertices, plus edge pairs, plus kept edge pairs times vertices.
 
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId, Hint};
+use crate::precision::Precision;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{ARC_SLACK, MAX_HULL_VERTICES, PARALLEL_EDGES};
@@ -47,6 +51,10 @@ pub(crate) struct Axes {
     pub(crate) face_a: Axis,
     pub(crate) face_b: Axis,
     pub(crate) edges: Axis,
+    /// No axis that was proposed has a greater separation in truth.
+    ceiling: f64,
+    /// What the axes may fall short of the truth by for pairs of edges that proposed none.
+    left_out: f64,
 }
 
 impl Axes {
@@ -54,7 +62,26 @@ impl Axes {
         face_a: Axis { separation: f64::NEG_INFINITY, normal: DVec3::X, of: AxisOf::FaceA(0) },
         face_b: Axis { separation: f64::NEG_INFINITY, normal: DVec3::X, of: AxisOf::FaceB(0) },
         edges: Axis { separation: f64::NEG_INFINITY, normal: DVec3::X, of: AxisOf::Edges(0, 0) },
+        ceiling: f64::NEG_INFINITY,
+        left_out: 0.0,
     };
+
+    /// Takes note that some axis shows a separation, and may show too little by `doubt`.
+    #[inline]
+    pub(crate) fn raise(&mut self, separation: f64, doubt: f64) {
+        self.ceiling = self.ceiling.max(separation + doubt);
+    }
+
+    /// Takes note of edges that propose no axis.
+    #[inline]
+    pub(crate) fn leave_out(&mut self, short: f64) {
+        self.left_out = self.left_out.max(short);
+    }
+
+    /// By how much the truth may exceed the best separation, that one's own rounding apart.
+    pub(crate) fn short(&self) -> f64 {
+        (self.ceiling - self.best().separation).max(self.left_out)
+    }
 
     /// Keeps the axis if it is the best of its kind; ties keep the earlier.
     pub(crate) fn offer(&mut self, axis: Axis) {
@@ -86,30 +113,45 @@ pub(crate) enum Outcome {
     Within(Axes),
 }
 
-/// Runs the test; `hint` is tried first. The outcome within the limit does not depend on the hint. `slack` is how far
-/// edges may lie from the supporting planes of the axis that is theirs.
-pub(crate) fn separating_axes(a: &Solid, b: &Solid, limit: f64, hint: Hint, slack: f64) -> Outcome {
+/// What is asked of the test.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Search<'a> {
+    /// One axis that parts the shapes by more than this ends it.
+    pub(crate) limit: f64,
+    /// Tried first. The outcome within the limit does not depend on it.
+    pub(crate) hint: Hint,
+    /// How far edges may lie from the supporting planes of the axis that is theirs.
+    pub(crate) slack: f64,
+    pub(crate) precision: &'a Precision,
+}
+
+/// Runs the test.
+pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome {
+    let Search { limit, hint, slack, precision } = *search;
     if let Some(axis) = hinted_axis(a, b, hint)
         && axis.separation > limit
     {
         return Outcome::Beyond(axis);
     }
     let mut axes = Axes::NONE;
-    for face in 0..a.face_count() {
-        axes.offer(face_axis_a(a, b, face));
-        if axes.face_a.separation > limit {
-            return Outcome::Beyond(axes.face_a);
+    let faces_a = (0..a.face_count()).map(|face| face_axis_a(a, b, face));
+    let faces_b = (0..b.face_count()).map(|face| face_axis_b(a, b, face));
+    for axis in faces_a.chain(faces_b) {
+        if axis.separation > limit {
+            return Outcome::Beyond(axis);
         }
+        axes.offer(axis);
     }
-    for face in 0..b.face_count() {
-        axes.offer(face_axis_b(a, b, face));
-        if axes.face_b.separation > limit {
-            return Outcome::Beyond(axes.face_b);
-        }
-    }
+    axes.raise(axes.best().separation, precision.of_face());
     let mut beyond = None;
     for_edge_pairs(a, b, |edge_a, edge_b| {
-        let Some(axis) = edge_axis(a, b, edge_a, edge_b) else { return false };
+        let cross = Cross::outwards(a, b, edge_a, edge_b);
+        if cross.is_noise() {
+            axes.leave_out(precision.of_parallel_edges(cross.squared_sine));
+            return false;
+        }
+        let axis = edge_axis(a, b, [edge_a, edge_b], &cross);
+        axes.raise(axis.separation, precision.of_edges(cross.squared_sine));
         if axis.separation > limit {
             beyond = Some(axis);
         } else if axis.separation > axes.edges.separation && supports(a, b, &axis, slack) {
@@ -121,45 +163,62 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, limit: f64, hint: Hint, slac
 }
 
 /// Which side of touching all candidate axes put two shapes on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sides {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sides {
     /// One axis parts them for certain.
-    Apart,
-    /// Every axis shows more overlap than its error.
-    Overlapping,
-    /// Some axis is too close to call.
-    Unclear,
+    pub(crate) are_apart: bool,
+    /// No axis has a greater separation in truth.
+    ceiling: f64,
+    left_out: f64,
 }
 
 impl Sides {
-    /// Takes in a separation along an axis of any length, scaled by that length, or by what is no less. Returns whether
-    /// that settles it.
+    pub(crate) const NONE: Self = Self { are_apart: false, ceiling: f64::NEG_INFINITY, left_out: 0.0 };
+
+    /// Whether every axis shows more overlap than it may be off by.
+    pub(crate) fn are_overlapping(&self) -> bool {
+        !self.are_apart && self.ceiling + self.left_out < 0.0
+    }
+
+    /// Takes in an axis of any length and the separation along it, both that many times too long, and `doubt`, by which
+    /// the separation may be too small. `length` may be too great. Returns whether the axis parts the shapes.
     #[inline]
-    pub(crate) fn meet(&mut self, separation: f64, length: f64, rounding: f64, error: f64) -> bool {
-        if separation > rounding * length {
-            *self = Self::Apart;
-            return true;
-        }
-        if separation >= -error * length {
-            *self = Self::Unclear;
-        }
-        false
+    pub(crate) fn meet(&mut self, separation: f64, doubt: f64, length: f64, precision: &Precision) -> bool {
+        let rounding = precision.projection() * length;
+        self.are_apart = separation > rounding;
+        self.ceiling = self.ceiling.max((separation + (rounding + doubt)) / length);
+        self.are_apart
+    }
+
+    /// Takes in edges that propose no axis.
+    pub(crate) fn leave_out(&mut self, short: f64) {
+        self.left_out = self.left_out.max(short);
     }
 }
 
-/// Which side of touching the shapes are on: an axis by its separation is off by no more than `rounding`, all of them
-/// together by no more than `error`. No axis is normalised.
-pub(crate) fn sides(a: &Solid, b: &Solid, rounding: f64, error: f64) -> Sides {
-    let mut sides = Sides::Overlapping;
+/// Which side of touching the shapes are on. No axis is normalised.
+pub(crate) fn sides(a: &Solid, b: &Solid, precision: &Precision) -> Sides {
+    let mut sides = Sides::NONE;
+    // The sum of absolute values bounds the length, and needs no root.
+    let length = |axis: DVec3| axis.abs().element_sum();
+    let along = |axis: DVec3| -b.support(-axis).reach - a.support(axis).reach;
     let mut settles = |outward: DVec3| {
-        let separation = -b.support(-outward).reach - a.support(outward).reach;
-        // The sum of absolute values bounds the length, and needs no root.
-        sides.meet(separation, outward.abs().element_sum(), rounding, error)
+        let length = length(outward);
+        sides.meet(along(outward), precision.of_face() * length, length, precision)
     };
     let by_face = (0..a.face_count()).any(|face| settles(a.outward(face)))
         || (0..b.face_count()).any(|face| settles(-b.outward(face)));
     if !by_face {
-        for_edge_pairs(a, b, |edge_a, edge_b| cross_outwards(a, b, edge_a, edge_b).is_some_and(&mut settles));
+        for_edge_pairs(a, b, |edge_a, edge_b| {
+            let cross = Cross::outwards(a, b, edge_a, edge_b);
+            if cross.is_noise() {
+                sides.leave_out(precision.of_parallel_edges(cross.squared_sine));
+                return false;
+            }
+            // The rounding of an edge axis over the sine, times the axis' length, is that times the edges' lengths.
+            let doubt = precision.of_face() * cross.lengths;
+            sides.meet(along(cross.axis), doubt, length(cross.axis), precision)
+        });
     }
     sides
 }
@@ -176,8 +235,8 @@ pub(crate) fn overlaps(a: &Solid, b: &Solid) -> bool {
         return false;
     }
     !for_edge_pairs(a, b, |edge_a, edge_b| {
-        let (along_a, along_b) = (a.edge_direction(edge_a), b.edge_direction(edge_b));
-        cross_of_edges(along_a, along_b).is_some_and(parts)
+        let cross = Cross::new(a.edge_direction(edge_a), b.edge_direction(edge_b));
+        !cross.is_noise() && parts(cross.axis)
     })
 }
 
@@ -193,22 +252,46 @@ fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
     Axis { separation, normal, of: AxisOf::FaceB(face) }
 }
 
-/// The cross product of two edges, turned from A to B; nothing where it would be noise.
-fn cross_outwards(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Option<DVec3> {
-    let axis = cross_of_edges(a.edge_direction(edge_a), b.edge_direction(edge_b))?;
-    // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's edge
-    // tells.
-    let outwards = match a.arc(edge_a).middle {
-        DVec3::ZERO => -b.arc(edge_b).middle,
-        middle => middle,
-    };
-    Some(if axis.dot(outwards) < 0.0 { -axis } else { axis })
+/// The cross product of two edges.
+#[derive(Clone, Copy, Debug)]
+struct Cross {
+    axis: DVec3,
+    /// The product of the edges' lengths; it may be too great.
+    lengths: f64,
+    /// Of the sine between the edges.
+    squared_sine: f64,
 }
 
-fn edge_axis(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Option<Axis> {
-    let normal = cross_outwards(a, b, edge_a, edge_b)?.normalize();
+impl Cross {
+    fn new(along_a: DVec3, along_b: DVec3) -> Self {
+        let axis = along_a.cross(along_b);
+        let squared_sine = axis.length_squared() / (along_a.length_squared() * along_b.length_squared());
+        let lengths = along_a.abs().element_sum() * along_b.abs().element_sum();
+        Self { axis, lengths, squared_sine }
+    }
+
+    /// Turned from A to B.
+    fn outwards(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Self {
+        let cross = Self::new(a.edge_direction(edge_a), b.edge_direction(edge_b));
+        // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's
+        // edge tells.
+        let outwards = match a.arc(edge_a).middle {
+            DVec3::ZERO => -b.arc(edge_b).middle,
+            middle => middle,
+        };
+        if cross.axis.dot(outwards) < 0.0 { Self { axis: -cross.axis, ..cross } } else { cross }
+    }
+
+    /// Whether the edges are so nearly parallel that the axis would be rounding. Edges of no length are.
+    fn is_noise(&self) -> bool {
+        !(self.squared_sine > PARALLEL_EDGES * PARALLEL_EDGES)
+    }
+}
+
+fn edge_axis(a: &Solid, b: &Solid, [edge_a, edge_b]: [usize; 2], cross: &Cross) -> Axis {
+    let normal = cross.axis.normalize();
     let separation = -b.support(-normal).reach - a.support(normal).reach;
-    Some(Axis { separation, normal, of: AxisOf::Edges(edge_a, edge_b) })
+    Axis { separation, normal, of: AxisOf::Edges(edge_a, edge_b) }
 }
 
 /// Whether an axis' edges lie where both shapes reach furthest along it.
@@ -219,13 +302,6 @@ fn supports(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> bool {
     let AxisOf::Edges(edge_a, edge_b) = axis.of else { return true };
     let between = b.edge(edge_b).0 - a.edge(edge_a).0;
     axis.normal.dot(between) - axis.separation <= slack
-}
-
-/// The cross product of two edges, or nothing where they are so nearly parallel that it would be noise.
-fn cross_of_edges(along_a: DVec3, along_b: DVec3) -> Option<DVec3> {
-    let cross = along_a.cross(along_b);
-    let least = PARALLEL_EDGES * PARALLEL_EDGES * along_a.length_squared() * along_b.length_squared();
-    (cross.length_squared() > least).then_some(cross)
 }
 
 /// An edge on the Gauss map: its direction, of any length, and the unit normals that its arc runs between.
@@ -295,7 +371,9 @@ fn hinted_axis(a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
         (Feature::Face(face), _) if a.has_face(face) => Some(face_axis_a(a, b, face as usize)),
         (_, Feature::Face(face)) if b.has_face(face) => Some(face_axis_b(a, b, face as usize)),
         (Feature::Edge(edge_a), Feature::Edge(edge_b)) if a.has_edge(edge_a) && b.has_edge(edge_b) => {
-            edge_axis(a, b, edge_a as usize, edge_b as usize)
+            let edges = [edge_a as usize, edge_b as usize];
+            let cross = Cross::outwards(a, b, edges[0], edges[1]);
+            (!cross.is_noise()).then(|| edge_axis(a, b, edges, &cross))
         }
         _ => None,
     }

@@ -51,8 +51,8 @@ pub(super) fn accumulate<const L: usize, const N: usize>(
 #[inline]
 pub(super) fn trimmed_fixed<const N: usize>(limbs: &[u64; N], upto: usize) -> usize {
     let mut len = 0;
-    for i in 0..upto {
-        len = if limbs[i] == 0 { len } else { i + 1 };
+    for (i, &limb) in limbs.iter().take(upto).enumerate() {
+        len = if limb == 0 { len } else { i + 1 };
     }
     len
 }

@@ -66,8 +66,9 @@ fn all_edge_pairs(a: &Solid, b: &Solid) -> f64 {
     let mut best = f64::NEG_INFINITY;
     for &edge_a in a.topology.edges() {
         for &edge_b in b.topology.edges() {
-            let cross = cross_of_edges(a.edge_direction(edge_a as usize), b.edge_direction(edge_b as usize));
-            if let Some(axis) = cross.map(DVec3::normalize) {
+            let cross = Cross::new(a.edge_direction(edge_a as usize), b.edge_direction(edge_b as usize));
+            if !cross.is_noise() {
+                let axis = cross.axis.normalize();
                 let ((low_a, high_a), (low_b, high_b)) = (a.project(axis), b.project(axis));
                 best = best.max(low_b - high_a).max(low_a - high_b);
             }
@@ -95,7 +96,7 @@ fn pruned_and_exhaustive_agree_within_the_reported_error() {
             assert!(pruned <= exhaustive, "case {case}");
             // In a gap the greatest axis of all need not be one whose arcs cross; there the distance decides.
             if exhaustive <= 0.0 {
-                let error = f64::from(pair.precision.of_separation(pruned));
+                let error = f64::from(pair.precision.of_separation(pruned, axes.short()));
                 assert!(
                     exhaustive - pruned <= error,
                     "case {case}: {pruned} against {exhaustive}, error {error}"
@@ -135,7 +136,7 @@ fn half_circles_and_whole_circles_lose_no_axis_either() {
             let faces = axes.face_a.separation.max(axes.face_b.separation);
             let exhaustive = faces.max(all_edge_pairs(a, b));
             if exhaustive <= 0.0 {
-                let error = f64::from(pair.precision.of_separation(exhaustive));
+                let error = f64::from(pair.precision.of_separation(exhaustive, axes.short()));
                 assert!(exhaustive - axes.best().separation <= error, "case {case}: {exhaustive}");
                 decided_by_edges += usize::from(axes.edges.separation > faces);
             }
