@@ -93,28 +93,25 @@ pub(crate) enum Sides {
     Unclear,
 }
 
-/// Which side of touching the shapes are on. No axis is normalised.
+/// Which side of touching the shapes are on.
+///
+/// No axis is normalised: what is lost to rounding is no more than along an axis as long as the longest edge can be.
 pub(crate) fn sides(a: &Outline, b: &Outline, precision: &Precision) -> Sides {
-    let rounding = precision.projection();
-    let error = rounding + precision.of_face();
-    let mut sides = Sides::Overlapping;
-    let mut settles = |one: &Outline, other: &Outline, edge: usize| {
+    // An outward vector is as long as its edge, no edge is longer than its shape, and no core than this.
+    let rounding = precision.projection() * 2.0 * precision.size;
+    let mut top = f64::NEG_INFINITY;
+    let mut parts = |one: &Outline, other: &Outline, edge: usize| {
         let outward = one.outward(edge);
         let separation = -other.support(-outward).reach - one.support(outward).reach;
-        // The sum of absolute values bounds the length, and needs no root.
-        let length = outward.abs().element_sum();
-        if separation > rounding * length {
-            sides = Sides::Apart;
-            return true;
-        }
-        if separation >= -error * length {
-            sides = Sides::Unclear;
-        }
-        false
+        top = top.max(separation);
+        separation > rounding
     };
-    let _ = (0..a.edge_count()).any(|edge| settles(a, b, edge))
-        || (0..b.edge_count()).any(|edge| settles(b, a, edge));
-    sides
+    if (0..a.edge_count()).any(|edge| parts(a, b, edge)) || (0..b.edge_count()).any(|edge| parts(b, a, edge))
+    {
+        return Sides::Apart;
+    }
+    let doubt = rounding + precision.of_face() * 2.0 * precision.size;
+    if top < -doubt { Sides::Overlapping } else { Sides::Unclear }
 }
 
 /// Whether no edge normal parts the shapes. Asks for a yes or no only, so no axis is normalised.

@@ -57,25 +57,29 @@ impl Cuboids {
     }
 
     /// Which side of touching the axes put them on; see [`super::sat::sides`].
+    ///
+    /// No axis is longer than 1, so that what is lost to rounding is no more than along a unit axis: in place of a
+    /// length and a quotient for each axis, one comparison.
     pub(crate) fn sides(&self, precision: &Precision) -> Sides {
-        let mut sides = Sides::NONE;
-        let mut settles = |axis: DVec3| sides.meet(self.along(axis), precision.of_face(), 1.0, precision);
-        if (0..3).any(|i| settles(UNIT[i])) || (0..3).any(|j| settles(self.axis_b(j))) {
-            return sides;
-        }
+        let rounding = precision.projection();
+        let (mut top, mut left_out) = (f64::NEG_INFINITY, 0.0_f64);
+        let mut parts = |axis: DVec3| {
+            let separation = self.along(axis);
+            top = top.max(separation);
+            separation > rounding
+        };
+        let mut are_apart = (0..3).any(|i| parts(UNIT[i])) || (0..3).any(|j| parts(self.axis_b(j)));
         for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
+            if are_apart {
+                break;
+            }
             match self.cross(i, j) {
                 // Of unit vectors: the rounding of the axis over the sine, times its length, which is the sine.
-                Ok(cross) => {
-                    let length = cross.abs().element_sum();
-                    if sides.meet(self.along(cross), precision.of_face(), length, precision) {
-                        break;
-                    }
-                }
-                Err(squared_sine) => sides.leave_out(precision.of_parallel_edges(squared_sine)),
+                Ok(cross) => are_apart = parts(cross),
+                Err(squared_sine) => left_out = left_out.max(precision.of_parallel_edges(squared_sine)),
             }
         }
-        sides
+        Sides::new(are_apart, top + rounding + precision.of_face(), left_out)
     }
 
     /// All fifteen axes, the hinted one first; the outcome within the limit does not depend on the hint.

@@ -175,6 +175,11 @@ pub(crate) struct Sides {
 impl Sides {
     pub(crate) const NONE: Self = Self { are_apart: false, ceiling: f64::NEG_INFINITY, left_out: 0.0 };
 
+    /// Where no axis, of whatever length, has a greater separation than `ceiling` in truth.
+    pub(crate) fn new(are_apart: bool, ceiling: f64, left_out: f64) -> Self {
+        Self { are_apart, ceiling, left_out }
+    }
+
     /// Whether every axis shows more overlap than it may be off by.
     pub(crate) fn are_overlapping(&self) -> bool {
         !self.are_apart && self.ceiling + self.left_out < 0.0
