@@ -29,7 +29,7 @@ pub(super) struct Simplex {
 }
 
 /// What carries the nearest point.
-
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack for one step")]
 pub(super) enum Carried {
     /// The origin is in the simplex.
     Origin,

@@ -14,6 +14,7 @@ pub(super) enum Vertices<'a> {
 }
 
 /// How a shape's own axes look from the common frame, times the frame's weight.
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack for one question")]
 #[derive(Clone)]
 pub(super) enum Turn {
     /// They are the frame's.
@@ -23,6 +24,7 @@ pub(super) enum Turn {
 }
 
 /// One shape in the frame.
+#[allow(clippy::large_enum_variant, reason = "as Turn")]
 pub(super) enum Body<'a> {
     Core(Vertices<'a>, Turn),
     /// Everything below a plane through the body's position: its outward normal in the frame, of any length.

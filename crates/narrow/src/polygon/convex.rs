@@ -20,7 +20,7 @@
 //! line out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
-use super::distance::{Close, Reached, Witness, distance};
+use super::distance::{Close, Reached, Until, Witness, distance};
 use super::half_plane::Line;
 use super::manifold::{Point, Touch, touch};
 use super::outline::{Outline, Turn};
@@ -32,6 +32,9 @@ use crate::precision::{IN_PLANE, OF_PARTS, Precision, at_least, signed};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Core2, Shape2};
+
+/// Edges of two polygons together up to which a yes or no comes cheaper from all axes than from a search.
+const FEW_EDGES: usize = 20;
 
 /// Two convex shapes in the frame of the pair: the world's axes, about A's position.
 pub(crate) struct Convex<'a> {
@@ -127,23 +130,32 @@ impl<'a> Convex<'a> {
     }
 
     /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
+    ///
+    /// For polygons of few edges that is all their axes; for others a search for a direction that parts them, or for
+    /// corners around a common point.
     pub(crate) fn verdict(&self) -> Verdict {
-        if self.radii == 0.0 && self.lines() == [None, None] {
-            let settled = |overlapping: bool| Verdict { overlapping, tier: Tier::Bound };
-            return self.with_outlines(|a, b| {
-                if a.edge_count() + b.edge_count() == 0 {
+        match self.lines() {
+            [None, None] => self.with_outlines(|a, b| {
+                let edges = a.edge_count() + b.edge_count();
+                if edges == 0 {
                     return self.told_verdict(&self.told_points(a, b));
                 }
-                match sides(a, b, &self.precision) {
-                    Sides::Apart => settled(false),
-                    Sides::Overlapping if !is_thin(a, b) => settled(true),
-                    _ => self.look_closer(a, b, None).0,
+                if self.radii == 0.0 && edges <= FEW_EDGES {
+                    return match sides(a, b, &self.precision) {
+                        Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
+                        Sides::Overlapping if !is_thin(a, b) => {
+                            Verdict { overlapping: true, tier: Tier::Bound }
+                        }
+                        _ => self.look_closer(a, b, None).0,
+                    };
                 }
-            });
-        }
-        match self.probe(0.0, Hint::NONE) {
-            Probe::Beyond(..) => Verdict { overlapping: false, tier: Tier::Bound },
-            Probe::Near(near) => near.verdict,
+                let verdict = self.conclude(distance(a, b, self.towards_b(), &self.until_told())).0;
+                // What was asked first is the first tier.
+                let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
+                Verdict { tier, ..verdict }
+            }),
+            [Some(a), Some(b)] => self.told_verdict(&self.told_half_planes(a, b)),
+            [Some(line), None] | [None, Some(line)] => self.told_verdict(&self.told_half_plane(line)),
         }
     }
 
@@ -151,24 +163,34 @@ impl<'a> Convex<'a> {
     pub(crate) fn guess(&self) -> bool {
         match self.lines() {
             [None, None] => self.with_outlines(|a, b| {
-                if a.edge_count() + b.edge_count() == 0 {
+                let edges = a.edge_count() + b.edge_count();
+                if edges == 0 {
                     return self.told_points(a, b).separation <= 0.0;
                 }
-                if self.radii == 0.0 {
+                if self.radii == 0.0 && edges <= FEW_EDGES {
                     return overlaps(a, b);
                 }
-                match separating_axes(a, b, self.radii, Hint::NONE) {
-                    Outcome::Beyond(_) => false,
-                    Outcome::Within(axes) if axes.best().separation <= 0.0 => true,
-                    Outcome::Within(axes) => match distance(a, b, axes.best().normal, &self.precision) {
-                        Reached::Between(witness) => witness.distance <= self.radii,
-                        Reached::Origin(_) => true,
-                    },
+                let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
+                match distance(a, b, self.towards_b(), &until) {
+                    Reached::Between(witness) => witness.distance <= self.radii,
+                    Reached::Origin(_) => true,
                 }
             }),
             [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
             [Some(line), None] | [None, Some(line)] => self.told_half_plane(line).separation <= 0.0,
         }
+    }
+
+    /// From A's centre to B's: where a search may begin.
+    fn towards_b(&self) -> DVec2 {
+        let center_b = self.offset + self.turn_b.turn(self.shape_b.center().as_dvec2());
+        (center_b - self.turn_a.turn(self.shape_a.center().as_dvec2())).try_normalize().unwrap_or(DVec2::X)
+    }
+
+    /// A distance is known well enough once it tells whether the radii close the gap.
+    fn until_told(&self) -> Until<'_> {
+        let doubt = self.precision.projection();
+        Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
     }
 
     /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-planes that overlap
@@ -327,24 +349,34 @@ impl<'a> Convex<'a> {
     ///
     /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
     fn look_closer(&self, a: &Outline, b: &Outline, best: Option<&Axis>) -> (Verdict, Option<Witness>) {
-        let doubt = self.precision.projection();
         let towards = best.map_or(DVec2::X, |axis| axis.normal);
-        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
-        let mut witness = match distance(a, b, towards, &self.precision) {
-            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), None),
-            Reached::Origin(close) => return (self.exactly(&close.corners), None),
-            Reached::Between(witness) => witness,
-        };
+        let mut reached = distance(a, b, towards, &Until::met(&self.precision));
         let mut tier = Tier::Double;
-        if let Some(best) = best.filter(|best| best.separation >= witness.at_least) {
+        if let (Reached::Between(witness), Some(best)) = (&mut reached, best)
+            && best.separation >= witness.at_least
+        {
             if witness.is_close(self.precision.size) {
                 witness.across = best.normal;
             }
             (witness.at_least, witness.normal) = (best.separation, best.normal);
             tier = Tier::Bound;
         }
+        let (verdict, witness) = self.conclude(reached);
+        let tier = if verdict.tier == Tier::Double && !verdict.overlapping { tier } else { verdict.tier };
+        (Verdict { tier, ..verdict }, witness)
+    }
+
+    /// What the distance iteration has proved, and the third tier where it has proved nothing.
+    fn conclude(&self, reached: Reached) -> (Verdict, Option<Witness>) {
+        let doubt = self.precision.projection();
+        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
+        let witness = match reached {
+            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), None),
+            Reached::Origin(close) => return (self.exactly(&close.corners), None),
+            Reached::Between(witness) => witness,
+        };
         if witness.at_least - self.radii > doubt {
-            return (Verdict { overlapping: false, tier }, Some(witness));
+            return (double(false), Some(witness));
         }
         if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
             return (double(true), (witness.at_least > doubt).then_some(witness));

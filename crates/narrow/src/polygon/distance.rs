@@ -25,6 +25,24 @@ pub(crate) enum Reached {
     Origin(Close),
 }
 
+/// When the iteration may stop, besides when its bounds meet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Until<'a> {
+    /// The lower bound has come above this, in metres.
+    pub(crate) beyond: f64,
+    /// The upper bound has come below this, in metres.
+    pub(crate) within: f64,
+    /// That of the pair.
+    pub(crate) precision: &'a Precision,
+}
+
+impl<'a> Until<'a> {
+    /// Only when they meet.
+    pub(crate) fn met(precision: &'a Precision) -> Self {
+        Self { beyond: f64::INFINITY, within: f64::NEG_INFINITY, precision }
+    }
+}
+
 /// Corners of the difference that are at the origin as far as f64 can tell.
 #[derive(Clone, Debug)]
 pub(crate) struct Close {
@@ -61,8 +79,9 @@ impl Witness {
 /// Corners of the difference A - B in use: their vertices, their places, their shares of the nearest point.
 type Simplex = ArrayVec<([usize; 2], DVec2, f64), 3>;
 
-/// Narrows the distance down. The precision is that of the pair.
-pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, precision: &Precision) -> Reached {
+/// Narrows the distance down.
+pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until) -> Reached {
+    let precision = until.precision;
     let size = precision.size;
     let corner = |direction: DVec2| {
         let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
@@ -83,7 +102,7 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, precision: &P
             if bound > at_least {
                 (at_least, normal) = (bound, direction);
             }
-            if length - at_least <= DISTANCE_GAP * size {
+            if length - at_least <= DISTANCE_GAP * size || at_least > until.beyond || length < until.within {
                 break 'steps;
             }
             if simplex.iter().all(|known| known.0 != found.0) && !simplex.is_full() {

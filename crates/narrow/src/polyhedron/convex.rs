@@ -21,11 +21,11 @@
 //! plane out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
-use super::cuboids::Cuboids;
-use super::distance::{Close, Reached, Witness, distance};
+use super::cuboids::{Cuboids, Sides};
+use super::distance::{Close, Reached, Until, Witness, distance};
 use super::half_space::Plane;
 use super::manifold::{Point, Touch, touch};
-use super::sat::{self, Axes, Axis, Outcome, Search, Sides, hint_of, separating_axes};
+use super::sat::{Axes, Axis, Outcome, Search, hint_of, separating_axes};
 use super::slender::{self, Nearest};
 use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
@@ -138,23 +138,29 @@ impl<'a> Convex<'a> {
     }
 
     /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
+    ///
+    /// For two cuboids that is their fifteen axes; for other solids a search for a direction that parts them, or for
+    /// corners around a common point, which asks for no face and no edge.
     pub(crate) fn verdict(&self) -> Verdict {
-        if self.radii == 0.0 && self.planes() == [None, None] {
-            let settled = |overlapping: bool| Verdict { overlapping, tier: Tier::Bound };
-            return self.with_solids(|a, b| {
+        match self.planes() {
+            [None, None] => self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
                     return self.told_verdict(&self.told_slender(a, b));
                 }
-                let sides = self.sides(a, b);
-                if sides.are_apart || sides.are_overlapping() && self.is_complete(a, b) {
-                    return settled(!sides.are_apart);
+                if let Some(cuboids) = self.cuboids().filter(|_| self.radii == 0.0) {
+                    return match cuboids.sides(&self.precision) {
+                        Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
+                        Sides::Overlapping => Verdict { overlapping: true, tier: Tier::Bound },
+                        Sides::Unclear => self.look_closer(a, b, None).0,
+                    };
                 }
-                self.look_closer(a, b, None).0
-            });
-        }
-        match self.probe(0.0, Hint::NONE) {
-            Probe::Beyond(..) => Verdict { overlapping: false, tier: Tier::Bound },
-            Probe::Near(near) => near.verdict,
+                let verdict = self.conclude(distance(a, b, self.towards_b(), &self.until_told())).0;
+                // What was asked first is the first tier.
+                let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
+                Verdict { tier, ..verdict }
+            }),
+            [Some(a), Some(b)] => self.told_verdict(&self.told_half_spaces(a, b)),
+            [Some(plane), None] | [None, Some(plane)] => self.told_verdict(&self.told_half_space(plane)),
         }
     }
 
@@ -165,21 +171,30 @@ impl<'a> Convex<'a> {
                 if a.is_slender() && b.is_slender() {
                     return self.told_slender(a, b).separation <= 0.0;
                 }
-                if self.radii == 0.0 {
-                    return self.cuboids().map_or_else(|| sat::overlaps(a, b), |cuboids| cuboids.overlaps());
+                if let Some(cuboids) = self.cuboids().filter(|_| self.radii == 0.0) {
+                    return cuboids.overlaps();
                 }
-                match self.axes(a, b, self.radii, Hint::NONE) {
-                    Outcome::Beyond(_) => false,
-                    Outcome::Within(axes) if axes.best().separation <= 0.0 => true,
-                    Outcome::Within(axes) => match distance(a, b, axes.best().normal, &self.precision) {
-                        Reached::Between(witness) => witness.distance <= self.radii,
-                        Reached::Origin(_) => true,
-                    },
+                let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
+                match distance(a, b, self.towards_b(), &until) {
+                    Reached::Between(witness) => witness.distance <= self.radii,
+                    Reached::Origin(_) => true,
                 }
             }),
             [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
             [Some(plane), None] | [None, Some(plane)] => self.told_half_space(plane).separation <= 0.0,
         }
+    }
+
+    /// From A's centre to B's: where a search may begin.
+    fn towards_b(&self) -> DVec3 {
+        let center_b = self.offset + self.relative.turn(self.shape_b.center().as_dvec3());
+        (center_b - self.shape_a.center().as_dvec3()).try_normalize().unwrap_or(DVec3::X)
+    }
+
+    /// A distance is known well enough once it tells whether the radii close the gap.
+    fn until_told(&self) -> Until<'_> {
+        let doubt = self.precision.projection();
+        Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
     }
 
     /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-spaces that overlap
@@ -333,24 +348,34 @@ impl<'a> Convex<'a> {
     ///
     /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
     fn look_closer(&self, a: &Solid, b: &Solid, best: Option<&Axis>) -> (Verdict, Option<Witness>) {
-        let doubt = self.precision.projection();
         let towards = best.map_or(DVec3::X, |axis| axis.normal);
-        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
-        let mut witness = match distance(a, b, towards, &self.precision) {
-            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), None),
-            Reached::Origin(close) => return (self.exactly(&close.corners), None),
-            Reached::Between(witness) => witness,
-        };
+        let mut reached = distance(a, b, towards, &Until::met(&self.precision));
         let mut tier = Tier::Double;
-        if let Some(best) = best.filter(|best| best.separation >= witness.at_least) {
+        if let (Reached::Between(witness), Some(best)) = (&mut reached, best)
+            && best.separation >= witness.at_least
+        {
             if witness.is_close(self.precision.size) {
                 witness.across = best.normal;
             }
             (witness.at_least, witness.normal) = (best.separation, best.normal);
             tier = Tier::Bound;
         }
+        let (verdict, witness) = self.conclude(reached);
+        let tier = if verdict.tier == Tier::Double && !verdict.overlapping { tier } else { verdict.tier };
+        (Verdict { tier, ..verdict }, witness)
+    }
+
+    /// What the distance iteration has proved, and the third tier where it has proved nothing.
+    fn conclude(&self, reached: Reached) -> (Verdict, Option<Witness>) {
+        let doubt = self.precision.projection();
+        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
+        let witness = match reached {
+            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), None),
+            Reached::Origin(close) => return (self.exactly(&close.corners), None),
+            Reached::Between(witness) => witness,
+        };
         if witness.at_least - self.radii > doubt {
-            return (Verdict { overlapping: false, tier }, Some(witness));
+            return (double(false), Some(witness));
         }
         if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
             return (double(true), (witness.at_least > doubt).then_some(witness));
@@ -397,12 +422,6 @@ impl<'a> Convex<'a> {
             Some(cuboids) => cuboids.separating_axes(a, b, &search),
             None => separating_axes(a, b, &search),
         }
-    }
-
-    /// Which side of touching all axes put the cores on, if they have no radii.
-    fn sides(&self, a: &Solid, b: &Solid) -> Sides {
-        self.cuboids()
-            .map_or_else(|| sat::sides(a, b, &self.precision), |cuboids| cuboids.sides(&self.precision))
     }
 
     /// Whether faces and edges leave no gap out, so that an overlap that they all show is one.

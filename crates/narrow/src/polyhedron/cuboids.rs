@@ -8,7 +8,7 @@
 //! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). A projection radius in closed form takes the place of the
 //! eight vertices; everything else is as in the general test, the axis of nearly parallel edges included.
 
-use super::sat::{Axes, Axis, AxisOf, Outcome, Search, Sides};
+use super::sat::{Axes, Axis, AxisOf, Outcome, Search};
 use super::solid::Solid;
 use crate::feature::{Feature, Hint};
 use crate::precision::Precision;
@@ -26,6 +26,17 @@ pub(crate) struct Cuboids {
     pub(crate) basis: Basis3,
     /// B's centre seen from A.
     pub(crate) offset: DVec3,
+}
+
+/// Which side of touching all axes put two cuboids on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sides {
+    /// One axis parts them for certain.
+    Apart,
+    /// Every axis shows more overlap than it may be off by.
+    Overlapping,
+    /// Some axis is too close to call.
+    Unclear,
 }
 
 const UNIT: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -56,7 +67,7 @@ impl Cuboids {
             && (0..9).all(|k| self.cross(k / 3, k % 3).map_or(true, |cross| self.along(cross) <= 0.0))
     }
 
-    /// Which side of touching the axes put them on; see [`super::sat::sides`].
+    /// Which side of touching the axes put them on.
     ///
     /// No axis is longer than 1, so that what is lost to rounding is no more than along a unit axis: in place of a
     /// length and a quotient for each axis, one comparison.
@@ -79,7 +90,13 @@ impl Cuboids {
                 Err(squared_sine) => left_out = left_out.max(precision.of_parallel_edges(squared_sine)),
             }
         }
-        Sides::new(are_apart, top + rounding + precision.of_face(), left_out)
+        // An axis' own rounding, and by how much it may lie beside its place.
+        let ceiling = top + rounding + precision.of_face() + left_out;
+        match are_apart {
+            true => Sides::Apart,
+            false if ceiling < 0.0 => Sides::Overlapping,
+            false => Sides::Unclear,
+        }
     }
 
     /// All fifteen axes, the hinted one first; the outcome within the limit does not depend on the hint.

@@ -35,6 +35,24 @@ pub(crate) enum Reached {
     Origin(Close),
 }
 
+/// When the iteration may stop, besides when its bounds meet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Until<'a> {
+    /// The lower bound has come above this, in metres.
+    pub(crate) beyond: f64,
+    /// The upper bound has come below this, in metres.
+    pub(crate) within: f64,
+    /// That of the pair.
+    pub(crate) precision: &'a Precision,
+}
+
+impl<'a> Until<'a> {
+    /// Only when they meet.
+    pub(crate) fn met(precision: &'a Precision) -> Self {
+        Self { beyond: f64::INFINITY, within: f64::NEG_INFINITY, precision }
+    }
+}
+
 /// Corners of the difference that are at the origin as far as f64 can tell.
 #[derive(Clone, Debug)]
 pub(crate) struct Close {
@@ -80,8 +98,9 @@ struct Simplex {
     nearest: DVec3,
 }
 
-/// Narrows the distance down. The precision is that of the pair.
-pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, precision: &Precision) -> Reached {
+/// Narrows the distance down.
+pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) -> Reached {
+    let precision = until.precision;
     let size = precision.size;
     let corner = |direction: DVec3| {
         let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
@@ -100,7 +119,7 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, precision: &Preci
             if bound > at_least {
                 (at_least, normal) = (bound, direction);
             }
-            if length - at_least <= DISTANCE_GAP * size {
+            if length - at_least <= DISTANCE_GAP * size || at_least > until.beyond || length < until.within {
                 break 'steps;
             }
             if simplex.corners.iter().all(|&(known, _)| known != found.0) && !simplex.corners.is_full() {
@@ -154,6 +173,7 @@ impl Simplex {
 
     /// With one corner more, and without those that do not carry the nearest point; the four corners where they hold
     /// the origin.
+    #[allow(clippy::result_large_err, reason = "not an error, and it lives on the stack for one step")]
     fn grown(&self, corner: Vertex) -> Result<Self, [Vertex; 4]> {
         let mut corners = self.corners.clone();
         corners.push(corner);

@@ -162,89 +162,6 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome 
     beyond.map_or(Outcome::Within(axes), Outcome::Beyond)
 }
 
-/// Which side of touching all candidate axes put two shapes on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Sides {
-    /// One axis parts them for certain.
-    pub(crate) are_apart: bool,
-    /// No axis has a greater separation in truth.
-    ceiling: f64,
-    left_out: f64,
-}
-
-impl Sides {
-    pub(crate) const NONE: Self = Self { are_apart: false, ceiling: f64::NEG_INFINITY, left_out: 0.0 };
-
-    /// Where no axis, of whatever length, has a greater separation than `ceiling` in truth.
-    pub(crate) fn new(are_apart: bool, ceiling: f64, left_out: f64) -> Self {
-        Self { are_apart, ceiling, left_out }
-    }
-
-    /// Whether every axis shows more overlap than it may be off by.
-    pub(crate) fn are_overlapping(&self) -> bool {
-        !self.are_apart && self.ceiling + self.left_out < 0.0
-    }
-
-    /// Takes in an axis of any length and the separation along it, both that many times too long, and `doubt`, by which
-    /// the separation may be too small. `length` may be too great. Returns whether the axis parts the shapes.
-    #[inline]
-    pub(crate) fn meet(&mut self, separation: f64, doubt: f64, length: f64, precision: &Precision) -> bool {
-        let rounding = precision.projection() * length;
-        self.are_apart = separation > rounding;
-        self.ceiling = self.ceiling.max((separation + (rounding + doubt)) / length);
-        self.are_apart
-    }
-
-    /// Takes in edges that propose no axis.
-    pub(crate) fn leave_out(&mut self, short: f64) {
-        self.left_out = self.left_out.max(short);
-    }
-}
-
-/// Which side of touching the shapes are on. No axis is normalised.
-pub(crate) fn sides(a: &Solid, b: &Solid, precision: &Precision) -> Sides {
-    let mut sides = Sides::NONE;
-    // The sum of absolute values bounds the length, and needs no root.
-    let length = |axis: DVec3| axis.abs().element_sum();
-    let along = |axis: DVec3| -b.support(-axis).reach - a.support(axis).reach;
-    let mut settles = |outward: DVec3| {
-        let length = length(outward);
-        sides.meet(along(outward), precision.of_face() * length, length, precision)
-    };
-    let by_face = (0..a.face_count()).any(|face| settles(a.outward(face)))
-        || (0..b.face_count()).any(|face| settles(-b.outward(face)));
-    if !by_face {
-        for_edge_pairs(a, b, |edge_a, edge_b| {
-            let cross = Cross::outwards(a, b, edge_a, edge_b);
-            if cross.is_noise() {
-                sides.leave_out(precision.of_parallel_edges(cross.squared_sine));
-                return false;
-            }
-            // The rounding of an edge axis over the sine, times the axis' length, is that times the edges' lengths.
-            let doubt = precision.of_face() * cross.lengths;
-            sides.meet(along(cross.axis), doubt, length(cross.axis), precision)
-        });
-    }
-    sides
-}
-
-/// Whether no candidate axis parts the shapes. Asks for a yes or no only, so no axis is normalised.
-pub(crate) fn overlaps(a: &Solid, b: &Solid) -> bool {
-    let parts = |axis: DVec3| {
-        let ((low_a, high_a), (low_b, high_b)) = (a.project(axis), b.project(axis));
-        low_b > high_a || low_a > high_b
-    };
-    if (0..a.face_count()).any(|face| parts(a.outward(face)))
-        || (0..b.face_count()).any(|face| parts(b.outward(face)))
-    {
-        return false;
-    }
-    !for_edge_pairs(a, b, |edge_a, edge_b| {
-        let cross = Cross::new(a.edge_direction(edge_a), b.edge_direction(edge_b));
-        !cross.is_noise() && parts(cross.axis)
-    })
-}
-
 fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
     let normal = a.normal(face);
     let separation = -b.support(-normal).reach - a.support(normal).reach;
@@ -261,8 +178,6 @@ fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
 #[derive(Clone, Copy, Debug)]
 struct Cross {
     axis: DVec3,
-    /// The product of the edges' lengths; it may be too great.
-    lengths: f64,
     /// Of the sine between the edges.
     squared_sine: f64,
 }
@@ -271,8 +186,7 @@ impl Cross {
     fn new(along_a: DVec3, along_b: DVec3) -> Self {
         let axis = along_a.cross(along_b);
         let squared_sine = axis.length_squared() / (along_a.length_squared() * along_b.length_squared());
-        let lengths = along_a.abs().element_sum() * along_b.abs().element_sum();
-        Self { axis, lengths, squared_sine }
+        Self { axis, squared_sine }
     }
 
     /// Turned from A to B.
@@ -289,7 +203,7 @@ impl Cross {
 
     /// Whether the edges are so nearly parallel that the axis would be rounding. Edges of no length are.
     fn is_noise(&self) -> bool {
-        !(self.squared_sine > PARALLEL_EDGES * PARALLEL_EDGES)
+        self.squared_sine.is_nan() || self.squared_sine <= PARALLEL_EDGES * PARALLEL_EDGES
     }
 }
 

@@ -75,21 +75,6 @@ impl<'a> Solid<'a> {
         (across.length_squared() > 1.0 - ALIGNED_FACES * ALIGNED_FACES).then(|| across.normalize())
     }
 
-    /// Outward normal of a face, of any length: enough for a yes or no, and rounded less. Newell's area vector, about
-    /// the first corner; for coordinates of few digits it is exact.
-    #[inline]
-    pub(crate) fn outward(&self, face: usize) -> DVec3 {
-        let mut corners = self.topology.face_vertices(face).map(|vertex| self.vertices[vertex].as_dvec3());
-        let origin = corners.next().unwrap_or_default();
-        let (mut area, mut last) = (DVec3::ZERO, DVec3::ZERO);
-        for corner in corners {
-            let arm = corner - origin;
-            area += last.cross(arm);
-            last = arm;
-        }
-        self.basis.turn(area)
-    }
-
     /// Where an edge starts and where it leads, from its lower half-edge.
     #[inline]
     pub(crate) fn edge(&self, half_edge: usize) -> (DVec3, DVec3) {
@@ -147,7 +132,7 @@ impl<'a> Solid<'a> {
     }
 
     /// Least and greatest projection on an axis. Cost: linear in the vertices.
-    #[inline]
+    #[cfg(test)]
     pub(crate) fn project(&self, axis: DVec3) -> (f64, f64) {
         let local = self.basis.turn_back(axis);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
