@@ -27,3 +27,19 @@ fn mantissa_and_exponent(value: f64) -> (i64, i32) {
     let magnitude = mantissa >> shift;
     (if value.is_sign_negative() { -magnitude } else { magnitude }, exponent + shift as i32)
 }
+
+/// The exponent of the last set bit of a finite value: it is an integer times 2 to that power. `None` of zero.
+pub fn last_exponent(value: f64) -> Option<i32> {
+    let (mantissa, exponent) = mantissa_and_exponent(value);
+    (mantissa != 0).then_some(exponent)
+}
+
+/// A finite value as an integer times 2^`unit`; it must be one.
+pub fn in_unit(value: f64, unit: i32) -> BigInt {
+    let (mantissa, exponent) = mantissa_and_exponent(value);
+    if mantissa == 0 {
+        return BigInt::ZERO;
+    }
+    assert!(exponent >= unit, "{value} is no multiple of 2^{unit}");
+    BigInt::from(mantissa) << (exponent - unit) as usize
+}

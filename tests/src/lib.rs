@@ -6,7 +6,8 @@
 //! - [`placed`]: a shape where it is, in f64
 //! - [`exhaustive_sat`]: the separation along every candidate axis, without early outs
 //! - [`exhaustive_distance`]: the distance over every pair of features
-//! - [`exact_overlap`]: whether two shapes share a point, by linear programming over integers
+//! - [`exact_overlap`]: whether two shapes share a point, proved over integers ([`exact`] holds its parts)
+//! - [`precise`]: the separation of two shapes in double-double, with its own error
 //! - [`cores`]: the separation of bodies of any kind, piece by piece: rounded cores, half-spaces, compounds
 //! - [`bodies`]: pairs of such bodies, asked as in [`answers`]
 //! - [`shapes`]: seeded shapes of every kind, and pairs of them in every kind of place
@@ -14,6 +15,7 @@
 //! - [`exact_plane`]: areas, crossings and containment in the plane, over integers
 //! - [`outlines`]: seeded outlines, simple and not: stars, combs, spirals, lattices, slivers
 //! - [`fuzzed`]: hulls, polygons and outlines from raw bytes, with all that must hold of them; `fuzz/` runs the same
+//! - [`report`]: hard cases, family by family: what we and parry3d get wrong, and at what cost
 //! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
 //!
 //! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
@@ -27,6 +29,7 @@ pub mod brute_pairs;
 pub mod cases;
 pub mod cores;
 pub mod engine;
+pub mod exact;
 pub mod exact_overlap;
 pub mod exact_plane;
 pub mod exhaustive_distance;
@@ -36,5 +39,7 @@ pub mod integers;
 pub mod naive_world;
 pub mod outlines;
 pub mod placed;
+pub mod precise;
+pub mod report;
 pub mod shapes;
 pub mod solid;

@@ -1,5 +1,9 @@
 //! The judges, held against each other and against cases whose answer is known before anything runs.
 
+mod exact;
+mod numbers;
+mod precise;
+
 use asunder_geometry::{Cuboid, Pose2, Pose3, Rect, Shape2, Shape3};
 use asunder_tests::cases::{Case2, Case3, Random};
 use asunder_tests::exact_overlap::{exact_overlap2, exact_overlap3};

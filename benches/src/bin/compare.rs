@@ -1,8 +1,8 @@
-//! Prints our times beside parry3d's: `compare broad|narrow|world [--json] [--quick]`.
+//! Prints our times beside parry3d's: `compare broad|narrow|world|certain [--json] [--quick]`.
 
 use asunder_benches::clock::Effort;
 use asunder_benches::row::{Row, heading};
-use asunder_benches::{broad, flat, narrow, world};
+use asunder_benches::{broad, certain, flat, narrow, world};
 use clap::{Args, Parser, Subcommand};
 use std::error::Error;
 
@@ -22,6 +22,8 @@ enum Part {
     Narrow(Options),
     /// Whole frames, from poses to contact points.
     World(Options),
+    /// What certainty costs: yes or no that is never wrong, beside the first tier alone.
+    Certain(Options),
 }
 
 #[derive(Args, Clone)]
@@ -48,11 +50,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn compare(part: &Part) -> Result<(), asunder::MarginError> {
-    let (Part::Broad(options) | Part::Narrow(options) | Part::World(options)) = part;
+    let (Part::Broad(options) | Part::Narrow(options) | Part::World(options) | Part::Certain(options)) = part;
     let effort = if options.quick { Effort::quick() } else { Effort::full() };
     let wanted = |name: &str| name.contains(&options.only);
     if !options.json {
-        println!("{}", heading());
+        println!("{}", if matches!(part, Part::Certain(_)) { certain::heading() } else { heading() });
     }
     match part {
         Part::Broad(_) => {
@@ -67,6 +69,12 @@ fn compare(part: &Part) -> Result<(), asunder::MarginError> {
             }
             for case in flat::cases().iter().filter(|case| wanted(&flat::name(case))) {
                 show(&flat::measure(case, &effort), options);
+            }
+        }
+        Part::Certain(_) => {
+            for case in certain::cases().iter().filter(|case| wanted(&certain::name(case))) {
+                let row = certain::measure(case, &effort);
+                println!("{}", if options.json { row.to_json() } else { row.to_text() });
             }
         }
         Part::World(_) => {

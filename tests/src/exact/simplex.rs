@@ -1,0 +1,101 @@
+//! Linear programming over integers: some x >= 0 with `columns * x = goal`, or the proof that there is none.
+//!
+//! Phase one of the simplex method from artificial variables, by Bland's rule (1977), which cannot cycle on degenerate
+//! touching cases. Pivots keep integers, as in Bareiss (1968): every division is exact. The artificial variables'
+//! columns are carried along but never enter again; what stands below them in the end is the proof.
+
+use super::place::{Point, minus};
+use num_bigint::{BigInt, Sign};
+
+/// An axis and two levels on it: all of A lies at `of_a` or below, all of B at `of_b` or above, and `of_a < of_b`.
+#[derive(Clone, Debug)]
+pub struct Parting {
+    /// From A to B, of any length.
+    pub axis: Point,
+    /// No point of A lies above.
+    pub of_a: BigInt,
+    /// No point of B lies below.
+    pub of_b: BigInt,
+}
+
+/// Whether the convex hulls of two sets of integer points, of any one dimension, share a point.
+pub fn hulls_share_point(a: &[Point], b: &[Point]) -> bool {
+    parting(a, b).is_none()
+}
+
+/// What parts the convex hulls of two sets of integer points; `None` if they share a point: weights >= 0, summing to 1 on
+/// each side, whose two weighted means are the same.
+pub fn parting(a: &[Point], b: &[Point]) -> Option<Parting> {
+    let (zero, one) = (BigInt::ZERO, BigInt::from(1));
+    // Seen from the first point of A the numbers are as short as they can be.
+    let origin = &a[0];
+    let column = |point: &Point, of_a: bool| -> Point {
+        let seen = if of_a { minus(point, origin) } else { minus(origin, point) };
+        let weights = if of_a { [one.clone(), zero.clone()] } else { [zero.clone(), one.clone()] };
+        seen.into_iter().chain(weights).collect()
+    };
+    let mut columns: Vec<Point> = a.iter().map(|point| column(point, true)).collect();
+    columns.extend(b.iter().map(|point| column(point, false)));
+    let mut goal = vec![zero; origin.len()];
+    goal.extend([one.clone(), one]);
+    let mut axis = refutation(&columns, &goal)?;
+    // y.(a - o, 1, 0) <= 0, y.(o - b, 0, 1) <= 0 and y.(0, 1, 1) > 0.
+    let levels = axis.split_off(origin.len());
+    let at_origin: BigInt = super::place::dot(&axis, origin);
+    Some(Parting { of_a: &at_origin - &levels[0], of_b: &at_origin + &levels[1], axis })
+}
+
+/// A y with y.column <= 0 for all columns and y.goal > 0, for a goal that is not negative; `None` if some x >= 0 solves
+/// `columns * x = goal`. One or the other exists (Farkas, 1902).
+pub fn refutation(columns: &[Point], goal: &[BigInt]) -> Option<Point> {
+    let (width, height) = (columns.len(), goal.len());
+    // Rows over a common denominator: the columns, the artificial ones, the right side. Below them the infeasibility,
+    // to be brought to zero, as a sum of rows; what multiplies each stands below the artificial columns.
+    let unit = |row: usize| (0..height).map(move |i| BigInt::from(u8::from(i == row)));
+    let mut rows: Vec<Point> = (0..height)
+        .map(|row| {
+            let given = columns.iter().map(|column| column[row].clone());
+            given.chain(unit(row)).chain([goal[row].clone()]).collect()
+        })
+        .collect();
+    let right = width + height;
+    rows.push((0..=right).map(|j| rows.iter().map(|row| &row[j]).sum()).collect());
+    let mut basis: Vec<usize> = (width..right).collect();
+    let mut denominator = BigInt::from(1);
+    while rows[height][right].sign() == Sign::Plus {
+        let Some(entering) = (0..width).find(|&j| rows[height][j].sign() == Sign::Plus) else {
+            return Some(rows[height][width..right].to_vec());
+        };
+        // The infeasibility cannot fall without end, so that something bounds whatever lowers it.
+        let leaving = leaving_row(&rows, &basis, entering).expect("bounded");
+        denominator = pivot(&mut rows, leaving, entering, &denominator);
+        basis[leaving] = entering;
+    }
+    None
+}
+
+/// The row that bounds the entering variable first; ties to the least variable, as Bland's rule demands.
+fn leaving_row(rows: &[Point], basis: &[usize], entering: usize) -> Option<usize> {
+    let right = rows[0].len() - 1;
+    let ratio_order = |&p: &usize, &q: &usize| {
+        let left = &rows[p][right] * &rows[q][entering];
+        left.cmp(&(&rows[q][right] * &rows[p][entering])).then(basis[p].cmp(&basis[q]))
+    };
+    (0..basis.len()).filter(|&row| rows[row][entering].sign() == Sign::Plus).min_by(ratio_order)
+}
+
+/// One step of fraction-free elimination; returns the new common denominator, which is positive.
+fn pivot(rows: &mut [Point], leaving: usize, entering: usize, denominator: &BigInt) -> BigInt {
+    let pivot_row = rows[leaving].clone();
+    let by = &pivot_row[entering];
+    for (index, row) in rows.iter_mut().enumerate().filter(|(index, _)| *index != leaving) {
+        let factor = row[entering].clone();
+        for (j, (cell, across)) in row.iter_mut().zip(&pivot_row).enumerate() {
+            let product = &*cell * by - &factor * across;
+            let quotient = &product / denominator;
+            debug_assert_eq!(&quotient * denominator, product, "row {index}, column {j}");
+            *cell = quotient;
+        }
+    }
+    by.clone()
+}

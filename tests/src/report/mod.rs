@@ -1,0 +1,50 @@
+//! The report on hard cases: what we and parry3d get wrong, by how much, and at what cost, family by family.
+//!
+//! ```text
+//! posed   one face for pairs in space and in the plane: our answers, the judges', the peers'
+//! judged  one case: every promise of ours held against the judges, every breach told with its numbers
+//! peers   parry3d in f32 and in f64, asked so that a panic or a NaN is an answer like any other
+//! tally   many cases of one family added up, in any order with the same result
+//! times   nanoseconds a query, on one thread, in turns
+//! table   rows for a program and a table for people
+//! ```
+//! The judges decide yes or no on every case by exact arithmetic. The separation, which they need for errors, costs
+//! more, so it is asked of every k-th case ([`Scope::truth_every`]).
+
+mod judged;
+mod peers;
+mod posed;
+mod table;
+mod tally;
+mod times;
+
+pub use judged::{Fault, FaultKind, Judged, Question, judge};
+pub use peers::Said;
+pub use posed::{Ours, Posed, Reported, Truth};
+pub use table::{Row, header, markdown};
+pub use tally::{Hard, Offender, PeerTally, Scope, Tally, shares, tally, weight};
+pub use times::{Times, times};
+
+use asunder_scenes::pairs::{PosedPair2, PosedPair3};
+
+/// Judges one pair in space, errors and all, without the peers.
+///
+/// ```
+/// use asunder_scenes::pairs::{PairSet, SolidKind, pairs3};
+/// let judged = asunder_tests::report::judge3(&pairs3(SolidKind::Box, PairSet::Mixed, 1, 1)[0]);
+/// assert!(judged.faults.is_empty() && judged.truth.is_some());
+/// ```
+pub fn judge3(pair: &PosedPair3) -> Judged {
+    judge(pair, Question { truth: true, peers: false })
+}
+
+/// Judges one pair in the plane, errors and all.
+///
+/// ```
+/// use asunder_scenes::pairs::{PairSet, PlaneKind, pairs2};
+/// let judged = asunder_tests::report::judge2(&pairs2(PlaneKind::Rect, PairSet::Mixed, 1, 1)[0]);
+/// assert!(judged.faults.is_empty() && judged.truth.is_some());
+/// ```
+pub fn judge2(pair: &PosedPair2) -> Judged {
+    judge(pair, Question { truth: true, peers: false })
+}

@@ -1,0 +1,177 @@
+//! parry3d in f32 and in f64, asked the same questions.
+//!
+//! Both crates have the same names, so the questions are written once. Their poses get the position rounded to their
+//! own number and the stored quaternion made a unit one in f64 first: the least that their types take away.
+
+use asunder_scenes::pairs::PosedPair3;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What a peer says of a pair. Nothing where it has no such shape or no such query.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Said {
+    /// Whether the shapes share a point.
+    pub overlaps: Option<bool>,
+    /// The distance in a gap, else minus the depth, in metres; 0 where it finds neither. It may be a NaN.
+    pub separation: Option<f64>,
+    /// Whether some query, or making the shapes, panicked.
+    pub panicked: bool,
+}
+
+/// parry3d's word on a pair: f32, then f64.
+pub(super) fn ask(pair: &PosedPair3) -> [Said; 2] {
+    [guarded(|| Some(single::Twins::new(pair)?.said())), guarded(|| Some(double::Twins::new(pair)?.said()))]
+}
+
+/// What a call returns; nothing if it panics. Nothing that a panic leaves behind is looked at again.
+pub(super) fn unless_panic<T>(call: impl FnOnce() -> Option<T>) -> Option<T> {
+    catch_unwind(AssertUnwindSafe(call)).ok().flatten()
+}
+
+/// What a peer says that may panic.
+fn guarded(ask: impl FnOnce() -> Option<Said>) -> Said {
+    let ask = || Some(ask().unwrap_or_default());
+    unless_panic(ask).unwrap_or(Said { panicked: true, ..Said::default() })
+}
+
+macro_rules! peer {
+    ($module:ident, $parry:ident, $doc:literal) => {
+        #[doc = $doc]
+        pub(super) mod $module {
+            use super::Said;
+            use asunder_geometry::{Pose3, Shape3};
+            use asunder_scenes::pairs::PosedPair3;
+            use glam::{DVec3, Vec3};
+            use $parry::math::{Pose, Real, Rotation, Vector};
+            use $parry::query::{contact, distance, intersection_test};
+            use $parry::shape::SharedShape;
+
+            /// Both shapes as this peer's, where they stand.
+            pub(in super::super) struct Twins {
+                shapes: [SharedShape; 2],
+                poses: [Pose; 2],
+            }
+
+            impl Twins {
+                /// Nothing where the peer has no such shape, or refuses it.
+                pub(in super::super) fn new(pair: &PosedPair3) -> Option<Self> {
+                    Some(Self {
+                        shapes: [shape(&pair.shape_a)?, shape(&pair.shape_b)?],
+                        poses: [pose(&pair.pose_a), pose(&pair.pose_b)],
+                    })
+                }
+
+                /// Whether they share a point; nothing where the peer has no such query.
+                pub(in super::super) fn overlaps(&self) -> Option<bool> {
+                    let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);
+                    Some(intersection_test(at_a, &*a.0, at_b, &*b.0).ok()?.intersecting)
+                }
+
+                #[allow(clippy::unnecessary_cast, reason = "written once for f32 and f64")]
+                fn separation(&self) -> Option<f64> {
+                    let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);
+                    let gap = distance(at_a, &*a.0, at_b, &*b.0).ok()?.distance;
+                    // A NaN is no zero, and shall be seen.
+                    if gap != 0.0 {
+                        return Some(gap as f64);
+                    }
+                    // In this order, `contact_support_map_halfspace` of 0.31 forgets to turn the pose round.
+                    if b.as_halfspace().is_some() || a.as_halfspace().is_some() && b.as_compound().is_some() {
+                        return None;
+                    }
+                    let found = contact(at_a, &*a.0, at_b, &*b.0, 0.0).ok()?;
+                    let Some(found) = found else { return Some(0.0) };
+                    let sum = found.normal1.x + found.normal1.y + found.normal1.z;
+                    Some(if sum.is_nan() { f64::NAN } else { found.dist as f64 })
+                }
+
+                /// Both answers.
+                pub(super) fn said(&self) -> Said {
+                    Said { overlaps: self.overlaps(), separation: self.separation(), panicked: false }
+                }
+            }
+
+            fn vector(v: Vec3) -> Vector {
+                place(v.as_dvec3())
+            }
+
+            #[allow(clippy::unnecessary_cast, reason = "written once for f32 and f64")]
+            fn place(v: DVec3) -> Vector {
+                Vector::new(v.x as Real, v.y as Real, v.z as Real)
+            }
+
+            #[allow(clippy::unnecessary_cast, reason = "written once for f32 and f64")]
+            fn pose(pose: &Pose3) -> Pose {
+                let q = pose.rotation().to_array().map(f64::from);
+                let length = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+                let [x, y, z, w] = q.map(|c| (c / length) as Real);
+                Pose::from_parts(place(pose.position()), Rotation::from_xyzw(x, y, z, w))
+            }
+
+            fn shape(ours: &Shape3) -> Option<SharedShape> {
+                let radius = Real::from(ours.radius());
+                let points =
+                    || -> Vec<Vector> { ours.core().vertices().iter().map(|&v| vector(v)).collect() };
+                Some(match ours {
+                    Shape3::Sphere(_) => SharedShape::ball(radius),
+                    Shape3::Capsule(capsule) => {
+                        let [from, to] = capsule.segment().ends().map(vector);
+                        SharedShape::capsule(from, to, radius)
+                    }
+                    Shape3::Cuboid(cuboid) => {
+                        let half = vector(cuboid.half_extents());
+                        match radius > 0.0 {
+                            true => SharedShape::round_cuboid(half.x, half.y, half.z, radius),
+                            false => SharedShape::cuboid(half.x, half.y, half.z),
+                        }
+                    }
+                    Shape3::Hull(_) if radius > 0.0 => SharedShape::round_convex_hull(&points(), radius)?,
+                    Shape3::Hull(_) => SharedShape::convex_hull(&points())?,
+                    Shape3::HalfSpace(half_space) => SharedShape::halfspace(place(half_space.unit_normal())),
+                    Shape3::Triangle(triangle) => {
+                        let [a, b, c] = triangle.vertices().map(vector);
+                        SharedShape::triangle(a, b, c)
+                    }
+                    Shape3::Segment(segment) => {
+                        let [from, to] = segment.ends().map(vector);
+                        SharedShape::segment(from, to)
+                    }
+                    Shape3::Compound(compound) => {
+                        let parts = compound.parts().iter();
+                        let twins = parts.map(|part| Some((pose(part.pose()), shape(part.shape())?)));
+                        SharedShape::compound(twins.collect::<Option<Vec<_>>>()?)
+                    }
+                })
+            }
+        }
+    };
+}
+
+peer!(single, parry3d, "parry3d in f32.");
+peer!(double, parry3d_f64, "parry3d in f64.");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asunder_geometry::{Cuboid, Pose3, Shape3};
+
+    #[test]
+    fn both_peers_measure_two_cubes_in_a_gap_and_in_overlap() {
+        let cube = Shape3::from(Cuboid::from_half_extents(glam::Vec3::splat(0.5)).unwrap());
+        for (x, separation) in [(1.5, 0.5), (0.75, -0.25)] {
+            let pose_b = Pose3::at([x, 0.0, 0.0]).unwrap();
+            let pair =
+                PosedPair3 { shape_a: cube.clone(), pose_a: Pose3::IDENTITY, shape_b: cube.clone(), pose_b };
+            for said in ask(&pair) {
+                assert_eq!(said.overlaps, Some(separation < 0.0), "{said:?}");
+                assert!((said.separation.unwrap() - separation).abs() < 1e-6, "{said:?}");
+                assert!(!said.panicked);
+            }
+        }
+    }
+
+    #[test]
+    fn a_panic_is_an_answer() {
+        let said = guarded(|| panic!("as a peer may"));
+        assert!(said.panicked && said.overlaps.is_none() && said.separation.is_none());
+    }
+}
