@@ -29,8 +29,8 @@
 //! 2. [`sum_of_products`] picks those lengths once for an inner product, and resolves the sign once.
 //! 3. Results leave the registers only once. Built in a local that is then returned, they are stored, loaded and
 //!    stored again: a product of 1x1 limbs takes 9 ns that way, against 4.
-//! 4. Twelve limbs in place. With 16 or 20, tried: 2x3 takes 8 ns in place of 7, `add_product` of 5x5 takes 38 or 42
-//!    in place of 32; saved are allocations that only the longest results need.
+//! 4. Twelve limbs in place. With 16 or 20, tried: 2x3 takes 8 ns in place of 7, a product of 5x5 that is added on 38 or
+//!    42 in place of 32; saved are allocations that only the longest results need.
 //!
 //! Tried, the loops on slices over other storage, products 1x1, 2x3, 5x5: smallvec 11, 14, 28 ns; arrayvec, which
 //! cannot grow, 8, 11, 27 ns.
@@ -61,6 +61,12 @@ pub(crate) struct Int {
 
 impl Int {
     pub(crate) const ZERO: Self = Self { inline: [0; INLINE], spilled: None, len: 0, negative: false };
+
+    pub(crate) const ONE: Self = {
+        let mut inline = [0; INLINE];
+        inline[0] = 1;
+        Self { inline, spilled: None, len: 1, negative: false }
+    };
 
     /// `mantissa * 2^shift`.
     pub(crate) fn from_scaled(mantissa: i64, shift: u32) -> Self {
@@ -106,26 +112,9 @@ impl Int {
         self.limbs().last().map_or(0, |top| 64 * self.len as u32 - top.leading_zeros())
     }
 
-    /// `self += a * b`.
-    #[inline]
-    pub(crate) fn add_product(&mut self, a: &Self, b: &Self) {
-        self.accumulate_product(a, b, false);
-    }
-
-    /// `self -= a * b`.
-    #[inline]
-    pub(crate) fn sub_product(&mut self, a: &Self, b: &Self) {
-        self.accumulate_product(a, b, true);
-    }
-
     #[inline]
     pub(crate) fn square(&self) -> Self {
         self * self
-    }
-
-    #[inline]
-    pub(crate) fn doubled(&self) -> Self {
-        self + self
     }
 
     /// The number as `m * 2^e` with 0.5 <= |m| < 1 and a relative error of at most 2^-52; zero is `(0, 0)`.
@@ -256,19 +245,6 @@ impl Int {
         }
     }
 
-    /// `self += a * b`, or `self -= a * b`; the product never leaves the stack where it is short.
-    #[inline]
-    fn accumulate_product(&mut self, a: &Self, b: &Self, subtract: bool) {
-        let negative = a.negative ^ b.negative ^ subtract;
-        if self.len.max(a.len + b.len) < INLINE {
-            let product = a.product_inline(b);
-            self.accumulate_inline(&product.inline, product.len, negative);
-        } else {
-            let product = a * b;
-            self.accumulate(&product, negative);
-        }
-    }
-
     /// Both below `INLINE` limbs.
     fn accumulate_inline(&mut self, term: &[u64; INLINE], len: usize, negative: bool) {
         let longest = self.len.max(len);
@@ -339,7 +315,8 @@ pub(crate) fn sum_of_products<const K: usize>(factors: [[&Int; 2]; K], subtract:
         _ => {
             let mut sum = Int::ZERO;
             for (i, [a, b]) in factors.into_iter().enumerate() {
-                sum.accumulate_product(a, b, subtract && i > 0);
+                let product = a * b;
+                sum.accumulate(&product, product.negative ^ (subtract && i > 0));
             }
             sum
         }

@@ -32,6 +32,7 @@ mod frame3;
 mod int;
 mod nearest;
 mod question;
+mod rotation;
 
 pub(crate) use frame2::Site2;
 pub(crate) use frame3::Site3;

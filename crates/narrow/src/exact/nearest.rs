@@ -13,7 +13,7 @@
 //! corners passes, whatever the rest is.
 
 use super::Corner;
-use super::int::{Int, cross3, dot3};
+use super::int::{Int, cross3, dot3, sum_of_products};
 use arrayvec::ArrayVec;
 use core::cmp::Ordering;
 
@@ -139,15 +139,13 @@ impl Simplex {
             return None;
         }
         let has_none_before = |k: usize| {
-            let mut ahead = &share_i * &(self.product(i, k) - self.product(i, i));
-            ahead.add_product(&share_j, &(self.product(j, k) - cross));
-            ahead.sign() != Ordering::Less
+            let (from_i, from_j) = (self.product(i, k) - self.product(i, i), self.product(j, k) - cross);
+            sum_of_products([[&share_i, &from_i], [&share_j, &from_j]], false).sign() != Ordering::Less
         };
         let is_nearest = self.others(&[i, j]).all(has_none_before);
         let mean = |axis: usize| {
-            let mut sum = &share_i * &self.points[i][axis];
-            sum.add_product(&share_j, &self.points[j][axis]);
-            sum
+            let (in_i, in_j) = (&self.points[i][axis], &self.points[j][axis]);
+            sum_of_products([[&share_i, in_i], [&share_j, in_j]], false)
         };
         is_nearest.then(|| [mean(0), mean(1), mean(2)])
     }
@@ -161,15 +159,15 @@ impl Simplex {
         let ii = &(self.product(i, i) - at_i) - &along_i;
         let jj = &(self.product(j, j) - at_j) - &along_j;
         let ij = &(self.product(i, j) - at_j) - &along_i;
-        let mut share_i = &ij * &along_j;
-        share_i.sub_product(&jj, &along_i);
-        let mut share_j = &ij * &along_i;
-        share_j.sub_product(&ii, &along_j);
-        if !is_positive(&share_i) || !is_positive(&share_j) {
+        let share_i = sum_of_products([[&ij, &along_j], [&jj, &along_i]], true);
+        if !is_positive(&share_i) {
             return None;
         }
-        let mut share_k = &ii * &jj;
-        share_k.sub_product(&ij, &ij);
+        let share_j = sum_of_products([[&ij, &along_i], [&ii, &along_j]], true);
+        if !is_positive(&share_j) {
+            return None;
+        }
+        let mut share_k = sum_of_products([[&ii, &jj], [&ij, &ij]], true);
         share_k -= &share_i;
         share_k -= &share_j;
         if !is_positive(&share_k) {

@@ -1,7 +1,7 @@
 //! Two sets of vertices in one exact frame, and the iteration that decides whether their hulls meet.
 
 use super::Corner;
-use super::int::{Int, cross3, direction, dot3};
+use super::int::{Int, cross3, direction, dot3, sum_of_products};
 use super::nearest::{Carried, Simplex};
 use asunder_geometry::glam::{DVec3, Vec2, Vec3};
 use core::cmp::Ordering;
@@ -83,10 +83,7 @@ impl Turn {
             Self::Weight(_) => v.clone(),
             Self::Matrix(rows) => {
                 let column = |i: usize| {
-                    let mut sum = &rows[0][i] * &v[0];
-                    sum.add_product(&rows[1][i], &v[1]);
-                    sum.add_product(&rows[2][i], &v[2]);
-                    sum
+                    sum_of_products([[&rows[0][i], &v[0]], [&rows[1][i], &v[1]], [&rows[2][i], &v[2]]], false)
                 };
                 [column(0), column(1), column(2)]
             }
@@ -97,7 +94,12 @@ impl Turn {
 /// A finite value as a multiple of a power of two that divides it.
 pub(super) fn in_units(value: f64, unit: i32) -> Int {
     let (mantissa, exponent) = super::int::parts(value);
-    if mantissa == 0 { Int::ZERO } else { Int::from_scaled(mantissa, (exponent - unit) as u32) }
+    match exponent - unit {
+        _ if mantissa == 0 => Int::ZERO,
+        // A mantissa has 53 bits.
+        shift @ 0..=64 => Int::from(i128::from(mantissa) << shift),
+        shift => Int::from_scaled(mantissa, shift as u32),
+    }
 }
 
 /// The greatest power of two that divides every value; of nothing but zeros, 1.
@@ -203,8 +205,8 @@ impl Question<'_> {
             let (reach, size) = project(vertex);
             (furthest, doubt) = (furthest.max(reach), doubt.max(size));
         }
-        // Terms that underflowed lost less than this.
-        let doubt = 16.0 * f64::EPSILON * doubt + f64::MIN_POSITIVE;
+        // Terms and components that underflowed lost less than this.
+        let doubt = 16.0 * f64::EPSILON * doubt + 1e-290;
         let candidates = (0..vertices.len()).filter(|&vertex| project(vertex).0 >= furthest - doubt);
         let best = candidates
             .map(|vertex| (vertex, exact(vertex)))
