@@ -7,9 +7,9 @@
 //! one corner:     G[i][k] >= G[i][i] for every other k
 //! two:            shares G[j][j] - G[i][j] and G[i][i] - G[i][j]; their mean's product with k less that with i
 //! three:          shares from the 2 x 2 system of their edges; the other corner on the side away from the origin
-//! none of these:  four corners around the origin
+//! four:           the origin is on the same side of all four faces
 //! ```
-//! G is the Gram matrix, G[i][j] = p_i . p_j. At most fourteen candidates, all tried: exactly one set of independent
+//! G is the Gram matrix, G[i][j] = p_i . p_j. At most fifteen candidates, all tried: exactly one set of independent
 //! corners passes, whatever the rest is.
 
 use super::Corner;
@@ -57,11 +57,6 @@ impl Simplex {
         if self.points.is_full() || self.corners.contains(&corner) {
             return;
         }
-        let last = self.points.len();
-        for (i, other) in self.points.iter().enumerate() {
-            self.gram[last][i] = dot3(&point, other);
-        }
-        self.gram[last][last] = dot3(&point, &point);
         self.points.push(point);
         self.corners.push(corner);
     }
@@ -72,34 +67,57 @@ impl Simplex {
     }
 
     /// Drops all corners that do not carry the nearest point.
+    ///
+    /// Most corners that come from f64 do, so that the largest sets are tried first.
     pub(super) fn reduce(&mut self) -> Carried {
+        if self.is_around_origin() {
+            return Carried::Origin;
+        }
+        self.multiply();
         let count = self.points.len();
         // Once reduced, only sets with the newest corner can have a nearer point.
-        let is_new = |set: &[usize]| !self.is_grown || set.contains(&(count - 1));
-        for i in (0..count).rev() {
-            if is_new(&[i]) && self.carries_one(i) {
-                return self.carried(&[i], self.points[i].clone());
-            }
-        }
-        for i in (0..count).rev() {
-            for j in (0..i).rev() {
-                if is_new(&[i, j])
-                    && let Some(towards) = self.carries_two(i, j)
-                {
-                    return self.carried(&[j, i], towards);
-                }
-            }
-        }
-        for i in (0..count).rev() {
+        let newest = if self.is_grown { count - 1 } else { 0 };
+        for i in (newest..count).rev() {
             for (j, k) in (0..i).rev().flat_map(|j| (0..j).rev().map(move |k| (j, k))) {
-                if is_new(&[i, j, k])
-                    && let Some(towards) = self.carries_three([i, j, k])
-                {
+                if let Some(towards) = self.carries_three([i, j, k]) {
                     return self.carried(&[k, j, i], towards);
                 }
             }
         }
+        for i in (newest..count).rev() {
+            for j in (0..i).rev() {
+                if let Some(towards) = self.carries_two(i, j) {
+                    return self.carried(&[j, i], towards);
+                }
+            }
+        }
+        for i in (newest..count).rev() {
+            if self.carries_one(i) {
+                return self.carried(&[i], self.points[i].clone());
+            }
+        }
         Carried::Origin
+    }
+
+    /// Whether there are four corners, and the origin is strictly inside: its volumes with all four faces have one sign.
+    fn is_around_origin(&self) -> bool {
+        let [a, b, c, d] = self.points.as_slice() else { return false };
+        let (ab, cd) = (cross3(a, b), cross3(c, d));
+        let of_d = dot3(&ab, d).sign();
+        of_d != Ordering::Equal
+            && dot3(&ab, c).sign() == of_d.reverse()
+            && dot3(&cd, b).sign() == of_d
+            && dot3(&cd, a).sign() == of_d.reverse()
+    }
+
+    /// Fills in the products of corners that are not known yet.
+    fn multiply(&mut self) {
+        let known = if self.is_grown { self.points.len() - 1 } else { 0 };
+        for i in known..self.points.len() {
+            for j in 0..=i {
+                self.gram[i][j] = dot3(&self.points[i], &self.points[j]);
+            }
+        }
     }
 
     fn carried(&mut self, set: &[usize], towards: [Int; 3]) -> Carried {

@@ -349,7 +349,7 @@ impl<'a> Convex<'a> {
     ///
     /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
     fn look_closer(&self, a: &Outline, b: &Outline, best: Option<&Axis>) -> (Verdict, Option<Witness>) {
-        let towards = best.map_or(DVec2::X, |axis| axis.normal);
+        let towards = best.map_or_else(|| self.towards_b(), |axis| axis.normal);
         let mut reached = distance(a, b, towards, &Until::met(&self.precision));
         let mut tier = Tier::Double;
         if let (Reached::Between(witness), Some(best)) = (&mut reached, best)
