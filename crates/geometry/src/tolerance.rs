@@ -10,13 +10,6 @@
 /// ones leave slivers whose normals jitter.
 pub const COPLANAR: f64 = 2.5e-7;
 
-/// Inscribed over bounding radius below which a hull is thin, and a pair of it asks for the distance too before it is
-/// called overlapping.
-///
-/// At this ratio facets still show a thousandth of a gap along the plate, far above rounding. A larger value costs
-/// time; a smaller one lets gaps drown in rounding.
-pub const THIN: f32 = 1e-3;
-
 /// Sine of the angle between two edges below which their cross product is not used as an axis.
 ///
 /// Above it, the axis is off by rounding over the sine; below it, the face normals beside the edges give the same

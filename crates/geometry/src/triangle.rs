@@ -1,6 +1,7 @@
 //! Triangles.
 
 use crate::aabb::Aabb3;
+use crate::hull::normal::{area_vector, unit};
 use crate::outward::{around3, round_up};
 use crate::pose3::Pose3;
 use crate::topology::Topology;
@@ -77,8 +78,7 @@ impl Triangle3 {
     /// Unit normals of both faces, in f64.
     #[inline]
     pub fn normals(&self) -> [DVec3; 2] {
-        let [a, b, c] = self.vertices.map(|vertex| vertex.as_dvec3());
-        let normal = (b - a).cross(c - a).normalize();
+        let normal = unit(area_vector(3, |corner| self.vertices[corner]));
         [normal, -normal]
     }
 

@@ -197,10 +197,12 @@ impl<'a> Pair2<'a> {
         hint: Hint,
         mut manifolds: Option<&mut Vec<Manifold2>>,
     ) -> (Hint, Option<bool>) {
-        let margin = f64::from(margin).max(0.0);
+        let margin = margin.max(0.0);
+        // What rounds to the margin counts as within it: the number that is told decides.
+        let reach = f64::from(margin.next_up());
         let (mut next_hint, mut touch) = (Hint::NONE, None);
-        self.any(margin, |parts| {
-            let near = match parts.convex.probe(margin, hint) {
+        self.any(reach, |parts| {
+            let near = match parts.convex.probe(reach, hint) {
                 Probe::Beyond(_, hint) => {
                     next_hint = hint;
                     return false;
@@ -209,10 +211,10 @@ impl<'a> Pair2<'a> {
             };
             next_hint = near.hint;
             let is_touching = near.verdict.overlapping;
-            if is_touching || f64::from(near.separation) <= margin {
+            if is_touching || near.separation <= margin {
                 touch = Some(touch.unwrap_or(false) || is_touching);
                 if let Some(manifolds) = &mut manifolds {
-                    manifolds.extend(parts.manifold(&near, margin));
+                    manifolds.extend(parts.manifold(&near, reach));
                 }
             }
             false

@@ -7,7 +7,7 @@ mod distance;
 mod error;
 mod flat;
 mod merge;
-mod normal;
+pub(crate) mod normal;
 mod predicate;
 mod quick;
 mod simplify;
@@ -21,7 +21,6 @@ use crate::aabb::Aabb3;
 use crate::outward::{around3, round_down, round_up};
 use crate::pose3::Pose3;
 use crate::radius::{RadiusError, check_rounding, grown};
-use crate::tolerance::THIN;
 use crate::topology::Topology;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
@@ -131,13 +130,6 @@ impl Hull {
     #[inline]
     pub fn inner_radius(&self) -> f32 {
         round_down(f64::from(self.data.inner_radius) + f64::from(self.radius)).max(0.0)
-    }
-
-    /// Whether the inscribed radius of the vertices' hull is below [`THIN`] of its bounding one: always so without a
-    /// volume.
-    #[inline]
-    pub fn is_thin(&self) -> bool {
-        self.data.inner_radius < THIN * self.data.outer_radius
     }
 
     /// How far any vertex lies beyond the lowest vertex of any face, along that face's normal, in metres: what

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 ///
 /// About an end of the shortest edge. From far away, two corners that are closer than the distance rounds to would be
 /// one, and the direction of a long triangle on a short base would be lost.
-pub(super) fn area_vector(count: usize, corner: impl Fn(usize) -> Vec3) -> DVec3 {
+pub(crate) fn area_vector(count: usize, corner: impl Fn(usize) -> Vec3) -> DVec3 {
     newell(count, corner).0
 }
 
@@ -70,7 +70,7 @@ fn product(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// Unit vector along a loop's area. Where that vanishes even in f64 it is x.
-pub(super) fn unit(area: DVec3) -> DVec3 {
+pub(crate) fn unit(area: DVec3) -> DVec3 {
     // Scaled first: the squares of a 1e-90 area would underflow.
     let largest = area.abs().max_element();
     if largest > 0.0 { (area / largest).normalize() } else { DVec3::X }

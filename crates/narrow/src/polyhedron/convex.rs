@@ -142,17 +142,19 @@ impl<'a> Convex<'a> {
     /// For two cuboids that is their fifteen axes; for other solids a search for a direction that parts them, or for
     /// corners around a common point, which asks for no face and no edge.
     pub(crate) fn verdict(&self) -> Verdict {
+        if self.radii == 0.0
+            && let Some(cuboids) = self.cuboids()
+        {
+            return match cuboids.sides(&self.precision) {
+                Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
+                Sides::Overlapping => Verdict { overlapping: true, tier: Tier::Bound },
+                Sides::Unclear => self.with_solids(|a, b| self.look_closer(a, b, None).0),
+            };
+        }
         match self.planes() {
             [None, None] => self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
                     return self.told_verdict(&self.told_slender(a, b));
-                }
-                if let Some(cuboids) = self.cuboids().filter(|_| self.radii == 0.0) {
-                    return match cuboids.sides(&self.precision) {
-                        Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
-                        Sides::Overlapping => Verdict { overlapping: true, tier: Tier::Bound },
-                        Sides::Unclear => self.look_closer(a, b, None).0,
-                    };
                 }
                 let verdict = self.conclude(distance(a, b, self.towards_b(), &self.until_told())).0;
                 // What was asked first is the first tier.
@@ -166,13 +168,15 @@ impl<'a> Convex<'a> {
 
     /// What the first tier's numbers say of the overlap, within their error of zero too.
     pub(crate) fn guess(&self) -> bool {
+        if self.radii == 0.0
+            && let Some(cuboids) = self.cuboids()
+        {
+            return cuboids.overlaps();
+        }
         match self.planes() {
             [None, None] => self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
                     return self.told_slender(a, b).separation <= 0.0;
-                }
-                if let Some(cuboids) = self.cuboids().filter(|_| self.radii == 0.0) {
-                    return cuboids.overlaps();
                 }
                 let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
                 match distance(a, b, self.towards_b(), &until) {
@@ -298,7 +302,8 @@ impl<'a> Convex<'a> {
             Outcome::Within(axes) => axes,
         };
         let is_clear = axes.best().separation + axes.short() < -2.0 * precision.projection();
-        if is_clear && self.is_complete(a, b) {
+        // Axes of faces that were derived or merged are no proof: for those, corners around a common point are.
+        if is_clear && self.cuboids().is_some() {
             return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound });
         }
         let (verdict, witness) = self.look_closer(a, b, Some(axes.best()));
@@ -422,17 +427,6 @@ impl<'a> Convex<'a> {
             Some(cuboids) => cuboids.separating_axes(a, b, &search),
             None => separating_axes(a, b, &search),
         }
-    }
-
-    /// Whether faces and edges leave no gap out, so that an overlap that they all show is one.
-    ///
-    /// Merged faces stand for facets whose normals are not tried. Of a hull so thin that its faces are all but
-    /// antipodal, the directions along the plate or across the needle are no normals. Two cores without an inside may
-    /// lie in one plane, and have no axes in it at all. A cuboid has the normals of its sides, however thin it is.
-    fn is_complete(&self, a: &Solid, b: &Solid) -> bool {
-        let is_thin = |shape: &Shape3| matches!(shape, Shape3::Hull(hull) if hull.is_thin());
-        let has_thin = is_thin(self.shape_a) || is_thin(self.shape_b);
-        self.precision.planarity <= self.precision.projection() && !has_thin && !(a.is_flat() && b.is_flat())
     }
 
     fn cuboids(&self) -> Option<Cuboids> {

@@ -45,12 +45,6 @@ impl<'a> Solid<'a> {
         self.normals.is_empty()
     }
 
-    /// Whether it has no inside.
-    #[inline]
-    pub(crate) fn is_flat(&self) -> bool {
-        self.normals.len() <= 2
-    }
-
     /// A vertex in the frame of the pair.
     #[inline]
     pub(crate) fn point(&self, vertex: usize) -> DVec3 {
@@ -100,7 +94,12 @@ impl<'a> Solid<'a> {
             return Arc { along, ends: [DVec3::ZERO; 2], middle: DVec3::ZERO };
         }
         let ends = [self.normals[edge.face as usize], self.normals[twin.face as usize]];
-        let middle = if self.is_flat() { along.cross(ends[0]).normalize() } else { ends[0] + ends[1] };
+        // Of faces that are all but back to back the sum is what rounding left of it, and the difference tells.
+        let middle = if ends[0].dot(ends[1]) < 0.0 {
+            along.cross(ends[0] - ends[1]).normalize()
+        } else {
+            ends[0] + ends[1]
+        };
         Arc { along, ends, middle }
     }
 

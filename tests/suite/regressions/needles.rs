@@ -1,0 +1,123 @@
+//! Needles and knife edges: where a normal is the small difference of large numbers.
+
+use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, Triangle3};
+use asunder_narrow::{Pair3, Separation3};
+use asunder_tests::exact_overlap::exact_overlap3;
+use asunder_tests::precise::separation3;
+use glam::{Quat, Vec3};
+
+fn vector(bits: [u32; 3]) -> Vec3 {
+    Vec3::from_array(bits.map(f32::from_bits))
+}
+
+fn pose(place: [u64; 3], turn: [u32; 4]) -> Pose3 {
+    Pose3::new(place.map(f64::from_bits), Quat::from_array(turn.map(f32::from_bits))).unwrap()
+}
+
+/// The decision exact, every answer with it, and the separation within its error.
+fn holds(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3)) {
+    let pair = Pair3::new(a.0, a.1, b.0, b.1);
+    let overlaps = exact_overlap3(a, b);
+    assert_eq!(pair.overlaps(), overlaps);
+    assert_eq!(pair.distance().is_none(), overlaps);
+    assert_eq!(pair.manifold(0.0).is_some(), overlaps);
+    let Separation3::Measured(found) = pair.separation(f32::INFINITY) else { panic!("there is no limit") };
+    assert_eq!(found.separation <= 0.0, overlaps, "{found:?}");
+    let truth = separation3(a, b);
+    let miss = (f64::from(found.separation) - truth.separation).abs();
+    assert!(miss <= f64::from(found.error) + truth.bound, "{found:?}, true {}", truth.separation);
+}
+
+/// Symptom: `overlaps` said apart, and `distance` and `manifold` that they touch. Cause: the normal of a triangle 1e-7
+/// times as wide as long was a plain cross product, off by a million roundings, and its depth was believed.
+#[test]
+fn a_needle_of_a_triangle_has_one_answer() {
+    let a: Shape3 = Triangle3::new(
+        vector([0xbde7_ae99, 0x3d8a_5de7, 0x3dc5_09d5]),
+        vector([0xbd38_2cb7, 0x3cdc_098a, 0x3d1c_7e4b]),
+        vector([0x372d_c394, 0x3690_a4f9, 0xb889_9b24]),
+    )
+    .unwrap()
+    .into();
+    let b: Shape3 =
+        Cuboid::from_half_extents(vector([0x3aa4_f763, 0x3a59_226f, 0x3b11_3b29])).unwrap().into();
+    let there = pose(
+        [0xbfaf_fbe4_eef8_48ad, 0x3fa2_59d3_31a7_9798, 0x3fab_c67e_7562_7c37],
+        [0x3f2a_2253, 0x3f15_413e, 0xbcf4_6f00, 0x3eee_c9f6],
+    );
+    holds((&a, &Pose3::IDENTITY), (&b, &there));
+    holds((&b, &there), (&a, &Pose3::IDENTITY));
+}
+
+/// Symptom: a needle in a triangle was 1.5 mm deep, +- 0.2 um, and touched. Cause: the middle of the arc between two
+/// faces that were all but back to back was taken from the sum of their normals, which was rounding, and the edge pair
+/// that mattered was left out.
+#[test]
+fn a_knife_edge_keeps_its_edge_pairs() {
+    let needle = Hull::of_any_dimension(&[
+        vector([0xbe7d_281e, 0x3eaa_c694, 0x3e63_c249]),
+        vector([0x3e01_46e5, 0xbdee_5745, 0xbda8_f852]),
+        vector([0x3f19_64e1, 0xbf33_c04f, 0xbef4_abb2]),
+        vector([0x3f29_59c8, 0xbf4b_bb27, 0xbf0a_1a73]),
+        vector([0xbec5_fa70, 0x3eeb_000a, 0x3e9f_9f63]),
+    ]);
+    let needle: Shape3 = needle.unwrap().into();
+    let triangle: Shape3 = Triangle3::new(
+        vector([0xbfad_8fd2, 0xbe6f_5477, 0]),
+        vector([0xbe80_7306, 0xbfb3_e26b, 0]),
+        vector([0x3e9f_8642, 0x3fbe_53ff, 0]),
+    )
+    .unwrap()
+    .into();
+    let here = pose([0; 3], [0x1f98_e9d7, 0, 0, 0x3f80_0000]);
+    let there = pose(
+        [0x3fe9_e759_46ee_f5d8, 0xbfed_da29_c3af_8dc8, 0xbfd7_3df4_a8ca_cb3e],
+        [0xbea9_46c3, 0x3f59_3be2, 0xbe26_5e39, 0x3ec2_7118],
+    );
+    holds((&needle, &here), (&triangle, &there));
+    holds((&triangle, &there), (&needle, &here));
+}
+
+/// Symptom: a needle stood 3.8 um deep in a cube, +- 8 nm, and touched. Cause: as above.
+#[test]
+fn a_needle_beside_a_cube_keeps_its_edge_pairs() {
+    let needle = Hull::of_any_dimension(&[
+        vector([0xb8cc_2e35, 0x3af7_46e5, 0xbb97_03e6]),
+        vector([0x39d7_2708, 0xbbc9_61bc, 0x3c7a_57ba]),
+        vector([0xb87e_1603, 0x3a3f_1ec1, 0xbaf2_0bf7]),
+        vector([0x3860_b72d, 0xb9f0_c896, 0x3a9e_40ad]),
+        vector([0xb9e7_7a70, 0x3bdf_ed00, 0xbc8a_d63c]),
+        vector([0x391b_1ec2, 0xbb01_64d5, 0x3ba2_5c9e]),
+        vector([0x39e8_d782, 0xbbe4_0865, 0x3c8d_412a]),
+        vector([0xb92c_f8f1, 0x3b22_1db8, 0xbbc9_829e]),
+    ]);
+    let needle: Shape3 = needle.unwrap().into();
+    let cuboid: Shape3 =
+        Cuboid::from_half_extents(vector([0x3c5b_9941, 0x3b57_1106, 0x3c9a_8b6a])).unwrap().into();
+    let here = pose([0; 3], [0x3335_a1a0, 0x39bf_f217, 0, 0x3f80_0000]);
+    let there = pose(
+        [0x3f8c_5433_aff8_3945, 0xbf68_eabc_eb98_b278, 0x3f6d_8edd_d9c9_ab7d],
+        [0x249a_3e2f, 0, 0, 0x3f80_0000],
+    );
+    holds((&needle, &here), (&cuboid, &there));
+    holds((&cuboid, &there), (&needle, &here));
+}
+
+/// Symptom: no manifold within a margin that was exactly the reported separation. Cause: that had been rounded down, and
+/// the margin was held against what it was rounded from.
+#[test]
+fn what_is_reported_within_the_margin_has_a_manifold() {
+    let cube: Shape3 = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into();
+    let mut rounded_down = 0;
+    for step in 1..200 {
+        let there = Pose3::at([1.0 + 0.001 * f64::from(step), 0.0, 0.0]).unwrap();
+        let pair = Pair3::new(&cube, &Pose3::IDENTITY, &cube, &there);
+        let Separation3::Measured(found) = pair.separation(f32::INFINITY) else {
+            panic!("there is no limit")
+        };
+        assert!(pair.manifold(found.separation).is_some(), "{found:?}");
+        assert!(pair.manifold(found.separation.next_down()).is_none(), "{found:?}");
+        rounded_down += usize::from(f64::from(found.separation) < there.position().x - 1.0);
+    }
+    assert!(rounded_down > 50, "{rounded_down}");
+}
