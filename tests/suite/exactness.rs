@@ -3,17 +3,14 @@
 use asunder_geometry::{Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
 use asunder_tests::answers::{Asked, Asked2, Asked3};
 use asunder_tests::cases::{Case2, Case3, Random};
+use asunder_tests::exact_overlap::{Relation, exact_relation2, exact_relation3};
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
-
-/// The decision is made in f64: within this share of the pair's size of touching, rounding decides. Where the
-/// numbers of a case are short enough for f64 to be exact there is no such band.
-const ROUNDING: f64 = 2e-14;
 
 fn agrees(asked: &impl Asked) -> bool {
     asked.overlaps() == asked.exactly_overlaps()
 }
 
-/// All answers must go with the decision, also where rounding made it.
+/// All answers must go with the decision, also where no number shows it.
 fn check_consistent(asked: &impl Asked) {
     let overlaps = asked.overlaps();
     let separation = asked.separation(f32::INFINITY).unwrap().separation;
@@ -25,9 +22,7 @@ fn check_consistent(asked: &impl Asked) {
 /// Returns whether exact arithmetic calls it an overlap.
 fn check(asked: &impl Asked) -> bool {
     check_consistent(asked);
-    if asked.true_separation().abs() > ROUNDING * asked.size() {
-        assert!(agrees(asked), "exact arithmetic disagrees: {asked:?}");
-    }
+    assert!(agrees(asked), "exact arithmetic disagrees: {asked:?}");
     asked.exactly_overlaps()
 }
 
@@ -154,7 +149,8 @@ fn lattice_polygons_are_decided_exactly() {
             Asked2::new(Case2 { shape_a, pose_a: Pose2::IDENTITY, shape_b, pose_b: Pose2::at(at).unwrap() });
         check_consistent(&asked);
         assert!(agrees(&asked), "{asked:?}");
-        touching += usize::from(asked.true_separation().abs() < ROUNDING);
+        let Case2 { shape_a, pose_a, shape_b, pose_b } = asked.case();
+        touching += usize::from(exact_relation2((shape_a, pose_a), (shape_b, pose_b)) == Relation::Touching);
     }
     assert!(touching > 100, "{touching} touching");
 }
@@ -181,7 +177,8 @@ fn lattice_hulls_are_decided_exactly() {
             Asked3::new(Case3 { shape_a, pose_a: Pose3::IDENTITY, shape_b, pose_b: Pose3::at(at).unwrap() });
         check_consistent(&asked);
         assert!(agrees(&asked), "{asked:?}");
-        touching += usize::from(asked.true_separation().abs() < ROUNDING);
+        let Case3 { shape_a, pose_a, shape_b, pose_b } = asked.case();
+        touching += usize::from(exact_relation3((shape_a, pose_a), (shape_b, pose_b)) == Relation::Touching);
     }
     assert!(touching > 75, "{touching} touching");
 }

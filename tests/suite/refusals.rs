@@ -1,5 +1,7 @@
 //! What is no shape and no pose is refused where it enters, by an error that says which and where.
 
+mod limits;
+
 use asunder_geometry::{
     Cuboid, ExtentError, Hull, HullError, Polygon, PolygonError, Pose2, Pose3, PoseError, Rect, Rotation2,
 };

@@ -1,5 +1,7 @@
 //! What went wrong once, as the smallest scene that shows it: symptom, cause, scene.
 
+mod needles;
+mod peers;
 mod shapes;
 
 use asunder::{BodyKey3, Collider3, World3};

@@ -26,6 +26,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # How sure the answers are
+//! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches it, and
+//! one a rounding away does not. Every separation carries an `error` in metres that the truth lies within. Both are
+//! about the **true shape**: the convex hull of the stored f32 vertices, grown by the stored radius, turned by the matrix of
+//! the stored rotation (in space M(q)/|q|^2, of whatever length q is) and moved by the f64 position, exactly. The
+//! separation is the maximum over unit n of (min over B of n.x - max over A of n.x): the distance in a gap, minus the least
+//! translation that parts the shapes in overlap; it is at most zero exactly when they overlap.
+//!
 //! # Feature flags
 //! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
 #![deny(missing_docs)]

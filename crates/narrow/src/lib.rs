@@ -5,9 +5,29 @@
 //! no keys and no world; it is asked about one pair ([`Pair2`], [`Pair3`]) or about a batch of jobs ([`collide2`],
 //! [`collide3`]).
 //!
-//! **Separation** is the maximum over unit n of (min over B of n.x - max over A of n.x): the Euclidean distance in a
-//! gap, minus the least translation in overlap. Shapes are closed: touching counts as overlapping. Every reported
-//! separation has an `error` with |true - reported| <= error.
+//! # What the answers mean
+//! The **true shape** is the convex hull of the stored f32 vertices v, with everything within the stored f32 radius of it,
+//! turned and moved exactly. Faces are derived data and prove nothing.
+//!
+//! ```text
+//! in space        x = M(q)/|q|^2 v + p         for the stored quaternion q, of any length, and the f64 position p
+//! in the plane    x = [c -s; s c] v + p        for the stored cosine and sine
+//! half-space      { x : n.x <= 0 }             for the stored f32 normal n, turned and moved alike
+//! separation      max over unit n of (min over B of n.x - max over A of n.x)
+//! size            the sum of both bounding radii
+//! ```
+//! The separation is the Euclidean distance in a gap, and minus the least translation that parts the shapes in overlap.
+//! Shapes are closed: touching counts as overlapping.
+//!
+//! - `overlaps` is exact. [`Tier`] says what it took.
+//! - Every separation, distance and manifold has an `error`: |true - reported| <= error, in metres.
+//! - `separation <= 0` exactly when `overlaps`; `distance` has points exactly when not. Where the rounded number disagrees
+//!   with the exact answer it becomes zero, or the least positive f32.
+//! - A pair is within a margin when it overlaps or its reported separation is at most the margin.
+//! - All tolerances are relative: a scene scaled by a power of two has the same answers, scaled. Positions are
+//!   subtracted in f64 first, so that nothing is lost with the distance from the origin.
+//!
+//! `docs/accuracy.md` derives the bounds.
 //!
 //! ```
 //! use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};

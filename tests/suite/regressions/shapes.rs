@@ -58,9 +58,15 @@ fn what_touches_as_a_pair_touches_in_a_world() {
     for (ground, level) in [(floor(), 0.0), (slab, -0.5)] {
         let here = Pose3::at([0.0, level, 0.0]).unwrap();
         for place in [0.0, 40.0, 1e3, 1e6, 1e9] {
-            for gap in [0.0, 1e-15, 3e-13, 1e-11, 3e-9, 1e-6, 1e-4] {
+            for gap in [0.0, -1e-16, -3e-13, -3e-9, -1e-4, 1e-15, 3e-13, 1e-11, 3e-9, 1e-6, 1e-4] {
                 let there = Pose3::at([place, 0.5 + gap, 0.0]).unwrap();
                 let overlaps = Pair3::new(&ground, &here, &ball, &there).overlaps();
+                // Nothing is rounded to touching: no gap is, and the slab ends at 50 m.
+                assert_eq!(
+                    overlaps,
+                    gap <= 0.0 && (level == 0.0 || place < 50.0),
+                    "{place} m out, gap {gap}"
+                );
                 let mut world = World3::new();
                 let keys = [(&ground, here), (&ball, there)]
                     .map(|(shape, pose)| world.insert(Collider3::new(shape.clone()).at(pose)));
@@ -71,7 +77,7 @@ fn what_touches_as_a_pair_touches_in_a_world() {
             }
         }
     }
-    assert!(touching >= 10 && apart >= 20, "{touching} touching, {apart} apart");
+    assert_eq!((touching, apart), (5 * 7, 6 * 7 + 11 * 3));
 }
 
 /// Symptom: two half-spaces face to face, a picometre apart: `overlaps` said no, `separation` zero, and `distance` had no
