@@ -285,9 +285,13 @@ impl<'a> Pair3<'a> {
         let (basis_b, shift_b) = b.placed(&self.basis_b);
         // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
         let between = self.between + (shift_b - shift_a);
+        let relative = match a.is_turned() || b.is_turned() {
+            true => basis_b.relative_to(&basis),
+            false => self.pose_b.basis_from(&self.pose_a),
+        };
         let convex = Convex::new(
             [a.site(&self.pose_a), b.site(&self.pose_b)],
-            basis_b.relative_to(&basis),
+            relative,
             basis.turn_back(between),
             self.summed(shift_a, shift_b),
         );
@@ -300,6 +304,11 @@ impl<'a> Part<'a> {
     fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
         let center = basis.turn(shape.center().as_dvec3());
         Self { index: 0, shape, local: None, center }
+    }
+
+    /// Whether its axes are not its body's.
+    fn is_turned(&self) -> bool {
+        self.local.is_some_and(|pose| pose.rotation().to_array()[..3] != [0.0; 3])
     }
 
     /// Shape and poses as they were given, for exact questions.

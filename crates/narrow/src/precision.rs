@@ -4,7 +4,7 @@
 //! truth is, in metres (`docs/accuracy.md` derives each constant):
 //!
 //! 1. *projection*: rounding in f64. Terms are at most `reach`, the sum of all lengths that enter; in space a projection
-//!    is off by less than 64 units of 2^-53 of that, in the plane by less than 16, for parts of compounds twice as much;
+//!    is off by less than 44 units of 2^-53 of that, in the plane by less than 10; for parts of compounds, 128 and 16;
 //! 2. *ceiling*, in overlap: the true best axis may be one that was proposed a little beside its place. An axis that is
 //!    off by an angle shows at most that times `reach` too little: once more the projection error for a face, and that
 //!    over the sine of their angle for two edges. What is left is by how much any candidate could beat the best;
@@ -26,14 +26,12 @@ pub(crate) struct Precision {
     pub(crate) roundings: f64,
 }
 
-/// Roundings of a projection in space.
-pub(crate) const IN_SPACE: f64 = 64.0;
+/// Roundings of a projection in space, of bodies and of parts of compounds: those have two rotations and two shifts in
+/// place of one.
+pub(crate) const IN_SPACE: [f64; 2] = [44.0, 128.0];
 
-/// Roundings of a projection in the plane, where the stored matrix is used as it stands.
-pub(crate) const IN_PLANE: f64 = 16.0;
-
-/// How many times as many for parts of a compound: two rotations and two shifts in place of one.
-pub(crate) const OF_PARTS: f64 = 2.0;
+/// Roundings of a projection in the plane, where the stored matrix is used as it stands, of bodies and of parts.
+pub(crate) const IN_PLANE: [f64; 2] = [10.0, 16.0];
 
 impl Precision {
     /// Rounding of a projection in f64: below this, a sign means nothing.
@@ -64,13 +62,13 @@ impl Precision {
 
     /// Error of a separation found by exhausting the candidate axes, which could be greater by `short`.
     pub(crate) fn of_separation(&self, separation: f64, short: f64) -> f32 {
-        self.rounded_up(short.max(0.0) + 2.0 * self.projection() + 4.0 * self.planarity, separation)
+        self.rounded_up(short.max(0.0) + self.projection() + 4.0 * self.planarity, separation)
     }
 
     /// Error of a distance known to lie in an interval of this length.
     pub(crate) fn of_distance(&self, distance: f64, gap: f64) -> f32 {
         // Bounds the wrong way round are rounding too.
-        self.rounded_up(gap.abs() + 4.0 * self.projection(), distance)
+        self.rounded_up(gap.abs() + self.projection(), distance)
     }
 
     fn rounded_up(&self, error: f64, value: f64) -> f32 {
@@ -111,7 +109,7 @@ mod tests {
 
     #[test]
     fn errors_grow_with_reach_value_and_what_was_left_out() {
-        let small = Precision { size: 1.0, reach: 2.0, planarity: 0.0, roundings: IN_SPACE };
+        let small = Precision { size: 1.0, reach: 2.0, planarity: 0.0, roundings: IN_SPACE[0] };
         assert!(small.of_separation(0.0, 0.0) < small.of_separation(100.0, 0.0));
         assert!(small.of_separation(0.0, 0.0) < Precision { reach: 1e9, ..small }.of_separation(0.0, 0.0));
         assert!(small.of_separation(0.0, 0.0) < small.of_separation(0.0, 1e-9));

@@ -28,7 +28,7 @@ use super::sat::{Axes, Axis, Outcome, Sides, hint_of, overlaps, separating_axes,
 use crate::answer::{Tier, Verdict};
 use crate::exact::{self, Corner, Site2};
 use crate::feature::{Feature, FeatureId, Hint};
-use crate::precision::{IN_PLANE, OF_PARTS, Precision, at_least, signed};
+use crate::precision::{IN_PLANE, Precision, at_least, signed};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Core2, Shape2};
@@ -109,7 +109,7 @@ impl<'a> Convex<'a> {
         let length = |v: DVec2| v.abs().element_sum();
         let off_center = length(shape_a.center().as_dvec2()) + length(shape_b.center().as_dvec2());
         let reach = size + radii + off_center + length(offset) + summed;
-        let roundings = if summed > 0.0 { IN_PLANE * OF_PARTS } else { IN_PLANE };
+        let roundings = IN_PLANE[usize::from(summed > 0.0)];
         let precision = Precision { size, reach, planarity: 0.0, roundings };
         Self { sites, shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
     }
@@ -403,7 +403,7 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error: precision.of_separation(separation, precision.of_face()),
+            error: precision.of_separation(separation, 4.0 * precision.projection()),
             normal: best.normal,
             closest: deepest.map(|point| [point.on_a, point.on_b]),
             hint: hint_of(best),

@@ -31,7 +31,7 @@ use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
 use crate::exact::{self, Corner, Site3};
 use crate::feature::{Feature, FeatureId, Hint};
-use crate::precision::{IN_SPACE, OF_PARTS, Precision, at_least, signed};
+use crate::precision::{IN_SPACE, Precision, at_least, signed};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Basis3, Core3, Hull, Shape3};
@@ -117,7 +117,7 @@ impl<'a> Convex<'a> {
             size,
             reach: size + radii + off_center + length(offset) + summed,
             planarity: planarity(shape_a) + planarity(shape_b),
-            roundings: if summed > 0.0 { IN_SPACE * OF_PARTS } else { IN_SPACE },
+            roundings: IN_SPACE[usize::from(summed > 0.0)],
         };
         Self { sites, shape_a, shape_b, relative, offset, precision, radii }
     }
@@ -407,7 +407,7 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error: precision.of_separation(separation, axes.short()),
+            error: precision.of_separation(separation, axes.short() + 3.0 * precision.projection()),
             normal: best.normal,
             closest: deepest.map(|point| [point.on_a, point.on_b]),
             hint: hint_of(best),

@@ -29,7 +29,7 @@ pub(crate) struct Nearest {
     places: [f64; 2],
 }
 
-/// The closest points. Where they are closer than `rounding`, the cores count as touching.
+/// The closest points. Where they are closer than `rounding`, the way from one to the other is no axis.
 pub(crate) fn nearest(a: &Solid, b: &Solid, rounding: f64) -> Nearest {
     let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
     let (along_a, along_b) = (a1 - a0, b1 - b0);
@@ -58,7 +58,7 @@ pub(crate) fn nearest(a: &Solid, b: &Solid, rounding: f64) -> Nearest {
     let bound = |normal: DVec3| normal.dot(b0).min(normal.dot(b1)) - normal.dot(a0).max(normal.dot(a1));
     if distance <= rounding {
         let normal = across(along_a, along_b, (b0 + b1) - (a0 + a1));
-        return Nearest { distance: 0.0, at_least: bound(normal), normal, on_a, on_b, places };
+        return Nearest { distance, at_least: bound(normal), normal, on_a, on_b, places };
     }
     let straight = (on_b - on_a) / distance;
     let clean = square_to(on_b - on_a, [along_a, along_b], places).unwrap_or(straight);
