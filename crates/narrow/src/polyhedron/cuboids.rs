@@ -53,11 +53,12 @@ impl Cuboids {
         axis.dot(self.offset).abs() - radius_a - radius_b
     }
 
-    /// The cross product of edges along two axes; where they are nearly parallel, the square of the sine between them.
-    fn cross(&self, i: usize, j: usize) -> Result<DVec3, f64> {
+    /// The cross product of edges along two axes; where they are nearly parallel, with the square of the sine between
+    /// them, and no axis to go by.
+    fn cross(&self, i: usize, j: usize) -> Result<DVec3, (DVec3, f64)> {
         let cross = UNIT[i].cross(self.axis_b(j));
         let squared_sine = cross.length_squared();
-        if squared_sine > PARALLEL_EDGES * PARALLEL_EDGES { Ok(cross) } else { Err(squared_sine) }
+        if squared_sine > PARALLEL_EDGES * PARALLEL_EDGES { Ok(cross) } else { Err((cross, squared_sine)) }
     }
 
     /// Whether no axis parts them. No axis is normalised.
@@ -87,7 +88,7 @@ impl Cuboids {
             match self.cross(i, j) {
                 // Of unit vectors: the rounding of the axis over the sine, times its length, which is the sine.
                 Ok(cross) => are_apart = parts(cross),
-                Err(squared_sine) => left_out = left_out.max(precision.of_parallel_edges(squared_sine)),
+                Err((_, squared_sine)) => left_out = left_out.max(precision.of_parallel_edges(squared_sine)),
             }
         }
         // An axis' own rounding, and by how much it may lie beside its place.
@@ -125,8 +126,9 @@ impl Cuboids {
         for (i, j) in (0..9).map(|k| (k / 3, k % 3)) {
             let cross = match self.cross(i, j) {
                 Ok(cross) => cross,
-                Err(squared_sine) => {
-                    axes.leave_out(precision.of_parallel_edges(squared_sine));
+                Err((cross, squared_sine)) => {
+                    let separation = self.along(cross) / squared_sine.sqrt();
+                    axes.leave_out(separation, squared_sine, precision);
                     continue;
                 }
             };

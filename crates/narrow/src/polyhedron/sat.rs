@@ -72,10 +72,17 @@ impl Axes {
         self.ceiling = self.ceiling.max(separation + doubt);
     }
 
-    /// Takes note of edges that propose no axis.
+    /// Takes note of edges so nearly parallel that their axis is not proposed, by the separation along it.
+    ///
+    /// Two bounds hold for the axis that they should have: it shows no more than this one and its rounding, and no more
+    /// than the best face and what a turn by the edges' angle costs. Most such pairs are far from being the best, and
+    /// the first of the two says so.
     #[inline]
-    pub(crate) fn leave_out(&mut self, short: f64) {
-        self.left_out = self.left_out.max(short);
+    pub(crate) fn leave_out(&mut self, separation: f64, squared_sine: f64, precision: &Precision) {
+        // Twice: where rounding is no longer small next to the sine, the axis is off by more than their quotient.
+        let by_axis = separation + 2.0 * precision.of_edges(squared_sine) - self.best().separation;
+        let by_angle = precision.of_parallel_edges(squared_sine);
+        self.left_out = self.left_out.max(by_angle.min(by_axis));
     }
 
     /// By how much the truth may exceed the best separation, that one's own rounding apart.
@@ -146,11 +153,11 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome 
     let mut beyond = None;
     for_edge_pairs(a, b, |edge_a, edge_b| {
         let cross = Cross::outwards(a, b, edge_a, edge_b);
+        let axis = edge_axis(a, b, [edge_a, edge_b], &cross);
         if cross.is_noise() {
-            axes.leave_out(precision.of_parallel_edges(cross.squared_sine));
+            axes.leave_out(axis.separation, cross.squared_sine, precision);
             return false;
         }
-        let axis = edge_axis(a, b, [edge_a, edge_b], &cross);
         axes.raise(axis.separation, precision.of_edges(cross.squared_sine));
         if axis.separation > limit {
             beyond = Some(axis);
