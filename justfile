@@ -10,9 +10,13 @@ test:
 play:
     cargo run --release --example play -- --svg target/play.svg
 
-# Our time beside parry3d's in one run: broad, narrow or world.
+# Our time beside parry3d's in one run: broad, narrow or world; certain: what exact answers cost.
 compare what="narrow":
     cargo run --release -p asunder-benches --bin compare -- {{ what }} --quick
+
+# A million hard cases beside parry3d: docs/hard.md.
+hard:
+    cargo run --release -p asunder-tests --bin hard
 
 # Licences, advisories and sources of all dependencies (needs cargo-deny).
 deny:

@@ -36,9 +36,11 @@ pub enum Answer {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tier {
-    /// The separation is further from zero than its error.
+    /// What is asked first, by its own bound. For two cuboids, or polygons of few edges, all axes: one shows a gap beyond
+    /// rounding, or each more overlap than it may be off by. For half-spaces, spheres and capsules a distance in closed
+    /// form. For the rest a search for an axis that parts them, or for corners around a common point.
     Bound,
-    /// A certificate in f64: an axis that parts them, or a common point, each further off than rounding.
+    /// For those that went by axes: the same search.
     Double,
     /// Exact arithmetic.
     Exact,
@@ -49,7 +51,7 @@ pub enum Tier {
 pub struct Verdict {
     /// Whether the shapes share a point; touching counts. Exact, whichever the tier.
     pub overlapping: bool,
-    /// The highest tier that was asked.
+    /// The tier that settled it.
     pub tier: Tier,
 }
 

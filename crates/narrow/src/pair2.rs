@@ -81,9 +81,8 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// The sum of the two bounding radii, in metres: the measure of this pair. Errors are relative to what is left of
-    /// it without the rounding radii. Infinite with a half-plane, whose pairs have tolerances relative to the other
-    /// shape.
+    /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-plane, whose pairs have
+    /// tolerances relative to the other shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
@@ -91,13 +90,13 @@ impl<'a> Pair2<'a> {
     /// Whether the shapes share a point, exactly; touching counts.
     ///
     /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which. Cost: as the separation, but the first separating axis ends it; for
-    /// shapes that touch up to rounding some microseconds more.
+    /// [`verdict`](Self::verdict) says which. Cost: fifteen axes for cuboids, all edges for polygons of few; else some
+    /// support searches, each linear in the vertices; for shapes that touch up to rounding some microseconds more.
     pub fn overlaps(&self) -> bool {
         self.verdict().overlapping
     }
 
-    /// [`overlaps`](Self::overlaps), and the highest tier of precision that it took.
+    /// [`overlaps`](Self::overlaps), and the tier of precision that settled it.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rect, Rotation2, Shape2, glam::Vec2};

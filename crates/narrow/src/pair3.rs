@@ -76,9 +76,8 @@ impl<'a> Pair3<'a> {
         Self { shape_a, shape_b, pose_a: *pose_a, pose_b: *pose_b, basis_a, basis_b, between }
     }
 
-    /// The sum of the two bounding radii, in metres: the measure of this pair. Errors are relative to what is left of
-    /// it without the rounding radii. Infinite with a half-space, whose pairs have tolerances relative to the other
-    /// shape.
+    /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-space, whose pairs have
+    /// tolerances relative to the other shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
@@ -86,13 +85,13 @@ impl<'a> Pair3<'a> {
     /// Whether the shapes share a point, exactly; touching counts.
     ///
     /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which. Cost: as the separation, but the first separating axis ends it; for
-    /// shapes that touch up to rounding some microseconds more.
+    /// [`verdict`](Self::verdict) says which. Cost: fifteen axes for cuboids, all edges for polygons of few; else some
+    /// support searches, each linear in the vertices; for shapes that touch up to rounding some microseconds more.
     pub fn overlaps(&self) -> bool {
         self.verdict().overlapping
     }
 
-    /// [`overlaps`](Self::overlaps), and the highest tier of precision that it took.
+    /// [`overlaps`](Self::overlaps), and the tier of precision that settled it.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::{Quat, Vec3}};

@@ -57,7 +57,7 @@ impl Precision {
     /// between them.
     #[inline]
     pub(crate) fn of_parallel_edges(&self, squared_sine: f64) -> f64 {
-        4.0 * (squared_sine.sqrt() * self.reach + self.projection())
+        5.0 * (squared_sine.sqrt() * self.reach + self.projection())
     }
 
     /// Error of a separation found by exhausting the candidate axes, which could be greater by `short`.

@@ -10,7 +10,7 @@
 //! Whether they overlap is settled in three tiers, each asked only where the one before cannot tell:
 //!
 //! ```text
-//! Bound    the separation is further from zero than its error
+//! Bound    what is asked first: all axes of boxes and small polygons, a distance in closed form, or as below
 //! Double   an axis that parts them, or corners around a common point, each further off than rounding   (distance)
 //! Exact    integers, from the corners where f64 stopped                                               (exact)
 //! ```
@@ -75,6 +75,15 @@ pub(crate) struct Near {
     evidence: Evidence,
 }
 
+/// How two cores lie, as far as the distance iteration came.
+#[allow(clippy::large_enum_variant, reason = "as Probe")]
+enum Cores {
+    /// Overlapping, or apart by at most so many metres.
+    Within(f64),
+    /// Two bounds on their distance, with witness points.
+    Between(Witness),
+}
+
 /// What a kernel in closed form says of two shapes.
 struct Told {
     separation: f64,
@@ -103,13 +112,13 @@ impl<'a> Convex<'a> {
     pub(crate) fn new(sites: [Site2<'a>; 2], turns: [Turn; 2], offset: DVec2, summed: f64) -> Self {
         let ([shape_a, shape_b], [turn_a, turn_b]) = (sites.map(|site| site.shape), turns);
         let radii = f64::from(shape_a.radius()) + f64::from(shape_b.radius());
-        // What errors are relative to: the cores' sizes, since radii are added exactly.
+        // What the distance iteration's steps are relative to: radii do not enter it.
         let size = core_size(shape_a) + core_size(shape_b);
         // Sums of coordinates bound lengths, and need no root.
         let length = |v: DVec2| v.abs().element_sum();
         let off_center = length(shape_a.center().as_dvec2()) + length(shape_b.center().as_dvec2());
         let reach = size + radii + off_center + length(offset) + summed;
-        let roundings = IN_PLANE[usize::from(summed > 0.0)];
+        let roundings = IN_PLANE[usize::from(sites.iter().any(|site| site.part.is_some()))];
         let precision = Precision { size, reach, planarity: 0.0, roundings };
         Self { sites, shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
     }
@@ -187,7 +196,7 @@ impl<'a> Convex<'a> {
         (center_b - self.turn_a.turn(self.shape_a.center().as_dvec2())).try_normalize().unwrap_or(DVec2::X)
     }
 
-    /// A distance is known well enough once it tells whether the radii close the gap.
+    /// For a yes or no a distance is known well enough once it tells whether the radii close the gap.
     fn until_told(&self) -> Until<'_> {
         let doubt = self.precision.projection();
         Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
@@ -300,29 +309,43 @@ impl<'a> Convex<'a> {
         // Every edge normal was tried, each as far off its place as any.
         let is_clear = axes.best().separation < -(precision.of_face() + 2.0 * precision.projection());
         if is_clear && !is_thin(a, b) {
-            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound });
+            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
         }
-        let (verdict, witness) = self.look_closer(a, b, Some(axes.best()));
-        match witness {
-            Some(witness) => self.gap_of_cores(axes, verdict, witness),
-            None if verdict.overlapping => self.overlap_of_cores(axes, verdict),
-            None => self.all_but_touching(a, b, axes, verdict),
+        match self.look_closer(a, b, Some(axes.best())) {
+            // A search that proved no gap, where all axes show an overlap.
+            (verdict, Cores::Between(witness))
+                if verdict.overlapping && axes.best().separation + precision.of_face() < 0.0 =>
+            {
+                self.overlap_of_cores(axes, verdict, witness.distance)
+            }
+            (verdict, Cores::Between(witness)) => self.gap_of_cores(axes, verdict, witness),
+            (verdict, Cores::Within(gap)) if verdict.overlapping => self.overlap_of_cores(axes, verdict, gap),
+            (verdict, Cores::Within(gap)) => self.all_but_touching(a, b, axes, (verdict, gap)),
         }
     }
 
-    /// Shapes whose cores overlap, as deep as the best axis says.
-    fn overlap_of_cores(&self, axes: Axes, verdict: Verdict) -> Probe {
+    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
+    /// most that the gap can be.
+    fn overlap_of_cores(&self, axes: Axes, verdict: Verdict, gap: f64) -> Probe {
         let best = *axes.best();
-        let depth = best.separation.min(0.0) - self.radii;
+        let depth = best.separation - self.radii;
         Probe::Near(Near {
             verdict,
             separation: signed(depth, true),
-            error: self.precision.of_separation(best.separation - self.radii, self.precision.of_face()),
+            error: self.precision.of_separation(depth, self.short(&axes, gap)),
             normal: best.normal,
             closest: None,
             hint: hint_of(&best),
             evidence: Evidence::Axes(axes, None),
         })
+    }
+
+    /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
+    ///
+    /// In overlap the axes are all there are. In a gap the best one may be none of them, and only witness points tell.
+    fn short(&self, axes: &Axes, gap: f64) -> f64 {
+        let (best, short) = (axes.best().separation, self.precision.of_face());
+        if best + short < 0.0 { short } else { short.max(gap - best) }
     }
 
     /// Shapes with a gap between their cores, which their radii may close.
@@ -344,11 +367,10 @@ impl<'a> Convex<'a> {
         })
     }
 
-    /// The second tier and the third, with the witness points of the cores where they are known to have a gap. `best`
-    /// is the axis that the first tier found best.
+    /// The second tier and the third, and how the cores lie. `best` is the axis that the first tier found best.
     ///
     /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
-    fn look_closer(&self, a: &Outline, b: &Outline, best: Option<&Axis>) -> (Verdict, Option<Witness>) {
+    fn look_closer(&self, a: &Outline, b: &Outline, best: Option<&Axis>) -> (Verdict, Cores) {
         let towards = best.map_or_else(|| self.towards_b(), |axis| axis.normal);
         let mut reached = distance(a, b, towards, &Until::met(&self.precision));
         let mut tier = Tier::Double;
@@ -367,23 +389,27 @@ impl<'a> Convex<'a> {
     }
 
     /// What the distance iteration has proved, and the third tier where it has proved nothing.
-    fn conclude(&self, reached: Reached) -> (Verdict, Option<Witness>) {
+    fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
         let doubt = self.precision.projection();
         let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
         let witness = match reached {
-            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), None),
-            Reached::Origin(close) => return (self.exactly(&close.corners), None),
+            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), Cores::Within(0.0)),
+            Reached::Origin(close) => {
+                let verdict = self.exactly(&close.corners);
+                let do_overlap = self.radii == 0.0 && verdict.overlapping;
+                return (verdict, Cores::Within(if do_overlap { 0.0 } else { close.within }));
+            }
             Reached::Between(witness) => witness,
         };
         if witness.at_least - self.radii > doubt {
-            return (double(false), Some(witness));
+            return (double(false), Cores::Between(witness));
         }
         if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
-            return (double(true), (witness.at_least > doubt).then_some(witness));
+            return (double(true), Cores::Between(witness));
         }
         let verdict = self.exactly(&witness.corners);
-        let has_gap = if self.radii > 0.0 { witness.at_least > doubt } else { !verdict.overlapping };
-        (verdict, has_gap.then_some(witness))
+        let do_overlap = self.radii == 0.0 && verdict.overlapping;
+        (verdict, if do_overlap { Cores::Within(0.0) } else { Cores::Between(witness) })
     }
 
     /// The third tier, from the corners where f64 stopped.
@@ -394,7 +420,13 @@ impl<'a> Convex<'a> {
 
     /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
     /// overlapped.
-    fn all_but_touching(&self, a: &Outline, b: &Outline, axes: Axes, verdict: Verdict) -> Probe {
+    fn all_but_touching(
+        &self,
+        a: &Outline,
+        b: &Outline,
+        axes: Axes,
+        (verdict, gap): (Verdict, f64),
+    ) -> Probe {
         let precision = self.precision;
         let best = axes.best();
         let separation = best.separation.max(0.0) - self.radii;
@@ -403,7 +435,7 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error: precision.of_separation(separation, 4.0 * precision.projection()),
+            error: precision.of_separation(separation, self.short(&axes, gap) + 3.0 * precision.projection()),
             normal: best.normal,
             closest: deepest.map(|point| [point.on_a, point.on_b]),
             hint: hint_of(best),

@@ -50,6 +50,8 @@ pub(crate) struct Close {
     pub(crate) corners: ArrayVec<[usize; 2], 3>,
     /// Whether they hold the origin for certain: the shapes share a point.
     pub(crate) is_proved: bool,
+    /// No further apart than this, in metres: as far as the last points were.
+    pub(crate) within: f64,
 }
 
 /// Witness points and the bounds they leave.
@@ -94,7 +96,7 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
     'steps: for _ in 0..MAX_STEPS {
         let length = v.length();
         if length <= f64::EPSILON * size {
-            return Reached::Origin(Close { corners: vertices(&simplex), is_proved: false });
+            return Reached::Origin(Close { corners: vertices(&simplex), is_proved: false, within: length });
         }
         for direction in to_origin(&simplex, v) {
             let found = corner(direction);
@@ -110,7 +112,7 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
                 wider.push(found);
                 let Some((nearest, place)) = nearest_to_origin(&wider) else {
                     let is_proved = is_around_origin(&wider, precision);
-                    return Reached::Origin(Close { corners: vertices(&wider), is_proved });
+                    return Reached::Origin(Close { corners: vertices(&wider), is_proved, within: length });
                 };
                 if place.length() < length {
                     (simplex, v) = (nearest, place);

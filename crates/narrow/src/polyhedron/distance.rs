@@ -60,6 +60,8 @@ pub(crate) struct Close {
     pub(crate) corners: ArrayVec<[usize; 2], 4>,
     /// Whether they hold the origin for certain: the shapes share a point.
     pub(crate) is_proved: bool,
+    /// No further apart than this, in metres: as far as the last points were.
+    pub(crate) within: f64,
 }
 
 /// Witness points and the bounds they leave.
@@ -111,7 +113,7 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
     'steps: for _ in 0..MAX_STEPS {
         let length = simplex.nearest.length();
         if length <= f64::EPSILON * size {
-            return Reached::Origin(Close { corners: simplex.vertices(), is_proved: false });
+            return Reached::Origin(Close { corners: simplex.vertices(), is_proved: false, within: length });
         }
         for direction in simplex.to_origin() {
             let found = corner(direction);
@@ -128,7 +130,7 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
                     Err(around) => {
                         let is_proved = is_around_origin(around.each_ref().map(|corner| corner.1), precision);
                         let corners = around.iter().map(|corner| corner.0).collect();
-                        return Reached::Origin(Close { corners, is_proved });
+                        return Reached::Origin(Close { corners, is_proved, within: length });
                     }
                 };
                 if grown.nearest.length() < length {
