@@ -16,13 +16,13 @@
 //! world.update();
 //! assert!(!world.is_touching(floor, crate_));
 //!
-//! world.set_pose(crate_, Pose3::at(Vec3::new(0.0, 0.99, 0.0))?)?;
+//! world.set_pose(crate_, Pose3::at([0.0, 0.99, 0.0])?)?;
 //! world.update();
 //! assert!(matches!(world.events(), [Event3::Began { a, b, .. }] if (*a, *b) == (floor, crate_)));
 //! let contact = world.contact(floor, crate_).ok_or("they touch")?;
 //! let manifold = &contact.manifolds[0];
 //! assert_eq!((manifold.normal, manifold.points.len()), (Vec3::Y, 4));
-//! assert!((manifold.separation + 0.01).abs() <= manifold.error);
+//! assert!((f64::from(manifold.separation) + 0.01).abs() <= f64::from(manifold.error));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
