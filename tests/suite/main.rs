@@ -26,6 +26,7 @@
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
 //! - [`theory`]: the textbook's own examples
 //! - [`peer`]: parry3d says the same on 160,000 pairs
+//! - [`solver`]: stacks, pyramids and leaning cards stand on the manifolds, by the names of their points
 //!
 //! World
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
@@ -59,6 +60,7 @@ mod regressions;
 mod separation;
 mod shapes;
 mod shapes_peer;
+mod solver;
 mod steady;
 mod theory;
 mod world_events;
