@@ -96,11 +96,13 @@ pub(crate) fn check_rotation(components: &[f32]) -> Result<(), PoseError> {
 /// assert_eq!(pose.transform(Vec3::X).to_array(), [1e6, 1.0, 0.0]);
 /// # Ok::<(), asunder_geometry::PoseError>(())
 /// ```
+// The rotation first: a copy goes by sixteen bytes, and what is read right after it must not straddle two of those.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Pose3 {
-    position: DVec3,
     // Components x, y, z, w. Not a `Quat`, whose alignment would pad every pose to 48 bytes.
     rotation: [f32; 4],
+    position: DVec3,
 }
 
 impl Pose3 {

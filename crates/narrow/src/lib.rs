@@ -50,6 +50,7 @@ mod batch;
 
 mod exact;
 mod feature;
+mod lanes;
 mod least;
 mod pair2;
 mod pair3;

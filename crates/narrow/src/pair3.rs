@@ -6,6 +6,8 @@ use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::polyhedron::convex::{Convex, Near, Probe};
+use crate::polyhedron::cuboids::asked::Contact;
+use crate::polyhedron::cuboids::placed::Posed;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -41,8 +43,6 @@ pub struct Pair3<'a> {
     shape_b: &'a Shape3,
     pose_a: Pose3,
     pose_b: Pose3,
-    basis_a: Basis3,
-    basis_b: Basis3,
     /// B's position less A's.
     between: DVec3,
 }
@@ -69,11 +69,18 @@ struct Parts<'a> {
 }
 
 impl<'a> Pair3<'a> {
-    /// A pair of posed shapes. Cost: two rotations to matrices.
+    /// A pair of posed shapes. Cost: a subtraction.
+    #[inline]
     pub fn new(shape_a: &'a Shape3, pose_a: &Pose3, shape_b: &'a Shape3, pose_b: &Pose3) -> Self {
         let between = pose_b.position() - pose_a.position();
-        let (basis_a, basis_b) = (pose_a.basis(), pose_b.basis());
-        Self { shape_a, shape_b, pose_a: *pose_a, pose_b: *pose_b, basis_a, basis_b, between }
+        Self { shape_a, shape_b, pose_a: *pose_a, pose_b: *pose_b, between }
+    }
+
+    /// Both shapes, where they are cuboids: those have kernels of their own.
+    #[inline]
+    fn cuboids(&self) -> Option<Posed<'_>> {
+        let (Shape3::Cuboid(a), Shape3::Cuboid(b)) = (self.shape_a, self.shape_b) else { return None };
+        Some(Posed { cuboids: [a, b], poses: [&self.pose_a, &self.pose_b] })
     }
 
     /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-space, whose pairs have
@@ -106,6 +113,13 @@ impl<'a> Pair3<'a> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn verdict(&self) -> Verdict {
+        match self.cuboids().and_then(|cuboids| cuboids.overlaps()) {
+            Some(overlapping) => Verdict { overlapping, tier: Tier::Bound },
+            None => self.general_verdict(),
+        }
+    }
+
+    fn general_verdict(&self) -> Verdict {
         let mut tier = Tier::Bound;
         let overlapping = self.any(0.0, |parts| {
             let verdict = parts.convex.verdict();
@@ -130,6 +144,9 @@ impl<'a> Pair3<'a> {
     /// within the limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
+        if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
+            return found;
+        }
         match self.nearest(limit) {
             Ok((parts, near)) => Separation3::Measured(Measured3 {
                 separation: near.separation,
@@ -160,6 +177,14 @@ impl<'a> Pair3<'a> {
     /// them all. Nothing for two half-spaces that overlap without end. Cost: as the separation, plus clipping two
     /// faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
+        if let Some(cuboids) = self.cuboids() {
+            let mut manifold = Manifold3::BLANK;
+            match cuboids.contact(reach_of(margin), Hint::NONE, Some(&mut manifold)) {
+                Contact::Apart(_) => return None,
+                Contact::Touching(_) => return Some(manifold),
+                Contact::Unclear => {}
+            }
+        }
         let manifolds = self.manifolds(margin);
         manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
     }
@@ -188,15 +213,42 @@ impl<'a> Pair3<'a> {
 
     /// The hint for the next frame, and whether they overlap if they are within the margin. Manifolds go where they
     /// are wanted.
+    #[inline]
     fn contact(
         &self,
         margin: f32,
         hint: Hint,
         mut manifolds: Option<&mut Vec<Manifold3>>,
     ) -> (Hint, Option<bool>) {
-        let margin = margin.max(0.0);
-        // What rounds to the margin counts as within it: the number that is told decides.
-        let reach = f64::from(margin.next_up());
+        let Some(cuboids) = self.cuboids() else {
+            return self.general_contact(margin, hint, manifolds);
+        };
+        let contact = match &mut manifolds {
+            None => cuboids.contact(reach_of(margin), hint, None),
+            Some(manifolds) => {
+                // Filled where it will stay.
+                manifolds.push(Manifold3::BLANK);
+                let contact = cuboids.contact(reach_of(margin), hint, manifolds.last_mut());
+                if !matches!(contact, Contact::Touching(_)) {
+                    manifolds.pop();
+                }
+                contact
+            }
+        };
+        match contact {
+            Contact::Apart(hint) => (hint, None),
+            Contact::Touching(hint) => (hint, Some(true)),
+            Contact::Unclear => self.general_contact(margin, hint, manifolds),
+        }
+    }
+
+    fn general_contact(
+        &self,
+        margin: f32,
+        hint: Hint,
+        mut manifolds: Option<&mut Vec<Manifold3>>,
+    ) -> (Hint, Option<bool>) {
+        let (margin, reach) = (margin.max(0.0), reach_of(margin));
         let (mut next_hint, mut touch) = (Hint::NONE, None);
         self.any(reach, |parts| {
             let near = match parts.convex.probe(reach, hint) {
@@ -224,14 +276,15 @@ impl<'a> Pair3<'a> {
     fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
         let mut least = Least::within(limit);
         let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
-        let whole_b = Part::whole(self.shape_b, &self.basis_b);
-        for_parts(self.shape_a, &self.basis_a, |a| {
+        let bases = self.bases();
+        let whole_b = Part::whole(self.shape_b, &bases[1]);
+        for_parts(self.shape_a, &bases[0], |a| {
             if least.passes_over(gap(&a, &whole_b)) {
                 return false;
             }
-            for_parts(self.shape_b, &self.basis_b, |b| {
+            for_parts(self.shape_b, &bases[1], |b| {
                 if !least.passes_over(gap(&a, &b)) {
-                    let parts = self.parts(a, b);
+                    let parts = self.parts(&bases, a, b);
                     match parts.convex.probe(least.reach(), Hint::NONE) {
                         Probe::Beyond(at_least, _) => least.give_up(at_least),
                         Probe::Near(near) => {
@@ -250,15 +303,21 @@ impl<'a> Pair3<'a> {
 
     /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.
     fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
-        let whole_b = Part::whole(self.shape_b, &self.basis_b);
+        let bases = self.bases();
+        let whole_b = Part::whole(self.shape_b, &bases[1]);
         if !self.is_compound() {
-            return ask(&self.parts(Part::whole(self.shape_a, &self.basis_a), whole_b));
+            return ask(&self.parts(&bases, Part::whole(self.shape_a, &bases[0]), whole_b));
         }
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
-        for_parts(self.shape_a, &self.basis_a, |a| {
+        for_parts(self.shape_a, &bases[0], |a| {
             !is_far(&a, &whole_b)
-                && for_parts(self.shape_b, &self.basis_b, |b| !is_far(&a, &b) && ask(&self.parts(a, b)))
+                && for_parts(self.shape_b, &bases[1], |b| !is_far(&a, &b) && ask(&self.parts(&bases, a, b)))
         })
+    }
+
+    /// Both bodies' axes in the world.
+    fn bases(&self) -> [Basis3; 2] {
+        [self.pose_a.basis(), self.pose_b.basis()]
     }
 
     fn is_compound(&self) -> bool {
@@ -279,9 +338,9 @@ impl<'a> Pair3<'a> {
         if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
     }
 
-    fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
-        let (basis, shift_a) = a.placed(&self.basis_a);
-        let (basis_b, shift_b) = b.placed(&self.basis_b);
+    fn parts(&self, bases: &[Basis3; 2], a: Part<'a>, b: Part<'a>) -> Parts<'a> {
+        let (basis, shift_a) = a.placed(&bases[0]);
+        let (basis_b, shift_b) = b.placed(&bases[1]);
         // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
         let between = self.between + (shift_b - shift_a);
         let relative = match a.is_turned() || b.is_turned() {
@@ -322,6 +381,13 @@ impl<'a> Part<'a> {
         let basis = Basis3 { x: body.turn(local.x), y: body.turn(local.y), z: body.turn(local.z) };
         (basis, body.turn(pose.position()))
     }
+}
+
+/// How far apart shapes may be for a contact: what rounds to the margin counts as within it, since the number that is
+/// told decides.
+#[inline]
+fn reach_of(margin: f32) -> f64 {
+    margin.max(0.0).next_up().into()
 }
 
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.

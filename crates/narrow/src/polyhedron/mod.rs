@@ -3,7 +3,7 @@
 //! This is the definition. It is meant to be read, and to be what faster kernels are measured against.
 
 pub(crate) mod convex;
-mod cuboids;
+pub(crate) mod cuboids;
 mod distance;
 mod half_space;
 mod manifold;
