@@ -24,7 +24,7 @@
 use super::cuboids::{Cuboids, Sides};
 use super::distance::{Close, Reached, Until, Witness, distance};
 use super::half_space::Plane;
-use super::manifold::{Point, Touch, touch};
+use super::manifold::{Ask, Point, Touch, touch};
 use super::sat::{Axes, Axis, Outcome, Search, hint_of, separating_axes};
 use super::slender::{self, Nearest};
 use super::solid::Solid;
@@ -216,7 +216,8 @@ impl<'a> Convex<'a> {
         let preference = self.preference();
         match &near.evidence {
             Evidence::Axes(axes, witness) => {
-                Some(self.with_solids(|a, b| touch(a, b, axes, witness.as_ref(), margin, preference)))
+                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last: None };
+                Some(self.with_solids(|a, b| touch(a, b, &ask)))
             }
             Evidence::Slender(nearest) => {
                 Some(self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference)))
@@ -229,7 +230,7 @@ impl<'a> Convex<'a> {
                 let separation = near.separation.into();
                 let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
                 let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
+                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points, of: None })
             }
         }
     }
@@ -428,7 +429,8 @@ impl<'a> Convex<'a> {
         let precision = self.precision;
         let best = axes.best();
         let separation = best.separation.max(0.0) - self.radii;
-        let touch = touch(a, b, &axes, None, 0.0, self.preference());
+        let preference = self.preference();
+        let touch = touch(a, b, &Ask { axes: &axes, witness: None, margin: 0.0, preference, last: None });
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         Probe::Near(Near {
             verdict,
