@@ -2,7 +2,7 @@
 
 use super::super::sat::AxisOf;
 use super::names::{self, Names};
-use super::patch::{Patch, Reference, axes_of, sign_of};
+use super::patch::{Patch, Reference, SLOTS, axes_of, sign_of};
 use super::placed::{Placed, Posed};
 use super::reduce::four_of;
 use super::settled::Best;
@@ -111,21 +111,20 @@ impl Touching<'_> {
         if !patch.is_clear || count > 8 {
             return None;
         }
-        let mut slots = [0; 4];
-        if count > 4 {
-            slots = four_of(patch, reference.is_b);
-        } else {
-            let mut rest = patch.held;
-            for slot in &mut slots[..count] {
-                *slot = rest.trailing_zeros() as usize;
-                rest &= rest.wrapping_sub(1);
-            }
+        let (mut slots, mut rest) = ([0; 8], patch.held);
+        for slot in &mut slots[..count] {
+            *slot = patch.slot(rest.trailing_zeros());
+            rest &= rest.wrapping_sub(1);
         }
+        let slots = match count {
+            0..=4 => [slots[0], slots[1], slots[2], slots[3]],
+            _ => four_of(patch, &slots, count, self.placed.preference),
+        };
         let count = count.min(4);
         let (mut order, mut deepest) = ([u32::MAX; 4], f64::INFINITY);
         for (place, &slot) in order.iter_mut().zip(&slots[..count]) {
             *place = patch.names(slot).0 << 4 | slot as u32;
-            deepest = deepest.min(patch.height[slot % 12]);
+            deepest = deepest.min(patch.height[slot % SLOTS]);
         }
         if !(deepest <= deep) {
             return None;
@@ -206,7 +205,7 @@ impl Over {
     fn write(&self, patch: &Patch, order: &[u32], manifold: &mut Manifold3) {
         let mut places = [Lanes::<4>::ZERO; 3];
         for (k, &names) in order.iter().enumerate() {
-            let slot = (names & 15) as usize % 12;
+            let slot = (names & 15) as usize % SLOTS;
             places[0].0[k] = patch.u[slot];
             places[1].0[k] = patch.v[slot];
             places[2].0[k] = patch.height[slot];

@@ -19,9 +19,9 @@ use super::names::{self, Name, Names};
 use super::placed::Placed;
 use crate::lanes::Lanes;
 
-/// Slots of a patch: the starts of the incident face's four edges within the rectangle, their ends, and the four corners
-/// of the rectangle.
-pub(super) const SLOTS: usize = 12;
+/// Slots of a patch: the starts of the incident face's four edges within the rectangle, their ends, the four corners of the
+/// rectangle, and four that are never used, so that an index costs no division.
+pub(super) const SLOTS: usize = 16;
 
 /// The patch that two faces share.
 pub(super) struct Patch {
@@ -29,13 +29,15 @@ pub(super) struct Patch {
     pub(super) v: [f64; SLOTS],
     /// Over the reference face's plane, along the direction of measurement.
     pub(super) height: [f64; SLOTS],
-    /// Bit `i`: slot `i` holds a corner of the patch, and one that is wanted.
+    /// Which corners there are, clockwise around the patch, one bit each: see [`Patch::slot`].
     pub(super) held: u32,
     /// Whether all corners stand apart from each other and from every line.
     pub(super) is_clear: bool,
-    reference: Reference,
+    pub(super) reference: Reference,
     /// What happens to each edge, in bits: see [`Patch::names`].
     cuts: [u8; 4],
+    /// For each edge, the corner of the reference face that follows where it goes out.
+    follows: [u8; 4],
 }
 
 /// Which faces make a patch.
@@ -179,25 +181,41 @@ impl Faces {
         let starts = [u + step_u * begin, v + step_v * begin, height + rise * begin];
         let ends = [u + step_u * end, v + step_v * end, height + rise * end];
         let (corners, inside, off_edges) = self.corners();
-        let (mut held, mut cuts) = (0, [0; 4]);
+        let (mut held, mut cuts, mut follows, mut exits) = (0, [0; 4], [0; 4], [NONE; 4]);
         for k in 0..4 {
             let is_within = begin.0[k] < end.0[k];
             let is_cut = is_within & (leave.0[k] < 1.0);
             let is_low = |height: &Lanes<4>| height.0[k] <= within;
-            held |= u32::from(is_within & is_low(&starts[2])) << k;
-            held |= u32::from(is_cut & is_low(&ends[2])) << (4 + k);
-            held |= u32::from((inside.0[k] > 0.0) & is_low(&corners[2])) << (8 + k);
-            cuts[k] = u8::from(enter.0[k] > 0.0)
+            held |= u32::from(is_within & is_low(&starts[2])) << (8 * k);
+            held |= u32::from(is_cut & is_low(&ends[2])) << (8 * k + 1);
+            let cut = u8::from(enter.0[k] > 0.0)
                 | u8::from(slab_u.enter.0[k] > slab_v.enter.0[k]) << 1
                 | u8::from(slab_u.leave.0[k] < slab_v.leave.0[k]) << 2
                 | u8::from(step_u.0[k] > 0.0) << 3
                 | u8::from(step_v.0[k] > 0.0) << 4;
+            cuts[k] = cut;
+            let side = SIDES[1][usize::from(cut >> 1) % 16];
+            follows[k] = side;
+            let exit = &mut exits[usize::from(side) % 4];
+            *exit = if is_cut { 8 * k + 2 } else { *exit };
+        }
+        // Clockwise, a corner follows where an edge goes out through the side that it begins, or another corner. Where no
+        // edge goes out there are four, or none.
+        let is_uncut = exits[0].min(exits[1]).min(exits[2].min(exits[3])) == NONE;
+        follows[0] = if is_uncut { 3 } else { follows[0] };
+        for k in 0..4 {
+            let exit = |turn: usize| exits[(k + turn) % 4] + turn;
+            let later = if exit(2) < NONE { exit(2) } else { exit(3) };
+            let later = if exit(1) < NONE { exit(1) } else { later };
+            let place = if exit(0) < NONE { exit(0) } else { later };
+            let place = if is_uncut { 5 - k } else { place };
+            held |= u32::from((inside.0[k] > 0.0) & (corners[2].0[k] <= within)) << (place % 32);
         }
         let off = slab_u.off.least(slab_v.off).least(off_edges).0;
         let near = 4.0 * slack;
         let join = |c: usize| {
             let ([a, b, c, d], [e, f, g, h], [i, j, k, l]) = (starts[c].0, ends[c].0, corners[c].0);
-            [a, b, c, d, e, f, g, h, i, j, k, l]
+            [a, b, c, d, e, f, g, h, i, j, k, l, 0.0, 0.0, 0.0, 0.0]
         };
         Patch {
             u: join(0),
@@ -207,6 +225,7 @@ impl Faces {
             is_clear: (off[0] > near) & (off[1] > near) & (off[2] > near) & (off[3] > near),
             reference,
             cuts,
+            follows,
         }
     }
 
@@ -260,7 +279,19 @@ const fn sides() -> [[u8; 16]; 2] {
     sides
 }
 
+/// No place in the order of corners.
+const NONE: usize = 32;
+
 impl Patch {
+    /// The slot of a bit of `held`: of eight for each edge, the first for its start, the next for its end, and those after
+    /// that for the corners of the reference face that follow it.
+    #[inline(always)]
+    pub(super) fn slot(&self, place: u32) -> usize {
+        let (k, turn) = (place as usize / 8 % 4, place as usize % 8);
+        let corner = 8 + (usize::from(self.follows[k]) + 6 - turn) % 4;
+        if turn < 2 { 4 * turn + k } else { corner }
+    }
+
     /// What meets in a slot's corner.
     #[inline(always)]
     pub(super) fn names(&self, slot: usize) -> Names {
