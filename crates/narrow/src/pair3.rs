@@ -5,9 +5,10 @@ use crate::batch::Batch3;
 use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::least::Least;
-use crate::polyhedron::convex::{Convex, Near, Probe};
+use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::placed::Posed;
+use crate::polyhedron::sat::hint_to;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -250,8 +251,9 @@ impl<'a> Pair3<'a> {
     ) -> (Hint, Option<bool>) {
         let (margin, reach) = (margin.max(0.0), reach_of(margin));
         let (mut next_hint, mut touch) = (Hint::NONE, None);
+        let wanted = if manifolds.is_some() { Wanted::Points } else { Wanted::Number };
         self.any(reach, |parts| {
-            let near = match parts.convex.probe(reach, hint) {
+            let near = match parts.convex.probe(Asked { limit: reach, hint, wanted }) {
                 Probe::Beyond(_, hint) => {
                     next_hint = hint;
                     return false;
@@ -262,8 +264,11 @@ impl<'a> Pair3<'a> {
             let is_touching = near.verdict.overlapping;
             if is_touching || near.separation <= margin {
                 touch = Some(touch.unwrap_or(false) || is_touching);
-                if let Some(manifolds) = &mut manifolds {
-                    manifolds.extend(parts.manifold(&near, reach));
+                if let Some(manifolds) = &mut manifolds
+                    && let Some((manifold, hint)) = parts.manifold(&near, reach, hint)
+                {
+                    manifolds.push(manifold);
+                    next_hint = hint;
                 }
             }
             false
@@ -285,7 +290,8 @@ impl<'a> Pair3<'a> {
             for_parts(self.shape_b, &bases[1], |b| {
                 if !least.passes_over(gap(&a, &b)) {
                     let parts = self.parts(&bases, a, b);
-                    match parts.convex.probe(least.reach(), Hint::NONE) {
+                    let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted: Wanted::Number };
+                    match parts.convex.probe(asked) {
                         Probe::Beyond(at_least, _) => least.give_up(at_least),
                         Probe::Near(near) => {
                             let (separation, error) = (near.separation, near.error);
@@ -402,22 +408,24 @@ fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'
 }
 
 impl Parts<'_> {
-    fn manifold(&self, near: &Near, margin: f64) -> Option<Manifold3> {
-        let touch = self.convex.touch(near, margin)?;
+    /// The contact points, and the hint that keeps them where they are in the next frame.
+    fn manifold(&self, near: &Near, margin: f64, hint: Hint) -> Option<(Manifold3, Hint)> {
+        let touch = self.convex.touch(near, margin, hint)?;
         let points = touch.points.iter().map(|point| ContactPoint3 {
             separation: point.separation as f32,
             anchor_a: self.anchor_a(point.on_a),
             anchor_b: self.anchor_b(point.on_b),
             feature: point.feature,
         });
-        Some(Manifold3 {
+        let manifold = Manifold3 {
             part_a: self.indices[0],
             part_b: self.indices[1],
             normal: self.basis.turn(touch.normal).as_vec3(),
             separation: near.separation,
             error: near.error,
             points: points.collect(),
-        })
+        };
+        Some((manifold, touch.of.map_or(near.hint, hint_to)))
     }
 
     /// From the frame of the pair to a world vector from A's position.

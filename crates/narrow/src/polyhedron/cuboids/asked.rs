@@ -1,12 +1,12 @@
 //! The questions of a pair, as two cuboids answer them by themselves; what they cannot settle is left to the general
 //! path.
 
-use super::super::sat::{AxisOf, hint_of};
+use super::super::sat::{hint_of, hint_to};
 use super::contact::Touching;
 use super::placed::Posed;
 use super::settled::Settled;
 use crate::answer::{Manifold3, Measured3, Separation3};
-use crate::feature::{Feature, FeatureId, Hint};
+use crate::feature::Hint;
 use crate::precision::{at_least, rounded_down, signed};
 
 /// What two cuboids say of their contact.
@@ -80,14 +80,4 @@ impl Posed<'_> {
             }
         }
     }
-}
-
-/// The hint that leads back to an axis.
-#[inline]
-fn hint_to(of: AxisOf) -> Hint {
-    Hint::axis(match of {
-        AxisOf::FaceA(face) => FeatureId::new(Feature::Face(face as u32), Feature::Vertex(0)),
-        AxisOf::FaceB(face) => FeatureId::new(Feature::Vertex(0), Feature::Face(face as u32)),
-        AxisOf::Edges(a, b) => FeatureId::new(Feature::Edge(a as u32), Feature::Edge(b as u32)),
-    })
 }

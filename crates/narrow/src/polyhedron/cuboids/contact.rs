@@ -126,7 +126,7 @@ impl Touching<'_> {
             *place = patch.names(slot).0 << 4 | slot as u32;
             deepest = deepest.min(patch.height[slot % SLOTS]);
         }
-        if !(deepest <= deep) {
+        if deepest > deep {
             return None;
         }
         sort(&mut order);

@@ -7,7 +7,6 @@
 //! What is as deep as the deepest vertex hangs together along edges, since heights on a convex surface have no second
 //! valley. So only the neighbourhood of what touches is looked at, however large the hull.
 
-use super::super::sat::Arc;
 use super::super::solid::Solid;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
@@ -105,7 +104,7 @@ impl Far {
 
 /// A direction of the pair's frame turned into a shape's own axes.
 fn in_own_axes(solid: &Solid, direction: DVec3) -> DVec3 {
-    solid.arc_from_frame(Arc { along: direction, ends: [DVec3::ZERO; 2], middle: DVec3::ZERO }).along
+    solid.basis.turn_back(direction)
 }
 
 /// A set of vertices.
