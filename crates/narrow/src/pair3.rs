@@ -1,7 +1,6 @@
 //! One pair in space, and batches of them.
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
-use crate::batch::Batch3;
 use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::least::Least;
@@ -215,7 +214,7 @@ impl<'a> Pair3<'a> {
     /// The hint for the next frame, and whether they overlap if they are within the margin. Manifolds go where they
     /// are wanted.
     #[inline]
-    fn contact(
+    pub(crate) fn contact(
         &self,
         margin: f32,
         hint: Hint,
@@ -224,17 +223,10 @@ impl<'a> Pair3<'a> {
         let Some(cuboids) = self.cuboids() else {
             return self.general_contact(margin, hint, manifolds);
         };
+        let reach = reach_of(margin);
         let contact = match &mut manifolds {
-            None => cuboids.contact(reach_of(margin), hint, None),
-            Some(manifolds) => {
-                // Filled where it will stay.
-                manifolds.push(Manifold3::BLANK);
-                let contact = cuboids.contact(reach_of(margin), hint, manifolds.last_mut());
-                if !matches!(contact, Contact::Touching(_)) {
-                    manifolds.pop();
-                }
-                contact
-            }
+            None => cuboids.contact(reach, hint, None),
+            Some(manifolds) => in_place(manifolds, |manifold| cuboids.contact(reach, hint, manifold)),
         };
         match contact {
             Contact::Apart(hint) => (hint, None),
@@ -392,8 +384,22 @@ impl<'a> Part<'a> {
 /// How far apart shapes may be for a contact: what rounds to the margin counts as within it, since the number that is
 /// told decides.
 #[inline]
-fn reach_of(margin: f32) -> f64 {
+pub(crate) fn reach_of(margin: f32) -> f64 {
     margin.max(0.0).next_up().into()
+}
+
+/// Asks for a contact whose manifold is filled in where it will stay.
+#[inline(always)]
+pub(crate) fn in_place(
+    manifolds: &mut Vec<Manifold3>,
+    ask: impl FnOnce(Option<&mut Manifold3>) -> Contact,
+) -> Contact {
+    manifolds.push(Manifold3::BLANK);
+    let contact = ask(manifolds.last_mut());
+    if !matches!(contact, Contact::Touching(_)) {
+        manifolds.pop();
+    }
+    contact
 }
 
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
@@ -436,50 +442,5 @@ impl Parts<'_> {
     /// From the frame of the pair to a world vector from B's position.
     fn anchor_b(&self, point: DVec3) -> Vec3 {
         (self.basis.turn(point - self.convex.offset) + self.shifts[1]).as_vec3()
-    }
-}
-
-/// One question of a batch: are these within the margin of each other, and how do they touch?
-#[derive(Clone, Copy, Debug)]
-pub struct Job3<'a> {
-    /// Shape of A.
-    pub shape_a: &'a Shape3,
-    /// Pose of A.
-    pub pose_a: &'a Pose3,
-    /// Shape of B.
-    pub shape_b: &'a Shape3,
-    /// Pose of B.
-    pub pose_b: &'a Pose3,
-    /// Metres of gap within which a contact is wanted.
-    pub margin: f32,
-    /// What the last answer for this pair left, or [`Hint::NONE`].
-    pub hint: Hint,
-    /// Whether to leave out manifolds.
-    pub sensor: bool,
-}
-
-/// Answers a slice of jobs, appending to the batch. Jobs do not influence each other.
-///
-/// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
-/// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
-/// let (pose_a, pose_b) = (Pose3::IDENTITY, Pose3::at(Vec3::new(0.0, 0.0, 1.5))?);
-/// let job = Job3 {
-///     shape_a: &cube, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
-/// };
-/// let mut batch = Batch3::default();
-/// collide3(&[job], &mut batch);
-/// assert!(matches!(&batch.answers[0], Answer::Contact { overlapping: true, manifolds, .. } if *manifolds == (0..1)));
-/// batch.clear();
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn collide3(jobs: &[Job3<'_>], batch: &mut Batch3) {
-    for job in jobs {
-        let pair = Pair3::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
-        let first = batch.manifolds.len() as u32;
-        let wanted = (!job.sensor).then_some(&mut batch.manifolds);
-        let (hint, overlapping) = pair.contact(job.margin, job.hint, wanted);
-        batch.push(hint, overlapping, first);
     }
 }

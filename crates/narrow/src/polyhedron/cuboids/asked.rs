@@ -1,9 +1,10 @@
 //! The questions of a pair, as two cuboids answer them by themselves; what they cannot settle is left to the general
 //! path.
 
-use super::super::sat::{hint_of, hint_to};
+use super::super::sat::{hint_of, hint_to, last_of};
 use super::contact::Touching;
-use super::placed::Posed;
+use super::eight::Eight;
+use super::placed::{Placed, Posed};
 use super::settled::Settled;
 use crate::answer::{Manifold3, Measured3, Separation3};
 use crate::feature::Hint;
@@ -66,17 +67,58 @@ impl Posed<'_> {
             return Contact::Apart(hint);
         }
         let placed = self.placed();
+        if let Some(of) = placed.parted(margin) {
+            return Contact::Apart(hint_to(of));
+        }
+        if manifold.is_none() && placed.are_deep() {
+            return Contact::Touching(hint);
+        }
+        self.contact_of(&placed, margin, hint, manifold)
+    }
+
+    /// What is clear at once of one of eight that were looked at, with the hint of its last frame. Whether they overlap is
+    /// enough for a sensor.
+    #[inline(always)]
+    pub(crate) fn clear_in((eight, lane): (&Eight, usize), hint: Hint, sensor: bool) -> Option<Contact> {
+        match eight.parted(lane) {
+            Some(of) => Some(Contact::Apart(hint_to(of))),
+            None => (sensor && eight.is_deep(lane)).then_some(Contact::Touching(hint)),
+        }
+    }
+
+    /// The rest of [`Posed::contact`] for one of eight where nothing is clear at once.
+    #[inline]
+    pub(crate) fn contact_in(
+        &self,
+        (eight, lane): (&Eight, usize),
+        margin: f64,
+        hint: Hint,
+        manifold: Option<&mut Manifold3>,
+    ) -> Contact {
+        self.contact_of(&eight.placed(lane, self), margin, hint, manifold)
+    }
+
+    /// Of a pair that no axis parts for certain.
+    #[inline]
+    fn contact_of(
+        &self,
+        placed: &Placed,
+        margin: f64,
+        hint: Hint,
+        manifold: Option<&mut Manifold3>,
+    ) -> Contact {
         match placed.settle(margin) {
             Settled::Unclear => Contact::Unclear,
             Settled::Beyond(axis) => Contact::Apart(hint_of(&axis)),
             Settled::Overlapping(best) => {
-                if let Some(manifold) = manifold {
-                    let touching = Touching { posed: self, placed: &placed, best: &best, margin };
-                    if touching.fill(manifold).is_none() {
-                        return Contact::Unclear;
+                let of = match manifold {
+                    None => Some(best.axis_of(placed)),
+                    Some(manifold) => {
+                        let last = last_of(hint);
+                        Touching { posed: self, placed, best: &best, margin, last }.fill(manifold)
                     }
-                }
-                Contact::Touching(hint_to(best.axis_of(&placed)))
+                };
+                of.map_or(Contact::Unclear, |of| Contact::Touching(hint_to(of)))
             }
         }
     }

@@ -34,6 +34,8 @@ pub(super) struct Touching<'a> {
     pub(super) best: &'a Best,
     /// Points no higher than this are wanted, in metres.
     pub(super) margin: f64,
+    /// What the points of the last frame were measured from.
+    pub(super) last: Option<AxisOf>,
 }
 
 impl Touching<'_> {
@@ -45,7 +47,7 @@ impl Touching<'_> {
             return None;
         }
         let separation = best.separation();
-        let of = self.preferred();
+        let of = self.kept().unwrap_or_else(|| self.preferred());
         match of {
             AxisOf::FaceA(face) => self.over_face(face, false, manifold)?,
             AxisOf::FaceB(face) => self.over_face(face, true, manifold)?,
@@ -54,6 +56,27 @@ impl Touching<'_> {
         manifold.separation = signed(separation, true);
         manifold.error = placed.precision.of_separation(separation, best.short);
         Some(of)
+    }
+
+    /// What the last frame's points were measured from, until another axis beats it by more than two preferences.
+    #[inline(always)]
+    fn kept(&self) -> Option<AxisOf> {
+        let Self { placed, best, .. } = *self;
+        let last = self.last?;
+        let separation = match last {
+            AxisOf::FaceA(face) if face < 6 && last == placed.of_face_a(face / 2) => {
+                placed.fifteen.faces_a[face / 2]
+            }
+            AxisOf::FaceB(face) if face < 6 && last == placed.of_face_b(face / 2) => {
+                placed.fifteen.faces_b.0[face / 2]
+            }
+            AxisOf::Edges(..) => {
+                let edges = best.edges.filter(|edges| last == placed.of_edges(edges.pair))?;
+                edges.separation
+            }
+            _ => return None,
+        };
+        (separation >= best.separation() - 2.0 * placed.preference).then_some(last)
     }
 
     /// A face of A, unless one of B, or edges, beat it by more than the preference.

@@ -11,6 +11,7 @@
 //! padding, and nothing branches. No axis is normalised here: lengths enter as squares, and only where they matter.
 
 use crate::lanes::Lanes;
+use crate::precision::Precision;
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 
@@ -70,7 +71,7 @@ impl Fifteen {
     }
 
     /// The greatest of all, none of them normalised.
-    #[inline]
+    #[inline(always)]
     pub(super) fn top(&self) -> f64 {
         let greater = |a: f64, b: f64| if a > b { a } else { b };
         let row = |row: &[f64]| greater(greater(row[0], row[1]), row[2]);
@@ -78,4 +79,35 @@ impl Fifteen {
         let edges = greater(greater(row(&self.edges[0].0), row(&self.edges[1].0)), row(&self.edges[2].0));
         greater(faces, edges)
     }
+
+    /// The axis that parts the cores by more than `limit` metres for certain: 0 to 2 for A's faces, 3 to 5 for B's, from 6
+    /// for edge pairs; -1 where there is none. Of faces the best one counts.
+    ///
+    /// An edge pair counts by its closed form less what that may be off by, both times the axis' length.
+    #[inline(always)]
+    pub(super) fn parted(&self, limit: f64, precision: &Precision) -> f64 {
+        let (limit, doubt) = (limit + precision.projection(), closed_form(precision));
+        let squared_limit = limit * limit;
+        let (mut by_face, mut best) = (-1.0, limit);
+        for n in 0..6 {
+            let separation = if n < 3 { self.faces_a[n] } else { self.faces_b.0[n - 3] };
+            let is_better = separation > best;
+            by_face = if is_better { n as f64 } else { by_face };
+            best = if is_better { separation } else { best };
+        }
+        let (mut by_edges, mut best) = (-1.0, 0.0);
+        for n in 0..9 {
+            let sure = self.edges[n / 3].0[n % 3] - doubt;
+            let is_better = (sure > best) & (sure * sure > squared_limit * self.squared[n / 3].0[n % 3]);
+            by_edges = if is_better { (6 + n) as f64 } else { by_edges };
+            best = if is_better { sure } else { best };
+        }
+        if by_face >= 0.0 { by_face } else { by_edges }
+    }
+}
+
+/// What closed forms are off by at most, times the axis' length.
+#[inline(always)]
+pub(super) fn closed_form(precision: &Precision) -> f64 {
+    1.5 * precision.projection()
 }

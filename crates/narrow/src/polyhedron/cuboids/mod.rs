@@ -10,12 +10,14 @@
 
 pub(crate) mod asked;
 mod contact;
+pub(crate) mod eight;
 mod fifteen;
 mod names;
 mod patch;
 pub(crate) mod placed;
 mod reduce;
 mod settled;
+mod wide;
 
 use super::sat::{Axes, Axis, AxisOf, Outcome, Search};
 use super::solid::Solid;

@@ -36,7 +36,7 @@ pub(super) struct Placed {
 impl Posed<'_> {
     /// Whether the bounding spheres are more than `limit` metres apart for certain.
     #[inline]
-    pub(super) fn are_far(&self, limit: f64) -> bool {
+    pub(crate) fn are_far(&self, limit: f64) -> bool {
         let [a, b] = self.cuboids;
         let reach = f64::from(a.outer_radius()) + f64::from(b.outer_radius()) + limit;
         // The subtraction of positions, three squares, three sums: eight roundings at most.
@@ -69,22 +69,62 @@ impl Posed<'_> {
         let offset = basis.turn_back(pose_b.position() - pose_a.position());
         let relative = pose_b.basis_from(pose_a);
         let half = [a.half_extents().as_dvec3(), b.half_extents().as_dvec3()];
+        let fifteen = Fifteen::new(&half, &relative, offset);
+        Placed::new(self, basis, (relative, offset), fifteen)
+    }
+}
+
+/// How large two cuboids are, in metres.
+#[derive(Clone, Copy)]
+pub(super) struct Size {
+    /// Both cores' bounding radii.
+    pub(super) cores: f64,
+    /// Both radii.
+    pub(super) radii: f64,
+    /// The smaller bounding radius.
+    smaller: f64,
+}
+
+impl Size {
+    #[inline(always)]
+    pub(super) fn of(posed: &Posed) -> Self {
+        let [a, b] = posed.cuboids;
         let outer = [f64::from(a.outer_radius()), f64::from(b.outer_radius())];
         let round = [f64::from(a.radius()), f64::from(b.radius())];
-        let size = (outer[0] - round[0]) + (outer[1] - round[1]);
-        let radii = round[0] + round[1];
-        let reach = size + radii + offset.abs().element_sum();
-        let precision = Precision { size, reach, planarity: 0.0, roundings: IN_SPACE[0] };
-        let smaller = if outer[0] < outer[1] { outer[0] } else { outer[1] };
-        let preference = (FACE_PREFERENCE * 2.0 * smaller).max(precision.projection());
-        let fifteen = Fifteen::new(&half, &relative, offset);
-        let Basis3 { x, y, z } = relative;
-        let turn = [x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z];
-        Placed { half, relative, turn, offset, basis, precision, radii, preference, fifteen }
+        Self {
+            cores: (outer[0] - round[0]) + (outer[1] - round[1]),
+            radii: round[0] + round[1],
+            smaller: if outer[0] < outer[1] { outer[0] } else { outer[1] },
+        }
+    }
+
+    /// The precision of a pair whose cores' sizes and radii have this sum.
+    #[inline(always)]
+    pub(super) fn precision(size: f64, sum: f64, offset: DVec3) -> Precision {
+        let [x, y, z] = offset.to_array();
+        let reach = sum + (x.abs() + y.abs() + z.abs());
+        Precision { size, reach, planarity: 0.0, roundings: IN_SPACE[0] }
     }
 }
 
 impl Placed {
+    #[inline(always)]
+    pub(super) fn new(
+        posed: &Posed,
+        basis: Basis3,
+        (relative, offset): (Basis3, DVec3),
+        fifteen: Fifteen,
+    ) -> Self {
+        let [a, b] = posed.cuboids;
+        let half = [a.half_extents().as_dvec3(), b.half_extents().as_dvec3()];
+        let Size { cores, radii, smaller } = Size::of(posed);
+        let precision = Size::precision(cores, cores + radii, offset);
+        let preference = (FACE_PREFERENCE * 2.0 * smaller).max(precision.projection());
+        let Basis3 { x, y, z } = relative;
+        let turn = [x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z];
+        Self { half, relative, turn, offset, basis, precision, radii, preference, fifteen }
+    }
+
     /// One of B's axes.
     #[inline]
     pub(super) fn axis_b(&self, j: usize) -> DVec3 {

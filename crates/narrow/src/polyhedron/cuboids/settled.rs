@@ -10,6 +10,7 @@
 //! its length is less needs no projection beyond its closed form.
 
 use super::super::sat::{Axis, AxisOf};
+use super::fifteen::closed_form;
 use super::names;
 use super::placed::Placed;
 use asunder_geometry::glam::DVec3;
@@ -104,7 +105,20 @@ impl Placed {
     /// What closed forms are off by at most, times the axis' length.
     #[inline(always)]
     pub(super) fn closed_form(&self) -> f64 {
-        1.5 * self.precision.projection()
+        closed_form(&self.precision)
+    }
+
+    /// What parts the shapes by more than `limit` metres for certain. Of edges, which of them does not matter.
+    #[inline(always)]
+    pub(super) fn parted(&self, limit: f64) -> Option<AxisOf> {
+        let by = self.fifteen.parted(limit + self.radii, &self.precision);
+        parted_by(by, |axis| self.offset[axis] >= 0.0, |axis| self.fifteen.ahead.0[axis] >= 0.0)
+    }
+
+    /// Whether the cores overlap for certain.
+    #[inline(always)]
+    pub(super) fn are_deep(&self) -> bool {
+        self.fifteen.top() + self.closed_form() < 0.0
     }
 
     /// Whether no axis parts the shapes by more than `limit` metres.
@@ -195,13 +209,13 @@ impl Placed {
 
     #[inline(always)]
     pub(super) fn of_face_a(&self, axis: usize) -> AxisOf {
-        AxisOf::FaceA(2 * axis + usize::from(self.offset[axis] >= 0.0))
+        face_of_a(axis, self.offset[axis] >= 0.0)
     }
 
     /// B's face looks back at A.
     #[inline(always)]
     pub(super) fn of_face_b(&self, axis: usize) -> AxisOf {
-        AxisOf::FaceB(2 * axis + usize::from(self.fifteen.ahead.0[axis] < 0.0))
+        face_of_b(axis, self.fifteen.ahead.0[axis] >= 0.0)
     }
 
     #[inline]
@@ -239,6 +253,35 @@ impl Placed {
     pub(super) fn edge_normal(&self, pair: usize) -> DVec3 {
         let normal = DVec3::AXES[pair / 3 % 3].cross(self.axis_b(pair % 3)).normalize();
         if normal.dot(self.offset) < 0.0 { -normal } else { normal }
+    }
+}
+
+#[inline(always)]
+fn face_of_a(axis: usize, is_ahead: bool) -> AxisOf {
+    AxisOf::FaceA(2 * axis + usize::from(is_ahead))
+}
+
+#[inline(always)]
+fn face_of_b(axis: usize, is_ahead: bool) -> AxisOf {
+    AxisOf::FaceB(2 * axis + usize::from(!is_ahead))
+}
+
+/// What [`Fifteen::parted`](super::fifteen::Fifteen::parted) found, by whether B lies ahead on an axis of A or of B.
+#[inline(always)]
+pub(super) fn parted_by(
+    by: f64,
+    of_a: impl FnOnce(usize) -> bool,
+    of_b: impl FnOnce(usize) -> bool,
+) -> Option<AxisOf> {
+    let by = by as i32;
+    match by as usize {
+        _ if by < 0 => None,
+        axis @ 0..3 => Some(face_of_a(axis, of_a(axis))),
+        axis @ 3..6 => Some(face_of_b(axis - 3, of_b(axis - 3))),
+        edges => {
+            let pair = edges - 6;
+            Some(AxisOf::Edges(names::edge_through(0, pair / 3), names::edge_through(0, pair % 3)))
+        }
     }
 }
 
