@@ -24,7 +24,7 @@
 use super::cuboids::{Cuboids, Sides};
 use super::distance::{Close, Reached, Until, Witness, distance};
 use super::half_space::Plane;
-use super::manifold::{Ask, Point, Touch, touch};
+use super::manifold::{Ask, Point, Touch, touch, touch_into};
 use super::sat::{Axes, Axis, Outcome, Search, hint_of, separating_axes};
 use super::slender::{self, Nearest};
 use super::solid::Solid;
@@ -217,7 +217,9 @@ impl<'a> Convex<'a> {
         match &near.evidence {
             Evidence::Axes(axes, witness) => {
                 let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last: None };
-                Some(self.with_solids(|a, b| touch(a, b, &ask)))
+                let mut touch = Touch::NONE;
+                self.with_solids(|a, b| touch_into(a, b, &ask, &mut touch));
+                Some(touch)
             }
             Evidence::Slender(nearest) => {
                 Some(self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference)))

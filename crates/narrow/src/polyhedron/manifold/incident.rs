@@ -28,78 +28,93 @@ pub(in crate::polyhedron) struct Opposed {
 /// Of two vertices that are equally far, one may have a third face that is more opposed than both of their edge's
 /// own; what touches may be at the other.
 pub(in crate::polyhedron) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> Opposed {
-    let deepest = solid.support(-normal).vertex;
     if solid.is_slender() {
-        return Opposed { face: 0, deepest };
+        return Opposed { face: 0, deepest: solid.support(-normal).vertex };
     }
-    let far = Far::from(solid, normal, deepest, slack);
-    let mut best = Best { far: 0, facing: f64::INFINITY, face: 0 };
+    let far = Far::from(solid, -normal, slack);
     // A face that has them all is one of the deepest vertex' own. Else it may be any that has one of them.
-    best.offer_around(solid, deepest, &far, far.count, normal);
-    if best.far == 0 {
+    let mut best = Best { far: far.count, facing: f64::NAN, face: None };
+    best.offer_around(solid, far.deepest, &far, normal);
+    if best.face.is_none() {
+        best.far = 1;
         for vertex in (0..solid.vertices.len()).filter(|&vertex| far.members.has(vertex)) {
-            best.offer_around(solid, vertex, &far, 1, normal);
+            best.offer_around(solid, vertex, &far, normal);
         }
     }
-    Opposed { face: best.face, deepest }
+    Opposed { face: best.face.unwrap_or(0), deepest: far.deepest }
 }
 
-/// A face, how many far vertices it has, and the dot product of its normal, once it has a rival.
+/// A face, how many far vertices it must have at least, and the dot product of its normal once it had a rival.
 struct Best {
     far: usize,
     facing: f64,
-    face: usize,
+    face: Option<usize>,
 }
 
 impl Best {
-    /// Takes a better one of the faces around a vertex that have at least so many far ones.
-    fn offer_around(&mut self, solid: &Solid, vertex: usize, far: &Far, least: usize, normal: DVec3) {
+    /// Takes a better one of the faces around a vertex.
+    fn offer_around(&mut self, solid: &Solid, vertex: usize, far: &Far, normal: DVec3) {
         let topology = solid.topology;
         for &half_edge in topology.leaving(vertex) {
             let face = usize::from(topology.half_edges()[usize::from(half_edge)].face);
-            let count = far.count_on(solid, face);
-            if count < least.max(self.far) || (count == self.far && face == self.face) {
-                continue;
-            }
-            if count > self.far {
-                *self = Self { far: count, facing: f64::NAN, face };
-                continue;
-            }
-            if self.facing.is_nan() {
-                self.facing = solid.normal(self.face).dot(normal);
-            }
-            let facing = solid.normal(face).dot(normal);
-            if facing.total_cmp(&self.facing).then(face.cmp(&self.face)).is_lt() {
-                *self = Self { far: count, facing, face };
+            let Some(count) = far.count_on(solid, face, self.far) else { continue };
+            let known = self.face.filter(|_| count == self.far);
+            (self.far, self.face) = match known {
+                Some(known) => (count, Some(self.more_opposed(solid, [known, face], normal))),
+                None => (count, Some(face)),
+            };
+            if known.is_none() {
+                self.facing = f64::NAN;
             }
         }
+    }
+
+    fn more_opposed(&mut self, solid: &Solid, [known, face]: [usize; 2], normal: DVec3) -> usize {
+        if self.facing.is_nan() {
+            self.facing = solid.normal(known).dot(normal);
+        }
+        let facing = solid.normal(face).dot(normal);
+        if facing.total_cmp(&self.facing).then(face.cmp(&known)).is_lt() {
+            self.facing = facing;
+            return face;
+        }
+        known
     }
 }
 
 /// Hulls of no more vertices are looked through faster than walked on.
 const FEW_VERTICES: usize = 64;
 
-/// The vertices that are as far against a normal as the furthest.
+/// The vertices that are as far in a direction as the furthest.
 struct Far {
+    /// The furthest; of equals the lowest.
+    deepest: usize,
     members: Members,
     count: usize,
 }
 
 impl Far {
-    fn from(solid: &Solid, normal: DVec3, deepest: usize, slack: f64) -> Self {
-        let normal = in_own_axes(solid, normal);
-        let lowest = normal.dot(solid.vertices[deepest].as_dvec3());
-        let is_far = |vertex: usize| normal.dot(solid.vertices[vertex].as_dvec3()) - lowest <= slack;
-        let members = if solid.vertices.len() <= FEW_VERTICES {
-            Members::all(solid.vertices.len(), is_far)
+    fn from(solid: &Solid, direction: DVec3, slack: f64) -> Self {
+        let own = in_own_axes(solid, direction);
+        let reach = |vertex: usize| own.dot(solid.vertices[vertex].as_dvec3());
+        let (deepest, members) = if solid.vertices.len() <= FEW_VERTICES {
+            Members::furthest_of_few(solid.vertices.len(), reach, slack)
         } else {
-            Members::together(solid, deepest, is_far)
+            let deepest = solid.support(direction).vertex;
+            let least = reach(deepest) - slack;
+            (deepest, Members::together(solid, deepest, |vertex| reach(vertex) >= least))
         };
-        Self { members, count: members.count() }
+        Self { deepest, members, count: members.count() }
     }
 
-    fn count_on(&self, solid: &Solid, face: usize) -> usize {
-        solid.topology.face_vertices(face).map(|vertex| usize::from(self.members.has(vertex))).sum()
+    /// How many of them a face has, if those are no fewer than `least`.
+    fn count_on(&self, solid: &Solid, face: usize, least: usize) -> Option<usize> {
+        let vertices = solid.topology.face_vertices(face);
+        if vertices.len() < least {
+            return None;
+        }
+        let count = vertices.map(|vertex| usize::from(self.members.has(vertex))).sum();
+        (count >= least).then_some(count)
     }
 }
 
@@ -113,11 +128,19 @@ fn in_own_axes(solid: &Solid, direction: DVec3) -> DVec3 {
 struct Members([u64; MAX_HULL_VERTICES / 64]);
 
 impl Members {
-    /// Those of the first few vertices that belong to it.
-    fn all(few: usize, belongs: impl Fn(usize) -> bool) -> Self {
-        let bits =
-            (0..few).map(|vertex| u64::from(belongs(vertex)) << vertex).fold(0, |bits, bit| bits | bit);
-        Self([bits, 0, 0, 0])
+    /// The furthest of a few vertices, and all that are as far.
+    fn furthest_of_few(few: usize, reach: impl Fn(usize) -> f64, slack: f64) -> (usize, Self) {
+        let reaches: ArrayVec<f64, FEW_VERTICES> = (0..few).map(reach).collect();
+        let furthest =
+            reaches.iter().fold(f64::NEG_INFINITY, |most, &reach| if reach > most { reach } else { most });
+        let bits = |least: f64| {
+            let bit = |(i, &reach): (usize, &f64)| u64::from(reach >= least) << i;
+            reaches.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit)
+        };
+        let members = bits(furthest - slack);
+        let is_furthest = |i: &usize| reaches[*i] == furthest;
+        let deepest = (members.trailing_zeros() as usize..few).find(is_furthest).unwrap_or(0);
+        (deepest, Self([members, 0, 0, 0]))
     }
 
     /// Those that belong to it and hang together along edges with one that does.

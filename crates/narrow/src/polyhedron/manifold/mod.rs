@@ -74,6 +74,11 @@ pub(crate) struct Touch {
     pub(crate) of: Option<AxisOf>,
 }
 
+impl Touch {
+    /// Not yet a manifold: it has no points.
+    pub(crate) const NONE: Self = Self { normal: DVec3::ZERO, points: ArrayVec::new_const(), of: None };
+}
+
 /// What contact points are made of.
 #[derive(Clone, Copy)]
 pub(crate) struct Ask<'a> {
@@ -96,11 +101,16 @@ pub(crate) struct Ask<'a> {
 /// its face. Then the best axis is asked in its place; in a gap, faces that nearly look at each other across it, and at
 /// last the witness points.
 pub(crate) fn touch(a: &Solid, b: &Solid, ask: &Ask) -> Touch {
-    let mut touch = Touch { normal: DVec3::ZERO, points: ArrayVec::new(), of: None };
-    if !ask.along_axes(a, b, &mut touch) {
-        ask.at_last(a, b, &mut touch);
-    }
+    let mut touch = Touch::NONE;
+    touch_into(a, b, ask, &mut touch);
     touch
+}
+
+/// The same in place: a manifold is large, and is not moved for nothing.
+pub(crate) fn touch_into(a: &Solid, b: &Solid, ask: &Ask, touch: &mut Touch) {
+    if !ask.along_axes(a, b, touch) {
+        ask.at_last(a, b, touch);
+    }
 }
 
 impl Ask<'_> {
@@ -117,28 +127,42 @@ impl Ask<'_> {
         self.witness.map_or(self.axes.best().separation, |witness| witness.distance)
     }
 
-    /// Points on the first axis that has one as deep as any; whether there is one.
+    /// Points on the first axis that has one as deep as any, of last frame's, the preferred and the best; whether there is
+    /// one.
     fn along_axes(&self, a: &Solid, b: &Solid, touch: &mut Touch) -> bool {
-        let depths = self.depths(a, b);
-        let mut failed = None;
-        for turn in 0..3 {
-            let Some(axis) = self.axis(a, b, turn).filter(|axis| failed != Some(axis.of)) else { continue };
-            touch.points.clear();
-            match axis.of {
-                AxisOf::FaceA(face) => add_face_points((a, face), b, &axis, depths, &mut touch.points),
-                AxisOf::FaceB(face) => add_face_points((b, face), a, &axis, depths, &mut touch.points),
-                AxisOf::Edges(..) if self.witness.is_some() => {}
-                AxisOf::Edges(edge_a, edge_b) => {
-                    if !add_aligned_faces((a, b), axis.normal, depths, &mut touch.points) {
-                        touch.points.push(edge_point(a, b, (edge_a, edge_b), axis.normal));
-                    }
+        let (depths, at_stake) = (self.depths(a, b), self.at_stake());
+        let kept = self.last.and_then(|last| self.axis_of(a, b, last));
+        if let Some(kept) = &kept
+            && kept.separation >= at_stake - 2.0 * self.preference
+            && self.along_axis(a, b, kept, &depths, touch)
+        {
+            return true;
+        }
+        let (preferred, best) = (self.preferred(), self.axes.best());
+        let is_new = |axis: &Axis| kept.is_none_or(|kept| kept.of != axis.of);
+        let does_touch = |axis: &Axis, touch: &mut Touch| {
+            axis.separation >= at_stake - self.preference
+                && is_new(axis)
+                && self.along_axis(a, b, axis, &depths, touch)
+        };
+        does_touch(preferred, touch) || (best.of != preferred.of && does_touch(best, touch))
+    }
+
+    /// Points on an axis; whether one is as deep as any.
+    fn along_axis(&self, a: &Solid, b: &Solid, axis: &Axis, depths: &Depths, touch: &mut Touch) -> bool {
+        match axis.of {
+            AxisOf::FaceA(face) => add_face_points((a, face), b, axis, depths, &mut touch.points),
+            AxisOf::FaceB(face) => add_face_points((b, face), a, axis, depths, &mut touch.points),
+            AxisOf::Edges(..) if self.witness.is_some() => {}
+            AxisOf::Edges(edge_a, edge_b) => {
+                if !add_aligned_faces((a, b), axis.normal, depths, &mut touch.points) {
+                    touch.points.push(edge_point(a, b, (edge_a, edge_b), axis.normal));
                 }
             }
-            if depths.has_deep(&touch.points) {
-                (touch.normal, touch.of) = (axis.normal, Some(axis.of));
-                return true;
-            }
-            failed = Some(axis.of);
+        }
+        if depths.has_deep(&touch.points) {
+            (touch.normal, touch.of) = (axis.normal, Some(axis.of));
+            return true;
         }
         touch.points.clear();
         false
@@ -154,22 +178,12 @@ impl Ask<'_> {
         };
         let depths = self.depths(a, b);
         touch.normal = witness.across;
-        if !add_aligned_faces((a, b), witness.across, depths, &mut touch.points) {
+        if !add_aligned_faces((a, b), witness.across, &depths, &mut touch.points) {
             match side_by_side((a, b), witness.across, witness.distance, depths.within, self.preference) {
                 Some(points) => touch.points = points,
                 None => touch.points.push(closest_point(a, b, witness)),
             }
         }
-    }
-
-    /// The axes to try: last frame's, the preferred, the best, as far as they are near enough to what is at stake.
-    fn axis(&self, a: &Solid, b: &Solid, turn: usize) -> Option<Axis> {
-        let (axis, preferences) = match turn {
-            0 => (self.axis_of(a, b, self.last?)?, 2.0),
-            1 => (*self.preferred(), 1.0),
-            _ => (*self.axes.best(), 1.0),
-        };
-        (axis.separation >= self.at_stake() - preferences * self.preference).then_some(axis)
     }
 
     fn preferred(&self) -> &Axis {
@@ -220,7 +234,7 @@ fn add_face_points<'a>(
     reference: (&'a Solid<'a>, usize),
     incident: &'a Solid<'a>,
     axis: &Axis,
-    depths: Depths,
+    depths: &Depths,
     points: &mut Points,
 ) {
     let is_b = matches!(axis.of, AxisOf::FaceB(_));
@@ -241,7 +255,7 @@ fn add_face_points<'a>(
 fn add_aligned_faces<'a>(
     (a, b): (&'a Solid<'a>, &'a Solid<'a>),
     normal: DVec3,
-    depths: Depths,
+    depths: &Depths,
     points: &mut Points,
 ) -> bool {
     if a.is_slender() || b.is_slender() {
