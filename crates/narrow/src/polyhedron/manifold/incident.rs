@@ -1,14 +1,12 @@
 //! The face with which a shape looks against a normal.
 //!
 //! ```text
-//! the deepest vertex, and from it along edges to all that are as deep up to a slack
+//! the deepest vertex, and all that are as deep up to a slack
 //! of the faces around those vertices: the one with the most of them, of equals the most opposed
 //! ```
-//! What is as deep as the deepest vertex hangs together along edges, since heights on a convex surface have no second
-//! valley. So only the neighbourhood of what touches is looked at, however large the hull.
+//! Only the neighbourhood of what touches is looked at, however large the hull.
 
-use super::super::sat::Arc;
-use super::super::solid::Solid;
+use super::super::solid::{Solid, project};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
@@ -82,9 +80,6 @@ impl Best {
     }
 }
 
-/// Hulls of no more vertices are looked through faster than walked on.
-const FEW_VERTICES: usize = 64;
-
 /// The vertices that are as far in a direction as the furthest.
 struct Far {
     /// The furthest; of equals the lowest.
@@ -94,17 +89,41 @@ struct Far {
 }
 
 impl Far {
+    /// As [`Solid::support`]: lanes of f32 leave out what is lower by more than the slack and what they can be off, and
+    /// f64 chooses among the rest.
     fn from(solid: &Solid, direction: DVec3, slack: f64) -> Self {
-        let own = in_own_axes(solid, direction);
-        let reach = |vertex: usize| own.dot(solid.vertices[vertex].as_dvec3());
-        let (deepest, members) = if solid.vertices.len() <= FEW_VERTICES {
-            Members::furthest_of_few(solid.vertices.len(), reach, slack)
-        } else {
-            let deepest = solid.support(direction).vertex;
-            let least = reach(deepest) - slack;
-            (deepest, Members::together(solid, deepest, |vertex| reach(vertex) >= least))
-        };
-        Self { deepest, members, count: members.count() }
+        let own = solid.turned_back(direction);
+        let lanes = own.as_vec3();
+        // Rounded up by more than its conversion may round it down.
+        let least = solid.least_lane(lanes) - (slack as f32) * (1.0 + 2.0 * f32::EPSILON);
+        let mut near: ArrayVec<(usize, f64), MAX_HULL_VERTICES> = ArrayVec::new();
+        for (place, octet) in solid.vertex_octets.iter().enumerate() {
+            let reaches = project(octet, lanes);
+            let mut bits =
+                (0..8).map(|i| u32::from(reaches[i] >= least) << i).fold(0, |bits, bit| bits | bit);
+            while bits != 0 {
+                let vertex = 8 * place + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                // Places past the last vertex are not vertices.
+                if let Some(point) = solid.vertices.get(vertex) {
+                    near.push((vertex, own.dot(point.as_dvec3())));
+                }
+            }
+        }
+        let (mut deepest, mut furthest) = (0, f64::NEG_INFINITY);
+        for &(vertex, reach) in &near {
+            if reach > furthest {
+                (deepest, furthest) = (vertex, reach);
+            }
+        }
+        let (mut members, mut count) = (Members::default(), 0);
+        for &(vertex, reach) in &near {
+            if reach >= furthest - slack {
+                members.insert(vertex);
+                count += 1;
+            }
+        }
+        Self { deepest, members, count }
     }
 
     /// How many of them a face has, if those are no fewer than `least`.
@@ -118,65 +137,18 @@ impl Far {
     }
 }
 
-/// A direction of the pair's frame turned into a shape's own axes.
-fn in_own_axes(solid: &Solid, direction: DVec3) -> DVec3 {
-    solid.arc_from_frame(Arc { along: direction, ends: [DVec3::ZERO; 2], middle: DVec3::ZERO }).along
-}
-
 /// A set of vertices.
 #[derive(Clone, Copy, Default)]
 struct Members([u64; MAX_HULL_VERTICES / 64]);
 
 impl Members {
-    /// The furthest of a few vertices, and all that are as far.
-    fn furthest_of_few(few: usize, reach: impl Fn(usize) -> f64, slack: f64) -> (usize, Self) {
-        let reaches: ArrayVec<f64, FEW_VERTICES> = (0..few).map(reach).collect();
-        let furthest =
-            reaches.iter().fold(f64::NEG_INFINITY, |most, &reach| if reach > most { reach } else { most });
-        let bits = |least: f64| {
-            let bit = |(i, &reach): (usize, &f64)| u64::from(reach >= least) << i;
-            reaches.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit)
-        };
-        let members = bits(furthest - slack);
-        let is_furthest = |i: &usize| reaches[*i] == furthest;
-        let deepest = (members.trailing_zeros() as usize..few).find(is_furthest).unwrap_or(0);
-        (deepest, Self([members, 0, 0, 0]))
-    }
-
-    /// Those that belong to it and hang together along edges with one that does.
-    fn together(solid: &Solid, with: usize, belongs: impl Fn(usize) -> bool) -> Self {
-        let (mut members, mut seen) = (Self::default(), Self::default());
-        let mut ahead: ArrayVec<u16, MAX_HULL_VERTICES> = ArrayVec::new();
-        members.insert(with);
-        seen.insert(with);
-        let mut next = Some(with as u16);
-        while let Some(vertex) = next {
-            for &half_edge in solid.topology.leaving(vertex.into()) {
-                let neighbour = solid.topology.ends(half_edge.into()).1;
-                if seen.insert(neighbour) && belongs(neighbour) {
-                    members.insert(neighbour);
-                    let _ = ahead.try_push(neighbour as u16);
-                }
-            }
-            next = ahead.pop();
-        }
-        members
-    }
-
-    fn count(&self) -> usize {
-        self.0.iter().map(|word| word.count_ones() as usize).sum()
-    }
-
     fn has(&self, vertex: usize) -> bool {
         self.0.get(vertex / 64).is_some_and(|word| word >> (vertex % 64) & 1 == 1)
     }
 
-    /// Whether it was not in yet.
-    fn insert(&mut self, vertex: usize) -> bool {
-        let is_new = !self.has(vertex);
+    fn insert(&mut self, vertex: usize) {
         if let Some(word) = self.0.get_mut(vertex / 64) {
             *word |= 1 << (vertex % 64);
         }
-        is_new
     }
 }
