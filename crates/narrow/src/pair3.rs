@@ -6,6 +6,7 @@ use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
+use crate::polyhedron::manifold::Touch;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -212,7 +213,10 @@ impl<'a> Pair3<'a> {
             if is_touching || near.separation <= margin {
                 touch = Some(touch.unwrap_or(false) || is_touching);
                 if let Some(manifolds) = &mut manifolds {
-                    manifolds.extend(parts.manifold(&near, reach));
+                    manifolds.extend(parts.convex.touch(&near, reach, hint).map(|touch| {
+                        next_hint = touch.hint().unwrap_or(next_hint);
+                        parts.manifold(&near, &touch)
+                    }));
                 }
             }
             false
@@ -338,22 +342,21 @@ fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'
 }
 
 impl Parts<'_> {
-    fn manifold(&self, near: &Near, margin: f64) -> Option<Manifold3> {
-        let touch = self.convex.touch(near, margin)?;
+    fn manifold(&self, near: &Near, touch: &Touch) -> Manifold3 {
         let points = touch.points.iter().map(|point| ContactPoint3 {
             separation: point.separation as f32,
             anchor_a: self.anchor_a(point.on_a),
             anchor_b: self.anchor_b(point.on_b),
             feature: point.feature,
         });
-        Some(Manifold3 {
+        Manifold3 {
             part_a: self.indices[0],
             part_b: self.indices[1],
             normal: self.basis.turn(touch.normal).as_vec3(),
             separation: near.separation,
             error: near.error,
             points: points.collect(),
-        })
+        }
     }
 
     /// From the frame of the pair to a world vector from A's position.

@@ -45,6 +45,28 @@ pub(crate) enum AxisOf {
     Edges(usize, usize),
 }
 
+impl AxisOf {
+    /// The hint that leads back to it.
+    pub(crate) fn hint(self) -> Hint {
+        Hint::axis(match self {
+            Self::FaceA(face) => FeatureId::new(Feature::Face(face as u32), Feature::Vertex(0)),
+            Self::FaceB(face) => FeatureId::new(Feature::Vertex(0), Feature::Face(face as u32)),
+            Self::Edges(a, b) => FeatureId::new(Feature::Edge(a as u32), Feature::Edge(b as u32)),
+        })
+    }
+
+    /// What a hint leads to, which need not be of the shapes at hand.
+    pub(crate) fn of_hint(hint: Hint) -> Option<Self> {
+        let features = hint.features()?;
+        match (features.a(), features.b()) {
+            (Feature::Face(face), _) => Some(Self::FaceA(face as usize)),
+            (_, Feature::Face(face)) => Some(Self::FaceB(face as usize)),
+            (Feature::Edge(a), Feature::Edge(b)) => Some(Self::Edges(a as usize, b as usize)),
+            _ => None,
+        }
+    }
+}
+
 /// A unit axis from A to B, and the separation along it by full projection.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axis {
@@ -282,13 +304,13 @@ impl Found {
     }
 }
 
-fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
+pub(super) fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
     let normal = a.normal(face);
     let separation = -b.support(-normal).reach - a.face_reach(face, normal);
     Axis { separation, normal, of: AxisOf::FaceA(face) }
 }
 
-fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
+pub(super) fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
     let outward = b.normal(face);
     let separation = -b.face_reach(face, outward) - a.support(-outward).reach;
     Axis { separation, normal: -outward, of: AxisOf::FaceB(face) }
@@ -344,26 +366,20 @@ fn supports(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> bool {
 
 /// The axis that a hint names, evaluated; nothing where it names none that this pair has.
 pub(crate) fn hinted_axis(a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
-    let features = hint.features()?;
-    match (features.a(), features.b()) {
-        (Feature::Face(face), _) if a.has_face(face) => Some(face_axis_a(a, b, face as usize)),
-        (_, Feature::Face(face)) if b.has_face(face) => Some(face_axis_b(a, b, face as usize)),
-        (Feature::Edge(edge_a), Feature::Edge(edge_b)) if a.has_edge(edge_a) && b.has_edge(edge_b) => {
-            let edges = [edge_a as usize, edge_b as usize];
-            let cross = Cross::outwards(a, b, edges[0], edges[1]);
-            (!cross.is_noise()).then(|| edge_axis(a, b, edges, cross.axis.normalize()))
+    match AxisOf::of_hint(hint)? {
+        AxisOf::FaceA(face) => a.has_face(face as u32).then(|| face_axis_a(a, b, face)),
+        AxisOf::FaceB(face) => b.has_face(face as u32).then(|| face_axis_b(a, b, face)),
+        AxisOf::Edges(edge_a, edge_b) if a.has_edge(edge_a as u32) && b.has_edge(edge_b as u32) => {
+            let cross = Cross::outwards(a, b, edge_a, edge_b);
+            (!cross.is_noise()).then(|| edge_axis(a, b, [edge_a, edge_b], cross.axis.normalize()))
         }
-        _ => None,
+        AxisOf::Edges(..) => None,
     }
 }
 
 /// The hint that leads back to an axis.
 pub(crate) fn hint_of(axis: &Axis) -> Hint {
-    Hint::axis(match axis.of {
-        AxisOf::FaceA(face) => FeatureId::new(Feature::Face(face as u32), Feature::Vertex(0)),
-        AxisOf::FaceB(face) => FeatureId::new(Feature::Vertex(0), Feature::Face(face as u32)),
-        AxisOf::Edges(a, b) => FeatureId::new(Feature::Edge(a as u32), Feature::Edge(b as u32)),
-    })
+    axis.of.hint()
 }
 
 #[cfg(test)]

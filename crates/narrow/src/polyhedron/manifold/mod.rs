@@ -32,9 +32,9 @@ pub(super) use incident::opposed_face;
 
 use super::distance::Witness;
 use super::rods::side_by_side;
-use super::sat::{Axes, Axis, AxisOf};
+use super::sat::{Axes, Axis, AxisOf, face_axis_a, face_axis_b};
 use super::solid::Solid;
-use crate::feature::FeatureId;
+use crate::feature::{FeatureId, Hint};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::ALIGNED_FACES;
@@ -77,6 +77,11 @@ pub(crate) struct Touch {
 impl Touch {
     /// Not yet a manifold: it has no points.
     pub(crate) const NONE: Self = Self { normal: DVec3::ZERO, points: ArrayVec::new_const(), of: None };
+
+    /// What leads back to its axis, if it was made on one.
+    pub(crate) fn hint(&self) -> Option<Hint> {
+        self.of.map(AxisOf::hint)
+    }
 }
 
 /// What contact points are made of.
@@ -200,13 +205,11 @@ impl Ask<'_> {
         if let Some(axis) = known.into_iter().find(|axis| axis.of == of) {
             return Some(*axis);
         }
-        let normal = match of {
-            AxisOf::FaceA(face) if a.has_face(face as u32) => a.normal(face),
-            AxisOf::FaceB(face) if b.has_face(face as u32) => -b.normal(face),
-            _ => return None,
-        };
-        let separation = -b.support(-normal).reach - a.support(normal).reach;
-        Some(Axis { separation, normal, of })
+        match of {
+            AxisOf::FaceA(face) if a.has_face(face as u32) => Some(face_axis_a(a, b, face)),
+            AxisOf::FaceB(face) if b.has_face(face as u32) => Some(face_axis_b(a, b, face)),
+            _ => None,
+        }
     }
 }
 
