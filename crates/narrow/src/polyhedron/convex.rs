@@ -28,7 +28,7 @@ use super::cuboids::{Cuboids, Sides};
 use super::distance::Witness;
 use super::half_space::Plane;
 use super::manifold::{Ask, Point, Touch, touch_into};
-use super::sat::{Axes, AxisOf};
+use super::sat::{Axes, last_of};
 use super::slender::{self, Nearest};
 use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
@@ -195,12 +195,11 @@ impl<'a> Convex<'a> {
 
     /// Contact points of shapes at most `margin` metres apart, on their surfaces, made where last frame's hint says they
     /// were unless that is worse by two preferences. None for two half-spaces that overlap without end.
-    pub(crate) fn touch(&self, near: &Near, margin: f64, last: Hint) -> Option<Touch> {
+    pub(crate) fn touch(&self, near: &Near, margin: f64, hint: Hint) -> Option<Touch> {
         let preference = self.preference();
         match &near.evidence {
             Evidence::Axes(axes, witness) => {
-                let ask =
-                    Ask { axes, witness: witness.as_ref(), margin, preference, last: AxisOf::of_hint(last) };
+                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last: last_of(hint) };
                 let mut touch = Touch::NONE;
                 self.with_solids(|a, b| touch_into(a, b, &ask, &mut touch));
                 Some(touch)

@@ -45,28 +45,6 @@ pub(crate) enum AxisOf {
     Edges(usize, usize),
 }
 
-impl AxisOf {
-    /// The hint that leads back to it.
-    pub(crate) fn hint(self) -> Hint {
-        Hint::axis(match self {
-            Self::FaceA(face) => FeatureId::new(Feature::Face(face as u32), Feature::Vertex(0)),
-            Self::FaceB(face) => FeatureId::new(Feature::Vertex(0), Feature::Face(face as u32)),
-            Self::Edges(a, b) => FeatureId::new(Feature::Edge(a as u32), Feature::Edge(b as u32)),
-        })
-    }
-
-    /// What a hint leads to, which need not be of the shapes at hand.
-    pub(crate) fn of_hint(hint: Hint) -> Option<Self> {
-        let features = hint.features()?;
-        match (features.a(), features.b()) {
-            (Feature::Face(face), _) => Some(Self::FaceA(face as usize)),
-            (_, Feature::Face(face)) => Some(Self::FaceB(face as usize)),
-            (Feature::Edge(a), Feature::Edge(b)) => Some(Self::Edges(a as usize, b as usize)),
-            _ => None,
-        }
-    }
-}
-
 /// A unit axis from A to B, and the separation along it by full projection.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axis {
@@ -366,20 +344,44 @@ fn supports(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> bool {
 
 /// The axis that a hint names, evaluated; nothing where it names none that this pair has.
 pub(crate) fn hinted_axis(a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
-    match AxisOf::of_hint(hint)? {
-        AxisOf::FaceA(face) => a.has_face(face as u32).then(|| face_axis_a(a, b, face)),
-        AxisOf::FaceB(face) => b.has_face(face as u32).then(|| face_axis_b(a, b, face)),
-        AxisOf::Edges(edge_a, edge_b) if a.has_edge(edge_a as u32) && b.has_edge(edge_b as u32) => {
-            let cross = Cross::outwards(a, b, edge_a, edge_b);
-            (!cross.is_noise()).then(|| edge_axis(a, b, [edge_a, edge_b], cross.axis.normalize()))
+    let features = hint.features()?;
+    match (features.a(), features.b()) {
+        (Feature::Face(face), _) if a.has_face(face) => Some(face_axis_a(a, b, face as usize)),
+        (_, Feature::Face(face)) if b.has_face(face) => Some(face_axis_b(a, b, face as usize)),
+        (Feature::Edge(edge_a), Feature::Edge(edge_b)) if a.has_edge(edge_a) && b.has_edge(edge_b) => {
+            let edges = [edge_a as usize, edge_b as usize];
+            let cross = Cross::outwards(a, b, edges[0], edges[1]);
+            (!cross.is_noise()).then(|| edge_axis(a, b, edges, cross.axis.normalize()))
         }
-        AxisOf::Edges(..) => None,
+        _ => None,
     }
 }
 
 /// The hint that leads back to an axis.
 pub(crate) fn hint_of(axis: &Axis) -> Hint {
-    axis.of.hint()
+    hint_to(axis.of)
+}
+
+/// The hint that leads back to what an axis is the axis of.
+#[inline]
+pub(crate) fn hint_to(of: AxisOf) -> Hint {
+    Hint::axis(match of {
+        AxisOf::FaceA(face) => FeatureId::new(Feature::Face(face as u32), Feature::Vertex(0)),
+        AxisOf::FaceB(face) => FeatureId::new(Feature::Vertex(0), Feature::Face(face as u32)),
+        AxisOf::Edges(a, b) => FeatureId::new(Feature::Edge(a as u32), Feature::Edge(b as u32)),
+    })
+}
+
+/// What a hint says that the last axis was the axis of: of these shapes or of others.
+#[inline]
+pub(crate) fn last_of(hint: Hint) -> Option<AxisOf> {
+    let features = hint.features()?;
+    match (features.a(), features.b()) {
+        (Feature::Face(face), _) => Some(AxisOf::FaceA(face as usize)),
+        (_, Feature::Face(face)) => Some(AxisOf::FaceB(face as usize)),
+        (Feature::Edge(a), Feature::Edge(b)) => Some(AxisOf::Edges(a as usize, b as usize)),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

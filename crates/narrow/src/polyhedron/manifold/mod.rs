@@ -34,7 +34,7 @@ use super::distance::Witness;
 use super::rods::side_by_side;
 use super::sat::{Axes, Axis, AxisOf, face_axis_a, face_axis_b};
 use super::solid::Solid;
-use crate::feature::{FeatureId, Hint};
+use crate::feature::FeatureId;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::ALIGNED_FACES;
@@ -77,11 +77,6 @@ pub(crate) struct Touch {
 impl Touch {
     /// Not yet a manifold: it has no points.
     pub(crate) const NONE: Self = Self { normal: DVec3::ZERO, points: ArrayVec::new_const(), of: None };
-
-    /// What leads back to its axis, if it was made on one.
-    pub(crate) fn hint(&self) -> Option<Hint> {
-        self.of.map(AxisOf::hint)
-    }
 }
 
 /// What contact points are made of.
