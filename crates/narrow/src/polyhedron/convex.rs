@@ -37,7 +37,7 @@ use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
-use asunder_geometry::{Basis3, Core3, Hull, Shape3};
+use asunder_geometry::{Basis3, Hull, Shape3};
 
 /// Two convex shapes in the frame of the pair: A's axes, about A's position.
 pub(crate) struct Convex<'a> {
@@ -242,7 +242,9 @@ impl<'a> Convex<'a> {
     }
 
     pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
-        let (core_a, core_b): (Core3, Core3) = (self.shape_a.core(), self.shape_b.core());
+        // One by one: a pair of them would be moved, and those that are made here are large.
+        let core_a = self.shape_a.core();
+        let core_b = self.shape_b.core();
         let a = Solid::new(&core_a, IDENTITY, DVec3::ZERO, f64::from(self.shape_a.radius()));
         let b = Solid::new(&core_b, self.relative, self.offset, f64::from(self.shape_b.radius()));
         ask(&a, &b)

@@ -63,6 +63,10 @@ impl Best {
             };
             if known.is_none() {
                 self.facing = f64::NAN;
+                // Two faces share no more than an edge, unless they are back to back.
+                if count == far.count && count > 2 && solid.normal(face).dot(normal) < 0.0 {
+                    return;
+                }
             }
         }
     }
@@ -150,5 +154,51 @@ impl Members {
         if let Some(word) = self.0.get_mut(vertex / 64) {
             *word |= 1 << (vertex % 64);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asunder_geometry::glam::Vec3;
+    use asunder_geometry::{Basis3, Hull, Pose3, Shape3};
+    use oorandom::Rand64;
+
+    #[test]
+    fn lanes_find_all_vertices_that_are_as_far_and_no_other() {
+        let mut random = Rand64::new(61);
+        let mut signed = || 2.0 * random.rand_float() - 1.0;
+        let mut several = 0;
+        for round in 0..400 {
+            // Layers, so that many are as far along z up to a slack.
+            let mut layer = || (3.0 * signed()).round() / 3.0 * (1.0 + 1e-7 * signed());
+            let heights: Vec<f64> = (0..[4, 12, 60, 240][round % 4]).map(|_| layer()).collect();
+            let mut point = |height| Vec3::new(signed() as f32, signed() as f32, height as f32);
+            let points: Vec<Vec3> = heights.into_iter().map(&mut point).collect();
+            let Ok(hull) = Hull::from_points(&points) else { continue };
+            let (shape, basis): (Shape3, Basis3) = (hull.into(), Pose3::IDENTITY.basis());
+            let core = shape.core();
+            let solid = Solid::new(&core, basis, DVec3::ZERO, 0.0);
+            let tilted = DVec3::new(signed() * 1e-7, signed() * 1e-7, 1.0).normalize();
+            let anywhere = DVec3::new(signed(), signed(), signed()).normalize();
+            for (direction, slack) in [(tilted, 1e-6), (DVec3::NEG_Z, 0.0), (anywhere, 1e-6), (anywhere, 0.3)]
+            {
+                let far = Far::from(&solid, direction, slack);
+                let reach = |vertex: usize| direction.dot(solid.vertices[vertex].as_dvec3());
+                let count = solid.vertices.len();
+                let furthest = (0..count).map(reach).fold(f64::NEG_INFINITY, f64::max);
+                assert_eq!(reach(far.deepest), furthest);
+                for vertex in 0..count {
+                    assert_eq!(
+                        far.members.has(vertex),
+                        reach(vertex) >= furthest - slack,
+                        "{vertex} of {count}"
+                    );
+                }
+                assert_eq!(far.count, (0..count).filter(|&vertex| far.members.has(vertex)).count());
+                several += usize::from(far.count > 2);
+            }
+        }
+        assert!(several > 300, "only {several}");
     }
 }
