@@ -303,13 +303,13 @@ impl Found {
     }
 }
 
-fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
+pub(super) fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
     let normal = a.normal(face);
     let separation = -b.support(-normal).reach - a.face_reach(face, normal);
     Axis { separation, normal, of: AxisOf::FaceA(face) }
 }
 
-fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
+pub(super) fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
     let outward = b.normal(face);
     let separation = -b.face_reach(face, outward) - a.support(-outward).reach;
     Axis { separation, normal: -outward, of: AxisOf::FaceB(face) }
