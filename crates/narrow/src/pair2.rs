@@ -7,6 +7,7 @@ use crate::feature::Hint;
 use crate::least::Least;
 use crate::polygon::convex::{Convex, Near, Probe};
 use crate::polygon::outline::Turn;
+use crate::polygon::sat::hint_of;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
@@ -162,8 +163,13 @@ impl<'a> Pair2<'a> {
     /// them all. Nothing for two half-planes that overlap without end. Cost: as the separation, plus clipping two
     /// edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
-        let manifolds = self.manifolds(margin);
-        manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
+        let mut best: Option<Manifold2> = None;
+        self.contact(margin, Hint::NONE, true, |next| {
+            if best.as_ref().is_none_or(|best| next.separation < best.separation) {
+                best = Some(next);
+            }
+        });
+        best
     }
 
     /// One manifold for each pair of convex parts at most `margin` metres apart, in order of the parts: at most one
@@ -184,7 +190,7 @@ impl<'a> Pair2<'a> {
     /// ```
     pub fn manifolds(&self, margin: f32) -> Vec<Manifold2> {
         let mut manifolds = Vec::new();
-        self.contact(margin, Hint::NONE, Some(&mut manifolds));
+        self.contact(margin, Hint::NONE, true, |manifold| manifolds.push(manifold));
         manifolds
     }
 
@@ -194,7 +200,8 @@ impl<'a> Pair2<'a> {
         &self,
         margin: f32,
         hint: Hint,
-        mut manifolds: Option<&mut Vec<Manifold2>>,
+        is_wanted: bool,
+        mut keep: impl FnMut(Manifold2),
     ) -> (Hint, Option<bool>) {
         let margin = margin.max(0.0);
         // What rounds to the margin counts as within it: the number that is told decides.
@@ -212,8 +219,9 @@ impl<'a> Pair2<'a> {
             let is_touching = near.verdict.overlapping;
             if is_touching || near.separation <= margin {
                 touch = Some(touch.unwrap_or(false) || is_touching);
-                if let Some(manifolds) = &mut manifolds {
-                    manifolds.extend(parts.manifold(&near, reach));
+                if is_wanted && let Some((manifold, hint)) = parts.manifold(&near, reach) {
+                    next_hint = hint;
+                    keep(manifold);
                 }
             }
             false
@@ -326,7 +334,8 @@ fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>)
 }
 
 impl Parts<'_> {
-    fn manifold(&self, near: &Near, margin: f64) -> Option<Manifold2> {
+    /// How they touch, and the hint that leads back to what that was built on.
+    fn manifold(&self, near: &Near, margin: f64) -> Option<(Manifold2, Hint)> {
         let touch = self.convex.touch(near, margin)?;
         let points = touch.points.iter().map(|point| ContactPoint2 {
             separation: point.separation as f32,
@@ -334,14 +343,15 @@ impl Parts<'_> {
             anchor_b: self.anchor_b(point.on_b),
             feature: point.feature,
         });
-        Some(Manifold2 {
+        let manifold = Manifold2 {
             part_a: self.indices[0],
             part_b: self.indices[1],
             normal: touch.normal.as_vec2(),
             separation: near.separation,
             error: near.error,
             points: points.collect(),
-        })
+        };
+        Some((manifold, touch.reference.map_or(near.hint, hint_of)))
     }
 
     /// From the frame of the pair to a world vector from A's position.
@@ -394,8 +404,9 @@ pub fn collide2(jobs: &[Job2<'_>], batch: &mut Batch2) {
     for job in jobs {
         let pair = Pair2::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
         let first = batch.manifolds.len() as u32;
-        let wanted = (!job.sensor).then_some(&mut batch.manifolds);
-        let (hint, overlapping) = pair.contact(job.margin, job.hint, wanted);
+        let manifolds = &mut batch.manifolds;
+        let (hint, overlapping) =
+            pair.contact(job.margin, job.hint, !job.sensor, |manifold| manifolds.push(manifold));
         batch.push(hint, overlapping, first);
     }
 }

@@ -7,47 +7,40 @@
 //! everything else:                  edge normals                               (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
-//! Whether they overlap is settled in three tiers, each asked only where the one before cannot tell:
-//!
-//! ```text
-//! Bound    what is asked first: all axes of boxes and small polygons, a distance in closed form, or as below
-//! Double   an axis that parts them, or corners around a common point, each further off than rounding   (distance)
-//! Exact    integers, from the corners where f64 stopped                                               (exact)
-//! ```
-//! The number then takes the decision's sign: where it says otherwise, it is rounding.
+//! Whether they overlap is settled in three tiers (`tiers`); the number then takes the decision's sign: where it says
+//! otherwise, it is rounding.
 //!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
 //! line out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
-use super::distance::{Close, Reached, Until, Witness, distance};
+use super::distance::Witness;
 use super::half_plane::Line;
 use super::manifold::{Point, Touch, touch};
-use super::outline::{Outline, Turn};
-use super::sat::{Axes, Axis, Outcome, Sides, hint_of, overlaps, separating_axes, sides};
+use super::outline::{OF_SEARCH, Outline, Turn, is_searched};
+use super::sat::{Axes, Outcome, Wanted, doubt, hint_of, hint_of_direction, separating_axes};
+use super::search::beside;
+use super::tiers::{Cores, is_thin};
 use crate::answer::{Tier, Verdict};
-use crate::exact::{self, Corner, Site2};
+use crate::exact::{self, Site2};
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{IN_PLANE, Precision, at_least, signed};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Core2, Shape2};
 
-/// Edges of two polygons together up to which a yes or no comes cheaper from all axes than from a search.
-const FEW_EDGES: usize = 20;
-
 /// Two convex shapes in the frame of the pair: the world's axes, about A's position.
 pub(crate) struct Convex<'a> {
-    sites: [Site2<'a>; 2],
+    pub(super) sites: [Site2<'a>; 2],
     pub(crate) shape_a: &'a Shape2,
     pub(crate) shape_b: &'a Shape2,
     pub(crate) turn_a: Turn,
     pub(crate) turn_b: Turn,
     /// B's position less A's.
     pub(crate) offset: DVec2,
-    precision: Precision,
+    pub(super) precision: Precision,
     /// Both radii, in metres.
-    radii: f64,
+    pub(super) radii: f64,
 }
 
 /// What a pair looks like within a limit.
@@ -75,20 +68,11 @@ pub(crate) struct Near {
     evidence: Evidence,
 }
 
-/// How two cores lie, as far as the distance iteration came.
-#[allow(clippy::large_enum_variant, reason = "as Probe")]
-enum Cores {
-    /// Overlapping, or apart by at most so many metres.
-    Within(f64),
-    /// Two bounds on their distance, with witness points.
-    Between(Witness),
-}
-
 /// What a kernel in closed form says of two shapes.
-struct Told {
-    separation: f64,
+pub(super) struct Told {
+    pub(super) separation: f64,
     /// A lower bound on it.
-    at_least: f64,
+    pub(super) at_least: f64,
     /// Unit axis from A to B.
     normal: DVec2,
     /// Closest points on the surfaces; they mean nothing in overlap.
@@ -118,7 +102,8 @@ impl<'a> Convex<'a> {
         let length = |v: DVec2| v.abs().element_sum();
         let off_center = length(shape_a.center().as_dvec2()) + length(shape_b.center().as_dvec2());
         let reach = size + radii + off_center + length(offset) + summed;
-        let roundings = IN_PLANE[usize::from(sites.iter().any(|site| site.part.is_some()))];
+        let searched = if is_searched(shape_a) || is_searched(shape_b) { OF_SEARCH } else { 0.0 };
+        let roundings = IN_PLANE[usize::from(sites.iter().any(|site| site.part.is_some()))] + searched;
         let precision = Precision { size, reach, planarity: 0.0, roundings };
         Self { sites, shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
     }
@@ -138,70 +123,6 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
-    ///
-    /// For polygons of few edges that is all their axes; for others a search for a direction that parts them, or for
-    /// corners around a common point.
-    pub(crate) fn verdict(&self) -> Verdict {
-        match self.lines() {
-            [None, None] => self.with_outlines(|a, b| {
-                let edges = a.edge_count() + b.edge_count();
-                if edges == 0 {
-                    return self.told_verdict(&self.told_points(a, b));
-                }
-                if self.radii == 0.0 && edges <= FEW_EDGES {
-                    return match sides(a, b, &self.precision) {
-                        Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
-                        Sides::Overlapping if !is_thin(a, b) => {
-                            Verdict { overlapping: true, tier: Tier::Bound }
-                        }
-                        _ => self.look_closer(a, b, None).0,
-                    };
-                }
-                let verdict = self.conclude(distance(a, b, self.towards_b(), &self.until_told())).0;
-                // What was asked first is the first tier.
-                let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
-                Verdict { tier, ..verdict }
-            }),
-            [Some(a), Some(b)] => self.told_verdict(&self.told_half_planes(a, b)),
-            [Some(line), None] | [None, Some(line)] => self.told_verdict(&self.told_half_plane(line)),
-        }
-    }
-
-    /// What the first tier's numbers say of the overlap, within their error of zero too.
-    pub(crate) fn guess(&self) -> bool {
-        match self.lines() {
-            [None, None] => self.with_outlines(|a, b| {
-                let edges = a.edge_count() + b.edge_count();
-                if edges == 0 {
-                    return self.told_points(a, b).separation <= 0.0;
-                }
-                if self.radii == 0.0 && edges <= FEW_EDGES {
-                    return overlaps(a, b);
-                }
-                let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
-                match distance(a, b, self.towards_b(), &until) {
-                    Reached::Between(witness) => witness.distance <= self.radii,
-                    Reached::Origin(_) => true,
-                }
-            }),
-            [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
-            [Some(line), None] | [None, Some(line)] => self.told_half_plane(line).separation <= 0.0,
-        }
-    }
-
-    /// From A's centre to B's: where a search may begin.
-    fn towards_b(&self) -> DVec2 {
-        let center_b = self.offset + self.turn_b.turn(self.shape_b.center().as_dvec2());
-        (center_b - self.turn_a.turn(self.shape_a.center().as_dvec2())).try_normalize().unwrap_or(DVec2::X)
-    }
-
-    /// For a yes or no a distance is known well enough once it tells whether the radii close the gap.
-    fn until_told(&self) -> Until<'_> {
-        let doubt = self.precision.projection();
-        Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
-    }
-
     /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-planes that overlap
     /// without end.
     pub(crate) fn touch(&self, near: &Near, margin: f64) -> Option<Touch> {
@@ -217,7 +138,11 @@ impl<'a> Convex<'a> {
                     let separation = near.normal.dot(on_b - on_a);
                     Point { separation, on_a, on_b, feature }.on_surfaces(a, b, near.normal)
                 });
-                Some(Touch { normal: near.normal, points: core::iter::once(point).collect() })
+                Some(Touch {
+                    normal: near.normal,
+                    points: core::iter::once(point).collect(),
+                    reference: None,
+                })
             }
             Evidence::HalfPlane(line) => {
                 Some(self.with_outlines(|a, b| line.touch(if line.is_b { a } else { b }, margin, preference)))
@@ -227,12 +152,16 @@ impl<'a> Convex<'a> {
                 let separation = near.separation.into();
                 let feature = FeatureId::new(Feature::Edge(0), Feature::Edge(0));
                 let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
+                (separation > f64::NEG_INFINITY).then_some(Touch {
+                    normal: a.axis(),
+                    points,
+                    reference: None,
+                })
             }
         }
     }
 
-    fn told_half_planes(&self, a: Line, b: Line) -> Told {
+    pub(super) fn told_half_planes(&self, a: Line, b: Line) -> Told {
         let separation = a.separation_from(&b, || exact::are_opposed2([&self.sites[0], &self.sites[1]]));
         Told {
             separation,
@@ -243,7 +172,7 @@ impl<'a> Convex<'a> {
         }
     }
 
-    fn told_half_plane(&self, line: Line) -> Told {
+    pub(super) fn told_half_plane(&self, line: Line) -> Told {
         let (vertex, height) = self.with_outlines(|a, b| {
             let core = if line.is_b { a } else { b };
             let (vertex, height) = line.lowest(core);
@@ -257,22 +186,13 @@ impl<'a> Convex<'a> {
         Told { separation, at_least: separation, normal: line.axis(), closest, evidence }
     }
 
-    fn told_points(&self, a: &Outline, b: &Outline) -> Told {
+    pub(super) fn told_points(&self, a: &Outline, b: &Outline) -> Told {
         let (on_a, on_b) = (a.point(0), b.point(0));
         let distance = (on_b - on_a).length();
         let normal = if distance > 0.0 { (on_b - on_a) / distance } else { DVec2::Y };
         let separation = distance - self.radii;
         let closest = self.on_surfaces([on_a, on_b], normal);
         Told { separation, at_least: separation, normal, closest, evidence: Evidence::Points }
-    }
-
-    /// Whether the shapes overlap, where closed-form kernels have told two bounds.
-    fn told_verdict(&self, told: &Told) -> Verdict {
-        let doubt = 2.0 * self.precision.projection();
-        if told.at_least > doubt || told.separation < -doubt {
-            return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
-        }
-        self.exactly(&[])
     }
 
     /// What a kernel without axes to try has told, within the limit.
@@ -300,21 +220,36 @@ impl<'a> Convex<'a> {
     /// Axes first; the decision next; then the number that agrees with it.
     fn probe_outlines(&self, a: &Outline, b: &Outline, limit: f64, hint: Hint) -> Probe {
         let precision = self.precision;
-        let axes = match separating_axes(a, b, limit + self.radii + precision.projection(), hint) {
-            Outcome::Beyond(axis) => {
-                return Probe::Beyond(at_least(axis.separation - self.radii, &precision), hint_of(&axis));
+        let wanted = Wanted {
+            limit: limit + self.radii + precision.projection(),
+            band: 2.0 * self.preference(),
+            hint,
+            towards_b: self.towards_b(),
+            precision: &precision,
+        };
+        let axes = match separating_axes(a, b, &wanted) {
+            Outcome::Beyond(separation, hint) => {
+                return Probe::Beyond(at_least(separation - self.radii, &precision), hint);
             }
+            Outcome::Gap(separation, normal) => return self.gap(a, b, (separation, normal), wanted.band),
             Outcome::Within(axes) => axes,
         };
-        // Every edge normal was tried, each as far off its place as any.
-        let is_clear = axes.best().separation < -(precision.of_face() + 2.0 * precision.projection());
+        let best = axes.best();
+        // Every edge normal was tried, or is known to be no better.
+        let is_clear = best.separation < -(axes.short + 2.0 * precision.projection());
         if is_clear && !is_thin(a, b) {
             return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
         }
-        match self.look_closer(a, b, Some(axes.best())) {
+        let looked = self.look_closer(a, b, Some((best.separation, best.normal)));
+        self.close_cores(a, b, axes, looked)
+    }
+
+    /// Shapes whose cores are neither clearly apart nor clearly overlapping by their axes alone.
+    fn close_cores(&self, a: &Outline, b: &Outline, axes: Axes, looked: (Verdict, Cores)) -> Probe {
+        match looked {
             // A search that proved no gap, where all axes show an overlap.
             (verdict, Cores::Between(witness))
-                if verdict.overlapping && axes.best().separation + precision.of_face() < 0.0 =>
+                if verdict.overlapping && axes.best().separation + axes.short < 0.0 =>
             {
                 self.overlap_of_cores(axes, verdict, witness.distance)
             }
@@ -322,6 +257,19 @@ impl<'a> Convex<'a> {
             (verdict, Cores::Within(gap)) if verdict.overlapping => self.overlap_of_cores(axes, verdict, gap),
             (verdict, Cores::Within(gap)) => self.all_but_touching(a, b, axes, (verdict, gap)),
         }
+    }
+
+    /// Shapes with a gap between their cores that one direction shows for certain: the nearest points first, and then the
+    /// axes that matter beside them.
+    fn gap(&self, a: &Outline, b: &Outline, shown: (f64, DVec2), band: f64) -> Probe {
+        let looked = self.look_closer(a, b, Some(shown));
+        let (normal, least) = match &looked.1 {
+            Cores::Between(witness) => (witness.normal, witness.distance),
+            Cores::Within(_) => (shown.1, shown.0),
+        };
+        let mut axes = beside(a, b, normal, least - band);
+        axes.short = doubt(&self.precision);
+        self.close_cores(a, b, axes, looked)
     }
 
     /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
@@ -332,10 +280,10 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(depth, true),
-            error: self.precision.of_separation(depth, self.short(&axes, gap)),
+            error: self.precision.of_separation(depth, Self::short(&axes, gap)),
             normal: best.normal,
             closest: None,
-            hint: hint_of(&best),
+            hint: hint_of(best.of),
             evidence: Evidence::Axes(axes, None),
         })
     }
@@ -343,8 +291,8 @@ impl<'a> Convex<'a> {
     /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
     ///
     /// In overlap the axes are all there are. In a gap the best one may be none of them, and only witness points tell.
-    fn short(&self, axes: &Axes, gap: f64) -> f64 {
-        let (best, short) = (axes.best().separation, self.precision.of_face());
+    fn short(axes: &Axes, gap: f64) -> f64 {
+        let (best, short) = (axes.best().separation, axes.short);
         if best + short < 0.0 { short } else { short.max(gap - best) }
     }
 
@@ -356,66 +304,21 @@ impl<'a> Convex<'a> {
         let is_met = self.radii > 0.0 && gap <= precision.projection();
         let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
         let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
+        let best = axes.best();
+        let hint = if best.separation > f64::NEG_INFINITY {
+            hint_of(best.of)
+        } else {
+            hint_of_direction(witness.normal)
+        };
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
             error: precision.of_distance(separation, gap),
             normal: witness.normal,
             closest: (!verdict.overlapping).then_some(closest),
-            hint: hint_of(axes.best()),
+            hint,
             evidence: Evidence::Axes(axes, Some(witness)),
         })
-    }
-
-    /// The second tier and the third, and how the cores lie. `best` is the axis that the first tier found best.
-    ///
-    /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
-    fn look_closer(&self, a: &Outline, b: &Outline, best: Option<&Axis>) -> (Verdict, Cores) {
-        let towards = best.map_or_else(|| self.towards_b(), |axis| axis.normal);
-        let mut reached = distance(a, b, towards, &Until::met(&self.precision));
-        let mut tier = Tier::Double;
-        if let (Reached::Between(witness), Some(best)) = (&mut reached, best)
-            && best.separation >= witness.at_least
-        {
-            if witness.is_close(self.precision.size) {
-                witness.across = best.normal;
-            }
-            (witness.at_least, witness.normal) = (best.separation, best.normal);
-            tier = Tier::Bound;
-        }
-        let (verdict, witness) = self.conclude(reached);
-        let tier = if verdict.tier == Tier::Double && !verdict.overlapping { tier } else { verdict.tier };
-        (Verdict { tier, ..verdict }, witness)
-    }
-
-    /// What the distance iteration has proved, and the third tier where it has proved nothing.
-    fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
-        let doubt = self.precision.projection();
-        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
-        let witness = match reached {
-            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), Cores::Within(0.0)),
-            Reached::Origin(close) => {
-                let verdict = self.exactly(&close.corners);
-                let do_overlap = self.radii == 0.0 && verdict.overlapping;
-                return (verdict, Cores::Within(if do_overlap { 0.0 } else { close.within }));
-            }
-            Reached::Between(witness) => witness,
-        };
-        if witness.at_least - self.radii > doubt {
-            return (double(false), Cores::Between(witness));
-        }
-        if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
-            return (double(true), Cores::Between(witness));
-        }
-        let verdict = self.exactly(&witness.corners);
-        let do_overlap = self.radii == 0.0 && verdict.overlapping;
-        (verdict, if do_overlap { Cores::Within(0.0) } else { Cores::Between(witness) })
-    }
-
-    /// The third tier, from the corners where f64 stopped.
-    fn exactly(&self, start: &[Corner]) -> Verdict {
-        let overlapping = exact::overlaps2([&self.sites[0], &self.sites[1]], start);
-        Verdict { overlapping, tier: Tier::Exact }
     }
 
     /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
@@ -435,10 +338,11 @@ impl<'a> Convex<'a> {
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error: precision.of_separation(separation, self.short(&axes, gap) + 3.0 * precision.projection()),
+            error: precision
+                .of_separation(separation, Self::short(&axes, gap) + 3.0 * precision.projection()),
             normal: best.normal,
             closest: deepest.map(|point| [point.on_a, point.on_b]),
-            hint: hint_of(best),
+            hint: hint_of(best.of),
             evidence: Evidence::Axes(axes, None),
         })
     }
@@ -449,7 +353,7 @@ impl<'a> Convex<'a> {
     }
 
     /// The lines of half-planes.
-    fn lines(&self) -> [Option<Line>; 2] {
+    pub(super) fn lines(&self) -> [Option<Line>; 2] {
         let line = |shape: &Shape2, is_b: bool| {
             let Shape2::HalfPlane(half_plane) = shape else { return None };
             let (turn, origin) = if is_b { (self.turn_b, self.offset) } else { (self.turn_a, DVec2::ZERO) };
@@ -460,8 +364,8 @@ impl<'a> Convex<'a> {
 
     pub(crate) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
         let (core_a, core_b): (Core2, Core2) = (self.shape_a.core(), self.shape_b.core());
-        let a = Outline::new(&core_a, self.turn_a, DVec2::ZERO, f64::from(self.shape_a.radius()));
-        let b = Outline::new(&core_b, self.turn_b, self.offset, f64::from(self.shape_b.radius()));
+        let a = Outline::new(self.shape_a, &core_a, self.turn_a, DVec2::ZERO);
+        let b = Outline::new(self.shape_b, &core_b, self.turn_b, self.offset);
         ask(&a, &b)
     }
 
@@ -471,11 +375,6 @@ impl<'a> Convex<'a> {
         let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
         (FACE_PREFERENCE * 2.0 * smaller).max(self.precision.projection())
     }
-}
-
-/// Whether neither core has an inside: they may lie on one line, and have no axis along it.
-fn is_thin(a: &Outline, b: &Outline) -> bool {
-    a.is_flat() && b.is_flat()
 }
 
 /// Bounding radius of a core. A half-plane has none: only the other shape's vertices enter its pairs.

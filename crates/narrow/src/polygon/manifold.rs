@@ -1,7 +1,8 @@
 //! Where two polygons touch: one or two points on one normal.
 //!
 //! ```text
-//! the reference edge is A's unless B's beats it by more than a relative preference
+//! the reference edge is last frame's unless another beats it by more than two relative preferences
+//!   else A's unless B's beats it by more than one
 //! the incident edge is, of the two at the other shape's deepest vertex, the one most opposed
 //! clip the incident edge to the reference edge's width
 //! keep the ends within the margin of the reference line
@@ -43,6 +44,8 @@ impl Point {
 pub(crate) struct Touch {
     pub(crate) normal: DVec2,
     pub(crate) points: ArrayVec<Point, 2>,
+    /// The edge that it was built on, if it was one: what the next frame tries first, and keeps among equals.
+    pub(crate) reference: Option<AxisOf>,
 }
 
 /// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
@@ -65,8 +68,13 @@ pub(crate) fn touch(
     // deeper than zero: a body that rests exactly on an edge rests on both of its ends.
     let depths = Depths { deep, within: margin.max(least) };
     let b_wins = axes.edge_b.separation > axes.edge_a.separation + preference;
-    for axis in [if b_wins { &axes.edge_b } else { &axes.edge_a }, axes.best()] {
-        if axis.separation < at_stake - preference {
+    let plain = if b_wins { &axes.edge_b } else { &axes.edge_a };
+    let best = axes.best();
+    // A reference that changed from frame to frame would change all names.
+    let kept = axes.kept.as_ref().filter(|kept| kept.separation >= best.separation - 2.0 * preference);
+    let tried = [kept.map(|kept| (kept, 2.0)), Some((plain, 1.0)), Some((best, 1.0))];
+    for (axis, preferences) in tried.into_iter().flatten() {
+        if axis.separation < at_stake - preferences * preference {
             continue;
         }
         let points = match axis.of {
@@ -74,12 +82,14 @@ pub(crate) fn touch(
             AxisOf::EdgeB(edge) => edge_points(b, a, edge, -axis.normal, depths, true),
         };
         if points.iter().any(|point| point.separation <= least) {
-            return Touch { normal: axis.normal, points };
+            return Touch { normal: axis.normal, points, reference: Some(axis.of) };
         }
     }
     match witness {
-        Some(witness) => Touch { normal: witness.across, points: closest_point(a, b, witness) },
-        None => Touch { normal: axes.best().normal, points: deepest_point(a, b, axes.best()) },
+        Some(witness) => {
+            Touch { normal: witness.across, points: closest_point(a, b, witness), reference: None }
+        }
+        None => Touch { normal: best.normal, points: deepest_point(a, b, best), reference: Some(best.of) },
     }
 }
 

@@ -4,7 +4,12 @@
 
 pub(crate) mod convex;
 mod distance;
+mod few;
 mod half_plane;
 mod manifold;
 pub(crate) mod outline;
-mod sat;
+pub(crate) mod sat;
+mod search;
+#[cfg(test)]
+mod tests;
+mod tiers;
