@@ -7,7 +7,9 @@ use crate::feature::Hint;
 use crate::least::Least;
 use crate::polygon::convex::{Convex, Near, Probe};
 use crate::polygon::outline::Turn;
+use crate::polygon::quick::Bodies;
 use crate::polygon::sat::hint_of;
+use crate::precision::rounded_down;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
@@ -69,6 +71,7 @@ struct Parts<'a> {
 
 impl<'a> Pair2<'a> {
     /// A pair of posed shapes. Cost: constant.
+    #[inline]
     pub fn new(shape_a: &'a Shape2, pose_a: &Pose2, shape_b: &'a Shape2, pose_b: &Pose2) -> Self {
         let between = pose_b.position() - pose_a.position();
         Self {
@@ -109,6 +112,9 @@ impl<'a> Pair2<'a> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn verdict(&self) -> Verdict {
+        if let Some(overlapping) = self.bodies().overlap() {
+            return Verdict { overlapping, tier: Tier::Bound };
+        }
         let mut tier = Tier::Bound;
         let overlapping = self.any(0.0, |parts| {
             let verdict = parts.convex.verdict();
@@ -133,6 +139,9 @@ impl<'a> Pair2<'a> {
     /// the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
+        if let Some(gap) = self.bodies().beyond(limit) {
+            return Separation2::AtLeast(rounded_down(gap));
+        }
         match self.nearest(limit) {
             Ok((_, near)) => Separation2::Measured(Measured2 {
                 separation: near.separation,
@@ -206,6 +215,9 @@ impl<'a> Pair2<'a> {
         let margin = margin.max(0.0);
         // What rounds to the margin counts as within it: the number that is told decides.
         let reach = f64::from(margin.next_up());
+        if self.bodies().beyond(reach).is_some() {
+            return (hint, None);
+        }
         let (mut next_hint, mut touch) = (Hint::NONE, None);
         self.any(reach, |parts| {
             let near = match parts.convex.probe(reach, hint) {
@@ -256,6 +268,12 @@ impl<'a> Pair2<'a> {
         let ((parts, mut near), error) = least.finish()?;
         near.error = error;
         Ok((parts, near))
+    }
+
+    /// As a whole, without parts.
+    fn bodies(&self) -> Bodies<'_> {
+        let (shapes, turns) = ([self.shape_a, self.shape_b], [&self.turn_a, &self.turn_b]);
+        Bodies { shapes, turns, between: self.between }
     }
 
     /// Whether the answer is yes for any pair of parts whose bounding circles are at most `within` apart.

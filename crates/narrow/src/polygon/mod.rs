@@ -8,6 +8,8 @@ mod few;
 mod half_plane;
 mod manifold;
 pub(crate) mod outline;
+pub(crate) mod quick;
+mod rects;
 pub(crate) mod sat;
 mod search;
 #[cfg(test)]

@@ -28,6 +28,12 @@ impl Turn {
         1.0 - excess * (0.5 - 0.375 * excess)
     }
 
+    /// The columns of the matrix: the local axes.
+    #[inline]
+    pub(crate) fn axes(&self) -> [DVec2; 2] {
+        [DVec2::new(self.cos, self.sin), DVec2::new(-self.sin, self.cos)]
+    }
+
     /// A vector turned.
     #[inline]
     pub(crate) fn turn(&self, v: DVec2) -> DVec2 {
@@ -64,9 +70,11 @@ pub(crate) struct Outline<'a> {
     normals: &'a [DVec2],
     /// Of a polygon of many vertices, those furthest along +x, +y, -x and -y.
     extremes: Option<[usize; 4]>,
-    turn: Turn,
+    /// Half extents of a rectangle.
+    pub(super) half: Option<DVec2>,
+    pub(super) turn: Turn,
     unit: f64,
-    position: DVec2,
+    pub(super) position: DVec2,
     /// How far the shape reaches beyond this core. Axes and distances leave it out; contact points lie on the shape.
     pub(crate) radius: f64,
 }
@@ -89,10 +97,15 @@ impl<'a> Outline<'a> {
             Shape2::Polygon(polygon) if is_searched(shape) => Some(polygon.extremes()),
             _ => None,
         };
+        let half = match shape {
+            Shape2::Rect(rect) => Some(rect.half_extents().as_dvec2()),
+            _ => None,
+        };
         Self {
             vertices: core.vertices(),
             normals: core.normals(),
             extremes,
+            half,
             turn,
             unit: turn.unit(),
             position,

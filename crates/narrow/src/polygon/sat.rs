@@ -12,6 +12,7 @@
 
 use super::few;
 use super::outline::{FEW_VERTICES, Outline};
+use super::rects;
 use super::search;
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::Precision;
@@ -97,6 +98,9 @@ pub(crate) enum Sides {
 
 /// Finds the best axes.
 pub(crate) fn separating_axes(a: &Outline, b: &Outline, wanted: &Wanted) -> Outcome {
+    if let (Some(half_a), Some(half_b)) = (a.half, b.half) {
+        return rects::separating_axes(a, b, [half_a, half_b], wanted);
+    }
     match a.vertices.len().max(b.vertices.len()) {
         0..=8 => few::separating_axes::<8>(a, b, wanted),
         9..=FEW_VERTICES => few::separating_axes::<FEW_VERTICES>(a, b, wanted),
