@@ -81,6 +81,7 @@ pub(crate) fn check_rounding(radius: f32, core_reach: f64) -> Result<(), RadiusE
 }
 
 /// A bounding radius of a core, in f32, with its rounding added; rounded up.
+#[inline]
 pub(crate) fn grown(core: f32, radius: f32) -> f32 {
     if radius == 0.0 { core } else { round_up(f64::from(core) + f64::from(radius)) }
 }

@@ -5,10 +5,10 @@ use crate::batch::Batch2;
 use crate::exact::Site2;
 use crate::feature::Hint;
 use crate::least::Least;
-use crate::polygon::convex::{Convex, Near, Probe};
+use crate::polygon::convex::{Asked, Convex, Near, Probe};
+use crate::polygon::manifold::Touch;
 use crate::polygon::outline::Turn;
 use crate::polygon::quick::Bodies;
-use crate::polygon::sat::hint_of;
 use crate::precision::rounded_down;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
@@ -220,7 +220,7 @@ impl<'a> Pair2<'a> {
         }
         let (mut next_hint, mut touch) = (Hint::NONE, None);
         self.any(reach, |parts| {
-            let near = match parts.convex.probe(reach, hint) {
+            let near = match parts.convex.probe(&Asked { limit: reach, hint, points: is_wanted }) {
                 Probe::Beyond(_, hint) => {
                     next_hint = hint;
                     return false;
@@ -231,9 +231,8 @@ impl<'a> Pair2<'a> {
             let is_touching = near.verdict.overlapping;
             if is_touching || near.separation <= margin {
                 touch = Some(touch.unwrap_or(false) || is_touching);
-                if is_wanted && let Some((manifold, hint)) = parts.manifold(&near, reach) {
-                    next_hint = hint;
-                    keep(manifold);
+                if let Some(touch) = &near.touch {
+                    keep(parts.manifold(&near, touch));
                 }
             }
             false
@@ -254,7 +253,8 @@ impl<'a> Pair2<'a> {
             for_parts(self.shape_b, &self.turn_b, |b| {
                 if !least.passes_over(gap(&a, &b)) {
                     let parts = self.parts(a, b);
-                    match parts.convex.probe(least.reach(), Hint::NONE) {
+                    let asked = Asked { limit: least.reach(), hint: Hint::NONE, points: false };
+                    match parts.convex.probe(&asked) {
                         Probe::Beyond(at_least, _) => least.give_up(at_least),
                         Probe::Near(near) => {
                             let (separation, error) = (near.separation, near.error);
@@ -352,24 +352,21 @@ fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>)
 }
 
 impl Parts<'_> {
-    /// How they touch, and the hint that leads back to what that was built on.
-    fn manifold(&self, near: &Near, margin: f64) -> Option<(Manifold2, Hint)> {
-        let touch = self.convex.touch(near, margin)?;
+    fn manifold(&self, near: &Near, touch: &Touch) -> Manifold2 {
         let points = touch.points.iter().map(|point| ContactPoint2 {
             separation: point.separation as f32,
             anchor_a: self.anchor_a(point.on_a),
             anchor_b: self.anchor_b(point.on_b),
             feature: point.feature,
         });
-        let manifold = Manifold2 {
+        Manifold2 {
             part_a: self.indices[0],
             part_b: self.indices[1],
             normal: touch.normal.as_vec2(),
             separation: near.separation,
             error: near.error,
             points: points.collect(),
-        };
-        Some((manifold, touch.reference.map_or(near.hint, hint_of)))
+        }
     }
 
     /// From the frame of the pair to a world vector from A's position.

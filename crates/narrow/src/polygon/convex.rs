@@ -55,7 +55,18 @@ pub(crate) enum Probe {
     Near(Near),
 }
 
-/// The separation of two shapes, and where it was seen.
+/// What is asked of two shapes.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked {
+    /// Metres beyond which nobody wants to know.
+    pub(crate) limit: f64,
+    /// The axis to try first.
+    pub(crate) hint: Hint,
+    /// Whether contact points are wanted, those up to the limit.
+    pub(crate) points: bool,
+}
+
+/// The separation of two shapes, and where they touch.
 pub(crate) struct Near {
     pub(crate) verdict: Verdict,
     pub(crate) separation: f32,
@@ -64,30 +75,19 @@ pub(crate) struct Near {
     pub(crate) normal: DVec2,
     /// Closest points of the shapes, where they do not overlap.
     pub(crate) closest: Option<[DVec2; 2]>,
+    /// What leads the next frame back to this axis.
     pub(crate) hint: Hint,
-    evidence: Evidence,
+    /// Contact points, where they were wanted. None for two half-planes that overlap without end.
+    pub(crate) touch: Option<Touch>,
 }
 
 /// What a kernel in closed form says of two shapes.
 pub(super) struct Told {
     pub(super) separation: f64,
-    /// A lower bound on it.
-    pub(super) at_least: f64,
     /// Unit axis from A to B.
-    normal: DVec2,
+    pub(super) normal: DVec2,
     /// Closest points on the surfaces; they mean nothing in overlap.
     closest: [DVec2; 2],
-    evidence: Evidence,
-}
-
-#[allow(clippy::large_enum_variant, reason = "as Probe")]
-enum Evidence {
-    /// The best axes; closest points of the cores, where those do not overlap.
-    Axes(Axes, Option<Witness>),
-    /// The line through two points.
-    Points,
-    HalfPlane(Line),
-    HalfPlanes(Line, Line),
 }
 
 impl<'a> Convex<'a> {
@@ -108,82 +108,56 @@ impl<'a> Convex<'a> {
         Self { sites, shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
     }
 
-    /// The separation where it is at most `limit` metres; the hinted axis is tried first.
-    pub(crate) fn probe(&self, limit: f64, hint: Hint) -> Probe {
-        match self.lines() {
-            [Some(a), Some(b)] => self.told(self.told_half_planes(a, b), limit),
-            [Some(line), None] | [None, Some(line)] => self.told(self.told_half_plane(line), limit),
-            [None, None] => self.with_outlines(|a, b| {
-                if a.edge_count() + b.edge_count() == 0 {
-                    self.told(self.told_points(a, b), limit)
-                } else {
-                    self.probe_outlines(a, b, limit, hint)
-                }
-            }),
+    /// The separation where it is at most the limit; the hinted axis is tried first.
+    #[inline]
+    pub(crate) fn probe(&self, asked: &Asked) -> Probe {
+        if self.has_line() {
+            return self.probe_lines(asked);
         }
+        self.with_outlines(|a, b| {
+            if a.edge_count() + b.edge_count() > 0 {
+                return self.probe_outlines(a, b, asked);
+            }
+            self.told(&self.told_points(a, b), asked, |told| {
+                let (on_a, on_b) = (a.point(0), b.point(0));
+                let separation = told.normal.dot(on_b - on_a);
+                let feature = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
+                let point = Point { separation, on_a, on_b, feature }.on_surfaces(a, b, told.normal);
+                Some(Touch::of_point(told.normal, point, None))
+            })
+        })
     }
 
-    /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-planes that overlap
-    /// without end.
-    pub(crate) fn touch(&self, near: &Near, margin: f64) -> Option<Touch> {
-        let preference = self.preference();
-        match &near.evidence {
-            Evidence::Axes(axes, witness) => {
-                Some(self.with_outlines(|a, b| touch(a, b, axes, witness.as_ref(), margin, preference)))
-            }
-            Evidence::Points => {
-                let feature = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
-                let point = self.with_outlines(|a, b| {
-                    let (on_a, on_b) = (a.point(0), b.point(0));
-                    let separation = near.normal.dot(on_b - on_a);
-                    Point { separation, on_a, on_b, feature }.on_surfaces(a, b, near.normal)
-                });
-                Some(Touch {
-                    normal: near.normal,
-                    points: core::iter::once(point).collect(),
-                    reference: None,
-                })
-            }
-            Evidence::HalfPlane(line) => {
-                Some(self.with_outlines(|a, b| line.touch(if line.is_b { a } else { b }, margin, preference)))
-            }
-            Evidence::HalfPlanes(a, b) => {
-                let [on_a, on_b] = a.points_with(b);
-                let separation = near.separation.into();
+    /// Of shapes of which at least one is a half-plane.
+    fn probe_lines(&self, asked: &Asked) -> Probe {
+        match self.lines() {
+            [Some(a), Some(b)] => self.told(&self.told_half_planes(a, b), asked, |told| {
+                let ([on_a, on_b], separation) = (a.points_with(&b), f64::from(told.separation as f32));
                 let feature = FeatureId::new(Feature::Edge(0), Feature::Edge(0));
-                let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                (separation > f64::NEG_INFINITY).then_some(Touch {
-                    normal: a.axis(),
-                    points,
-                    reference: None,
-                })
-            }
+                let point = Point { separation, on_a, on_b, feature };
+                (separation > f64::NEG_INFINITY).then(|| Touch::of_point(told.normal, point, None))
+            }),
+            [Some(line), _] | [_, Some(line)] => self.with_outlines(|a, b| {
+                let core = if line.is_b { a } else { b };
+                let told = self.told_half_plane(line, core);
+                self.told(&told, asked, |_| Some(line.touch(core, asked.limit, self.preference())))
+            }),
+            [None, None] => Probe::Beyond(0.0, Hint::NONE),
         }
     }
 
     pub(super) fn told_half_planes(&self, a: Line, b: Line) -> Told {
         let separation = a.separation_from(&b, || exact::are_opposed2([&self.sites[0], &self.sites[1]]));
-        Told {
-            separation,
-            at_least: separation,
-            normal: a.axis(),
-            closest: a.points_with(&b),
-            evidence: Evidence::HalfPlanes(a, b),
-        }
+        Told { separation, normal: a.axis(), closest: a.points_with(&b) }
     }
 
-    pub(super) fn told_half_plane(&self, line: Line) -> Told {
-        let (vertex, height) = self.with_outlines(|a, b| {
-            let core = if line.is_b { a } else { b };
-            let (vertex, height) = line.lowest(core);
-            (core.point(vertex), height)
-        });
-        let separation = height - self.radii;
+    pub(super) fn told_half_plane(&self, line: Line, core: &Outline) -> Told {
+        let (vertex, height) = line.lowest(core);
+        let vertex = core.point(vertex);
         let on_shape = vertex - line.normal * self.radii;
         let on_line = vertex - line.normal * height;
         let closest = if line.is_b { [on_shape, on_line] } else { [on_line, on_shape] };
-        let evidence = Evidence::HalfPlane(line);
-        Told { separation, at_least: separation, normal: line.axis(), closest, evidence }
+        Told { separation: height - self.radii, normal: line.axis(), closest }
     }
 
     pub(super) fn told_points(&self, a: &Outline, b: &Outline) -> Told {
@@ -192,38 +166,37 @@ impl<'a> Convex<'a> {
         let normal = if distance > 0.0 { (on_b - on_a) / distance } else { DVec2::Y };
         let separation = distance - self.radii;
         let closest = self.on_surfaces([on_a, on_b], normal);
-        Told { separation, at_least: separation, normal, closest, evidence: Evidence::Points }
+        Told { separation, normal, closest }
     }
 
     /// What a kernel without axes to try has told, within the limit.
-    fn told(&self, told: Told, limit: f64) -> Probe {
+    fn told(&self, told: &Told, asked: &Asked, touch: impl FnOnce(&Told) -> Option<Touch>) -> Probe {
         let precision = self.precision;
-        if told.at_least > limit + precision.projection() {
-            return Probe::Beyond(at_least(told.at_least, &precision), Hint::NONE);
+        let separation = told.separation;
+        if separation > asked.limit + precision.projection() {
+            return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
-        let verdict = self.told_verdict(&told);
-        let Told { separation, at_least: bound, normal, closest, evidence } = told;
+        let verdict = self.told_verdict(told);
         // Half-planes that overlap without end do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
-        let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error,
-            normal,
-            closest: (!verdict.overlapping).then_some(closest),
+            error: if is_endless { 0.0 } else { precision.of_distance(separation, 0.0) },
+            normal: told.normal,
+            closest: (!verdict.overlapping).then_some(told.closest),
             hint: Hint::NONE,
-            evidence,
+            touch: if asked.points { touch(told) } else { None },
         })
     }
 
     /// Axes first; the decision next; then the number that agrees with it.
-    fn probe_outlines(&self, a: &Outline, b: &Outline, limit: f64, hint: Hint) -> Probe {
+    fn probe_outlines(&self, a: &Outline, b: &Outline, asked: &Asked) -> Probe {
         let precision = self.precision;
         let wanted = Wanted {
-            limit: limit + self.radii + precision.projection(),
+            limit: asked.limit + self.radii + precision.projection(),
             band: 2.0 * self.preference(),
-            hint,
+            hint: asked.hint,
             towards_b: self.towards_b(),
             precision: &precision,
         };
@@ -231,37 +204,47 @@ impl<'a> Convex<'a> {
             Outcome::Beyond(separation, hint) => {
                 return Probe::Beyond(at_least(separation - self.radii, &precision), hint);
             }
-            Outcome::Gap(separation, normal) => return self.gap(a, b, (separation, normal), wanted.band),
+            Outcome::Gap(separation, normal) => {
+                return self.gap([a, b], asked, (separation, normal), wanted.band);
+            }
             Outcome::Within(axes) => axes,
         };
         let best = axes.best();
         // Every edge normal was tried, or is known to be no better.
         let is_clear = best.separation < -(axes.short + 2.0 * precision.projection());
         if is_clear && !is_thin(a, b) {
-            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
+            let verdict = Verdict { overlapping: true, tier: Tier::Bound };
+            return self.overlap_of_cores([a, b], asked, &axes, (verdict, 0.0));
         }
         let looked = self.look_closer(a, b, Some((best.separation, best.normal)));
-        self.close_cores(a, b, axes, looked)
+        self.close_cores([a, b], asked, &axes, &looked)
     }
 
     /// Shapes whose cores are neither clearly apart nor clearly overlapping by their axes alone.
-    fn close_cores(&self, a: &Outline, b: &Outline, axes: Axes, looked: (Verdict, Cores)) -> Probe {
-        match looked {
+    fn close_cores(
+        &self,
+        outlines: [&Outline; 2],
+        asked: &Asked,
+        axes: &Axes,
+        (verdict, cores): &(Verdict, Cores),
+    ) -> Probe {
+        let verdict = *verdict;
+        match cores {
             // A search that proved no gap, where all axes show an overlap.
-            (verdict, Cores::Between(witness))
-                if verdict.overlapping && axes.best().separation + axes.short < 0.0 =>
-            {
-                self.overlap_of_cores(axes, verdict, witness.distance)
+            Cores::Between(witness) if verdict.overlapping && axes.best().separation + axes.short < 0.0 => {
+                self.overlap_of_cores(outlines, asked, axes, (verdict, witness.distance))
             }
-            (verdict, Cores::Between(witness)) => self.gap_of_cores(axes, verdict, witness),
-            (verdict, Cores::Within(gap)) if verdict.overlapping => self.overlap_of_cores(axes, verdict, gap),
-            (verdict, Cores::Within(gap)) => self.all_but_touching(a, b, axes, (verdict, gap)),
+            Cores::Between(witness) => self.gap_of_cores(outlines, asked, axes, (verdict, witness)),
+            Cores::Within(gap) if verdict.overlapping => {
+                self.overlap_of_cores(outlines, asked, axes, (verdict, *gap))
+            }
+            Cores::Within(gap) => self.all_but_touching(outlines, asked, axes, (verdict, *gap)),
         }
     }
 
     /// Shapes with a gap between their cores that one direction shows for certain: the nearest points first, and then the
     /// axes that matter beside them.
-    fn gap(&self, a: &Outline, b: &Outline, shown: (f64, DVec2), band: f64) -> Probe {
+    fn gap(&self, [a, b]: [&Outline; 2], asked: &Asked, shown: (f64, DVec2), band: f64) -> Probe {
         let looked = self.look_closer(a, b, Some(shown));
         let (normal, least) = match &looked.1 {
             Cores::Between(witness) => (witness.normal, witness.distance),
@@ -269,23 +252,35 @@ impl<'a> Convex<'a> {
         };
         let mut axes = beside(a, b, normal, least - band);
         axes.short = doubt(&self.precision);
-        self.close_cores(a, b, axes, looked)
+        self.close_cores([a, b], asked, &axes, &looked)
     }
 
     /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
     /// most that the gap can be.
-    fn overlap_of_cores(&self, axes: Axes, verdict: Verdict, gap: f64) -> Probe {
-        let best = *axes.best();
+    fn overlap_of_cores(
+        &self,
+        [a, b]: [&Outline; 2],
+        asked: &Asked,
+        axes: &Axes,
+        (verdict, gap): (Verdict, f64),
+    ) -> Probe {
+        let best = axes.best();
         let depth = best.separation - self.radii;
+        let touch = asked.points.then(|| touch(a, b, axes, None, asked.limit, self.preference()));
         Probe::Near(Near {
             verdict,
             separation: signed(depth, true),
-            error: self.precision.of_separation(depth, Self::short(&axes, gap)),
+            error: self.precision.of_separation(depth, Self::short(axes, gap)),
             normal: best.normal,
             closest: None,
-            hint: hint_of(best.of),
-            evidence: Evidence::Axes(axes, None),
+            hint: Self::hint(touch.as_ref(), hint_of(best.of)),
+            touch,
         })
+    }
+
+    /// What leads back to the edge that contact points were made on; else to the best axis.
+    fn hint(touch: Option<&Touch>, best: Hint) -> Hint {
+        touch.and_then(|touch| touch.reference).map_or(best, hint_of)
     }
 
     /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
@@ -297,7 +292,13 @@ impl<'a> Convex<'a> {
     }
 
     /// Shapes with a gap between their cores, which their radii may close.
-    fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness) -> Probe {
+    fn gap_of_cores(
+        &self,
+        [a, b]: [&Outline; 2],
+        asked: &Asked,
+        axes: &Axes,
+        (verdict, witness): (Verdict, &Witness),
+    ) -> Probe {
         let precision = self.precision;
         // Where both bounds meet up to rounding, the projection went through less of it.
         let gap = witness.distance - witness.at_least;
@@ -305,19 +306,17 @@ impl<'a> Convex<'a> {
         let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
         let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
         let best = axes.best();
-        let hint = if best.separation > f64::NEG_INFINITY {
-            hint_of(best.of)
-        } else {
-            hint_of_direction(witness.normal)
-        };
+        let has_axis = best.separation > f64::NEG_INFINITY;
+        let hint = if has_axis { hint_of(best.of) } else { hint_of_direction(witness.normal) };
+        let touch = asked.points.then(|| touch(a, b, axes, Some(witness), asked.limit, self.preference()));
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
             error: precision.of_distance(separation, gap),
             normal: witness.normal,
             closest: (!verdict.overlapping).then_some(closest),
-            hint,
-            evidence: Evidence::Axes(axes, Some(witness)),
+            hint: Self::hint(touch.as_ref(), hint),
+            touch,
         })
     }
 
@@ -325,31 +324,38 @@ impl<'a> Convex<'a> {
     /// overlapped.
     fn all_but_touching(
         &self,
-        a: &Outline,
-        b: &Outline,
-        axes: Axes,
+        [a, b]: [&Outline; 2],
+        asked: &Asked,
+        axes: &Axes,
         (verdict, gap): (Verdict, f64),
     ) -> Probe {
         let precision = self.precision;
         let best = axes.best();
         let separation = best.separation.max(0.0) - self.radii;
-        let touch = touch(a, b, &axes, None, 0.0, self.preference());
-        let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        let nearest = touch(a, b, axes, None, 0.0, self.preference());
+        let deepest = nearest.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        let short = Self::short(axes, gap) + 3.0 * precision.projection();
+        let touch = asked.points.then(|| touch(a, b, axes, None, asked.limit, self.preference()));
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error: precision
-                .of_separation(separation, Self::short(&axes, gap) + 3.0 * precision.projection()),
+            error: precision.of_separation(separation, short),
             normal: best.normal,
             closest: deepest.map(|point| [point.on_a, point.on_b]),
-            hint: hint_of(best.of),
-            evidence: Evidence::Axes(axes, None),
+            hint: Self::hint(touch.as_ref(), hint_of(best.of)),
+            touch,
         })
     }
 
     /// Points of the cores moved out to the shapes' surfaces.
     fn on_surfaces(&self, [on_a, on_b]: [DVec2; 2], normal: DVec2) -> [DVec2; 2] {
         [on_a + normal * f64::from(self.shape_a.radius()), on_b - normal * f64::from(self.shape_b.radius())]
+    }
+
+    /// Whether a shape is a half-plane.
+    #[inline]
+    pub(super) fn has_line(&self) -> bool {
+        [self.shape_a, self.shape_b].iter().any(|shape| matches!(shape, Shape2::HalfPlane(_)))
     }
 
     /// The lines of half-planes.
@@ -362,7 +368,8 @@ impl<'a> Convex<'a> {
         [line(self.shape_a, false), line(self.shape_b, true)]
     }
 
-    pub(crate) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
+    #[inline]
+    pub(super) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
         let (core_a, core_b): (Core2, Core2) = (self.shape_a.core(), self.shape_b.core());
         let a = Outline::new(self.shape_a, &core_a, self.turn_a, DVec2::ZERO);
         let b = Outline::new(self.shape_b, &core_b, self.turn_b, self.offset);

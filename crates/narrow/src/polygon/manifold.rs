@@ -48,6 +48,14 @@ pub(crate) struct Touch {
     pub(crate) reference: Option<AxisOf>,
 }
 
+impl Touch {
+    pub(super) fn of_point(normal: DVec2, point: Point, reference: Option<AxisOf>) -> Self {
+        let mut points = ArrayVec::new();
+        points.push(point);
+        Self { normal, points, reference }
+    }
+}
+
 /// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
 /// `preference` is how much another axis must beat an edge of A by.
 ///

@@ -6,11 +6,11 @@ pub(crate) mod convex;
 mod distance;
 mod few;
 mod half_plane;
-mod manifold;
+pub(crate) mod manifold;
 pub(crate) mod outline;
 pub(crate) mod quick;
 mod rects;
-pub(crate) mod sat;
+mod sat;
 mod search;
 #[cfg(test)]
 mod tests;

@@ -29,50 +29,60 @@ impl Convex<'_> {
     /// For polygons of few edges that is all their axes; for others a search for a direction that parts them, or for
     /// corners around a common point.
     pub(crate) fn verdict(&self) -> Verdict {
-        match self.lines() {
-            [None, None] => self.with_outlines(|a, b| {
-                let edges = a.edge_count() + b.edge_count();
-                if edges == 0 {
-                    return self.told_verdict(&self.told_points(a, b));
-                }
-                if self.radii == 0.0 {
-                    return match sides(a, b, self.towards_b(), doubt(&self.precision)) {
-                        Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
-                        Sides::Overlapping if !is_thin(a, b) => {
-                            Verdict { overlapping: true, tier: Tier::Bound }
-                        }
-                        _ => self.look_closer(a, b, None).0,
-                    };
-                }
-                let verdict = self.conclude(distance(a, b, unit(self.towards_b()), &self.until_told())).0;
-                // What was asked first is the first tier.
-                let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
-                Verdict { tier, ..verdict }
-            }),
-            [Some(a), Some(b)] => self.told_verdict(&self.told_half_planes(a, b)),
-            [Some(line), None] | [None, Some(line)] => self.told_verdict(&self.told_half_plane(line)),
+        if self.has_line() {
+            return self.told_verdict(&self.told_lines());
         }
+        self.with_outlines(|a, b| {
+            let edges = a.edge_count() + b.edge_count();
+            if edges == 0 {
+                return self.told_verdict(&self.told_points(a, b));
+            }
+            if self.radii == 0.0 {
+                return match sides(a, b, self.towards_b(), doubt(&self.precision)) {
+                    Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
+                    Sides::Overlapping if !is_thin(a, b) => Verdict { overlapping: true, tier: Tier::Bound },
+                    _ => self.look_closer(a, b, None).0,
+                };
+            }
+            let verdict = self.conclude(distance(a, b, unit(self.towards_b()), &self.until_told())).0;
+            // What was asked first is the first tier.
+            let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
+            Verdict { tier, ..verdict }
+        })
     }
 
     /// What the first tier's numbers say of the overlap, within their error of zero too.
     pub(crate) fn guess(&self) -> bool {
+        if let [Some(a), Some(b)] = self.lines() {
+            return a.separation_from(&b, || true) <= 0.0;
+        }
+        if self.has_line() {
+            return self.told_lines().separation <= 0.0;
+        }
+        self.with_outlines(|a, b| {
+            let edges = a.edge_count() + b.edge_count();
+            if edges == 0 {
+                return self.told_points(a, b).separation <= 0.0;
+            }
+            if self.radii == 0.0 {
+                return sides(a, b, self.towards_b(), 0.0) != Sides::Apart;
+            }
+            let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
+            match distance(a, b, unit(self.towards_b()), &until) {
+                Reached::Between(witness) => witness.distance <= self.radii,
+                Reached::Origin(_) => true,
+            }
+        })
+    }
+
+    /// Of shapes of which at least one is a half-plane.
+    fn told_lines(&self) -> Told {
         match self.lines() {
-            [None, None] => self.with_outlines(|a, b| {
-                let edges = a.edge_count() + b.edge_count();
-                if edges == 0 {
-                    return self.told_points(a, b).separation <= 0.0;
-                }
-                if self.radii == 0.0 {
-                    return sides(a, b, self.towards_b(), 0.0) != Sides::Apart;
-                }
-                let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
-                match distance(a, b, unit(self.towards_b()), &until) {
-                    Reached::Between(witness) => witness.distance <= self.radii,
-                    Reached::Origin(_) => true,
-                }
-            }),
-            [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
-            [Some(line), None] | [None, Some(line)] => self.told_half_plane(line).separation <= 0.0,
+            [Some(a), Some(b)] => self.told_half_planes(a, b),
+            [Some(line), _] | [_, Some(line)] => {
+                self.with_outlines(|a, b| self.told_half_plane(line, if line.is_b { a } else { b }))
+            }
+            [None, None] => self.with_outlines(|a, b| self.told_points(a, b)),
         }
     }
 
@@ -88,10 +98,10 @@ impl Convex<'_> {
         Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
     }
 
-    /// Whether the shapes overlap, where closed-form kernels have told two bounds.
+    /// Whether the shapes overlap, where a closed form has told how far apart they are.
     pub(super) fn told_verdict(&self, told: &Told) -> Verdict {
         let doubt = 2.0 * self.precision.projection();
-        if told.at_least > doubt || told.separation < -doubt {
+        if told.separation.abs() > doubt {
             return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
         }
         self.exactly(&[])
