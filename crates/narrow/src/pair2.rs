@@ -5,11 +5,13 @@ use crate::batch::Batch2;
 use crate::exact::Site2;
 use crate::feature::Hint;
 use crate::least::Least;
-use crate::polygon::convex::{Asked, Convex, Near, Probe};
+use crate::polygon::convex::Convex;
 use crate::polygon::manifold::Touch;
+use crate::polygon::measure::{Asked, Near, Probe};
 use crate::polygon::outline::Turn;
 use crate::polygon::quick::Bodies;
 use crate::precision::rounded_down;
+use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
@@ -139,15 +141,20 @@ impl<'a> Pair2<'a> {
     /// the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
+        let measured = |near: &Near| {
+            let (separation, error, normal) = (near.separation, near.error, near.normal.as_vec2());
+            Separation2::Measured(Measured2 { separation, error, normal })
+        };
         if let Some(gap) = self.bodies().beyond(limit) {
             return Separation2::AtLeast(rounded_down(gap));
         }
+        match self.bodies().answer(&Asked { limit, hint: Hint::NONE, points: false }) {
+            Some(Probe::Near(near)) => return measured(&near),
+            Some(Probe::Beyond(at_least, _)) => return Separation2::AtLeast(at_least),
+            None => {}
+        }
         match self.nearest(limit) {
-            Ok((_, near)) => Separation2::Measured(Measured2 {
-                separation: near.separation,
-                error: near.error,
-                normal: near.normal.as_vec2(),
-            }),
+            Ok((_, near)) => measured(&near),
             Err(at_least) => Separation2::AtLeast(at_least),
         }
     }
@@ -218,9 +225,24 @@ impl<'a> Pair2<'a> {
         if self.bodies().beyond(reach).is_some() {
             return (hint, None);
         }
+        let asked = Asked { limit: reach, hint, points: is_wanted };
+        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
+        match self.bodies().answer(&asked) {
+            Some(Probe::Near(near)) => {
+                if !is_near(&near) {
+                    return (near.hint, None);
+                }
+                if let Some(touch) = &near.touch {
+                    keep(manifold(&near, touch, ([0, 0], [DVec2::ZERO, -self.between])));
+                }
+                return (near.hint, Some(near.verdict.overlapping));
+            }
+            Some(Probe::Beyond(_, hint)) => return (hint, None),
+            None => {}
+        }
         let (mut next_hint, mut touch) = (Hint::NONE, None);
         self.any(reach, |parts| {
-            let near = match parts.convex.probe(&Asked { limit: reach, hint, points: is_wanted }) {
+            let near = match parts.convex.probe(&asked) {
                 Probe::Beyond(_, hint) => {
                     next_hint = hint;
                     return false;
@@ -228,11 +250,10 @@ impl<'a> Pair2<'a> {
                 Probe::Near(near) => near,
             };
             next_hint = near.hint;
-            let is_touching = near.verdict.overlapping;
-            if is_touching || near.separation <= margin {
-                touch = Some(touch.unwrap_or(false) || is_touching);
+            if is_near(&near) {
+                touch = Some(touch.unwrap_or(false) || near.verdict.overlapping);
                 if let Some(touch) = &near.touch {
-                    keep(parts.manifold(&near, touch));
+                    keep(manifold(&near, touch, (parts.indices, parts.shifts())));
                 }
             }
             false
@@ -305,8 +326,8 @@ impl<'a> Pair2<'a> {
     }
 
     /// How long the vectors are that the way from part to part is a sum of, where it is one of several.
-    fn summed(&self, shift_a: DVec2, shift_b: DVec2) -> f64 {
-        if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
+    fn summed(&self, shift_a: DVec2, shift_b: DVec2) -> Option<f64> {
+        self.is_compound().then(|| self.between.length() + shift_a.length() + shift_b.length())
     }
 
     fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
@@ -352,21 +373,9 @@ fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>)
 }
 
 impl Parts<'_> {
-    fn manifold(&self, near: &Near, touch: &Touch) -> Manifold2 {
-        let points = touch.points.iter().map(|point| ContactPoint2 {
-            separation: point.separation as f32,
-            anchor_a: self.anchor_a(point.on_a),
-            anchor_b: self.anchor_b(point.on_b),
-            feature: point.feature,
-        });
-        Manifold2 {
-            part_a: self.indices[0],
-            part_b: self.indices[1],
-            normal: touch.normal.as_vec2(),
-            separation: near.separation,
-            error: near.error,
-            points: points.collect(),
-        }
+    /// From the frame of the pair to world vectors from A's position and from B's.
+    fn shifts(&self) -> [DVec2; 2] {
+        [self.shifts[0], self.shifts[1] - self.convex.offset]
     }
 
     /// From the frame of the pair to a world vector from A's position.
@@ -377,6 +386,29 @@ impl Parts<'_> {
     /// From the frame of the pair to a world vector from B's position.
     fn anchor_b(&self, point: DVec2) -> Vec2 {
         (point - self.convex.offset + self.shifts[1]).as_vec2()
+    }
+}
+
+/// The parts by their indices, and how points of the frame of the pair are shifted to become vectors from A's position and
+/// from B's.
+#[inline]
+fn manifold(near: &Near, touch: &Touch, (indices, shifts): ([u32; 2], [DVec2; 2])) -> Manifold2 {
+    let mut points = ArrayVec::new();
+    for point in &touch.points {
+        points.push(ContactPoint2 {
+            separation: point.separation as f32,
+            anchor_a: (point.on_a + shifts[0]).as_vec2(),
+            anchor_b: (point.on_b + shifts[1]).as_vec2(),
+            feature: point.feature,
+        });
+    }
+    Manifold2 {
+        part_a: indices[0],
+        part_b: indices[1],
+        normal: touch.normal.as_vec2(),
+        separation: near.separation,
+        error: near.error,
+        points,
     }
 }
 

@@ -13,33 +13,35 @@
 //! takes 2.9 u, adding the offset 1 u, each product 2 u, the difference 1 u. All in all less than 16 u of the reach: within two
 //! projections' rounding of the truth, in both directions, and so are parts', whose matrices take 3 u more.
 
-use super::outline::Outline;
-use super::sat::{Axes, Axis, AxisOf, Named, Outcome, Sides, Wanted, doubt, hint_of, named};
-use asunder_geometry::glam::DVec2;
+use super::outline::Turn;
+use super::placed::Placed;
+use super::sat::{Axes, Axis, AxisOf, Outcome, Sides, Wanted, doubt, hint_of};
+use asunder_geometry::glam::{DVec2, Vec2};
 
-/// A core's vertices in the frame of the pair, and its edges' outward normals. What is left of the arrays repeats the
-/// last one.
-struct Few<const N: usize> {
+/// A core's vertices in the frame of the pair, and its edges' outward normals. What is left of the arrays is zero.
+pub(super) struct Few<const N: usize> {
     x: [f64; N],
     y: [f64; N],
     normal_x: [f64; N],
     normal_y: [f64; N],
     vertices: usize,
     edges: usize,
+    radius: f64,
 }
 
 impl<const N: usize> Few<N> {
+    /// A core of at most N vertices, and how far its shape reaches beyond it.
     #[inline]
-    fn new(outline: &Outline) -> Self {
-        let (vertices, edges) = (outline.vertices.len().min(N), outline.edge_count().min(N));
+    pub(super) fn new(core: (&[Vec2], &[DVec2]), turn: &Turn, position: DVec2, radius: f64) -> Self {
         let (mut x, mut y, mut normal_x, mut normal_y) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);
-        for i in 0..vertices {
-            (x[i], y[i]) = outline.point(i).into();
+        for (vertex, (x, y)) in core.0.iter().zip(x.iter_mut().zip(&mut y)) {
+            (*x, *y) = (position + turn.turn(vertex.as_dvec2())).into();
         }
-        for i in 0..edges {
-            (normal_x[i], normal_y[i]) = outline.outward(i).into();
+        let unit = turn.unit();
+        for (normal, (x, y)) in core.1.iter().zip(normal_x.iter_mut().zip(&mut normal_y)) {
+            (*x, *y) = (turn.turn(*normal) * unit).into();
         }
-        Self { x, y, normal_x, normal_y, vertices, edges }
+        Self { x, y, normal_x, normal_y, vertices: core.0.len().min(N), edges: core.1.len().min(N), radius }
     }
 
     /// The separation along each edge's normal; only those of edges mean anything.
@@ -99,35 +101,34 @@ fn axis<const N: usize>(a: &Few<N>, b: &Few<N>, of: AxisOf) -> Axis {
     Axis { separation: -b.reach(-normal) - a.reach(normal), normal, of }
 }
 
-/// Finds the best axes. No vertex count is above N.
-pub(super) fn separating_axes<const N: usize>(a: &Outline, b: &Outline, wanted: &Wanted) -> Outcome {
-    let kept = match named(a, b, wanted.hint) {
-        Some(Named::Edge(of)) => Some(of),
-        _ => None,
-    };
-    let (few_a, few_b) = (Few::<N>::new(a), Few::<N>::new(b));
+/// Finds the best axes. `kept` is what the hint names.
+#[inline]
+pub(super) fn separating_axes<const N: usize>(
+    [a, b]: [&Few<N>; 2],
+    kept: Option<AxisOf>,
+    wanted: &Wanted,
+) -> Outcome {
     if let Some(of) = kept {
-        let axis = axis(&few_a, &few_b, of);
+        let axis = axis(a, b, of);
         if axis.separation > wanted.limit {
             return Outcome::Beyond(axis.separation, wanted.hint);
         }
     }
-    let doubt = doubt(wanted.precision);
-    let (of_a, of_b) = (few_a.separations(&few_b), few_b.separations(&few_a));
-    let (in_a, in_b) = (greatest(&of_a[..few_a.edges]), greatest(&of_b[..few_b.edges]));
-    let top = in_a.0.max(in_b.0);
+    let (of_a, of_b) = (a.separations(b), b.separations(a));
+    let (in_a, in_b) = (greatest(&of_a[..a.edges]), greatest(&of_b[..b.edges]));
+    let top = if in_b.0 > in_a.0 { in_b.0 } else { in_a.0 };
     let mut axes = Axes::NONE;
-    if few_a.edges > 0 && in_a.0 >= top - wanted.band {
-        axes.edge_a = axis(&few_a, &few_b, AxisOf::EdgeA(in_a.1));
+    if a.edges > 0 && in_a.0 >= top - wanted.band {
+        axes.edge_a = axis(a, b, AxisOf::EdgeA(in_a.1));
     }
-    if few_b.edges > 0 && in_b.0 >= top - wanted.band {
-        axes.edge_b = axis(&few_a, &few_b, AxisOf::EdgeB(in_b.1));
+    if b.edges > 0 && in_b.0 >= top - wanted.band {
+        axes.edge_b = axis(a, b, AxisOf::EdgeB(in_b.1));
     }
-    let best = axes.best();
-    if best.separation > wanted.limit {
-        return Outcome::Beyond(best.separation, hint_of(best.of));
+    let best = axes.best().separation;
+    if best > wanted.limit {
+        return Outcome::Beyond(best, hint_of(axes.best().of));
     }
-    axes.short = doubt + (top - best.separation).max(0.0);
+    axes.short = doubt(wanted.precision) + (top - best).max(0.0);
     axes.kept = kept
         .filter(|of| {
             let separation = match *of {
@@ -136,20 +137,69 @@ pub(super) fn separating_axes<const N: usize>(a: &Outline, b: &Outline, wanted: 
             };
             separation >= top - wanted.band
         })
-        .map(|of| axis(&few_a, &few_b, of));
+        .map(|of| axis(a, b, of));
     Outcome::Within(axes)
 }
 
-/// Which side of touching the shapes are on. No vertex count is above N.
-pub(super) fn sides<const N: usize>(a: &Outline, b: &Outline, doubt: f64) -> Sides {
-    let (few_a, few_b) = (Few::<N>::new(a), Few::<N>::new(b));
-    let (in_a, _) = greatest(&few_a.separations(&few_b)[..few_a.edges]);
+/// Which side of touching the shapes are on.
+#[inline]
+pub(super) fn sides<const N: usize>([a, b]: [&Few<N>; 2], doubt: f64) -> Sides {
+    let (in_a, _) = greatest(&a.separations(b)[..a.edges]);
     if in_a > doubt {
         return Sides::Apart;
     }
-    let (in_b, _) = greatest(&few_b.separations(&few_a)[..few_b.edges]);
+    let (in_b, _) = greatest(&b.separations(a)[..b.edges]);
     if in_b > doubt {
         return Sides::Apart;
     }
-    if in_a.max(in_b) < -doubt { Sides::Overlapping } else { Sides::Unclear }
+    if in_a < -doubt && in_b < -doubt { Sides::Overlapping } else { Sides::Unclear }
+}
+
+impl<const N: usize> Placed for Few<N> {
+    #[inline]
+    fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    #[inline]
+    fn is_flat(&self) -> bool {
+        self.vertices <= 2
+    }
+
+    #[inline]
+    fn edge_count(&self) -> usize {
+        self.edges
+    }
+
+    #[inline]
+    fn after(&self, vertex: usize) -> usize {
+        if vertex + 1 == self.vertices { 0 } else { vertex + 1 }
+    }
+
+    #[inline]
+    fn before(&self, vertex: usize) -> usize {
+        if vertex == 0 { self.vertices - 1 } else { vertex - 1 }
+    }
+
+    #[inline]
+    fn point(&self, vertex: usize) -> DVec2 {
+        DVec2::new(self.x[vertex], self.y[vertex])
+    }
+
+    #[inline]
+    fn outward(&self, edge: usize) -> DVec2 {
+        DVec2::new(self.normal_x[edge], self.normal_y[edge])
+    }
+
+    #[inline]
+    fn furthest(&self, direction: DVec2) -> usize {
+        let mut best = (f64::NEG_INFINITY, 0);
+        for vertex in 0..self.vertices {
+            let reach = direction.dot(self.point(vertex));
+            if reach > best.0 {
+                best = (reach, vertex);
+            }
+        }
+        best.1
+    }
 }

@@ -1,5 +1,6 @@
 //! A shape as the kernels see it: stored vertices, and how they stand in the frame of the pair.
 
+use super::few::Few;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Core2, Rotation2, Shape2};
 
@@ -111,6 +112,12 @@ impl<'a> Outline<'a> {
             position,
             radius: f64::from(shape.radius()),
         }
+    }
+
+    /// The same, placed, of no more than N vertices.
+    #[inline]
+    pub(super) fn few<const N: usize>(&self) -> Few<N> {
+        Few::new((self.vertices, self.normals), &self.turn, self.position, self.radius)
     }
 
     /// Whether it has no inside: a point or a segment.

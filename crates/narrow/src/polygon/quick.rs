@@ -9,8 +9,11 @@
 //! A stored rotation stretches by its length, which is one up to the rounding of f32: radii are widened, or narrowed, by more
 //! than that. What positions and centres lose is bounded by the sum of their coordinates.
 
-use super::outline::Turn;
-use super::rects::Rects;
+use super::few::{self, Few};
+use super::measure::{Asked, Measure, Probe};
+use super::outline::{FEW_VERTICES, Turn};
+use super::rects::{self, Corners, Rects};
+use super::sat::{Named, named};
 use crate::precision::{IN_PLANE, Precision};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Shape2, glam::Vec2};
@@ -72,6 +75,54 @@ impl Bodies<'_> {
         }
         let inner = (f64::from(a.inner) + f64::from(b.inner)) * (1.0 - STRETCH) - lost;
         (inner > 0.0 && squared < inner * inner).then_some(true)
+    }
+
+    /// The answer, where it is beyond doubt by axes of few edges: most pairs' answer.
+    #[inline]
+    pub(crate) fn answer(&self, asked: &Asked) -> Option<Probe> {
+        let [a, b] = self.shapes;
+        let [turn_a, turn_b] = self.turns;
+        let measure = Measure::new(self.shapes, self.between, None);
+        let radii = [a, b].map(|shape| f64::from(shape.radius()));
+        if let (Shape2::Rect(rect_a), Shape2::Rect(rect_b)) = (a, b) {
+            let halves = [rect_a.half_extents(), rect_b.half_extents()].map(Vec2::as_dvec2);
+            let wanted = measure.wanted(asked, self.between);
+            let kept = named([4, 4], asked.hint).and_then(Named::edge);
+            let outcome = rects::separating_axes(halves, self.turns, self.between, (kept, &wanted));
+            let corners_a = Corners::new(halves[0], turn_a, DVec2::ZERO, radii[0]);
+            let corners_b = Corners::new(halves[1], turn_b, self.between, radii[1]);
+            return measure.at_once([&corners_a, &corners_b], asked, &outcome);
+        }
+        let (core_a, core_b) = (a.core(), b.core());
+        let few = core_a.vertices().len().max(core_b.vertices().len());
+        let edges = [core_a.normals().len(), core_b.normals().len()];
+        if few > FEW_VERTICES
+            || edges[0] + edges[1] == 0
+            || matches!(a, Shape2::HalfPlane(_))
+            || matches!(b, Shape2::HalfPlane(_))
+        {
+            return None;
+        }
+        let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
+        if few <= 8 {
+            self.few::<8>(cores, &measure, asked)
+        } else {
+            self.few::<FEW_VERTICES>(cores, &measure, asked)
+        }
+    }
+
+    fn few<const N: usize>(
+        &self,
+        cores: [(&[Vec2], &[DVec2]); 2],
+        measure: &Measure,
+        asked: &Asked,
+    ) -> Option<Probe> {
+        let [radius_a, radius_b] = self.shapes.map(|shape| f64::from(shape.radius()));
+        let a = Few::<N>::new(cores[0], self.turns[0], DVec2::ZERO, radius_a);
+        let b = Few::<N>::new(cores[1], self.turns[1], self.between, radius_b);
+        let kept = named([cores[0].1.len(), cores[1].1.len()], asked.hint).and_then(Named::edge);
+        let outcome = few::separating_axes([&a, &b], kept, &measure.wanted(asked, self.between));
+        measure.at_once([&a, &b], asked, &outcome)
     }
 
     /// How far apart they are at least, where circles around them show more than a limit.

@@ -98,21 +98,28 @@ pub(crate) enum Sides {
 
 /// Finds the best axes.
 pub(crate) fn separating_axes(a: &Outline, b: &Outline, wanted: &Wanted) -> Outcome {
+    let kept = named([a.edge_count(), b.edge_count()], wanted.hint);
+    let edge = kept.and_then(Named::edge);
     if let (Some(half_a), Some(half_b)) = (a.half, b.half) {
-        return rects::separating_axes(a, b, [half_a, half_b], wanted);
+        return rects::separating_axes(
+            [half_a, half_b],
+            [&a.turn, &b.turn],
+            b.position - a.position,
+            (edge, wanted),
+        );
     }
     match a.vertices.len().max(b.vertices.len()) {
-        0..=8 => few::separating_axes::<8>(a, b, wanted),
-        9..=FEW_VERTICES => few::separating_axes::<FEW_VERTICES>(a, b, wanted),
-        _ => search::separating_axes(a, b, wanted),
+        0..=8 => few::separating_axes([&a.few::<8>(), &b.few()], edge, wanted),
+        9..=FEW_VERTICES => few::separating_axes([&a.few::<FEW_VERTICES>(), &b.few()], edge, wanted),
+        _ => search::separating_axes(a, b, kept, wanted),
     }
 }
 
 /// Which side of touching the shapes are on, by axes that show more than `doubt`.
 pub(crate) fn sides(a: &Outline, b: &Outline, towards_b: DVec2, doubt: f64) -> Sides {
     match a.vertices.len().max(b.vertices.len()) {
-        0..=8 => few::sides::<8>(a, b, doubt),
-        9..=FEW_VERTICES => few::sides::<FEW_VERTICES>(a, b, doubt),
+        0..=8 => few::sides([&a.few::<8>(), &b.few()], doubt),
+        9..=FEW_VERTICES => few::sides([&a.few::<FEW_VERTICES>(), &b.few()], doubt),
         _ => search::sides(a, b, towards_b, doubt),
     }
 }
@@ -151,18 +158,26 @@ pub(super) enum Named {
     Direction(DVec2),
 }
 
-/// What a hint names; nothing where this pair has no such thing.
-pub(super) fn named(a: &Outline, b: &Outline, hint: Hint) -> Option<Named> {
+impl Named {
+    pub(super) fn edge(self) -> Option<AxisOf> {
+        match self {
+            Self::Edge(of) => Some(of),
+            Self::Direction(_) => None,
+        }
+    }
+}
+
+/// What a hint names; nothing where a pair of so many edges each has no such thing.
+#[inline]
+pub(super) fn named(edges: [usize; 2], hint: Hint) -> Option<Named> {
     let features = hint.features()?;
     match (features.a(), features.b()) {
         (Feature::Face(code), _) => direction(code).map(Named::Direction),
         (Feature::Edge(edge), _) => {
-            let edge = edge as usize;
-            (edge < a.edge_count()).then_some(Named::Edge(AxisOf::EdgeA(edge)))
+            ((edge as usize) < edges[0]).then_some(Named::Edge(AxisOf::EdgeA(edge as usize)))
         }
         (_, Feature::Edge(edge)) => {
-            let edge = edge as usize;
-            (edge < b.edge_count()).then_some(Named::Edge(AxisOf::EdgeB(edge)))
+            ((edge as usize) < edges[1]).then_some(Named::Edge(AxisOf::EdgeB(edge as usize)))
         }
         _ => None,
     }

@@ -28,7 +28,7 @@
 
 use super::outline::{Outline, count_step};
 use super::sat::{
-    Axes, Axis, AxisOf, Named, Outcome, Sides, Wanted, axis, axis_a, axis_b, doubt, hint_of_direction, named,
+    Axes, Axis, AxisOf, Named, Outcome, Sides, Wanted, axis, axis_a, axis_b, doubt, hint_of_direction,
 };
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
@@ -39,10 +39,9 @@ const LEAF: usize = 3;
 /// Arcs that wait: twice the bits of the most edges there are. An arc that finds no room is evaluated edge by edge.
 const WAITING: usize = 32;
 
-/// Finds the best axes.
-pub(super) fn separating_axes(a: &Outline, b: &Outline, wanted: &Wanted) -> Outcome {
+/// Finds the best axes. `hint` is what the hint names.
+pub(super) fn separating_axes(a: &Outline, b: &Outline, hint: Option<Named>, wanted: &Wanted) -> Outcome {
     let doubt = doubt(wanted.precision);
-    let hint = named(a, b, wanted.hint);
     let mut search = Search::new(a, b, wanted.limit, doubt);
     search.band = wanted.band;
     let stop = match hint {
@@ -61,13 +60,7 @@ pub(super) fn separating_axes(a: &Outline, b: &Outline, wanted: &Wanted) -> Outc
             Outcome::Beyond(separation, hint_of_direction(direction))
         }
         Some((separation, direction)) => Outcome::Gap(separation, direction),
-        None => {
-            let kept = match hint {
-                Some(Named::Edge(of)) => Some(of),
-                _ => None,
-            };
-            Outcome::Within(search.axes(kept, doubt))
-        }
+        None => Outcome::Within(search.axes(hint.and_then(Named::edge), doubt)),
     }
 }
 

@@ -182,8 +182,8 @@ fn kernels_find_the_best_axis_of_all() {
                 }
             }
         };
-        for kernel in [separating_axes, search::separating_axes] {
-            match kernel(&a, &b, &wanted) {
+        for outcome in [separating_axes(&a, &b, &wanted), search::separating_axes(&a, &b, None, &wanted)] {
+            match outcome {
                 Outcome::Within(axes) => {
                     check(&axes);
                     deep += 1;
@@ -214,7 +214,9 @@ fn kernels_find_the_best_axis_of_all() {
             }
         }
         if most <= 8 {
-            assert_eq!(few::sides::<8>(&a, &b, doubt), few::sides::<16>(&a, &b, doubt));
+            let told =
+                [few::sides([&a.few::<8>(), &b.few()], doubt), few::sides([&a.few::<16>(), &b.few()], doubt)];
+            assert_eq!(told[0], told[1]);
         }
     }
     assert!(deep > 1000 && apart > 500 && gaps > 200, "{deep} {apart} {gaps}");

@@ -37,8 +37,8 @@ impl Convex<'_> {
             if edges == 0 {
                 return self.told_verdict(&self.told_points(a, b));
             }
-            if self.radii == 0.0 {
-                return match sides(a, b, self.towards_b(), doubt(&self.precision)) {
+            if self.measure.radii == 0.0 {
+                return match sides(a, b, self.towards_b(), doubt(&self.measure.precision)) {
                     Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
                     Sides::Overlapping if !is_thin(a, b) => Verdict { overlapping: true, tier: Tier::Bound },
                     _ => self.look_closer(a, b, None).0,
@@ -64,12 +64,16 @@ impl Convex<'_> {
             if edges == 0 {
                 return self.told_points(a, b).separation <= 0.0;
             }
-            if self.radii == 0.0 {
+            if self.measure.radii == 0.0 {
                 return sides(a, b, self.towards_b(), 0.0) != Sides::Apart;
             }
-            let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
+            let until = Until {
+                beyond: self.measure.radii,
+                within: self.measure.radii,
+                precision: &self.measure.precision,
+            };
             match distance(a, b, unit(self.towards_b()), &until) {
-                Reached::Between(witness) => witness.distance <= self.radii,
+                Reached::Between(witness) => witness.distance <= self.measure.radii,
                 Reached::Origin(_) => true,
             }
         })
@@ -94,13 +98,17 @@ impl Convex<'_> {
 
     /// For a yes or no a distance is known well enough once it tells whether the radii close the gap.
     fn until_told(&self) -> Until<'_> {
-        let doubt = self.precision.projection();
-        Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
+        let doubt = self.measure.precision.projection();
+        Until {
+            beyond: self.measure.radii + doubt,
+            within: self.measure.radii - 2.0 * doubt,
+            precision: &self.measure.precision,
+        }
     }
 
     /// Whether the shapes overlap, where a closed form has told how far apart they are.
     pub(super) fn told_verdict(&self, told: &Told) -> Verdict {
-        let doubt = 2.0 * self.precision.projection();
+        let doubt = 2.0 * self.measure.precision.projection();
         if told.separation.abs() > doubt {
             return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
         }
@@ -118,12 +126,12 @@ impl Convex<'_> {
         best: Option<(f64, DVec2)>,
     ) -> (Verdict, Cores) {
         let towards = best.map_or_else(|| unit(self.towards_b()), |(_, normal)| normal);
-        let mut reached = distance(a, b, towards, &Until::met(&self.precision));
+        let mut reached = distance(a, b, towards, &Until::met(&self.measure.precision));
         let mut tier = Tier::Double;
         if let (Reached::Between(witness), Some((separation, normal))) = (&mut reached, best)
             && separation >= witness.at_least
         {
-            if witness.is_close(self.precision.size) {
+            if witness.is_close(self.measure.precision.size) {
                 witness.across = normal;
             }
             (witness.at_least, witness.normal) = (separation, normal);
@@ -136,25 +144,25 @@ impl Convex<'_> {
 
     /// What the distance iteration has proved, and the third tier where it has proved nothing.
     fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
-        let doubt = self.precision.projection();
+        let doubt = self.measure.precision.projection();
         let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
         let witness = match reached {
             Reached::Origin(Close { is_proved: true, .. }) => return (double(true), Cores::Within(0.0)),
             Reached::Origin(close) => {
                 let verdict = self.exactly(&close.corners);
-                let do_overlap = self.radii == 0.0 && verdict.overlapping;
+                let do_overlap = self.measure.radii == 0.0 && verdict.overlapping;
                 return (verdict, Cores::Within(if do_overlap { 0.0 } else { close.within }));
             }
             Reached::Between(witness) => witness,
         };
-        if witness.at_least - self.radii > doubt {
+        if witness.at_least - self.measure.radii > doubt {
             return (double(false), Cores::Between(witness));
         }
-        if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
+        if self.measure.radii > 0.0 && witness.distance - self.measure.radii < -2.0 * doubt {
             return (double(true), Cores::Between(witness));
         }
         let verdict = self.exactly(&witness.corners);
-        let do_overlap = self.radii == 0.0 && verdict.overlapping;
+        let do_overlap = self.measure.radii == 0.0 && verdict.overlapping;
         (verdict, if do_overlap { Cores::Within(0.0) } else { Cores::Between(witness) })
     }
 
