@@ -10,7 +10,6 @@ use crate::polygon::manifold::Touch;
 use crate::polygon::measure::{Asked, Near, Probe};
 use crate::polygon::outline::Turn;
 use crate::polygon::quick::Bodies;
-use crate::precision::rounded_down;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
@@ -145,9 +144,6 @@ impl<'a> Pair2<'a> {
             let (separation, error, normal) = (near.separation, near.error, near.normal.as_vec2());
             Separation2::Measured(Measured2 { separation, error, normal })
         };
-        if let Some(gap) = self.bodies().beyond(limit) {
-            return Separation2::AtLeast(rounded_down(gap));
-        }
         match self.bodies().answer(&Asked { limit, hint: Hint::NONE, points: false }) {
             Some(Probe::Near(near)) => return measured(&near),
             Some(Probe::Beyond(at_least, _)) => return Separation2::AtLeast(at_least),
@@ -222,9 +218,6 @@ impl<'a> Pair2<'a> {
         let margin = margin.max(0.0);
         // What rounds to the margin counts as within it: the number that is told decides.
         let reach = f64::from(margin.next_up());
-        if self.bodies().beyond(reach).is_some() {
-            return (hint, None);
-        }
         let asked = Asked { limit: reach, hint, points: is_wanted };
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
         match self.bodies().answer(&asked) {

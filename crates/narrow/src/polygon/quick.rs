@@ -14,9 +14,9 @@ use super::measure::{Asked, Measure, Probe};
 use super::outline::{FEW_VERTICES, Turn};
 use super::rects::{self, Corners, Rects};
 use super::sat::{Named, named};
-use crate::precision::{IN_PLANE, Precision};
+use crate::precision::{IN_PLANE, Precision, rounded_down};
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Shape2, glam::Vec2};
+use asunder_geometry::{Rect, Shape2, glam::Vec2};
 
 /// By how much a stored rotation may stretch, and more.
 const STRETCH: f64 = 4.0 * f32::EPSILON as f64;
@@ -77,46 +77,39 @@ impl Bodies<'_> {
         (inner > 0.0 && squared < inner * inner).then_some(true)
     }
 
-    /// The answer, where it is beyond doubt by axes of few edges: most pairs' answer.
+    /// The answer, where it is beyond doubt by circles or by axes of few edges: most pairs' answer.
     #[inline]
     pub(crate) fn answer(&self, asked: &Asked) -> Option<Probe> {
-        let [a, b] = self.shapes;
-        let [turn_a, turn_b] = self.turns;
-        let measure = Measure::new(self.shapes, self.between, None);
-        let radii = [a, b].map(|shape| f64::from(shape.radius()));
-        if let (Shape2::Rect(rect_a), Shape2::Rect(rect_b)) = (a, b) {
-            let halves = [rect_a.half_extents(), rect_b.half_extents()].map(Vec2::as_dvec2);
-            let wanted = measure.wanted(asked, self.between);
-            let kept = named([4, 4], asked.hint).and_then(Named::edge);
-            let outcome = rects::separating_axes(halves, self.turns, self.between, (kept, &wanted));
-            let corners_a = Corners::new(halves[0], turn_a, DVec2::ZERO, radii[0]);
-            let corners_b = Corners::new(halves[1], turn_b, self.between, radii[1]);
-            return measure.at_once([&corners_a, &corners_b], asked, &outcome);
+        if let [Shape2::Rect(a), Shape2::Rect(b)] = self.shapes {
+            return self.rects([a, b], asked);
         }
-        let (core_a, core_b) = (a.core(), b.core());
-        let few = core_a.vertices().len().max(core_b.vertices().len());
-        let edges = [core_a.normals().len(), core_b.normals().len()];
-        if few > FEW_VERTICES
-            || edges[0] + edges[1] == 0
-            || matches!(a, Shape2::HalfPlane(_))
-            || matches!(b, Shape2::HalfPlane(_))
-        {
+        if let Some(gap) = self.beyond(asked.limit) {
+            return Some(Probe::Beyond(rounded_down(gap), asked.hint));
+        }
+        let [core_a, core_b] = self.shapes.map(Shape2::core);
+        let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
+        let [a, b] = cores.map(|core| core.0.len());
+        // A circle has no edges, a half-plane and a compound have no vertices.
+        if a.min(b) == 0 || a + b == 2 || a.max(b) > FEW_VERTICES {
             return None;
         }
-        let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
-        if few <= 8 {
-            self.few::<8>(cores, &measure, asked)
-        } else {
-            self.few::<FEW_VERTICES>(cores, &measure, asked)
-        }
+        if a.max(b) <= 8 { self.few::<8>(cores, asked) } else { self.few::<FEW_VERTICES>(cores, asked) }
     }
 
-    fn few<const N: usize>(
-        &self,
-        cores: [(&[Vec2], &[DVec2]); 2],
-        measure: &Measure,
-        asked: &Asked,
-    ) -> Option<Probe> {
+    #[inline]
+    fn rects(&self, [a, b]: [&Rect; 2], asked: &Asked) -> Option<Probe> {
+        let measure = Measure::new(self.shapes, self.between, None);
+        let wanted = measure.wanted(asked, self.between);
+        let halves = [a, b].map(|rect| rect.half_extents().as_dvec2());
+        let kept = named([4, 4], asked.hint).and_then(Named::edge);
+        let outcome = rects::separating_axes(halves, self.turns, self.between, (kept, &wanted));
+        let corners_a = Corners::new(halves[0], self.turns[0], DVec2::ZERO, f64::from(a.radius()));
+        let corners_b = Corners::new(halves[1], self.turns[1], self.between, f64::from(b.radius()));
+        measure.at_once([&corners_a, &corners_b], asked, &outcome)
+    }
+
+    fn few<const N: usize>(&self, cores: [(&[Vec2], &[DVec2]); 2], asked: &Asked) -> Option<Probe> {
+        let measure = Measure::new(self.shapes, self.between, None);
         let [radius_a, radius_b] = self.shapes.map(|shape| f64::from(shape.radius()));
         let a = Few::<N>::new(cores[0], self.turns[0], DVec2::ZERO, radius_a);
         let b = Few::<N>::new(cores[1], self.turns[1], self.between, radius_b);
@@ -127,7 +120,7 @@ impl Bodies<'_> {
 
     /// How far apart they are at least, where circles around them show more than a limit.
     #[inline]
-    pub(crate) fn beyond(&self, limit: f64) -> Option<f64> {
+    fn beyond(&self, limit: f64) -> Option<f64> {
         let [a, b] = [Circles::of(self.shapes[0])?, Circles::of(self.shapes[1])?];
         let (between, lost) = self.centers([a.center, b.center]);
         let outer = (f64::from(a.outer) + f64::from(b.outer)) * (1.0 + STRETCH) + lost;

@@ -186,38 +186,25 @@ impl Placed for Corners {
 
     #[inline]
     fn point(&self, vertex: usize) -> DVec2 {
-        let [x, y] = self.halves;
-        // Counter-clockwise from the least corner.
-        self.center
-            + match vertex {
-                0 => -x - y,
-                1 => x - y,
-                2 => x + y,
-                _ => y - x,
-            }
+        // Counter-clockwise from the least corner. Looked up, since which it is cannot be foretold.
+        const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let [x, y] = SIGNS[vertex % 4];
+        self.center + (self.halves[0] * x + self.halves[1] * y)
     }
 
     #[inline]
     fn outward(&self, edge: usize) -> DVec2 {
-        match edge {
-            0 => -self.axes[1],
-            1 => self.axes[0],
-            2 => self.axes[1],
-            _ => -self.axes[0],
-        }
+        // Edges look along -y, x, y and -x.
+        const SIGNS: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
+        self.axes[usize::from(edge.is_multiple_of(2))] * SIGNS[edge % 4]
     }
 
     #[inline]
     fn furthest(&self, direction: DVec2) -> usize {
         // Ties go to the lowest vertex.
         let (x, y) = (direction.dot(self.axes[0]), direction.dot(self.axes[1]));
-        match (x > 0.0, y > 0.0) {
-            (false, false) => 0,
-            (true, false) => 1,
-            (true, true) => 2,
-            // Straight along y, vertex 2 is as far.
-            (false, true) if x == 0.0 => 2,
-            (false, true) => 3,
-        }
+        let below = usize::from(x > 0.0);
+        let above = if x >= 0.0 { 2 } else { 3 };
+        if y > 0.0 { above } else { below }
     }
 }
