@@ -13,12 +13,13 @@
 //! takes 2.9 u, adding the offset 1 u, each product 2 u, the difference 1 u. All in all less than 16 u of the reach: within two
 //! projections' rounding of the truth, in both directions, and so are parts', whose matrices take 3 u more.
 
-use super::outline::Turn;
+use super::outline::{Turn, renormalized};
 use super::placed::Placed;
 use super::sat::{Axes, Axis, AxisOf, Outcome, Sides, Wanted, doubt, hint_of};
 use asunder_geometry::glam::{DVec2, Vec2};
 
-/// A core's vertices in the frame of the pair, and its edges' outward normals. What is left of the arrays is zero.
+/// A core's vertices in the frame of the pair, and its edges' outward normals. What is left of the arrays repeats the last
+/// one, so that loops need no count; a point's normals are zero.
 pub(super) struct Few<const N: usize> {
     x: [f64; N],
     y: [f64; N],
@@ -33,15 +34,22 @@ impl<const N: usize> Few<N> {
     /// A core of at most N vertices, and how far its shape reaches beyond it.
     #[inline]
     pub(super) fn new(core: (&[Vec2], &[DVec2]), turn: &Turn, position: DVec2, radius: f64) -> Self {
-        let (mut x, mut y, mut normal_x, mut normal_y) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);
-        for (vertex, (x, y)) in core.0.iter().zip(x.iter_mut().zip(&mut y)) {
-            (*x, *y) = (position + turn.turn(vertex.as_dvec2())).into();
-        }
+        let (c, s) = (turn.axes()[0].x, turn.axes()[0].y);
         let unit = turn.unit();
-        for (normal, (x, y)) in core.1.iter().zip(normal_x.iter_mut().zip(&mut normal_y)) {
-            (*x, *y) = (turn.turn(*normal) * unit).into();
+        let (last, last_edge) = (core.0.len().min(N).wrapping_sub(1), core.1.len().min(N).wrapping_sub(1));
+        let local: [DVec2; N] =
+            core::array::from_fn(|i| core.0.get(i.min(last)).map_or(DVec2::ZERO, |v| v.as_dvec2()));
+        let normal: [DVec2; N] =
+            core::array::from_fn(|i| core.1.get(i.min(last_edge)).copied().unwrap_or(DVec2::ZERO));
+        Self {
+            x: local.map(|v| position.x + (c * v.x - s * v.y)),
+            y: local.map(|v| position.y + (s * v.x + c * v.y)),
+            normal_x: normal.map(|n| (c * n.x - s * n.y) * unit),
+            normal_y: normal.map(|n| (s * n.x + c * n.y) * unit),
+            vertices: core.0.len().min(N),
+            edges: core.1.len().min(N),
+            radius,
         }
-        Self { x, y, normal_x, normal_y, vertices: core.0.len().min(N), edges: core.1.len().min(N), radius }
     }
 
     /// The separation along each edge's normal; only those of edges mean anything.
@@ -64,31 +72,37 @@ impl<const N: usize> Few<N> {
     /// How far the core reaches along a direction.
     #[inline]
     fn reach(&self, direction: DVec2) -> f64 {
-        let mut most = f64::NEG_INFINITY;
-        for i in 0..self.vertices {
-            let reach = direction.x * self.x[i] + direction.y * self.y[i];
-            most = if reach > most { reach } else { most };
-        }
-        most
+        top::<N>(&core::array::from_fn(|i| direction.x * self.x[i] + direction.y * self.y[i]))
     }
 
     /// The unit normal of an edge.
     #[inline]
     fn normal(&self, edge: usize) -> DVec2 {
-        DVec2::new(self.normal_x[edge], self.normal_y[edge]).normalize()
+        renormalized(DVec2::new(self.normal_x[edge], self.normal_y[edge]))
+    }
+
+    /// The greatest separation along an edge's normal, and the first edge that shows as much; -inf of a point.
+    #[inline]
+    fn greatest(&self, separations: &[f64; N]) -> (f64, usize) {
+        let top = top(separations);
+        let first = (0..N).rev().fold(0, |first, i| if separations[i] == top { i } else { first });
+        (if self.edges == 0 { f64::NEG_INFINITY } else { top }, first)
     }
 }
 
-/// The greatest, and the first that is as great.
+/// The greatest of all, halving: lanes are compared side by side.
 #[inline]
-fn greatest(separations: &[f64]) -> (f64, usize) {
-    let mut best = (f64::NEG_INFINITY, 0);
-    for (edge, &separation) in separations.iter().enumerate() {
-        if separation > best.0 {
-            best = (separation, edge);
+fn top<const N: usize>(values: &[f64; N]) -> f64 {
+    let mut values = *values;
+    let mut half = N / 2;
+    while half > 0 {
+        for i in 0..half {
+            let other = values[i + half];
+            values[i] = if other > values[i] { other } else { values[i] };
         }
+        half /= 2;
     }
-    best
+    values[0]
 }
 
 /// An axis by full projection.
@@ -115,13 +129,13 @@ pub(super) fn separating_axes<const N: usize>(
         }
     }
     let (of_a, of_b) = (a.separations(b), b.separations(a));
-    let (in_a, in_b) = (greatest(&of_a[..a.edges]), greatest(&of_b[..b.edges]));
+    let (in_a, in_b) = (a.greatest(&of_a), b.greatest(&of_b));
     let top = if in_b.0 > in_a.0 { in_b.0 } else { in_a.0 };
     let mut axes = Axes::NONE;
-    if a.edges > 0 && in_a.0 >= top - wanted.band {
+    if in_a.0 >= top - wanted.band {
         axes.edge_a = axis(a, b, AxisOf::EdgeA(in_a.1));
     }
-    if b.edges > 0 && in_b.0 >= top - wanted.band {
+    if in_b.0 >= top - wanted.band {
         axes.edge_b = axis(a, b, AxisOf::EdgeB(in_b.1));
     }
     let best = axes.best().separation;
@@ -144,11 +158,11 @@ pub(super) fn separating_axes<const N: usize>(
 /// Which side of touching the shapes are on.
 #[inline]
 pub(super) fn sides<const N: usize>([a, b]: [&Few<N>; 2], doubt: f64) -> Sides {
-    let (in_a, _) = greatest(&a.separations(b)[..a.edges]);
+    let (in_a, _) = a.greatest(&a.separations(b));
     if in_a > doubt {
         return Sides::Apart;
     }
-    let (in_b, _) = greatest(&b.separations(a)[..b.edges]);
+    let (in_b, _) = b.greatest(&b.separations(a));
     if in_b > doubt {
         return Sides::Apart;
     }

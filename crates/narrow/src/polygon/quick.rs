@@ -86,7 +86,7 @@ impl Bodies<'_> {
         if let Some(gap) = self.beyond(asked.limit) {
             return Some(Probe::Beyond(rounded_down(gap), asked.hint));
         }
-        let [core_a, core_b] = self.shapes.map(Shape2::core);
+        let (core_a, core_b) = (self.shapes[0].core(), self.shapes[1].core());
         let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
         let [a, b] = cores.map(|core| core.0.len());
         // A circle has no edges, a half-plane and a compound have no vertices.
