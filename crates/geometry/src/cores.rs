@@ -1,11 +1,13 @@
 //! What is left of a shape without its rounding: points, segments, polygons, polyhedra.
 
 use crate::cuboid::Cuboid;
+use crate::octets::{self, EdgeArc, EdgeOctet, FaceOctet, VertexOctet};
 use crate::rect::Rect;
 use crate::shape::{Shape2, Shape3};
 use crate::topology::Topology;
 use crate::triangle::Triangle3;
 use glam::{DVec2, DVec3, Vec2, Vec3};
+use std::sync::LazyLock;
 
 /// A few values here, or many elsewhere.
 #[derive(Clone, Debug)]
@@ -60,7 +62,16 @@ pub struct Core2<'a> {
 #[derive(Clone, Debug)]
 pub struct Core3<'a> {
     vertices: Held<'a, Vec3, 8>,
+    vertex_octets: Held<'a, VertexOctet, 1>,
     normals: Held<'a, DVec3, 2>,
+    heights: Held<'a, f64, 6>,
+    face_octets: Held<'a, FaceOctet, 1>,
+    edge_octets: Held<'a, EdgeOctet, 2>,
+    arcs: Held<'a, EdgeArc, 3>,
+    edge_numbers: &'a [u16],
+    center: Vec3,
+    inner_radius: f32,
+    extent: f32,
     topology: &'a Topology,
 }
 
@@ -98,46 +109,114 @@ impl<'a> Core2<'a> {
     }
 }
 
+/// What all cuboids share.
+struct Cube {
+    arcs: Box<[EdgeArc]>,
+    edge_numbers: Box<[u16]>,
+    octets: [EdgeOctet; 2],
+}
+
+static CUBE: LazyLock<Cube> = LazyLock::new(|| {
+    let corner = |i: usize| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
+    let corners: [Vec3; 8] = core::array::from_fn(corner);
+    let (arcs, edge_numbers) = EdgeArc::all(&corners, &Cuboid::NORMALS, Cuboid::topology());
+    let octets = EdgeOctet::all(&Cuboid::NORMALS, &[1.0; 6], Cuboid::topology());
+    Cube { arcs, edge_numbers, octets: [octets[0], octets[1]] }
+});
+
+/// Of both loops around a triangle, one of which goes the other way.
+const TRIANGLE_EDGES: [u16; 6] = [0, 1, 2, 2, 1, 0];
+
 impl<'a> Core3<'a> {
     pub(crate) fn of(shape: &'a Shape3) -> Self {
-        let none = Held::Many(&[]);
         match shape {
-            Shape3::Sphere(_) => Self {
-                vertices: Held::Many([Vec3::ZERO].as_slice()),
-                normals: none,
-                topology: Topology::point(),
-            },
-            Shape3::Capsule(capsule) => Self::of_segment(capsule.segment().ends()),
-            Shape3::Segment(segment) => Self::of_segment(segment.ends()),
-            Shape3::Triangle(triangle) => {
-                let [a, b, c] = triangle.vertices();
+            Shape3::Sphere(_) => Self::without_faces(&[Vec3::ZERO], Topology::point(), shape),
+            Shape3::Capsule(capsule) => {
+                Self::without_faces(&capsule.segment().ends(), Topology::segment(), shape)
+            }
+            Shape3::Segment(segment) => Self::without_faces(&segment.ends(), Topology::segment(), shape),
+            Shape3::Triangle(triangle) => Self::of_triangle(triangle, shape),
+            Shape3::Cuboid(cuboid) => {
+                let (vertices, half) = (cuboid.vertices(), cuboid.half_extents());
+                let [x, y, z] = half.as_dvec3().to_array();
                 Self {
-                    vertices: Held::Few([a, b, c, a, a, a, a, a], 3),
-                    normals: Held::Few(triangle.normals(), 2),
-                    topology: Triangle3::topology(),
+                    vertex_octets: Held::Few([VertexOctet::of_eight(&vertices)], 1),
+                    vertices: Held::Few(vertices, 8),
+                    normals: Held::Many(Cuboid::NORMALS.as_slice()),
+                    heights: Held::Few([x, x, y, y, z, z], 6),
+                    face_octets: Held::Few([FaceOctet::of_cuboid(half)], 1),
+                    edge_octets: Held::Few(EdgeOctet::of_cuboid(&CUBE.octets, half), 2),
+                    arcs: Held::Many(&CUBE.arcs),
+                    edge_numbers: &CUBE.edge_numbers,
+                    center: Vec3::ZERO,
+                    inner_radius: half.min_element(),
+                    extent: half.max_element(),
+                    topology: Cuboid::topology(),
                 }
             }
-            Shape3::Cuboid(cuboid) => Self {
-                vertices: Held::Few(cuboid.vertices(), 8),
-                normals: Held::Many(Cuboid::NORMALS.as_slice()),
-                topology: Cuboid::topology(),
-            },
             Shape3::Hull(hull) => Self {
                 vertices: Held::Many(hull.vertices()),
+                vertex_octets: Held::Many(hull.vertex_octets()),
                 normals: Held::Many(hull.normals()),
+                heights: Held::Many(hull.heights()),
+                face_octets: Held::Many(hull.face_octets()),
+                edge_octets: Held::Many(hull.edge_octets()),
+                arcs: Held::Many(hull.arcs().0),
+                edge_numbers: hull.arcs().1,
+                center: hull.center(),
+                inner_radius: hull.core_inner_radius(),
+                extent: hull.extent(),
                 topology: hull.topology(),
             },
-            Shape3::HalfSpace(_) | Shape3::Compound(_) => {
-                Self { vertices: Held::Many(&[]), normals: none, topology: Topology::point() }
-            }
+            Shape3::HalfSpace(_) | Shape3::Compound(_) => Self::without_faces(&[], Topology::point(), shape),
         }
     }
 
-    fn of_segment([from, to]: [Vec3; 2]) -> Self {
+    /// A point or a segment; nothing at all where there are no vertices.
+    fn without_faces(vertices: &[Vec3], topology: &'a Topology, shape: &Shape3) -> Self {
+        let first = vertices.first().copied().unwrap_or(Vec3::ZERO);
+        let eight = core::array::from_fn(|i| vertices.get(i).copied().unwrap_or(first));
+        let octets = usize::from(!vertices.is_empty());
+        let edges = topology.edges().len();
+        let arc = if edges > 0 { EdgeArc::of(vertices, &[], topology, 0) } else { EdgeArc::NONE };
         Self {
-            vertices: Held::Few([from, to, from, from, from, from, from, from], 2),
+            vertices: Held::Few(eight, vertices.len()),
+            vertex_octets: Held::Few([VertexOctet::of_eight(&eight)], octets),
             normals: Held::Many(&[]),
-            topology: Topology::segment(),
+            heights: Held::Many(&[]),
+            face_octets: Held::Many(&[]),
+            edge_octets: Held::Many(&[]),
+            arcs: Held::Few([arc; 3], edges),
+            edge_numbers: &[0, 0],
+            center: shape.center(),
+            inner_radius: beside_center(shape),
+            extent: octets::extent(vertices),
+            topology,
+        }
+    }
+
+    fn of_triangle(triangle: &Triangle3, shape: &Shape3) -> Self {
+        let topology = Triangle3::topology();
+        let [a, b, c] = triangle.vertices();
+        let (vertices, normals) = ([a, b, c, a, a, a, a, a], triangle.normals());
+        let reach =
+            |normal: DVec3| [a, b, c].map(|v| normal.dot(v.as_dvec3())).into_iter().fold(f64::MIN, f64::max);
+        let heights = normals.map(reach);
+        let faces = FaceOctet::of_flat(normals[0], heights);
+        Self {
+            vertex_octets: Held::Few([VertexOctet::of_eight(&vertices)], 1),
+            vertices: Held::Few(vertices, 3),
+            normals: Held::Few(normals, 2),
+            heights: Held::Few([heights[0], heights[1], 0.0, 0.0, 0.0, 0.0], 2),
+            face_octets: Held::Few([faces], 1),
+            // Flat: every edge is looked at.
+            edge_octets: Held::Many(&[]),
+            arcs: Held::Few([0, 1, 2].map(|edge| EdgeArc::of(&vertices, &normals, topology, edge)), 3),
+            edge_numbers: &TRIANGLE_EDGES,
+            center: shape.center(),
+            inner_radius: beside_center(shape),
+            extent: octets::extent(&vertices[..3]),
+            topology,
         }
     }
 
@@ -147,10 +226,74 @@ impl<'a> Core3<'a> {
         self.vertices.as_slice()
     }
 
+    /// The vertices eight by eight; none where there are no vertices.
+    #[inline]
+    pub fn vertex_octets(&self) -> &[VertexOctet] {
+        self.vertex_octets.as_slice()
+    }
+
     /// Outward unit normals of the faces, in f64.
     #[inline]
     pub fn normals(&self) -> &[DVec3] {
         self.normals.as_slice()
+    }
+
+    /// How far the vertices reach along each face's normal, in metres from the shape's origin.
+    #[inline]
+    pub fn heights(&self) -> &[f64] {
+        self.heights.as_slice()
+    }
+
+    /// The faces eight by eight, in f32.
+    #[inline]
+    pub fn face_octets(&self) -> &[FaceOctet] {
+        self.face_octets.as_slice()
+    }
+
+    /// The edges eight by eight, by the faces beside them; none of what has no faces, nor of a triangle, whose faces are back
+    /// to back.
+    #[inline]
+    pub fn edge_octets(&self) -> &[EdgeOctet] {
+        self.edge_octets.as_slice()
+    }
+
+    /// The edges on the Gauss map, in the order of the topology's edges.
+    #[inline]
+    pub fn arcs(&self) -> &[EdgeArc] {
+        self.arcs.as_slice()
+    }
+
+    /// For each half-edge, the number of its edge in that order.
+    #[inline]
+    pub fn edge_numbers(&self) -> &[u16] {
+        self.edge_numbers
+    }
+
+    /// The shape's centre, as [`Shape3::center`].
+    #[inline]
+    pub fn center(&self) -> Vec3 {
+        self.center
+    }
+
+    /// Radius in metres of a sphere about the centre that lies inside the core, rounded down. Where the centre is
+    /// not inside, minus a distance within which there is a point of the core.
+    ///
+    /// ```
+    /// use asunder_geometry::{Segment3, Shape3, glam::Vec3};
+    /// let segment = Shape3::from(Segment3::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 0.3))?);
+    /// assert!(segment.core().inner_radius() < 0.0, "its middle was rounded");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn inner_radius(&self) -> f32 {
+        self.inner_radius
+    }
+
+    /// The greatest absolute value of any vertex' coordinate, in metres: what the rounding of a product with it is
+    /// relative to.
+    #[inline]
+    pub fn extent(&self) -> f32 {
+        self.extent
     }
 
     /// How vertices, edges and faces meet.
@@ -158,4 +301,10 @@ impl<'a> Core3<'a> {
     pub fn topology(&self) -> &'a Topology {
         self.topology
     }
+}
+
+/// How far the centre of a shape without volume may lie beside it, below zero: an f32 rounding of each coordinate.
+fn beside_center(shape: &Shape3) -> f32 {
+    let center = shape.center().abs().element_sum();
+    if center == 0.0 { 0.0 } else { -2.0 * f32::EPSILON * center }
 }

@@ -5,7 +5,7 @@ use crate::batch::Batch3;
 use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::least::Least;
-use crate::polyhedron::convex::{Convex, Near, Probe};
+use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -198,8 +198,9 @@ impl<'a> Pair3<'a> {
         // What rounds to the margin counts as within it: the number that is told decides.
         let reach = f64::from(margin.next_up());
         let (mut next_hint, mut touch) = (Hint::NONE, None);
+        let wanted = if manifolds.is_some() { Wanted::Points } else { Wanted::Number };
         self.any(reach, |parts| {
-            let near = match parts.convex.probe(reach, hint) {
+            let near = match parts.convex.probe(Asked { limit: reach, hint, wanted }) {
                 Probe::Beyond(_, hint) => {
                     next_hint = hint;
                     return false;
@@ -232,7 +233,8 @@ impl<'a> Pair3<'a> {
             for_parts(self.shape_b, &self.basis_b, |b| {
                 if !least.passes_over(gap(&a, &b)) {
                     let parts = self.parts(a, b);
-                    match parts.convex.probe(least.reach(), Hint::NONE) {
+                    let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted: Wanted::Number };
+                    match parts.convex.probe(asked) {
                         Probe::Beyond(at_least, _) => least.give_up(at_least),
                         Probe::Near(near) => {
                             let (separation, error) = (near.separation, near.error);

@@ -210,7 +210,7 @@ impl Solid<'_> {
         let mut in_order: Vec<usize> = (0..count).collect();
         in_order.sort_unstable_by_key(|&place| source(place));
         renumber(&mut hull, loops, &in_order);
-        Ok(Hull { data: Arc::new(hull), radius: 0.0 })
+        Ok(Hull { data: Arc::new(hull.finished()), radius: 0.0 })
     }
 }
 
@@ -260,6 +260,13 @@ fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullE
         vertices: vertices.into(),
         topology,
         normals,
+        heights: Box::new([]),
+        vertex_octets: Box::new([]),
+        face_octets: Box::new([]),
+        edge_octets: Box::new([]),
+        arcs: Box::new([]),
+        edge_numbers: Box::new([]),
+        extent: 0.0,
         center,
         outer_radius,
         inner_radius,

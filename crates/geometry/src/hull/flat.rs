@@ -67,7 +67,7 @@ impl Hull {
         // Last, so that no number depends on the order of the user's points.
         let first = (0..around.len()).min_by_key(|&place| cloud.source[around[place] as usize]).unwrap_or(0);
         hull.vertices.rotate_left(first);
-        Ok(Self { data: Arc::new(hull), radius: 0.0 })
+        Ok(Self { data: Arc::new(hull.finished()), radius: 0.0 })
     }
 
     /// The hull of points on one line, or at one place.
@@ -82,7 +82,7 @@ impl Hull {
             let center = ((from.as_dvec3() + to.as_dvec3()) * 0.5).as_vec3();
             Self::low(1, vec![from, to], Topology::segment().clone(), center)?
         };
-        Ok(Self { data: Arc::new(hull), radius: 0.0 })
+        Ok(Self { data: Arc::new(hull.finished()), radius: 0.0 })
     }
 
     fn low(
@@ -101,6 +101,13 @@ impl Hull {
             vertices: vertices.into(),
             topology,
             normals: Box::new([]),
+            heights: Box::new([]),
+            vertex_octets: Box::new([]),
+            face_octets: Box::new([]),
+            edge_octets: Box::new([]),
+            arcs: Box::new([]),
+            edge_numbers: Box::new([]),
+            extent: 0.0,
             center,
             outer_radius: outer_radius.max(MIN_RADIUS),
             inner_radius: 0.0,

@@ -21,17 +21,20 @@
 //! plane out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
+mod solids;
+mod told;
+
 use super::cuboids::{Cuboids, Sides};
-use super::distance::{Close, Reached, Until, Witness, distance};
+use super::distance::Witness;
 use super::half_space::Plane;
 use super::manifold::{Point, Touch, touch};
-use super::sat::{Axes, Axis, Outcome, Search, hint_of, separating_axes};
+use super::sat::Axes;
 use super::slender::{self, Nearest};
 use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
-use crate::exact::{self, Corner, Site3};
+use crate::exact::Site3;
 use crate::feature::{Feature, FeatureId, Hint};
-use crate::precision::{IN_SPACE, Precision, at_least, signed};
+use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Basis3, Core3, Hull, Shape3};
@@ -75,25 +78,23 @@ pub(crate) struct Near {
     evidence: Evidence,
 }
 
-/// How two cores lie, as far as the distance iteration came.
-#[allow(clippy::large_enum_variant, reason = "as Probe")]
-enum Cores {
-    /// Overlapping, or apart by at most so many metres.
-    Within(f64),
-    /// Two bounds on their distance, with witness points.
-    Between(Witness),
+/// What is asked of a pair.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    /// Further apart than this, in metres, is all that needs to be known.
+    pub(crate) limit: f64,
+    /// Of the last frame.
+    pub(crate) hint: Hint,
+    pub(crate) wanted: Wanted,
 }
 
-/// What a kernel in closed form says of two shapes.
-struct Told {
-    separation: f64,
-    /// A lower bound on it.
-    at_least: f64,
-    /// Unit axis from A to B.
-    normal: DVec3,
-    /// Closest points on the surfaces; they mean nothing in overlap.
-    closest: [DVec3; 2],
-    evidence: Evidence,
+/// What an answer is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// The separation, or closest points.
+    Number,
+    /// Contact points: then [`Convex::touch`] may be asked.
+    Points,
 }
 
 #[allow(clippy::large_enum_variant, reason = "as Probe")]
@@ -131,8 +132,9 @@ impl<'a> Convex<'a> {
         Self { sites, shape_a, shape_b, relative, offset, precision, radii }
     }
 
-    /// The separation where it is at most `limit` metres; the hinted axis is tried first.
-    pub(crate) fn probe(&self, limit: f64, hint: Hint) -> Probe {
+    /// The separation where it is within the limit; the hinted axis is tried first.
+    pub(crate) fn probe(&self, asked: Asked) -> Probe {
+        let limit = asked.limit;
         match self.planes() {
             [Some(a), Some(b)] => self.told(self.told_half_spaces(a, b), limit),
             [Some(plane), None] | [None, Some(plane)] => self.told(self.told_half_space(plane), limit),
@@ -140,7 +142,7 @@ impl<'a> Convex<'a> {
                 if a.is_slender() && b.is_slender() {
                     self.told(self.told_slender(a, b), limit)
                 } else {
-                    self.probe_solids(a, b, limit, hint)
+                    self.probe_solids(a, b, asked)
                 }
             }),
         }
@@ -157,7 +159,7 @@ impl<'a> Convex<'a> {
             return match cuboids.sides(&self.precision) {
                 Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
                 Sides::Overlapping => Verdict { overlapping: true, tier: Tier::Bound },
-                Sides::Unclear => self.with_solids(|a, b| self.look_closer(a, b, None).0),
+                Sides::Unclear => self.with_solids(|a, b| self.unclear_verdict(a, b)),
             };
         }
         match self.planes() {
@@ -165,10 +167,7 @@ impl<'a> Convex<'a> {
                 if a.is_slender() && b.is_slender() {
                     return self.told_verdict(&self.told_slender(a, b));
                 }
-                let verdict = self.conclude(distance(a, b, self.towards_b(), &self.until_told())).0;
-                // What was asked first is the first tier.
-                let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
-                Verdict { tier, ..verdict }
+                self.verdict_of_solids(a, b)
             }),
             [Some(a), Some(b)] => self.told_verdict(&self.told_half_spaces(a, b)),
             [Some(plane), None] | [None, Some(plane)] => self.told_verdict(&self.told_half_space(plane)),
@@ -187,27 +186,11 @@ impl<'a> Convex<'a> {
                 if a.is_slender() && b.is_slender() {
                     return self.told_slender(a, b).separation <= 0.0;
                 }
-                let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
-                match distance(a, b, self.towards_b(), &until) {
-                    Reached::Between(witness) => witness.distance <= self.radii,
-                    Reached::Origin(_) => true,
-                }
+                self.guess_of_solids(a, b)
             }),
             [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
             [Some(plane), None] | [None, Some(plane)] => self.told_half_space(plane).separation <= 0.0,
         }
-    }
-
-    /// From A's centre to B's: where a search may begin.
-    fn towards_b(&self) -> DVec3 {
-        let center_b = self.offset + self.relative.turn(self.shape_b.center().as_dvec3());
-        (center_b - self.shape_a.center().as_dvec3()).try_normalize().unwrap_or(DVec3::X)
-    }
-
-    /// For a yes or no a distance is known well enough once it tells whether the radii close the gap.
-    fn until_told(&self) -> Until<'_> {
-        let doubt = self.precision.projection();
-        Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
     }
 
     /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-spaces that overlap
@@ -234,225 +217,9 @@ impl<'a> Convex<'a> {
         }
     }
 
-    fn told_half_spaces(&self, a: Plane, b: Plane) -> Told {
-        let separation = a.separation_from(&b, || exact::are_opposed3([&self.sites[0], &self.sites[1]]));
-        Told {
-            separation,
-            at_least: separation,
-            normal: a.axis(),
-            closest: a.points_with(&b),
-            evidence: Evidence::HalfSpaces(a, b),
-        }
-    }
-
-    fn told_half_space(&self, plane: Plane) -> Told {
-        let (vertex, height) = self.with_solids(|a, b| {
-            let core = if plane.is_b { a } else { b };
-            let (vertex, height) = plane.lowest(core);
-            (core.point(vertex), height)
-        });
-        let separation = height - self.radii;
-        let on_shape = vertex - plane.normal * self.radii;
-        let on_plane = vertex - plane.normal * height;
-        let closest = if plane.is_b { [on_shape, on_plane] } else { [on_plane, on_shape] };
-        let evidence = Evidence::HalfSpace(plane);
-        Told { separation, at_least: separation, normal: plane.axis(), closest, evidence }
-    }
-
-    fn told_slender(&self, a: &Solid, b: &Solid) -> Told {
-        let nearest = slender::nearest(a, b, self.precision.projection());
-        Told {
-            separation: nearest.distance - self.radii,
-            at_least: nearest.at_least - self.radii,
-            normal: nearest.normal,
-            closest: self.on_surfaces([nearest.on_a, nearest.on_b], nearest.normal),
-            evidence: Evidence::Slender(nearest),
-        }
-    }
-
-    /// Whether the shapes overlap, where closed-form kernels have told two bounds.
-    fn told_verdict(&self, told: &Told) -> Verdict {
-        let doubt = 2.0 * self.precision.projection();
-        if told.at_least > doubt || told.separation < -doubt {
-            return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
-        }
-        self.exactly(&[])
-    }
-
-    /// What a kernel without axes to try has told, within the limit.
-    fn told(&self, told: Told, limit: f64) -> Probe {
-        let precision = self.precision;
-        if told.at_least > limit + precision.projection() {
-            return Probe::Beyond(at_least(told.at_least, &precision), Hint::NONE);
-        }
-        let verdict = self.told_verdict(&told);
-        let Told { separation, at_least: bound, normal, closest, evidence } = told;
-        // Half-spaces that overlap without end do so exactly.
-        let is_endless = separation == f64::NEG_INFINITY;
-        let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
-        Probe::Near(Near {
-            verdict,
-            separation: signed(separation, verdict.overlapping),
-            error,
-            normal,
-            closest: (!verdict.overlapping).then_some(closest),
-            hint: Hint::NONE,
-            evidence,
-        })
-    }
-
-    /// Axes first; the decision next; then the number that agrees with it.
-    fn probe_solids(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Probe {
-        let precision = self.precision;
-        let axes = match self.axes(a, b, limit + self.radii + precision.projection(), hint) {
-            Outcome::Beyond(axis) => {
-                return Probe::Beyond(at_least(axis.separation - self.radii, &precision), hint_of(&axis));
-            }
-            Outcome::Within(axes) => axes,
-        };
-        let is_clear = axes.best().separation + axes.short() < -2.0 * precision.projection();
-        // Axes of faces that were derived or merged are no proof: for those, corners around a common point are.
-        if is_clear && self.cuboids().is_some() {
-            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
-        }
-        match self.look_closer(a, b, Some(axes.best())) {
-            // A search that proved no gap, where all axes show an overlap.
-            (verdict, Cores::Between(witness))
-                if verdict.overlapping && axes.best().separation + axes.short() < 0.0 =>
-            {
-                self.overlap_of_cores(axes, verdict, witness.distance)
-            }
-            (verdict, Cores::Between(witness)) => self.gap_of_cores(axes, verdict, witness),
-            (verdict, Cores::Within(gap)) if verdict.overlapping => self.overlap_of_cores(axes, verdict, gap),
-            (verdict, Cores::Within(gap)) => self.all_but_touching(a, b, axes, (verdict, gap)),
-        }
-    }
-
-    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
-    /// most that the gap can be.
-    fn overlap_of_cores(&self, axes: Axes, verdict: Verdict, gap: f64) -> Probe {
-        let best = *axes.best();
-        let depth = best.separation - self.radii;
-        Probe::Near(Near {
-            verdict,
-            separation: signed(depth, true),
-            error: self.precision.of_separation(depth, self.short(&axes, gap)),
-            normal: best.normal,
-            closest: None,
-            hint: hint_of(&best),
-            evidence: Evidence::Axes(axes, None),
-        })
-    }
-
-    /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
-    ///
-    /// In overlap the axes are all there are. In a gap the best one may be none of them, and only witness points tell.
-    fn short(&self, axes: &Axes, gap: f64) -> f64 {
-        let (best, short) = (axes.best().separation, axes.short());
-        if best + short < 0.0 { short } else { short.max(gap - best) }
-    }
-
-    /// Shapes with a gap between their cores, which their radii may close.
-    fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness) -> Probe {
-        let precision = self.precision;
-        // Where both bounds meet up to rounding, the projection went through less of it.
-        let gap = witness.distance - witness.at_least;
-        let is_met = self.radii > 0.0 && gap <= precision.projection();
-        let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
-        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
-        Probe::Near(Near {
-            verdict,
-            separation: signed(separation, verdict.overlapping),
-            error: precision.of_distance(separation, gap),
-            normal: witness.normal,
-            closest: (!verdict.overlapping).then_some(closest),
-            hint: hint_of(axes.best()),
-            evidence: Evidence::Axes(axes, Some(witness)),
-        })
-    }
-
-    /// The second tier and the third, and how the cores lie. `best` is the axis that the first tier found best.
-    ///
-    /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
-    fn look_closer(&self, a: &Solid, b: &Solid, best: Option<&Axis>) -> (Verdict, Cores) {
-        let towards = best.map_or_else(|| self.towards_b(), |axis| axis.normal);
-        let mut reached = distance(a, b, towards, &Until::met(&self.precision));
-        let mut tier = Tier::Double;
-        if let (Reached::Between(witness), Some(best)) = (&mut reached, best)
-            && best.separation >= witness.at_least
-        {
-            if witness.is_close(self.precision.size) {
-                witness.across = best.normal;
-            }
-            (witness.at_least, witness.normal) = (best.separation, best.normal);
-            tier = Tier::Bound;
-        }
-        let (verdict, witness) = self.conclude(reached);
-        let tier = if verdict.tier == Tier::Double && !verdict.overlapping { tier } else { verdict.tier };
-        (Verdict { tier, ..verdict }, witness)
-    }
-
-    /// What the distance iteration has proved, and the third tier where it has proved nothing.
-    fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
-        let doubt = self.precision.projection();
-        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
-        let witness = match reached {
-            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), Cores::Within(0.0)),
-            Reached::Origin(close) => {
-                let verdict = self.exactly(&close.corners);
-                let do_overlap = self.radii == 0.0 && verdict.overlapping;
-                return (verdict, Cores::Within(if do_overlap { 0.0 } else { close.within }));
-            }
-            Reached::Between(witness) => witness,
-        };
-        if witness.at_least - self.radii > doubt {
-            return (double(false), Cores::Between(witness));
-        }
-        if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
-            return (double(true), Cores::Between(witness));
-        }
-        let verdict = self.exactly(&witness.corners);
-        let do_overlap = self.radii == 0.0 && verdict.overlapping;
-        (verdict, if do_overlap { Cores::Within(0.0) } else { Cores::Between(witness) })
-    }
-
-    /// The third tier, from the corners where f64 stopped.
-    fn exactly(&self, start: &[Corner]) -> Verdict {
-        let overlapping = exact::overlaps3([&self.sites[0], &self.sites[1]], start);
-        Verdict { overlapping, tier: Tier::Exact }
-    }
-
-    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
-    /// overlapped.
-    fn all_but_touching(&self, a: &Solid, b: &Solid, axes: Axes, (verdict, gap): (Verdict, f64)) -> Probe {
-        let precision = self.precision;
-        let best = axes.best();
-        let separation = best.separation.max(0.0) - self.radii;
-        let touch = touch(a, b, &axes, None, 0.0, self.preference());
-        let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
-        Probe::Near(Near {
-            verdict,
-            separation: signed(separation, verdict.overlapping),
-            error: precision.of_separation(separation, self.short(&axes, gap) + 3.0 * precision.projection()),
-            normal: best.normal,
-            closest: deepest.map(|point| [point.on_a, point.on_b]),
-            hint: hint_of(best),
-            evidence: Evidence::Axes(axes, None),
-        })
-    }
-
     /// Points of the cores moved out to the shapes' surfaces.
     fn on_surfaces(&self, [on_a, on_b]: [DVec3; 2], normal: DVec3) -> [DVec3; 2] {
         [on_a + normal * f64::from(self.shape_a.radius()), on_b - normal * f64::from(self.shape_b.radius())]
-    }
-
-    pub(crate) fn axes(&self, a: &Solid, b: &Solid, limit: f64, hint: Hint) -> Outcome {
-        let slack = self.preference() + 4.0 * self.precision.planarity;
-        let search = Search { limit, hint, slack, precision: &self.precision };
-        match self.cuboids() {
-            Some(cuboids) => cuboids.separating_axes(a, b, &search),
-            None => separating_axes(a, b, &search),
-        }
     }
 
     fn cuboids(&self) -> Option<Cuboids> {

@@ -91,8 +91,18 @@ impl Witness {
 /// A vertex of A and one of B, and the place of their difference.
 type Vertex = ([usize; 2], DVec3);
 
+/// What a corner more made of a simplex.
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack for one step")]
+enum Grown {
+    /// Its nearest point came nearer.
+    Nearer,
+    /// Nothing new.
+    Not,
+    /// The four corners hold the origin.
+    Around([Vertex; 4]),
+}
+
 /// Corners of the difference A - B that carry its nearest point to the origin so far.
-#[derive(Clone)]
 struct Simplex {
     corners: ArrayVec<Vertex, 4>,
     /// The corners' shares of the nearest point.
@@ -104,20 +114,24 @@ struct Simplex {
 pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) -> Reached {
     let precision = until.precision;
     let size = precision.size;
+    // The furthest vertex of the difference, and the separation that the direction shows.
     let corner = |direction: DVec3| {
         let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
-        ([in_a, in_b], a.point(in_a) - b.point(in_b))
+        let place = a.point(in_a) - b.point(in_b);
+        (([in_a, in_b], place), -direction.dot(place))
     };
-    let mut simplex = Simplex::of(corner(towards_b));
-    let (mut at_least, mut normal) = (f64::NEG_INFINITY, towards_b);
+    let (first, bound) = corner(towards_b);
+    let mut simplex = Simplex::of(first);
+    let (mut at_least, mut normal) = (bound, towards_b);
     'steps: for _ in 0..MAX_STEPS {
         let length = simplex.nearest.length();
         if length <= f64::EPSILON * size {
             return Reached::Origin(Close { corners: simplex.vertices(), is_proved: false, within: length });
         }
-        for direction in simplex.to_origin() {
-            let found = corner(direction);
-            let bound = -direction.dot(found.1);
+        let straight = simplex.nearest / -length;
+        for direction in [Some(straight), None] {
+            let direction = direction.unwrap_or_else(|| simplex.square_to_origin(straight));
+            let (found, bound) = corner(direction);
             if bound > at_least {
                 (at_least, normal) = (bound, direction);
             }
@@ -125,17 +139,14 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
                 break 'steps;
             }
             if simplex.corners.iter().all(|&(known, _)| known != found.0) && !simplex.corners.is_full() {
-                let grown = match simplex.grown(found) {
-                    Ok(grown) => grown,
-                    Err(around) => {
-                        let is_proved = is_around_origin(around.each_ref().map(|corner| corner.1), precision);
+                match simplex.grow(found, length) {
+                    Grown::Nearer => continue 'steps,
+                    Grown::Not => {}
+                    Grown::Around(around) => {
+                        let is_proved = is_around_origin(around.map(|corner| corner.1), precision);
                         let corners = around.iter().map(|corner| corner.0).collect();
                         return Reached::Origin(Close { corners, is_proved, within: length });
                     }
-                };
-                if grown.nearest.length() < length {
-                    simplex = grown;
-                    continue 'steps;
                 }
             }
         }
@@ -156,7 +167,7 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
 /// They do where the origin lies on the same side of all four faces: the four volumes that it spans with them have one
 /// sign. A corner is off by at most `projection` in each coordinate, so that a volume of corners no longer than m is off
 /// by less than 6 m^2 of that, and by less than 16 roundings of m^3.
-fn is_around_origin([a, b, c, d]: [DVec3; 4], precision: &Precision) -> bool {
+pub(super) fn is_around_origin([a, b, c, d]: [DVec3; 4], precision: &Precision) -> bool {
     let longest = [a, b, c, d].iter().map(|corner| corner.abs().element_sum()).fold(0.0, f64::max);
     let doubt = longest * longest * (6.0 * precision.projection() + 8.0 * f64::EPSILON * longest);
     let volume = |p: DVec3, q: DVec3, r: DVec3| p.cross(q).dot(r);
@@ -173,38 +184,40 @@ impl Simplex {
         self.corners.iter().map(|&(corner, _)| corner).collect()
     }
 
-    /// With one corner more, and without those that do not carry the nearest point; the four corners where they hold
-    /// the origin.
-    #[allow(clippy::result_large_err, reason = "not an error, and it lives on the stack for one step")]
-    fn grown(&self, corner: Vertex) -> Result<Self, [Vertex; 4]> {
+    /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than
+    /// `length`.
+    fn grow(&mut self, corner: Vertex, length: f64) -> Grown {
         let mut corners = self.corners.clone();
-        corners.push(corner);
+        let _ = corners.try_push(corner);
         let points: ArrayVec<DVec3, 4> = corners.iter().map(|&(_, point)| point).collect();
         let Some(nearest) = nearest_to_origin(&points) else {
             // Only four corners hold anything.
-            return Err(core::array::from_fn(|i| corners[i.min(corners.len() - 1)]));
+            return Grown::Around(core::array::from_fn(|i| corners[i.min(corners.len() - 1)]));
         };
-        let carrying = corners.into_iter().zip(nearest.weights).zip(0..);
-        let carrying = carrying.filter(|&(_, index)| nearest.corners >> index & 1 == 1);
-        let mut grown = Self { corners: ArrayVec::new(), weights: [0.0; 4], nearest: nearest.point };
-        for ((corner, weight), _) in carrying {
-            grown.weights[grown.corners.len()] = weight;
-            grown.corners.push(corner);
+        if nearest.point.length_squared() >= length * length {
+            return Grown::Not;
         }
-        Ok(grown)
+        self.corners.clear();
+        self.nearest = nearest.point;
+        for (index, corner) in corners.into_iter().enumerate() {
+            if nearest.corners >> index & 1 == 1 {
+                self.weights[self.corners.len()] = nearest.weights[index];
+                self.corners.push(corner);
+            }
+        }
+        Grown::Nearer
     }
 
-    /// Unit directions from the nearest point to the origin: straight, and square to the simplex. Where the origin is
-    /// all but on the simplex the straight one is rounding, and the other one tells.
-    fn to_origin(&self) -> [DVec3; 2] {
-        let straight = -self.nearest.normalize();
+    /// The unit direction to the origin that is square to the simplex: where the origin is all but on it, the straight one
+    /// is rounding, and this one tells.
+    fn square_to_origin(&self, straight: DVec3) -> DVec3 {
         let square = match *self.corners.as_slice() {
             [(_, a), (_, b), (_, c)] => (b - a).cross(c - a),
             [(_, a), (_, b)] => straight - (b - a) * (straight.dot(b - a) / (b - a).length_squared()),
             _ => straight,
         };
         let square = square.try_normalize().unwrap_or(straight);
-        [straight, if square.dot(straight) < 0.0 { -square } else { square }]
+        if square.dot(straight) < 0.0 { -square } else { square }
     }
 
     /// The point of A or B that the weights make. Of differences from the first corner, and not of the corners: what

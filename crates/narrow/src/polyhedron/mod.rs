@@ -7,6 +7,7 @@ mod cuboids;
 mod distance;
 mod half_space;
 mod manifold;
+mod portal;
 mod reduce;
 mod rods;
 mod sat;

@@ -18,18 +18,26 @@
 //!
 //! Cost: faces times vertices, plus edge pairs, plus kept edge pairs times vertices.
 
+mod arcs;
+mod cull;
+
 use super::solid::Solid;
+use arcs::for_edge_pairs;
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::Precision;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::{ARC_SLACK, MAX_HULL_VERTICES, PARALLEL_EDGES};
+use asunder_geometry::tolerance::{MAX_HULL_VERTICES, PARALLEL_EDGES};
+use cull::Sight;
 
 /// Edges of a hull with the most vertices, by Euler's formula.
 const MAX_EDGES: usize = 3 * MAX_HULL_VERTICES - 6;
 
+/// Vertices of each solid that are kept to tell that an axis is not the best.
+const SEEN: usize = 6;
+
 /// What an axis is the axis of.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(crate) enum AxisOf {
     FaceA(usize),
     FaceB(usize),
@@ -90,14 +98,15 @@ impl Axes {
         (self.ceiling - self.best().separation).max(self.left_out)
     }
 
-    /// Keeps the axis if it is the best of its kind; ties keep the earlier.
+    /// Keeps the axis if it is the best of its kind; of equals, that of the lower index.
     pub(crate) fn offer(&mut self, axis: Axis) {
         let slot = match axis.of {
             AxisOf::FaceA(_) => &mut self.face_a,
             AxisOf::FaceB(_) => &mut self.face_b,
             AxisOf::Edges(..) => &mut self.edges,
         };
-        if axis.separation > slot.separation {
+        let is_earlier = axis.separation == slot.separation && axis.of < slot.of;
+        if axis.separation > slot.separation || is_earlier {
             *slot = axis;
         }
     }
@@ -127,58 +136,161 @@ pub(crate) struct Search<'a> {
     pub(crate) limit: f64,
     /// Tried first. The outcome within the limit does not depend on it.
     pub(crate) hint: Hint,
+    /// A separation that the shapes have for certain: what is no better is left out.
+    pub(crate) known: f64,
     /// How far edges may lie from the supporting planes of the axis that is theirs.
     pub(crate) slack: f64,
     pub(crate) precision: &'a Precision,
 }
 
+impl Search<'_> {
+    /// By how much an axis may be worse than the best and still count: a contact may be built on it.
+    fn keep(&self) -> f64 {
+        4.0 * (self.slack + self.precision.projection())
+    }
+}
+
 /// Runs the test.
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome {
-    let Search { limit, hint, slack, precision } = *search;
-    if let Some(axis) = hinted_axis(a, b, hint)
-        && axis.separation > limit
+    if let Some(axis) = hinted_axis(a, b, search.hint)
+        && axis.separation > search.limit
     {
         return Outcome::Beyond(axis);
     }
-    let mut axes = Axes::NONE;
-    let faces_a = (0..a.face_count()).map(|face| face_axis_a(a, b, face));
-    let faces_b = (0..b.face_count()).map(|face| face_axis_b(a, b, face));
-    for axis in faces_a.chain(faces_b) {
-        if axis.separation > limit {
-            return Outcome::Beyond(axis);
-        }
-        axes.offer(axis);
+    let mut sights = [Sight::new(a, b), Sight::new(b, a)];
+    let seen = [ArrayVec::new(), ArrayVec::new()];
+    let mut found = Found { axes: Axes::NONE, floor: search.known, beyond: None, seen };
+    found.by_faces(&mut sights, search);
+    if found.beyond.is_none() {
+        found.by_edges(&mut sights, search);
     }
-    axes.raise(axes.best().separation, precision.of_face());
-    let mut beyond = None;
-    for_edge_pairs(a, b, |edge_a, edge_b| {
-        let cross = Cross::outwards(a, b, edge_a, edge_b);
-        let axis = edge_axis(a, b, [edge_a, edge_b], &cross);
+    found.beyond.map_or(Outcome::Within(found.axes), Outcome::Beyond)
+}
+
+/// The test under way.
+struct Found {
+    axes: Axes,
+    /// A separation that the shapes have for certain.
+    floor: f64,
+    beyond: Option<Axis>,
+    /// Vertices of A, and of B, that were furthest along some axis. Along any other, the truth is no more than what they
+    /// show.
+    seen: [ArrayVec<(usize, DVec3), SEEN>; 2],
+}
+
+impl Found {
+    /// The most promising face of each solid first, since the better the best axis is, the more is culled by it.
+    fn by_faces(&mut self, sights: &mut [Sight; 2], search: &Search) {
+        let mut first = [None; 2];
+        for (which, sight) in sights.iter_mut().enumerate() {
+            first[which] = sight.highest();
+            if let Some(face) = first[which] {
+                let vertex = self.by_face([sight.solid, sight.other], which, face, search);
+                sight.add(vertex);
+            }
+        }
+        for (which, sight) in sights.iter_mut().enumerate() {
+            let pair = [sight.solid, sight.other];
+            sight.for_faces(self.floor - search.keep(), |face| {
+                let is_open = Some(face) != first[which] && self.beyond.is_none();
+                let vertex = if is_open { self.by_face(pair, which, face, search) } else { 0 };
+                (vertex, self.floor - search.keep())
+            });
+        }
+        self.axes.raise(self.axes.best().separation, search.precision.of_face());
+    }
+
+    /// One face of A (0) or of B (1). Returns the other's vertex that is furthest against it.
+    fn by_face(&mut self, [solid, other]: [&Solid; 2], which: usize, face: usize, search: &Search) -> usize {
+        let outward = solid.normal(face);
+        let support = other.support(-outward);
+        let separation = -support.reach - solid.face_reach(face, outward);
+        let (normal, of) = match which {
+            0 => (outward, AxisOf::FaceA(face)),
+            _ => (-outward, AxisOf::FaceB(face)),
+        };
+        if separation > self.floor {
+            self.see(1 - which, other, support.vertex);
+        }
+        self.offer(Axis { separation, normal, of }, search);
+        support.vertex
+    }
+
+    /// Pairs of edges that may bear the best axis, as far as the other's spheres tell, and whose arcs may cross.
+    fn by_edges(&mut self, sights: &mut [Sight; 2], search: &Search) {
+        let mut edges = [const { ArrayVec::<u16, MAX_EDGES>::new_const() }; 2];
+        for (edges, sight) in edges.iter_mut().zip(sights.iter_mut()) {
+            sight.edges(self.floor - search.keep(), edges);
+            if edges.is_empty() {
+                return;
+            }
+        }
+        let [a, b] = sights.each_ref().map(|sight| sight.solid);
+        for_edge_pairs((a, &edges[0]), (b, &edges[1]), |edge_a, edge_b| {
+            self.by_edge_pair(a, b, [edge_a, edge_b], search);
+            self.beyond.is_some()
+        });
+    }
+
+    /// One pair of edges, unless the vertices seen so far show that its axis is not the best.
+    fn by_edge_pair(&mut self, a: &Solid, b: &Solid, edges: [usize; 2], search: &Search) {
+        let precision = search.precision;
+        let cross = Cross::outwards(a, b, edges[0], edges[1]);
+        let normal = cross.axis.normalize();
+        let lowest = self.seen[1].iter().map(|seen| normal.dot(seen.1)).fold(f64::INFINITY, f64::min);
+        let highest = self.seen[0].iter().map(|seen| normal.dot(seen.1)).fold(f64::NEG_INFINITY, f64::max);
+        let on_edges = normal.dot(b.edge(edges[1]).0 - a.edge(edges[0]).0);
+        // Twice: where rounding is no longer small next to the sine, the axis is off by more than their quotient.
+        let doubt = 2.0 * precision.of_edges(cross.squared_sine) + precision.projection();
+        if on_edges.min(lowest - highest) + doubt <= self.axes.best().separation {
+            return;
+        }
+        let (in_a, in_b) = (a.support(normal), b.support(-normal));
+        self.see(0, a, in_a.vertex);
+        self.see(1, b, in_b.vertex);
+        let axis = Axis { separation: -in_b.reach - in_a.reach, normal, of: AxisOf::Edges(edges[0], edges[1]) };
         if cross.is_noise() {
-            axes.leave_out(axis.separation, cross.squared_sine, precision);
-            return false;
+            self.axes.leave_out(axis.separation, cross.squared_sine, precision);
+            return;
         }
-        axes.raise(axis.separation, precision.of_edges(cross.squared_sine));
-        if axis.separation > limit {
-            beyond = Some(axis);
-        } else if axis.separation > axes.edges.separation && supports(a, b, &axis, slack) {
-            axes.offer(axis);
+        self.axes.raise(axis.separation, precision.of_edges(cross.squared_sine));
+        if axis.separation > search.limit {
+            self.beyond = Some(axis);
+        } else if axis.separation > self.axes.edges.separation && supports(a, b, &axis, search.slack) {
+            self.offer(axis, search);
         }
-        beyond.is_some()
-    });
-    beyond.map_or(Outcome::Within(axes), Outcome::Beyond)
+    }
+
+    fn offer(&mut self, axis: Axis, search: &Search) {
+        self.axes.offer(axis);
+        self.floor = self.floor.max(axis.separation);
+        if axis.separation > search.limit {
+            self.beyond = Some(axis);
+        }
+    }
+
+    /// Keeps a vertex of A (0) or of B (1); of many, the latest.
+    fn see(&mut self, which: usize, solid: &Solid, vertex: usize) {
+        let seen = &mut self.seen[which];
+        if seen.iter().all(|&(known, _)| known != vertex) {
+            if seen.is_full() {
+                seen.remove(0);
+            }
+            seen.push((vertex, solid.point(vertex)));
+        }
+    }
 }
 
 fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
     let normal = a.normal(face);
-    let separation = -b.support(-normal).reach - a.support(normal).reach;
+    let separation = -b.support(-normal).reach - a.face_reach(face, normal);
     Axis { separation, normal, of: AxisOf::FaceA(face) }
 }
 
 fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
-    let normal = -b.normal(face);
-    let separation = -b.support(-normal).reach - a.support(normal).reach;
-    Axis { separation, normal, of: AxisOf::FaceB(face) }
+    let outward = b.normal(face);
+    let separation = -b.face_reach(face, outward) - a.support(-outward).reach;
+    Axis { separation, normal: -outward, of: AxisOf::FaceB(face) }
 }
 
 /// The cross product of two edges.
@@ -201,9 +313,9 @@ impl Cross {
         let cross = Self::new(a.edge_direction(edge_a), b.edge_direction(edge_b));
         // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's
         // edge tells.
-        let outwards = match a.arc(edge_a).middle {
-            DVec3::ZERO => -b.arc(edge_b).middle,
-            middle => middle,
+        let outwards = match a.out_of_edge(edge_a) {
+            DVec3::ZERO => -b.out_of_edge(edge_b),
+            outwards => outwards,
         };
         if cross.axis.dot(outwards) < 0.0 { Self { axis: -cross.axis, ..cross } } else { cross }
     }
@@ -214,8 +326,7 @@ impl Cross {
     }
 }
 
-fn edge_axis(a: &Solid, b: &Solid, [edge_a, edge_b]: [usize; 2], cross: &Cross) -> Axis {
-    let normal = cross.axis.normalize();
+fn edge_axis(a: &Solid, b: &Solid, [edge_a, edge_b]: [usize; 2], normal: DVec3) -> Axis {
     let separation = -b.support(-normal).reach - a.support(normal).reach;
     Axis { separation, normal, of: AxisOf::Edges(edge_a, edge_b) }
 }
@@ -230,68 +341,8 @@ fn supports(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> bool {
     axis.normal.dot(between) - axis.separation <= slack
 }
 
-/// An edge on the Gauss map: its direction, of any length, and the unit normals that its arc runs between.
-///
-/// The edge of a flat polygon has a half circle, from one side's normal over the outward direction in the plane to the
-/// other's; a segment has its whole great circle, and zero for ends and middle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Arc {
-    pub(crate) along: DVec3,
-    pub(crate) ends: [DVec3; 2],
-    /// A direction, of any length, in the middle of the arc.
-    pub(crate) middle: DVec3,
-}
-
-impl Arc {
-    pub(crate) fn map(&self, turn: impl Fn(DVec3) -> DVec3) -> Self {
-        Self { along: turn(self.along), ends: self.ends.map(&turn), middle: turn(self.middle) }
-    }
-}
-
-/// Visits edge pairs whose arcs may cross until the visitor says to stop; returns whether it did.
-fn for_edge_pairs(a: &Solid, b: &Solid, mut visit: impl FnMut(usize, usize) -> bool) -> bool {
-    // B's arcs side by side, in B's own axes, so that only A's are turned.
-    let mut arcs_b: ArrayVec<Arc, MAX_EDGES> = ArrayVec::new();
-    arcs_b.extend(b.topology.edges().iter().map(|&edge| b.local_arc(edge as usize)));
-    for &edge_a in a.topology.edges() {
-        let arc_a = b.arc_from_frame(a.arc(edge_a as usize));
-        for (arc_b, &edge_b) in arcs_b.iter().zip(b.topology.edges()) {
-            if arcs_may_cross(&arc_a, arc_b) && visit(edge_a as usize, edge_b as usize) {
-                return true;
-            }
-        }
-    }
-    false
-}
-
-/// Whether an arc of A may cross the negative of an arc of B.
-///
-/// Each arc's ends must lie on different sides of the other's great circle, whose pole is the edge, and of the two
-/// antipodal points where the circles meet both arcs must pass through the same. Anything within the slack may.
-fn arcs_may_cross(a: &Arc, b: &Arc) -> bool {
-    // The sum of absolute values bounds the length, and needs no root.
-    let slack_a = ARC_SLACK * a.along.abs().element_sum();
-    if same_side(a.along.dot(b.ends[0]), a.along.dot(b.ends[1]), slack_a) {
-        return false;
-    }
-    let slack_b = ARC_SLACK * b.along.abs().element_sum();
-    if same_side(b.along.dot(a.ends[0]), b.along.dot(a.ends[1]), slack_b) {
-        return false;
-    }
-    // An arc is no longer than a half circle, so its middle tells which of the two points it passes.
-    let meeting = a.along.cross(b.along);
-    let passes_a = meeting.dot(a.middle);
-    let passes_b = -meeting.dot(b.middle);
-    let slack = slack_a * slack_b / ARC_SLACK;
-    !((passes_a > slack && passes_b < -slack) || (passes_a < -slack && passes_b > slack))
-}
-
-fn same_side(one: f64, other: f64, slack: f64) -> bool {
-    (one > slack && other > slack) || (one < -slack && other < -slack)
-}
-
 /// The axis that a hint names, evaluated; nothing where it names none that this pair has.
-fn hinted_axis(a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
+pub(crate) fn hinted_axis(a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
     let features = hint.features()?;
     match (features.a(), features.b()) {
         (Feature::Face(face), _) if a.has_face(face) => Some(face_axis_a(a, b, face as usize)),
@@ -299,7 +350,7 @@ fn hinted_axis(a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
         (Feature::Edge(edge_a), Feature::Edge(edge_b)) if a.has_edge(edge_a) && b.has_edge(edge_b) => {
             let edges = [edge_a as usize, edge_b as usize];
             let cross = Cross::outwards(a, b, edges[0], edges[1]);
-            (!cross.is_noise()).then(|| edge_axis(a, b, edges, &cross))
+            (!cross.is_noise()).then(|| edge_axis(a, b, edges, cross.axis.normalize()))
         }
         _ => None,
     }

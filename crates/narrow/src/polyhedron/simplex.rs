@@ -1,8 +1,9 @@
 //! The point of a simplex that is nearest to the origin.
 //!
-//! Every face of the simplex of one to three corners is tried: its affine nearest point counts if it lies inside
-//! that face, and the nearest of those wins. Fourteen small cases in place of a tree of regions; exhaustive, so that
-//! no rounding can lead down a wrong branch.
+//! The corner that came last is part of what is nearest, or the step brought nothing: of the fourteen faces of a tetrahedron
+//! the seven that hold it are tried. The affine nearest point of a face counts if it lies inside that face, and the nearest
+//! of those wins: no tree of regions, down which rounding could lead a wrong branch. Squared distances are compared, and the
+//! point is made for the winner alone.
 
 use asunder_geometry::glam::DVec3;
 
@@ -15,31 +16,36 @@ pub(crate) struct Nearest {
     pub(crate) weights: [f64; 4],
 }
 
-/// The nearest point of the hull of one to four corners, or nothing where a tetrahedron holds the origin.
+/// The nearest point among the faces of one to four corners that the last corner is part of, or nothing where a tetrahedron
+/// holds the origin.
 pub(crate) fn nearest_to_origin(corners: &[DVec3]) -> Option<Nearest> {
-    if corners.len() == 4 && holds_origin([corners[0], corners[1], corners[2], corners[3]]) {
+    if let &[a, b, c, d] = corners
+        && holds_origin([a, b, c, d])
+    {
         return None;
     }
-    let mut best: Option<Nearest> = None;
-    let mut offer = |candidate: Nearest| {
-        if best.is_none_or(|best| candidate.point.length_squared() < best.point.length_squared()) {
-            best = Some(candidate);
-        }
-    };
-    for i in 0..corners.len() {
-        offer(weigh(corners, [(i, 1.0), (i, 0.0), (i, 0.0)]));
-        for j in i + 1..corners.len() {
-            if let Some([u, v]) = segment_weights(corners[i], corners[j]) {
-                offer(weigh(corners, [(i, u), (j, v), (i, 0.0)]));
+    let (&last, others) = corners.split_last()?;
+    let new = others.len();
+    let mut best = (last.length_squared(), [(new, 1.0), (new, 0.0), (new, 0.0)]);
+    for (i, &corner) in others.iter().enumerate() {
+        let along = corner - last;
+        let (down, length) = (-last.dot(along), along.length_squared());
+        if down > 0.0 && down < length {
+            let share = down / length;
+            let squared = (last + along * share).length_squared();
+            if squared < best.0 {
+                best = (squared, [(new, 1.0 - share), (i, share), (new, 0.0)]);
             }
-            for k in j + 1..corners.len() {
-                if let Some([u, v, w]) = triangle_weights(corners[i], corners[j], corners[k]) {
-                    offer(weigh(corners, [(i, u), (j, v), (k, w)]));
-                }
+        }
+        for (j, &other) in others.iter().enumerate().skip(i + 1) {
+            let Some([u, v, w]) = triangle_weights(last, corner, other) else { continue };
+            let squared = (last + along * v + (other - last) * w).length_squared();
+            if squared < best.0 {
+                best = (squared, [(new, u), (i, v), (j, w)]);
             }
         }
     }
-    best
+    Some(weigh(corners, best.1))
 }
 
 fn weigh(corners: &[DVec3], terms: [(usize, f64); 3]) -> Nearest {
@@ -55,19 +61,17 @@ fn weigh(corners: &[DVec3], terms: [(usize, f64); 3]) -> Nearest {
     nearest
 }
 
-fn segment_weights(a: DVec3, b: DVec3) -> Option<[f64; 2]> {
-    let along = b - a;
-    let t = -a.dot(along) / along.length_squared();
-    (t > 0.0 && t < 1.0).then_some([1.0 - t, t])
-}
-
 fn triangle_weights(a: DVec3, b: DVec3, c: DVec3) -> Option<[f64; 3]> {
     let (to_b, to_c) = (b - a, c - a);
     let normal = to_b.cross(to_c);
     let area = normal.length_squared();
-    let (at_b, at_c) = (to_c.cross(a).dot(normal) / area, a.cross(to_b).dot(normal) / area);
-    let weights = [1.0 - at_b - at_c, at_b, at_c];
-    weights.iter().all(|&weight| weight > 0.0).then_some(weights)
+    let (of_b, of_c) = (to_c.cross(a).dot(normal), a.cross(to_b).dot(normal));
+    if of_b > 0.0 && of_c > 0.0 && of_b + of_c < area {
+        let (at_b, at_c) = (of_b / area, of_c / area);
+        Some([1.0 - at_b - at_c, at_b, at_c])
+    } else {
+        None
+    }
 }
 
 fn holds_origin([a, b, c, d]: [DVec3; 4]) -> bool {
@@ -91,10 +95,10 @@ mod tests {
         let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
         let far = DVec3::splat(5.0);
         let nearest = |corners: &[DVec3]| nearest_to_origin(corners).map(|n| (n.point, n.corners));
-        assert_eq!(nearest(&[x, far]), Some((x, 0b01)));
-        assert_eq!(nearest(&[x + y, x - y, far]), Some((x, 0b011)));
-        let third = nearest(&[x, y, z, far]).unwrap();
-        assert!((third.0 - DVec3::splat(1.0 / 3.0)).length() < 1e-15 && third.1 == 0b0111);
+        assert_eq!(nearest(&[far, x]), Some((x, 0b10)));
+        assert_eq!(nearest(&[far, x + y, x - y]), Some((x, 0b110)));
+        let third = nearest(&[far, x, y, z]).unwrap();
+        assert!((third.0 - DVec3::splat(1.0 / 3.0)).length() < 1e-15 && third.1 == 0b1110);
         assert_eq!(nearest(&[x, y, z, DVec3::splat(-1.0)]), None);
     }
 

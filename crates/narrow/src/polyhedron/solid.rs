@@ -1,9 +1,8 @@
 //! A shape as the kernels see it: stored vertices, and how they stand in the frame of the pair.
 
-use super::sat::Arc;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::ALIGNED_FACES;
-use asunder_geometry::{Basis3, Core3, Topology};
+use asunder_geometry::{Basis3, Core3, EdgeArc, EdgeOctet, FaceOctet, Topology, VertexOctet};
 
 /// A core in the frame of a pair: A's axes, about A's position. Most often a polyhedron; a triangle or flat hull has
 /// two faces back to back, a segment or point none.
@@ -12,10 +11,23 @@ use asunder_geometry::{Basis3, Core3, Topology};
 /// coordinates exact and B's with one rounding step less.
 pub(crate) struct Solid<'a> {
     pub(crate) vertices: &'a [Vec3],
+    vertex_octets: &'a [VertexOctet],
     pub(crate) topology: &'a Topology,
     normals: &'a [DVec3],
+    heights: &'a [f64],
+    pub(super) face_octets: &'a [FaceOctet],
+    pub(super) edge_octets: &'a [EdgeOctet],
+    /// In the shape's own axes, in the order of the topology's edges.
+    pub(super) arcs: &'a [EdgeArc],
     basis: Basis3,
     position: DVec3,
+    /// The greatest absolute value of a vertex' coordinate.
+    pub(super) extent: f32,
+    /// The centre that radii are about, in the shape's own axes.
+    center: DVec3,
+    /// Radius of a sphere about the centre that lies inside the core, in metres; below zero where the centre does not,
+    /// by no less than its distance.
+    pub(super) inner_radius: f64,
     /// How far the shape reaches beyond this core. Axes and distances leave it out; contact points lie on the shape.
     pub(crate) radius: f64,
 }
@@ -29,8 +41,22 @@ pub(crate) struct Support {
 
 impl<'a> Solid<'a> {
     pub(crate) fn new(core: &'a Core3<'a>, basis: Basis3, position: DVec3, radius: f64) -> Self {
-        let (vertices, topology, normals) = (core.vertices(), core.topology(), core.normals());
-        Self { vertices, topology, normals, basis, position, radius }
+        Self {
+            vertices: core.vertices(),
+            vertex_octets: core.vertex_octets(),
+            topology: core.topology(),
+            normals: core.normals(),
+            heights: core.heights(),
+            face_octets: core.face_octets(),
+            edge_octets: core.edge_octets(),
+            arcs: core.arcs(),
+            basis,
+            position,
+            extent: core.extent(),
+            center: core.center().as_dvec3(),
+            inner_radius: f64::from(core.inner_radius()),
+            radius,
+        }
     }
 
     /// Number of faces that have a normal.
@@ -83,41 +109,71 @@ impl<'a> Solid<'a> {
         self.basis.turn(self.vertices[to].as_dvec3() - self.vertices[from].as_dvec3())
     }
 
-    /// An edge's arc on the Gauss map, in the shape's own axes.
+    /// A direction, of any length, that lies between the normals beside an edge, in the frame of the pair: outwards as seen
+    /// from there. Zero for a segment, which looks everywhere.
     #[inline]
-    pub(crate) fn local_arc(&self, half_edge: usize) -> Arc {
-        let edge = self.topology.half_edges()[half_edge];
-        let twin = self.topology.half_edges()[edge.twin as usize];
-        let (from, to) = (self.vertices[edge.origin as usize], self.vertices[twin.origin as usize]);
-        let along = to.as_dvec3() - from.as_dvec3();
-        if self.is_slender() {
-            return Arc { along, ends: [DVec3::ZERO; 2], middle: DVec3::ZERO };
-        }
-        let ends = [self.normals[edge.face as usize], self.normals[twin.face as usize]];
-        // Of faces that are all but back to back the sum is what rounding left of it, and the difference tells.
-        let middle = if ends[0].dot(ends[1]) < 0.0 {
-            along.cross(ends[0] - ends[1]).normalize()
-        } else {
-            ends[0] + ends[1]
+    pub(crate) fn out_of_edge(&self, half_edge: usize) -> DVec3 {
+        let edges = self.topology.half_edges();
+        let faces = [half_edge, edges[half_edge].twin as usize].map(|edge| edges[edge].face as usize);
+        let [Some(&left), Some(&right)] = faces.map(|face| self.normals.get(face)) else {
+            return DVec3::ZERO;
         };
-        Arc { along, ends, middle }
+        if left.dot(right) < 0.0 {
+            // Of faces that are all but back to back the sum is what rounding left of it, and the difference tells.
+            return self.edge_direction(half_edge).cross(self.basis.turn(left - right));
+        }
+        self.basis.turn(left + right)
     }
 
-    /// An edge's arc on the Gauss map, in the frame of the pair.
+    /// The other shape's axes as this one sees them.
     #[inline]
-    pub(crate) fn arc(&self, half_edge: usize) -> Arc {
-        self.local_arc(half_edge).map(|v| self.basis.turn(v))
+    pub(super) fn axes_of(&self, other: &Self) -> [DVec3; 3] {
+        [other.basis.x, other.basis.y, other.basis.z].map(|axis| self.basis.turn_back(axis))
     }
 
-    /// An arc of the other shape, turned into this one's own axes.
-    #[inline]
-    pub(crate) fn arc_from_frame(&self, arc: Arc) -> Arc {
-        arc.map(|v| self.basis.turn_back(v))
-    }
-
-    /// The vertex furthest along a direction; ties go to the lowest index. Cost: linear in the vertices.
+    /// The vertex furthest along a direction of unit length; ties go to the lowest index. Cost: linear in the vertices.
+    ///
+    /// f32 lanes leave out what is lower by more than they can be off; f64 chooses among the rest, so that the answer is
+    /// that of [`Solid::support_one_by_one`] to the last bit. 32 vertices: 35 ns one by one, 19 here (AMD EPYC, Zen 4,
+    /// 2026-11-21).
     #[inline]
     pub(crate) fn support(&self, direction: DVec3) -> Support {
+        let mut best = self.local_support(self.basis.turn_back(direction));
+        best.reach += direction.dot(self.position);
+        best
+    }
+
+    /// [`Solid::support`] in the shape's own axes, from its own origin.
+    #[inline]
+    pub(super) fn local_support(&self, direction: DVec3) -> Support {
+        let lanes = direction.as_vec3();
+        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides.
+        let doubt = 8.5 * (f32::EPSILON / 2.0) * self.extent * lanes.abs().element_sum();
+        let mut top = [f32::NEG_INFINITY; 8];
+        for octet in self.vertex_octets {
+            let reach = project(octet, lanes);
+            for i in 0..8 {
+                top[i] = if reach[i] > top[i] { reach[i] } else { top[i] };
+            }
+        }
+        let least = greatest(top) - doubt;
+        let mut best = Support { vertex: 0, reach: f64::NEG_INFINITY };
+        for (place, octet) in self.vertex_octets.iter().enumerate() {
+            let reach = project(octet, lanes);
+            let mut is_any = false;
+            for reach in reach {
+                is_any |= reach >= least;
+            }
+            if is_any {
+                choose(octet, direction, (reach, least), 8 * place, &mut best);
+            }
+        }
+        best
+    }
+
+    /// [`Solid::support`] by its definition.
+    #[cfg(test)]
+    pub(crate) fn support_one_by_one(&self, direction: DVec3) -> Support {
         let local = self.basis.turn_back(direction);
         let mut best = Support { vertex: 0, reach: f64::NEG_INFINITY };
         for (vertex, point) in self.vertices.iter().enumerate() {
@@ -128,6 +184,30 @@ impl<'a> Solid<'a> {
         }
         best.reach += direction.dot(self.position);
         best
+    }
+
+    /// A direction of the shape's own axes in the frame of the pair.
+    #[inline]
+    pub(super) fn turned(&self, direction: DVec3) -> DVec3 {
+        self.basis.turn(direction)
+    }
+
+    /// The centre in the frame of the pair.
+    #[inline]
+    pub(super) fn center(&self) -> DVec3 {
+        self.position + self.basis.turn(self.center)
+    }
+
+    /// A point of the frame in the shape's own axes.
+    #[inline]
+    pub(super) fn to_local(&self, point: DVec3) -> DVec3 {
+        self.basis.turn_back(point - self.position)
+    }
+
+    /// How far the shape reaches along the outward normal of one of its faces, in the frame of the pair.
+    #[inline]
+    pub(super) fn face_reach(&self, face: usize, normal: DVec3) -> f64 {
+        self.heights[face] + normal.dot(self.position)
     }
 
     /// Least and greatest projection on an axis. Cost: linear in the vertices.
@@ -157,5 +237,42 @@ impl<'a> Solid<'a> {
     pub(crate) fn edge_between(&self, one: usize, other: usize) -> Option<usize> {
         let ends = [(one, other), (other, one)];
         self.topology.edges().iter().map(|&e| e as usize).find(|&e| ends.contains(&self.topology.ends(e)))
+    }
+}
+
+/// Projections of eight vertices.
+#[inline(always)]
+fn project(octet: &VertexOctet, direction: Vec3) -> [f32; 8] {
+    let mut reach = [0.0; 8];
+    for (i, reach) in reach.iter_mut().enumerate() {
+        *reach = direction.x * octet.x[i] + direction.y * octet.y[i] + direction.z * octet.z[i];
+    }
+    reach
+}
+
+#[inline(always)]
+fn greatest(lanes: [f32; 8]) -> f32 {
+    let greater = |a: f32, b: f32| if a > b { a } else { b };
+    let four: [f32; 4] = core::array::from_fn(|i| greater(lanes[i], lanes[i + 4]));
+    greater(greater(four[0], four[2]), greater(four[1], four[3]))
+}
+
+/// The furthest of those vertices of an octet whose lanes come to `least`, in f64.
+#[inline(always)]
+fn choose(
+    octet: &VertexOctet,
+    direction: DVec3,
+    (lanes, least): ([f32; 8], f32),
+    first: usize,
+    best: &mut Support,
+) {
+    for (i, lane) in lanes.into_iter().enumerate() {
+        if lane >= least {
+            let vertex = Vec3::new(octet.x[i], octet.y[i], octet.z[i]);
+            let reach = direction.dot(vertex.as_dvec3());
+            if reach > best.reach {
+                *best = Support { vertex: first + i, reach };
+            }
+        }
     }
 }

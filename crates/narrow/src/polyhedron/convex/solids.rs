@@ -1,0 +1,315 @@
+//! Solids: which search comes first, the decision, and the number that agrees with it.
+//!
+//! ```text
+//! two cuboids      all fifteen axes; in a gap, or where those cannot tell, the distance
+//! anything else    last frame's axis
+//!                  a search for a direction that parts them, or for a common point                     (portal)
+//!                  the distance, if there may be one within the limit                                  (distance)
+//!                  the best axis, in overlap, and where contact points are wanted                      (sat)
+//! ```
+//! Most pairs that a broad phase hands over are apart, and most others overlap by more than rounding: what tells them apart
+//! is asked first, and the axes, of which there are thousands, only when the depth is wanted.
+
+use super::{Asked, Convex, Evidence, Near, Probe, Wanted};
+use crate::answer::{Tier, Verdict};
+use crate::exact::{self, Corner};
+use crate::feature::Hint;
+use crate::polyhedron::distance::{Close, Reached, Until, Witness, distance};
+use crate::polyhedron::manifold::touch;
+use crate::polyhedron::portal::{self, Found};
+use crate::polyhedron::sat::{Axes, Axis, Outcome, Search, hint_of, hinted_axis, separating_axes};
+use crate::polyhedron::solid::Solid;
+use crate::precision::{at_least, signed};
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::DISTANCE_GAP;
+
+/// How two cores lie, as far as the distance iteration came.
+#[allow(clippy::large_enum_variant, reason = "as Probe")]
+enum Cores {
+    /// Overlapping, or apart by at most so many metres.
+    Within(f64),
+    /// Two bounds on their distance, with witness points.
+    Between(Witness),
+}
+
+impl Convex<'_> {
+    pub(super) fn probe_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
+        let beyond = asked.limit + self.radii + self.precision.projection();
+        if self.cuboids().is_some() {
+            return self.probe_cuboids(a, b, beyond, asked.hint);
+        }
+        if let Some(separation) = hinted_separation(a, b, asked.hint)
+            && separation > beyond
+        {
+            return self.beyond(separation, asked.hint);
+        }
+        let reached = match portal::search(a, b, beyond, &self.precision) {
+            Found::Beyond(direction, separation) => return self.beyond(separation, Hint::towards(direction)),
+            Found::Overlap => {
+                let axes = self.all_axes(a, b, f64::NEG_INFINITY);
+                return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
+            }
+            Found::Nothing(direction) => {
+                let until = Until { beyond, ..Until::met(&self.precision) };
+                distance(a, b, asked.hint.direction().unwrap_or(direction), &until)
+            }
+        };
+        match reached {
+            Reached::Between(witness) if witness.at_least > beyond => {
+                self.beyond(witness.at_least, Hint::towards(witness.normal))
+            }
+            Reached::Between(witness) if self.is_plain(&witness) => {
+                let (verdict, cores) = self.conclude(Reached::Between(witness));
+                // Where points are wanted, the axes say which faces look at each other.
+                match cores {
+                    Cores::Between(witness) if asked.wanted == Wanted::Number => {
+                        self.gap_of_cores(Axes::NONE, verdict, witness)
+                    }
+                    cores => {
+                        let axes = self.all_axes(a, b, witness_bound(&cores));
+                        self.probe_close(a, b, axes, (verdict, cores))
+                    }
+                }
+            }
+            reached => {
+                let axes = self.all_axes(a, b, f64::NEG_INFINITY);
+                let closer = self.closer(reached, Some(axes.best()));
+                self.probe_close(a, b, axes, closer)
+            }
+        }
+    }
+
+    fn probe_cuboids(&self, a: &Solid, b: &Solid, beyond: f64, hint: Hint) -> Probe {
+        let axes = match self.axes(a, b, beyond, (hint, f64::NEG_INFINITY)) {
+            Outcome::Beyond(axis) => return self.beyond(axis.separation, hint_of(&axis)),
+            Outcome::Within(axes) => axes,
+        };
+        // Axes of faces that were derived or merged are no proof; those of cuboids are.
+        if axes.best().separation + axes.short() < -2.0 * self.precision.projection() {
+            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
+        }
+        let closer = self.look_closer(a, b, Some(axes.best()));
+        self.probe_close(a, b, axes, closer)
+    }
+
+    fn beyond(&self, separation: f64, hint: Hint) -> Probe {
+        Probe::Beyond(at_least(separation - self.radii, &self.precision), hint)
+    }
+
+    /// Whether the witness points tell everything: their bounds met, and the axis from one to the other is no rounding.
+    fn is_plain(&self, witness: &Witness) -> bool {
+        let size = self.precision.size;
+        !witness.is_close(size) && witness.distance - witness.at_least <= 2.0 * DISTANCE_GAP * size
+    }
+
+    /// All axes are known, and how the cores lie.
+    fn probe_close(&self, a: &Solid, b: &Solid, axes: Axes, closer: (Verdict, Cores)) -> Probe {
+        match closer {
+            // A search that proved no gap, where all axes show an overlap.
+            (verdict, Cores::Between(witness))
+                if verdict.overlapping && axes.best().separation + axes.short() < 0.0 =>
+            {
+                self.overlap_of_cores(axes, verdict, witness.distance)
+            }
+            (verdict, Cores::Between(witness)) => self.gap_of_cores(axes, verdict, witness),
+            (verdict, Cores::Within(gap)) if verdict.overlapping => self.overlap_of_cores(axes, verdict, gap),
+            (verdict, Cores::Within(gap)) => self.all_but_touching(a, b, axes, (verdict, gap)),
+        }
+    }
+
+    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
+    /// most that the gap can be.
+    fn overlap_of_cores(&self, axes: Axes, verdict: Verdict, gap: f64) -> Probe {
+        let best = *axes.best();
+        let depth = best.separation - self.radii;
+        Probe::Near(Near {
+            verdict,
+            separation: signed(depth, true),
+            error: self.precision.of_separation(depth, self.short(&axes, gap)),
+            normal: best.normal,
+            closest: None,
+            hint: hint_of(&best),
+            evidence: Evidence::Axes(axes, None),
+        })
+    }
+
+    /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
+    ///
+    /// In overlap the axes are all there are. In a gap the best one may be none of them, and only witness points tell.
+    fn short(&self, axes: &Axes, gap: f64) -> f64 {
+        let (best, short) = (axes.best().separation, axes.short());
+        if best + short < 0.0 { short } else { short.max(gap - best) }
+    }
+
+    /// Shapes with a gap between their cores, which their radii may close.
+    fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness) -> Probe {
+        let precision = self.precision;
+        // Where both bounds meet up to rounding, the projection went through less of it.
+        let gap = witness.distance - witness.at_least;
+        let is_met = self.radii > 0.0 && gap <= precision.projection();
+        let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
+        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
+        let has_axes = axes.best().separation > f64::NEG_INFINITY;
+        Probe::Near(Near {
+            verdict,
+            separation: signed(separation, verdict.overlapping),
+            error: precision.of_distance(separation, gap),
+            normal: witness.normal,
+            closest: (!verdict.overlapping).then_some(closest),
+            hint: if has_axes { hint_of(axes.best()) } else { Hint::towards(witness.normal) },
+            evidence: Evidence::Axes(axes, Some(witness)),
+        })
+    }
+
+    /// Yes or no for solids, cuboids apart.
+    pub(super) fn verdict_of_solids(&self, a: &Solid, b: &Solid) -> Verdict {
+        let until = self.until_told();
+        let bound = |overlapping: bool| Verdict { overlapping, tier: Tier::Bound };
+        match portal::search(a, b, until.beyond, &self.precision) {
+            Found::Beyond(..) => bound(false),
+            Found::Overlap => bound(true),
+            Found::Nothing(direction) => {
+                let verdict = self.conclude(distance(a, b, direction, &until)).0;
+                // What was asked first is the first tier.
+                if verdict.tier == Tier::Exact { verdict } else { bound(verdict.overlapping) }
+            }
+        }
+    }
+
+    /// What the first tier's numbers say for solids, within their error of zero too.
+    pub(super) fn guess_of_solids(&self, a: &Solid, b: &Solid) -> bool {
+        let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
+        match portal::search(a, b, self.radii, &self.precision) {
+            Found::Beyond(..) => false,
+            Found::Overlap => true,
+            Found::Nothing(direction) => match distance(a, b, direction, &until) {
+                Reached::Between(witness) => witness.distance <= self.radii,
+                Reached::Origin(_) => true,
+            },
+        }
+    }
+
+    /// For a yes or no a distance is known well enough once it tells whether the radii close the gap.
+    fn until_told(&self) -> Until<'_> {
+        let doubt = self.precision.projection();
+        Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
+    }
+
+    /// From A's centre to B's: where a search may begin.
+    fn towards_b(&self) -> DVec3 {
+        let center_b = self.offset + self.relative.turn(self.shape_b.center().as_dvec3());
+        (center_b - self.shape_a.center().as_dvec3()).try_normalize().unwrap_or(DVec3::X)
+    }
+
+    /// The second tier and the third, and how the cores lie. `best` is the axis that the first tier found best.
+    fn look_closer(&self, a: &Solid, b: &Solid, best: Option<&Axis>) -> (Verdict, Cores) {
+        let towards = best.map_or_else(|| self.towards_b(), |axis| axis.normal);
+        self.closer(distance(a, b, towards, &Until::met(&self.precision)), best)
+    }
+
+    /// Yes or no for two cuboids whose axes do not tell.
+    pub(super) fn unclear_verdict(&self, a: &Solid, b: &Solid) -> Verdict {
+        self.look_closer(a, b, None).0
+    }
+
+    /// What the distance iteration has reached, beside the best axis: of the two lower bounds, the iteration's and the
+    /// axis', the better one is kept.
+    fn closer(&self, mut reached: Reached, best: Option<&Axis>) -> (Verdict, Cores) {
+        let mut tier = Tier::Double;
+        if let (Reached::Between(witness), Some(best)) = (&mut reached, best)
+            && best.separation >= witness.at_least
+        {
+            if witness.is_close(self.precision.size) {
+                witness.across = best.normal;
+            }
+            (witness.at_least, witness.normal) = (best.separation, best.normal);
+            tier = Tier::Bound;
+        }
+        let (verdict, witness) = self.conclude(reached);
+        let tier = if verdict.tier == Tier::Double && !verdict.overlapping { tier } else { verdict.tier };
+        (Verdict { tier, ..verdict }, witness)
+    }
+
+    /// What the distance iteration has proved, and the third tier where it has proved nothing.
+    fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
+        let doubt = self.precision.projection();
+        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
+        let witness = match reached {
+            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), Cores::Within(0.0)),
+            Reached::Origin(close) => {
+                let verdict = self.exactly(&close.corners);
+                let do_overlap = self.radii == 0.0 && verdict.overlapping;
+                return (verdict, Cores::Within(if do_overlap { 0.0 } else { close.within }));
+            }
+            Reached::Between(witness) => witness,
+        };
+        if witness.at_least - self.radii > doubt {
+            return (double(false), Cores::Between(witness));
+        }
+        if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
+            return (double(true), Cores::Between(witness));
+        }
+        let verdict = self.exactly(&witness.corners);
+        let do_overlap = self.radii == 0.0 && verdict.overlapping;
+        (verdict, if do_overlap { Cores::Within(0.0) } else { Cores::Between(witness) })
+    }
+
+    /// The third tier, from the corners where f64 stopped.
+    pub(super) fn exactly(&self, start: &[Corner]) -> Verdict {
+        let overlapping = exact::overlaps3([&self.sites[0], &self.sites[1]], start);
+        Verdict { overlapping, tier: Tier::Exact }
+    }
+
+    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
+    /// overlapped.
+    fn all_but_touching(&self, a: &Solid, b: &Solid, axes: Axes, (verdict, gap): (Verdict, f64)) -> Probe {
+        let precision = self.precision;
+        let best = axes.best();
+        let separation = best.separation.max(0.0) - self.radii;
+        let touch = touch(a, b, &axes, None, 0.0, self.preference());
+        let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        Probe::Near(Near {
+            verdict,
+            separation: signed(separation, verdict.overlapping),
+            error: precision.of_separation(separation, self.short(&axes, gap) + 3.0 * precision.projection()),
+            normal: best.normal,
+            closest: deepest.map(|point| [point.on_a, point.on_b]),
+            hint: hint_of(best),
+            evidence: Evidence::Axes(axes, None),
+        })
+    }
+
+    /// All axes that may be as good as one that shows `known`.
+    fn all_axes(&self, a: &Solid, b: &Solid, known: f64) -> Axes {
+        match self.axes(a, b, f64::INFINITY, (Hint::NONE, known)) {
+            Outcome::Within(axes) => axes,
+            // Nothing is beyond infinity.
+            Outcome::Beyond(_) => Axes::NONE,
+        }
+    }
+
+    /// The test of axes, for an axis beyond `limit`. What shows less than is `known` for certain may be left out.
+    pub(crate) fn axes(&self, a: &Solid, b: &Solid, limit: f64, (hint, known): (Hint, f64)) -> Outcome {
+        let slack = self.preference() + 4.0 * self.precision.planarity;
+        let search = Search { limit, hint, known, slack, precision: &self.precision };
+        match self.cuboids() {
+            Some(cuboids) => cuboids.separating_axes(a, b, &search),
+            None => separating_axes(a, b, &search),
+        }
+    }
+}
+
+fn witness_bound(cores: &Cores) -> f64 {
+    match cores {
+        Cores::Within(_) => f64::NEG_INFINITY,
+        Cores::Between(witness) => witness.at_least,
+    }
+}
+
+/// The separation along the axis that a hint names, if it means anything here.
+fn hinted_separation(a: &Solid, b: &Solid, hint: Hint) -> Option<f64> {
+    match hint.direction() {
+        Some(direction) => Some(-b.support(-direction).reach - a.support(direction).reach),
+        None => hinted_axis(a, b, hint).map(|axis| axis.separation),
+    }
+}

@@ -1,0 +1,166 @@
+//! Which edges of two solids may touch: those whose arcs on the Gauss map cross.
+//!
+//! An edge pair bounds the Minkowski difference exactly where the arc between the normals at A's edge crosses the negative
+//! of the arc between the normals at B's (Gregorius, "The separating axis test between convex polyhedra", GDC 2013). Each
+//! arc's ends must lie on different sides of the other's great circle, whose pole is the edge, and of the two antipodal
+//! points where the circles meet both arcs must pass through the same. Anything within the slack may.
+//!
+//! The edge of a flat polygon has a half circle, from one side's normal over the outward direction in the plane to the
+//! other's; a segment has its whole great circle, and zero for ends and middle.
+//!
+//! One arc of A at a time against eight of B, in f32: a pair that is kept needlessly costs a verified axis, and the slack
+//! covers what f32 rounds. [`may_cross`] is the definition; the lanes do the same operations in the same order.
+
+use super::super::solid::Solid;
+use super::MAX_EDGES;
+use arrayvec::ArrayVec;
+use asunder_geometry::EdgeArc;
+use asunder_geometry::glam::Vec3;
+use asunder_geometry::tolerance::ARC_SLACK;
+
+/// Slack of a dot product of unit vectors in f32: that of the arcs, and more than what is rounded on the way to it, which
+/// is the vectors, the turn from B's axes to A's (10 units of 2^-24) and the product.
+const SLACK: f32 = ARC_SLACK as f32 + 16.0 * f32::EPSILON;
+
+/// Three coordinates of eight vectors.
+type Eight = [[f32; 8]; 3];
+
+/// Eight arcs side by side.
+#[derive(Clone, Copy)]
+struct ArcOctet {
+    along: Eight,
+    ends: [Eight; 2],
+    middle: Eight,
+}
+
+impl ArcOctet {
+    const NONE: Self = Self { along: [[0.0; 8]; 3], ends: [[[0.0; 8]; 3]; 2], middle: [[0.0; 8]; 3] };
+
+    fn set(&mut self, i: usize, arc: &EdgeArc) {
+        for axis in 0..3 {
+            self.along[axis][i] = arc.along[axis];
+            self.ends[0][axis][i] = arc.ends[0][axis];
+            self.ends[1][axis][i] = arc.ends[1][axis];
+            self.middle[axis][i] = arc.middle[axis];
+        }
+    }
+
+    /// Taken to other axes, by the images of their own.
+    fn turned(&self, basis: &[Vec3; 3]) -> Self {
+        let turn = |v: &Eight| turned(v, basis);
+        Self { along: turn(&self.along), ends: [turn(&self.ends[0]), turn(&self.ends[1])], middle: turn(&self.middle) }
+    }
+}
+
+#[inline]
+fn turned(v: &Eight, [x, y, z]: &[Vec3; 3]) -> Eight {
+    let mut turned = [[0.0; 8]; 3];
+    for (axis, turned) in turned.iter_mut().enumerate() {
+        for (i, turned) in turned.iter_mut().enumerate() {
+            *turned = x[axis] * v[0][i] + y[axis] * v[1][i] + z[axis] * v[2][i];
+        }
+    }
+    turned
+}
+
+/// Visits those pairs of the given edges, by their numbers, whose arcs may cross, until the visitor says to stop; it gets
+/// their lower half-edges. Cost: their product, an eighth of it in steps.
+pub(super) fn for_edge_pairs(
+    (a, edges_a): (&Solid, &[u16]),
+    (b, edges_b): (&Solid, &[u16]),
+    mut visit: impl FnMut(usize, usize) -> bool,
+) {
+    let basis = a.axes_of(b).map(|axis| axis.as_vec3());
+    let mut octets: ArrayVec<ArcOctet, { MAX_EDGES.div_ceil(8) }> = ArrayVec::new_const();
+    for chunk in edges_b.chunks(8).take(octets.capacity()) {
+        let mut octet = ArcOctet::NONE;
+        for (i, &edge) in chunk.iter().enumerate() {
+            octet.set(i, &b.arcs[edge as usize]);
+        }
+        octets.push(octet.turned(&basis));
+    }
+    for &edge_a in edges_a {
+        let arc_a = &a.arcs[edge_a as usize];
+        for (octet, chunk) in octets.iter().zip(edges_b.chunks(8)) {
+            let crossing = may_cross_eight(arc_a, octet);
+            if crossing == [0; 8] {
+                continue;
+            }
+            for (&edge_b, may_cross) in chunk.iter().zip(crossing) {
+                let half_edges = [(a, edge_a), (b, edge_b)].map(|(solid, edge)| solid.topology.edges()[edge as usize]);
+                if may_cross != 0 && visit(half_edges[0] as usize, half_edges[1] as usize) {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Whether an arc of A may cross the negative of an arc of B, in the same axes.
+#[cfg(test)]
+pub(super) fn may_cross(a: &EdgeArc, b: &EdgeArc) -> bool {
+    let dot = |v: Vec3, w: Vec3| v.x * w.x + v.y * w.y + v.z * w.z;
+    if same_side(dot(a.along, b.ends[0]), dot(a.along, b.ends[1])) {
+        return false;
+    }
+    if same_side(dot(a.ends[0], b.along), dot(a.ends[1], b.along)) {
+        return false;
+    }
+    // An arc is no longer than a half circle, so its middle tells which of the two points it passes.
+    let meeting = a.along.cross(b.along);
+    !opposite(dot(meeting, a.middle), -dot(meeting, b.middle))
+}
+
+/// [`may_cross`] of one arc and eight: 1 where they may, else 0. Numbers and not bools, so that lanes stay lanes.
+#[inline]
+fn may_cross_eight(a: &EdgeArc, b: &ArcOctet) -> [u32; 8] {
+    let dot = |v: Vec3, w: &Eight, i: usize| v.x * w[0][i] + v.y * w[1][i] + v.z * w[2][i];
+    let mut crossing = [0; 8];
+    for (i, crossing) in crossing.iter_mut().enumerate() {
+        let by_a = same_side(dot(a.along, &b.ends[0], i), dot(a.along, &b.ends[1], i));
+        let by_b = same_side(dot(a.ends[0], &b.along, i), dot(a.ends[1], &b.along, i));
+        let meeting = a.along.cross(Vec3::new(b.along[0][i], b.along[1][i], b.along[2][i]));
+        let passes_a = meeting.x * a.middle.x + meeting.y * a.middle.y + meeting.z * a.middle.z;
+        *crossing = u32::from(!by_a & !by_b & !opposite(passes_a, -dot(meeting, &b.middle, i)));
+    }
+    crossing
+}
+
+#[inline(always)]
+fn same_side(one: f32, other: f32) -> bool {
+    ((one > SLACK) & (other > SLACK)) | ((one < -SLACK) & (other < -SLACK))
+}
+
+#[inline(always)]
+fn opposite(one: f32, other: f32) -> bool {
+    ((one > SLACK) & (other < -SLACK)) | ((one < -SLACK) & (other > SLACK))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_say_what_the_definition_says() {
+        let mut state = 1_u64;
+        let mut number = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            // Coarse, so that equal, opposite and square directions come up.
+            ((state >> 60) as f32 - 7.5).round() / 4.0
+        };
+        let mut unit = || Vec3::new(number(), number(), number()).normalize_or_zero();
+        let mut crossings = 0;
+        for _ in 0..2000 {
+            let mut arc = || EdgeArc { along: unit(), ends: [unit(), unit()], middle: unit() };
+            let (one, eight): (EdgeArc, [EdgeArc; 8]) = (arc(), core::array::from_fn(|_| arc()));
+            let mut octet = ArcOctet::NONE;
+            for (i, arc) in eight.iter().enumerate() {
+                octet.set(i, arc);
+            }
+            let lanes = may_cross_eight(&one, &octet).map(|lane| lane != 0);
+            assert_eq!(lanes, eight.map(|arc| may_cross(&one, &arc)));
+            crossings += lanes.iter().filter(|&&lane| lane).count();
+        }
+        assert!((100..15_900).contains(&crossings), "both answers came up: {crossings}");
+    }
+}
