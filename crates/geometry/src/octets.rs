@@ -199,7 +199,8 @@ impl EdgeOctet {
         let octet = |edges: &[u16]| {
             let mut octet = Self::NONE;
             for (i, &edge) in edges.iter().enumerate() {
-                let faces = [edge, half_edges[edge as usize].twin].map(|edge| half_edges[edge as usize].face as usize);
+                let faces = [edge, half_edges[edge as usize].twin]
+                    .map(|edge| half_edges[edge as usize].face as usize);
                 let normals = faces.map(|face| normals.get(face).copied().unwrap_or(DVec3::ZERO));
                 for (side, (face, normal)) in octet.sides.iter_mut().zip(faces.into_iter().zip(normals)) {
                     side.set(i, normal, heights.get(face).copied().unwrap_or(f64::INFINITY));

@@ -170,9 +170,11 @@ impl Named {
 /// What a hint names; nothing where a pair of so many edges each has no such thing.
 #[inline]
 pub(super) fn named(edges: [usize; 2], hint: Hint) -> Option<Named> {
-    let features = hint.features()?;
+    let Some(features) = hint.features() else {
+        // A hint from space may lie across the plane.
+        return hint.direction()?.truncate().try_normalize().map(Named::Direction);
+    };
     match (features.a(), features.b()) {
-        (Feature::Face(code), _) => direction(code).map(Named::Direction),
         (Feature::Edge(edge), _) => {
             ((edge as usize) < edges[0]).then_some(Named::Edge(AxisOf::EdgeA(edge as usize)))
         }
@@ -191,33 +193,9 @@ pub(crate) fn hint_of(of: AxisOf) -> Hint {
     })
 }
 
-/// Steps of a hint's direction in each quarter of a turn: shapes have no faces in the plane, whose 30 bits are free.
-const STEPS: u32 = 1 << 28;
-
-/// The hint that leads back to a direction, up to some 1e-8 rad.
+/// The hint that leads back to a direction, up to an f32 rounding of its coordinates.
 pub(crate) fn hint_of_direction(direction: DVec2) -> Hint {
-    let share = |along: f64, across: f64| ((across / (along + across)) * f64::from(STEPS)) as u32;
-    let DVec2 { x, y } = direction;
-    let (quarter, share) = match (x > 0.0, y > 0.0) {
-        (true, false) => (3, share(-y, x)),
-        (true, true) => (0, share(x, y)),
-        (false, true) => (1, share(y, -x)),
-        (false, false) => (2, share(-x, -y)),
-    };
-    Hint::axis(FeatureId::new(Feature::Face(quarter * STEPS + share.min(STEPS - 1)), Feature::Vertex(0)))
-}
-
-/// The direction that a hint's number stands for: any number is one.
-fn direction(code: u32) -> Option<DVec2> {
-    let share = f64::from(code % STEPS) / f64::from(STEPS);
-    let (along, across) = (1.0 - share, share);
-    let direction = match code / STEPS {
-        0 => DVec2::new(along, across),
-        1 => DVec2::new(-across, along),
-        2 => DVec2::new(-along, -across),
-        _ => DVec2::new(across, -along),
-    };
-    direction.try_normalize()
+    Hint::towards(direction.extend(0.0))
 }
 
 /// The definition: the best axis of each shape, every one of them fully projected. Cost: the product of the vertex

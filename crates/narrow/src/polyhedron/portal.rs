@@ -45,7 +45,8 @@ pub(crate) fn search(a: &Solid, b: &Solid, beyond: f64, precision: &Precision) -
         return Found::Overlap;
     }
     let direction = -inside / apart;
-    let mut look = Look { a, b, doubt: precision.projection(), direction, separation: 0.0, left: MAX_VERTICES };
+    let mut look =
+        Look { a, b, doubt: precision.projection(), direction, separation: 0.0, left: MAX_VERTICES };
     match look.through(inside, precision) {
         Some(true) => Found::Overlap,
         None if look.separation > beyond => Found::Beyond(look.direction, look.separation),

@@ -22,9 +22,9 @@ mod arcs;
 mod cull;
 
 use super::solid::Solid;
-use arcs::for_edge_pairs;
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::Precision;
+use arcs::for_edge_pairs;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{MAX_HULL_VERTICES, PARALLEL_EDGES};
@@ -248,7 +248,8 @@ impl Found {
         let (in_a, in_b) = (a.support(normal), b.support(-normal));
         self.see(0, a, in_a.vertex);
         self.see(1, b, in_b.vertex);
-        let axis = Axis { separation: -in_b.reach - in_a.reach, normal, of: AxisOf::Edges(edges[0], edges[1]) };
+        let axis =
+            Axis { separation: -in_b.reach - in_a.reach, normal, of: AxisOf::Edges(edges[0], edges[1]) };
         if cross.is_noise() {
             self.axes.leave_out(axis.separation, cross.squared_sine, precision);
             return;

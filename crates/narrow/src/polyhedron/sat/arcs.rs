@@ -48,7 +48,11 @@ impl ArcOctet {
     /// Taken to other axes, by the images of their own.
     fn turned(&self, basis: &[Vec3; 3]) -> Self {
         let turn = |v: &Eight| turned(v, basis);
-        Self { along: turn(&self.along), ends: [turn(&self.ends[0]), turn(&self.ends[1])], middle: turn(&self.middle) }
+        Self {
+            along: turn(&self.along),
+            ends: [turn(&self.ends[0]), turn(&self.ends[1])],
+            middle: turn(&self.middle),
+        }
     }
 }
 
@@ -87,7 +91,8 @@ pub(super) fn for_edge_pairs(
                 continue;
             }
             for (&edge_b, may_cross) in chunk.iter().zip(crossing) {
-                let half_edges = [(a, edge_a), (b, edge_b)].map(|(solid, edge)| solid.topology.edges()[edge as usize]);
+                let half_edges =
+                    [(a, edge_a), (b, edge_b)].map(|(solid, edge)| solid.topology.edges()[edge as usize]);
                 if may_cross != 0 && visit(half_edges[0] as usize, half_edges[1] as usize) {
                     return;
                 }

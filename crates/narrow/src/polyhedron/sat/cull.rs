@@ -185,7 +185,8 @@ impl Ball {
             let other = c.x * right.x[i] + c.y * right.y[i] + c.z * right.z[i] - right.height[i] + self.doubt;
             let (higher, cosine) = (if over > other { over } else { other }, edges.cosine[i]);
             // Greatest inside the arc only where it rises from both ends.
-            let is_inside = (other + slack > cosine * over) & (over + slack > cosine * other) & (higher > 0.0);
+            let is_inside =
+                (other + slack > cosine * over) & (over + slack > cosine * other) & (higher > 0.0);
             // 1 / cos(t / 2) squared is 2 / (1 + cos t). The sum may be rounding; then nothing is left out.
             let does_rise = is_inside & (2.001 * higher * higher > square * (1.0 + cosine));
             *open = u32::from((higher > least) | does_rise);
