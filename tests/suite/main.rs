@@ -21,6 +21,7 @@
 //! - [`hard`]: 100,000 hard cases: nothing wrong, no bound broken, no panic, everything within 1e-6 of size
 //! - [`steady`]: a unit in the last place of a pose changes no count of points, and no depth by more than it is
 //! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair, with names that stay
+//! - [`plane`]: polygons of many edges against all edges, mirrored, and what hints may change: names, never a yes or no
 //! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
@@ -53,6 +54,7 @@ mod manifolds;
 mod mass;
 mod oracles;
 mod peer;
+mod plane;
 mod polygons;
 mod refusals;
 mod regressions;

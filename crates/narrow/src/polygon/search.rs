@@ -57,7 +57,15 @@ pub(super) fn separating_axes(a: &Outline, b: &Outline, hint: Option<Named>, wan
     };
     match stop {
         Some((separation, direction)) if separation > wanted.limit => {
-            Outcome::Beyond(separation, hint_of_direction(direction))
+            // A hint that still parts them is kept as it is, and not rounded once more.
+            let is_kept = |hint: Named| match hint {
+                Named::Direction(hinted) => {
+                    (hinted - direction).length_squared() < f64::EPSILON * f64::EPSILON * 64.0
+                }
+                Named::Edge(_) => false,
+            };
+            let hint = if hint.is_some_and(is_kept) { wanted.hint } else { hint_of_direction(direction) };
+            Outcome::Beyond(separation, hint)
         }
         Some((separation, direction)) => Outcome::Gap(separation, direction),
         None => Outcome::Within(search.axes(hint.and_then(Named::edge), doubt)),
