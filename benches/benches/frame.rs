@@ -1,13 +1,17 @@
-//! Criterion's view of the main rows: one broad phase, one narrow phase, one whole frame.
+//! Criterion's view of the main rows: one broad phase, narrow phases in space and in the plane, one whole frame.
 
 use asunder::{Collider3, World3};
 use asunder_broad::Sweep;
-use asunder_narrow::Pair3;
+use asunder_narrow::{Answer, Batch3, Hint, Job3, Pair2, Pair3, collide3};
 use asunder_scenes::boxes::{BoxScene, MovingBoxes};
-use asunder_scenes::pairs::{PairSet, SolidKind, pairs3};
+use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, pairs2, pairs3};
 use asunder_scenes::worlds::{Replay3, WorldScene};
+use core::hint::black_box;
 use core::time::Duration;
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+
+/// Pairs in a set: one iteration asks them all.
+const PAIRS: usize = 200;
 
 fn broad(criterion: &mut Criterion) {
     let mut moving = MovingBoxes::new(BoxScene::Gas, 10_000, 1);
@@ -24,18 +28,95 @@ fn broad(criterion: &mut Criterion) {
     });
 }
 
-fn narrow(criterion: &mut Criterion) {
-    let pairs = pairs3(SolidKind::Box, PairSet::Mixed, 1000, 1);
-    criterion.bench_function("narrow/box/mixed/manifold, 1000 pairs", |bencher| {
+/// One question about every pair of a set. The name is that of the row of `compare`; times are for the whole set.
+fn solids(
+    criterion: &mut Criterion,
+    (kind, set): (SolidKind, PairSet),
+    operation: &str,
+    ask: impl Fn(&Pair3) -> bool,
+) {
+    let pairs = pairs3(kind, set, PAIRS, 1);
+    let one = |p: &PosedPair3| ask(&Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b));
+    criterion.bench_function(
+        &format!("{}/{}/{operation}, {PAIRS} pairs", kind.name(), set.name()),
+        |bencher| {
+            bencher.iter(|| pairs.iter().filter(|pair| one(black_box(pair))).count());
+        },
+    );
+}
+
+fn space(criterion: &mut Criterion) {
+    for kind in [SolidKind::Box, SolidKind::Hull32] {
+        let mixed = (kind, PairSet::Mixed);
+        solids(criterion, mixed, "boolean", |pair| pair.overlaps());
+        solids(criterion, mixed, "separation", |pair| {
+            black_box(pair.separation(0.0));
+            true
+        });
+        solids(criterion, mixed, "manifold", |pair| black_box(pair.manifold(0.0)).is_some());
+        solids(criterion, (kind, PairSet::Rest), "manifold", |pair| black_box(pair.manifold(0.0)).is_some());
+    }
+    at_once(criterion);
+    cached(criterion, SolidKind::Box);
+    cached(criterion, SolidKind::Hull32);
+}
+
+fn job(pair: &PosedPair3, hint: Hint, sensor: bool) -> Job3<'_> {
+    let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
+    Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor }
+}
+
+/// Boxes without hints, all in one call.
+fn at_once(criterion: &mut Criterion) {
+    let pairs = pairs3(SolidKind::Box, PairSet::Mixed, PAIRS, 1);
+    let mut batch = Batch3::default();
+    for (operation, sensor) in [("boolean", true), ("manifold", false)] {
+        let jobs: Vec<Job3<'_>> = pairs.iter().map(|pair| job(pair, Hint::NONE, sensor)).collect();
+        criterion.bench_function(&format!("box8/mixed/{operation}, {PAIRS} pairs"), |bencher| {
+            bencher.iter(|| {
+                batch.clear();
+                collide3(black_box(&jobs), &mut batch);
+                batch.manifolds.len()
+            });
+        });
+    }
+}
+
+/// Faces on faces, with the hints of the frame before.
+fn cached(criterion: &mut Criterion, kind: SolidKind) {
+    let pairs = pairs3(kind, PairSet::Rest, PAIRS, 1);
+    let mut batch = Batch3::default();
+    let fresh: Vec<Job3<'_>> = pairs.iter().map(|pair| job(pair, Hint::NONE, false)).collect();
+    collide3(&fresh, &mut batch);
+    let hints = batch.answers.iter().map(|answer| {
+        let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
+        *hint
+    });
+    let jobs: Vec<Job3<'_>> = pairs.iter().zip(hints).map(|(pair, hint)| job(pair, hint, false)).collect();
+    criterion.bench_function(&format!("{}/rest/cached, {PAIRS} pairs", kind.name()), |bencher| {
+        let mut batch = Batch3::default();
         bencher.iter(|| {
-            let ask = |p: &asunder_scenes::pairs::PosedPair3| {
-                Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)
-                    .manifold(0.0)
-                    .map_or(0, |m| m.points.len())
-            };
-            pairs.iter().map(ask).sum::<usize>()
+            batch.clear();
+            collide3(black_box(&jobs), &mut batch);
+            batch.manifolds.len()
         });
     });
+}
+
+fn pair(p: &PosedPair2) -> Pair2<'_> {
+    Pair2::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)
+}
+
+fn plane(criterion: &mut Criterion) {
+    for kind in [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly64] {
+        let pairs = pairs2(kind, PairSet::Mixed, PAIRS, 1);
+        criterion.bench_function(&format!("{}/mixed/boolean, {PAIRS} pairs", kind.name()), |bencher| {
+            bencher.iter(|| pairs.iter().filter(|p| pair(black_box(p)).overlaps()).count());
+        });
+        criterion.bench_function(&format!("{}/mixed/manifold, {PAIRS} pairs", kind.name()), |bencher| {
+            bencher.iter(|| pairs.iter().filter(|p| pair(black_box(p)).manifold(0.0).is_some()).count());
+        });
+    }
 }
 
 fn frame(criterion: &mut Criterion) {
@@ -62,7 +143,7 @@ fn frame(criterion: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default().sample_size(20).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
-    targets = broad, narrow, frame
+    config = Criterion::default().sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
+    targets = broad, space, plane, frame
 }
 criterion_main!(benches);

@@ -6,15 +6,17 @@
 //!
 //! - [`broad`]: all overlapping pairs of moving boxes, beside parry3d's `Bvh`.
 //! - [`narrow`]: one question about many pairs of shapes, beside parry3d's queries; [`flat`] is its twin in the plane,
-//!   which has no peer here.
+//!   which has no peer here. A [`judge`] knows the true separations, and [`accuracy`] holds both sides against them.
 //! - [`certain`]: yes or no that is never wrong, beside the first tier alone.
 //! - [`world`]: whole frames, beside the [`lean`] pipeline over parry3d.
 #![deny(missing_docs)]
 
+pub mod accuracy;
 pub mod broad;
 pub mod certain;
 pub mod clock;
 pub mod flat;
+pub mod judge;
 pub mod lean;
 pub mod narrow;
 pub mod parry;

@@ -57,7 +57,8 @@ impl Shapes {
     }
 }
 
-/// The same pose in f32, its rotation of unit length, as parry3d wants it.
+/// The same pose in f32, its rotation of unit length, as parry3d wants it: made so in f64, the least that its types take
+/// away.
 ///
 /// ```
 /// use asunder_geometry::Pose3;
@@ -65,7 +66,7 @@ impl Shapes {
 /// # Ok::<(), asunder_geometry::PoseError>(())
 /// ```
 pub fn pose(pose: &Pose3) -> Pose {
-    Pose::from_parts(pose.position().as_vec3(), pose.rotation().normalize())
+    Pose::from_parts(pose.position().as_vec3(), pose.rotation().as_dquat().normalize().as_quat())
 }
 
 /// The same box.

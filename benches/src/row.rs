@@ -1,5 +1,6 @@
 //! One line of results, for people or for programs.
 
+use crate::accuracy::Accuracy;
 use serde::Serialize;
 
 /// The result of one case.
@@ -37,9 +38,15 @@ pub struct Row {
     /// Broad phase: putting the pairs in order, in nanoseconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub order_ns: Option<f64>,
-    /// Narrow phase: pairs where the yes or no differs although the shapes are not within 1e-4 of size of touching.
+    /// Narrow phase: our slowest single pair, in nanoseconds, where cost is watched as shapes grow.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub disagree: Option<usize>,
+    pub worst_ns: Option<f64>,
+    /// The peer's slowest single pair, in nanoseconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peer_worst_ns: Option<f64>,
+    /// Narrow phase: both sides' answers held against the truth.
+    #[serde(flatten)]
+    pub accuracy: Option<Accuracy>,
     /// What a reader should know: how far a row came, what was found.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub note: String,
@@ -79,8 +86,11 @@ impl Row {
         if let (Some(sweep), Some(order)) = (self.sweep_ns, self.order_ns) {
             note = format!("sweep {} order {}; {note}", duration(Some(sweep)), duration(Some(order)));
         }
-        if let Some(disagree) = self.disagree.filter(|&count| count > 0) {
-            note = format!("{disagree} DISAGREE; {note}");
+        if let (Some(worst), Some(peer)) = (self.worst_ns, self.peer_worst_ns) {
+            note = format!("slowest {}, peer's {}; {note}", duration(Some(worst)), duration(Some(peer)));
+        }
+        if let Some(accuracy) = &self.accuracy {
+            note = format!("{}  {note}", accuracy.to_text());
         }
         let line = format!(
             "{:<28} {:>10} {:>10} {:>8}  {:>7} {:<26} {note}",
@@ -91,7 +101,7 @@ impl Row {
             self.done,
             self.peer.unwrap_or("-"),
         );
-        line.trim_end().to_string()
+        line.trim_end().trim_end_matches(';').to_string()
     }
 }
 
@@ -105,6 +115,16 @@ pub fn heading() -> String {
         "{:<28} {:>10} {:>10} {:>8}  {:>7} {:<26} note",
         "row", "ours", "peer", "ratio", "done", "peer is"
     )
+}
+
+/// The first line of a table whose rows are judged.
+///
+/// ```
+/// assert!(asunder_benches::row::heading_with_accuracy().contains("miss"));
+/// ```
+pub fn heading_with_accuracy() -> String {
+    let plain = heading();
+    format!("{}{}  note", plain.trim_end_matches("note"), Accuracy::heading())
 }
 
 fn duration(ns: Option<f64>) -> String {

@@ -16,6 +16,7 @@
 //! - [`outlines`]: seeded outlines, simple and not: stars, combs, spirals, lattices, slivers
 //! - [`fuzzed`]: hulls, polygons and outlines from raw bytes, with all that must hold of them; `fuzz/` runs the same
 //! - [`report`]: hard cases, family by family: what we and parry3d get wrong, and at what cost
+//! - [`solver`]: a small rigid-body solver, for bodies that shall stand on our manifolds
 //! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
 //!
 //! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
@@ -43,3 +44,4 @@ pub mod precise;
 pub mod report;
 pub mod shapes;
 pub mod solid;
+pub mod solver;

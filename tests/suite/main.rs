@@ -23,10 +23,12 @@
 //! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair, with names that stay
 //! - [`plane`]: polygons of many edges against all edges, mirrored, and what hints may change: names, never a yes or no
 //! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
+//! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
 //! - [`theory`]: the textbook's own examples
 //! - [`peer`]: parry3d says the same on 160,000 pairs
+//! - [`solver`]: stacks, pyramids and leaning cards stand on the manifolds, by the names of their points
 //!
 //! World
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
@@ -48,6 +50,7 @@ mod broad;
 mod exactness;
 mod fuzzed;
 mod hard;
+mod hints;
 mod hulls;
 mod invariance;
 mod manifolds;
@@ -61,6 +64,7 @@ mod regressions;
 mod separation;
 mod shapes;
 mod shapes_peer;
+mod solver;
 mod steady;
 mod theory;
 mod world_events;

@@ -1,7 +1,8 @@
 //! Prints our times beside parry3d's: `compare broad|narrow|world|certain [--json] [--quick]`.
 
 use asunder_benches::clock::Effort;
-use asunder_benches::row::{Row, heading};
+use asunder_benches::judge::Judge;
+use asunder_benches::row::{Row, heading, heading_with_accuracy};
 use asunder_benches::{broad, certain, flat, narrow, world};
 use clap::{Args, Parser, Subcommand};
 use std::error::Error;
@@ -54,7 +55,12 @@ fn compare(part: &Part) -> Result<(), asunder::MarginError> {
     let effort = if options.quick { Effort::quick() } else { Effort::full() };
     let wanted = |name: &str| name.contains(&options.only);
     if !options.json {
-        println!("{}", if matches!(part, Part::Certain(_)) { certain::heading() } else { heading() });
+        let heading = match part {
+            Part::Certain(_) => certain::heading(),
+            Part::Narrow(_) => heading_with_accuracy(),
+            Part::Broad(_) | Part::World(_) => heading(),
+        };
+        println!("{heading}");
     }
     match part {
         Part::Broad(_) => {
@@ -64,8 +70,9 @@ fn compare(part: &Part) -> Result<(), asunder::MarginError> {
             }
         }
         Part::Narrow(_) => {
+            let mut judge = Judge::default();
             for case in narrow::cases().iter().filter(|case| wanted(&narrow::name(case))) {
-                show(&narrow::measure(case, &effort), options);
+                show(&narrow::measure(case, &effort, &mut judge), options);
             }
             for case in flat::cases().iter().filter(|case| wanted(&flat::name(case))) {
                 show(&flat::measure(case, &effort), options);

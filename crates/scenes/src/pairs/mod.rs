@@ -75,7 +75,8 @@ pub struct PosedPair2 {
 /// ```
 /// use asunder_scenes::pairs::SolidKind;
 /// assert_eq!(SolidKind::by_name("hull32"), Some(SolidKind::Hull32));
-/// assert!(SolidKind::ALL.iter().all(|&kind| SolidKind::by_name(kind.name()) == Some(kind)));
+/// let mut all = SolidKind::ALL.iter().chain(&SolidKind::GROWTH);
+/// assert!(all.all(|&kind| SolidKind::by_name(kind.name()) == Some(kind)));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SolidKind {
@@ -91,12 +92,24 @@ pub enum SolidKind {
     Hull32,
     /// Hulls of 128 random points on an ellipsoid.
     Hull128,
+    /// Hulls of 64 random points on an ellipsoid.
+    Hull64,
+    /// Hulls of 256 random points on an ellipsoid: as many as a hull may have.
+    Hull256,
+    /// Cylinders of 128 sides, as hulls: two faces of 128 corners, and all other edges in bundles of parallels.
+    Prism256,
+    /// Globes of 16 circles of latitude with 16 corners each: every edge has parallels, and every corner a corner opposite.
+    Globe256,
 }
 
 impl SolidKind {
-    /// Every family, in the order in which results are listed.
+    /// The families that every question is asked of, in the order in which results are listed.
     pub const ALL: [Self; 6] =
         [Self::Box, Self::Authored, Self::Hull8, Self::Hull16, Self::Hull32, Self::Hull128];
+
+    /// Those that show how cost grows with the vertices, in the same order.
+    pub const GROWTH: [Self; 5] =
+        [Self::Hull64, Self::Hull128, Self::Hull256, Self::Prism256, Self::Globe256];
 
     /// The name used in result rows.
     pub const fn name(self) -> &'static str {
@@ -107,12 +120,16 @@ impl SolidKind {
             Self::Hull16 => "hull16",
             Self::Hull32 => "hull32",
             Self::Hull128 => "hull128",
+            Self::Hull64 => "hull64",
+            Self::Hull256 => "hull256",
+            Self::Prism256 => "prism256",
+            Self::Globe256 => "globe256",
         }
     }
 
     /// The family of that name, if there is one.
     pub fn by_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
+        Self::ALL.into_iter().chain(Self::GROWTH).find(|kind| kind.name() == name)
     }
 }
 
@@ -178,12 +195,25 @@ pub enum PairSet {
     Touch,
     /// The centres nearly in one place.
     Deep,
+    /// One shape twice in one pose: every axis is as good as its opposite.
+    Same,
+    /// One shape twice about one centre, turned apart.
+    Turned,
 }
 
 impl PairSet {
     /// Every set, in the order in which results are listed.
-    pub const ALL: [Self; 7] =
-        [Self::Mixed, Self::Rest, Self::Slide, Self::Tumble, Self::Far, Self::Touch, Self::Deep];
+    pub const ALL: [Self; 9] = [
+        Self::Mixed,
+        Self::Rest,
+        Self::Slide,
+        Self::Tumble,
+        Self::Far,
+        Self::Touch,
+        Self::Deep,
+        Self::Same,
+        Self::Turned,
+    ];
 
     /// The name used in result rows.
     pub const fn name(self) -> &'static str {
@@ -195,6 +225,8 @@ impl PairSet {
             Self::Far => "far",
             Self::Touch => "touch",
             Self::Deep => "deep",
+            Self::Same => "same",
+            Self::Turned => "turned",
         }
     }
 

@@ -94,6 +94,11 @@ fn one_pair(set: PairSet, shapes: &[Flat], random: &mut Random) -> PosedPair2 {
         PairSet::Touch => return touch(a, b, random),
         PairSet::Far => way * random.range(4.0, 10.0),
         PairSet::Deep | PairSet::Tumble => way * random.range(0.0, 0.1),
+        PairSet::Same => return posed(a, angle_a, a, angle_a, at, DVec2::ZERO),
+        PairSet::Turned => {
+            let center = a.shape.center().as_dvec2();
+            return posed(a, angle_a, a, angle_b, at, turn(center, angle_a) - turn(center, angle_b));
+        }
     };
     posed(a, angle_a, b, angle_b, at, offset)
 }

@@ -26,6 +26,10 @@ pub fn solids(kind: SolidKind, count: usize, seed: u64) -> Vec<Shape3> {
         SolidKind::Hull16 => ellipsoid(16, &mut random),
         SolidKind::Hull32 => ellipsoid(32, &mut random),
         SolidKind::Hull128 => ellipsoid(128, &mut random),
+        SolidKind::Hull64 => ellipsoid(64, &mut random),
+        SolidKind::Hull256 => ellipsoid(256, &mut random),
+        SolidKind::Prism256 => prism(128, random.range(0.3, 0.6), random.range(0.3, 0.6)),
+        SolidKind::Globe256 => globe(16, 16, random.range(0.4, 0.6)),
     };
     (0..count).map(&mut one).collect()
 }
@@ -83,6 +87,18 @@ pub(crate) fn prism(sides: usize, radius: f64, half_height: f64) -> Shape3 {
             .map(|y| DVec3::new(radius * libm::cos(angle), y, radius * libm::sin(angle)).as_vec3())
     };
     let points: Vec<Vec3> = (0..sides).flat_map(corner).collect();
+    Hull::from_points(&points).expect(IN_RANGE).into()
+}
+
+/// A ball of circles of latitude, as modellers draw it, without its poles.
+fn globe(circles: usize, corners: usize, radius: f64) -> Shape3 {
+    let corner = |i: usize, j: usize| {
+        let latitude = TAU * 0.5 * ((i as f64 + 0.5) / circles as f64 - 0.5);
+        let longitude = TAU * j as f64 / corners as f64;
+        let (across, up) = (radius * libm::cos(latitude), radius * libm::sin(latitude));
+        DVec3::new(across * libm::cos(longitude), up, across * libm::sin(longitude)).as_vec3()
+    };
+    let points: Vec<Vec3> = (0..circles).flat_map(|i| (0..corners).map(move |j| corner(i, j))).collect();
     Hull::from_points(&points).expect(IN_RANGE).into()
 }
 

@@ -115,6 +115,12 @@ fn one_pair(set: PairSet, shapes: &[Solid], random: &mut Random) -> PosedPair3 {
         PairSet::Touch => return touch(a, b, random),
         PairSet::Far => random.direction() * random.range(4.0, 10.0),
         PairSet::Deep | PairSet::Tumble => random.direction() * random.range(0.0, 0.1),
+        PairSet::Same => return posed(a, turn_a, a, turn_a, at, DVec3::ZERO),
+        PairSet::Turned => {
+            // About the middle of the shape, which is not its origin where points are random.
+            let center = a.shape.center().as_dvec3();
+            return posed(a, turn_a, a, turn_b, at, turn_a.apply(center) - turn_b.apply(center));
+        }
     };
     posed(a, turn_a, b, turn_b, at, offset)
 }
@@ -284,6 +290,27 @@ mod tests {
             assert!((150..250).contains(&apart), "{}: {apart} of 400 apart", kind.name());
             assert!(gaps.iter().all(|gap| gap.abs() < 1.1e-3), "{}", kind.name());
         }
+    }
+
+    #[test]
+    fn concentric_pairs_are_one_shape_about_one_centre() {
+        for kind in SolidKind::GROWTH {
+            for (set, is_turned) in [(PairSet::Same, false), (PairSet::Turned, true)] {
+                for pair in pairs3(kind, set, 20, 1) {
+                    assert_eq!(pair.shape_a, pair.shape_b);
+                    let center = pair.shape_a.center();
+                    let apart = pair.pose_a.transform(center) - pair.pose_b.transform(center);
+                    assert!(apart.length() < 1e-6, "{}: {apart}", kind.name());
+                    assert_eq!(pair.pose_a != pair.pose_b, is_turned);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn growing_hulls_have_the_vertices_that_they_are_named_after() {
+        let counts = SolidKind::GROWTH.map(|kind| vertices3(&solids(kind, 1, 1)[0]).len());
+        assert_eq!(counts, [64, 128, 256, 256, 256]);
     }
 
     #[test]

@@ -51,7 +51,7 @@ impl Convex<'_> {
             }
             Found::Nothing(direction) => {
                 let until = Until { beyond, ..Until::met(&self.precision) };
-                distance(a, b, asked.hint.direction().unwrap_or(direction), &until)
+                distance(a, b, direction, &until)
             }
         };
         match reached {
@@ -60,16 +60,16 @@ impl Convex<'_> {
             }
             Reached::Between(witness) if self.is_plain(&witness) => {
                 let (verdict, cores) = self.conclude(Reached::Between(witness));
+                let Cores::Between(witness) = cores else {
+                    let axes = self.all_axes(a, b, f64::NEG_INFINITY);
+                    return self.probe_close(a, b, axes, (verdict, cores));
+                };
                 // Where points are wanted, the axes say which faces look at each other.
-                match cores {
-                    Cores::Between(witness) if asked.wanted == Wanted::Number => {
-                        self.gap_of_cores(Axes::NONE, verdict, witness)
-                    }
-                    cores => {
-                        let axes = self.all_axes(a, b, witness_bound(&cores));
-                        self.probe_close(a, b, axes, (verdict, cores))
-                    }
-                }
+                let axes = match asked.wanted {
+                    Wanted::Number => Axes::NONE,
+                    Wanted::Points => self.all_axes(a, b, witness.at_least),
+                };
+                self.gap_of_cores(axes, verdict, witness)
             }
             reached => {
                 let axes = self.all_axes(a, b, f64::NEG_INFINITY);
@@ -296,13 +296,6 @@ impl Convex<'_> {
             Some(cuboids) => cuboids.separating_axes(a, b, &search),
             None => separating_axes(a, b, &search),
         }
-    }
-}
-
-fn witness_bound(cores: &Cores) -> f64 {
-    match cores {
-        Cores::Within(_) => f64::NEG_INFINITY,
-        Cores::Between(witness) => witness.at_least,
     }
 }
 

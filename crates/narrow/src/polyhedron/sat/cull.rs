@@ -30,6 +30,9 @@ const MAX_OCTETS: usize = MAX_HULL_VERTICES / 4;
 /// Vertices of the other solid that are kept.
 const POINTS: usize = 8;
 
+/// So many edges are handed on as they are: looking at one costs as much as its arc against some thirty others.
+const FEW: usize = 32;
+
 /// What a solid's faces and edges see of the other solid.
 pub(super) struct Sight<'a, 'b> {
     pub(super) solid: &'a Solid<'b>,
@@ -39,6 +42,8 @@ pub(super) struct Sight<'a, 'b> {
     over: ArrayVec<[f32; 8], MAX_OCTETS>,
     /// The one that told last comes first.
     points: ArrayVec<Ball, POINTS>,
+    /// The place that was last given away.
+    turn: usize,
 }
 
 /// A sphere inside the other solid, in the solid's own axes.
@@ -59,7 +64,7 @@ const NONE_OPEN: Open = [0; 8];
 impl<'a, 'b> Sight<'a, 'b> {
     pub(super) fn new(solid: &'a Solid<'b>, other: &'a Solid<'b>) -> Self {
         let sphere = Ball::new(solid, solid.to_local(other.center()).as_vec3(), other.inner_radius);
-        Self { solid, other, sphere, over: ArrayVec::new_const(), points: ArrayVec::new_const() }
+        Self { solid, other, sphere, over: ArrayVec::new_const(), points: ArrayVec::new_const(), turn: 0 }
     }
 
     /// The face that the other's centre is furthest over; of equals the first.
@@ -81,10 +86,22 @@ impl<'a, 'b> Sight<'a, 'b> {
     /// Takes a vertex of the other solid to tell by.
     pub(super) fn add(&mut self, vertex: usize) {
         let point = self.solid.to_local(self.other.point(vertex)).as_vec3();
-        if self.points.is_full() {
-            self.points.pop();
+        let new = Ball::new(self.solid, point, 0.0);
+        match self.points.first_mut() {
+            Some(first) => {
+                let old = core::mem::replace(first, new);
+                self.keep(old);
+            }
+            None => self.points.push(new),
         }
-        self.points.insert(0, Ball::new(self.solid, point, 0.0));
+    }
+
+    /// Finds a place behind the first, in turns.
+    fn keep(&mut self, old: Ball) {
+        if let Err(full) = self.points.try_push(old) {
+            self.turn = self.turn % (POINTS - 1) + 1;
+            self.points[self.turn] = full.element();
+        }
     }
 
     /// Visits faces whose axis may show `separation`, ascending. The visitor returns the vertex of the other solid that is
@@ -122,19 +139,40 @@ impl<'a, 'b> Sight<'a, 'b> {
                 continue;
             }
             open = self.closed_by_points(open, |ball| ball.rises(edges, separation));
-            // Each that is left brings the vertex that is furthest against the middle of its arc.
+            into.extend((8 * place as u16..).zip(open).filter(|&(_, lane)| lane != 0).map(|(edge, _)| edge));
+        }
+        if into.len() > FEW {
+            self.look_closer(separation, into);
+        }
+    }
+
+    /// Asks for the vertex that is furthest against the middle of each edge's arc. It mostly settles that edge and some of
+    /// its neighbours.
+    fn look_closer(&mut self, separation: f64, edges: &mut ArrayVec<u16, MAX_EDGES>) {
+        let (mut kept, mut at) = (0, 0);
+        while let Some(&first) = edges.get(at) {
+            let place = first / 8;
+            let mut open = NONE_OPEN;
+            while let Some(&edge) = edges.get(at).filter(|&&edge| edge / 8 == place) {
+                open[edge as usize % 8] = 1;
+                at += 1;
+            }
+            let octet = &self.solid.edge_octets[place as usize];
+            open = self.closed_by_points(open, |ball| ball.rises(octet, separation));
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
-                let edge = 8 * place + i;
-                let middle = self.solid.arcs[edge].middle.as_dvec3().normalize_or_zero();
+                let edge = 8 * place + i as u16;
+                let middle = self.solid.arcs[edge as usize].middle.as_dvec3().normalize_or_zero();
                 self.add(self.other.support(-self.solid.turned(middle)).vertex);
-                let left = both(open, self.points[0].rises(edges, separation));
+                let left = both(open, self.points[0].rises(octet, separation));
                 if left[i] != 0 {
-                    let _ = into.try_push(edge as u16);
+                    edges[kept] = edge;
+                    kept += 1;
                 }
                 open = left;
                 open[i] = 0;
             }
         }
+        edges.truncate(kept);
     }
 
     /// What the points leave open. The one that closes the last comes first the next time.
@@ -142,7 +180,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         for place in 0..self.points.len() {
             open = both(open, open_by(&self.points[place]));
             if open == NONE_OPEN {
-                self.points[..=place].rotate_right(1);
+                self.points.swap(0, place);
                 break;
             }
         }

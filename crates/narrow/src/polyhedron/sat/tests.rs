@@ -153,3 +153,32 @@ fn half_circles_and_whole_circles_lose_no_axis_either() {
     }
     assert!(decided_by_edges > 500, "{decided_by_edges}");
 }
+
+#[test]
+fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
+    let mut random = Random(0x2545_F491_4F6C_DD1D);
+    let mut ties = 0;
+    for case in 0..3000_u64 {
+        let (shape_a, shape_b) = (random.hull(case), random.hull(case / 7));
+        let turns = [random.turn(case / 2), random.turn(case / 3)];
+        let poses = turns.map(|turn| Pose3::new(random.vector() * 1e3, turn).unwrap());
+        let pair = convex(&shape_a, poses[0], &shape_b, poses[1]);
+        pair.with_solids(|a, b| {
+            for solid in [a, b] {
+                // Any direction, those of faces, where many vertices are equally far but for rounding, and of axes, where
+                // lattices have exact ties.
+                let faces = (0..solid.face_count()).map(|face| solid.normal(face));
+                let axes = [DVec3::X, -DVec3::Y, DVec3::Z, random.vector().as_dvec3().normalize()];
+                for direction in faces.chain(axes) {
+                    let (lanes, definition) = (solid.support(direction), solid.support_one_by_one(direction));
+                    assert_eq!(lanes.vertex, definition.vertex, "case {case}");
+                    assert_eq!(lanes.reach.to_bits(), definition.reach.to_bits(), "case {case}");
+                    let local = definition.reach - 1e-7;
+                    let near = (0..solid.vertices.len()).filter(|&v| direction.dot(solid.point(v)) > local);
+                    ties += usize::from(near.count() > 1);
+                }
+            }
+        });
+    }
+    assert!(ties > 10_000, "{ties}");
+}

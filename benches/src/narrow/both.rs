@@ -1,0 +1,190 @@
+//! A pair in our types and in parry3d's, and every question to either.
+
+use super::Operation;
+use crate::accuracy::Said;
+use crate::parry::{self, Shapes};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, Separation3, collide3};
+use asunder_scenes::pairs::PosedPair3;
+use core::hint::black_box;
+use glam::Vec3;
+use parry3d::math::Pose;
+use parry3d::query::{self, ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher};
+use parry3d::shape::SharedShape;
+
+/// A pair, in our types and in parry3d's.
+pub(super) struct Both {
+    ours: PosedPair3,
+    shapes: [SharedShape; 2],
+    poses: [Pose; 2],
+}
+
+/// What parry3d finds, in memory that is kept.
+pub(super) type Manifolds = Vec<ContactManifold<(), ()>>;
+
+impl Both {
+    /// The pairs in both types; nothing where parry3d refuses a hull.
+    pub(super) fn all(pairs: &[PosedPair3], shapes: &mut Shapes) -> Option<Vec<Self>> {
+        let both = pairs.iter().map(|pair| {
+            Some(Self {
+                shapes: [shapes.convert(&pair.shape_a)?, shapes.convert(&pair.shape_b)?],
+                poses: [parry::pose(&pair.pose_a), parry::pose(&pair.pose_b)],
+                ours: pair.clone(),
+            })
+        });
+        both.collect()
+    }
+
+    pub(super) fn pair(&self) -> Pair3<'_> {
+        Pair3::new(&self.ours.shape_a, &self.ours.pose_a, &self.ours.shape_b, &self.ours.pose_b)
+    }
+
+    pub(super) fn job(&self, hint: Hint, sensor: bool) -> Job3<'_> {
+        let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = &self.ours;
+        Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor }
+    }
+
+    /// Our answer: something of it, so that none of it can be left out.
+    pub(super) fn ask(&self, operation: Operation) -> f32 {
+        let pair = self.pair();
+        match operation {
+            Operation::Boolean => f32::from(u8::from(pair.overlaps())),
+            Operation::Separation => match pair.separation(0.0) {
+                Separation3::Measured(found) => found.separation + found.normal.x,
+                Separation3::AtLeast(bound) => bound,
+            },
+            Operation::Distance => pair.distance().map_or(0.0, |closest| closest.distance),
+            Operation::Manifold | Operation::Cached => {
+                let manifold = black_box(pair.manifold(0.0));
+                manifold.map_or(0.0, |manifold| manifold.points.iter().map(|point| point.separation).sum())
+            }
+        }
+    }
+
+    /// Our answer, to be judged.
+    pub(super) fn said(&self, operation: Operation) -> Said {
+        let pair = self.pair();
+        match operation {
+            Operation::Boolean => Said { touching: pair.overlaps(), separation: None },
+            Operation::Separation => match pair.separation(0.0) {
+                Separation3::Measured(found) => {
+                    Said { touching: found.separation <= 0.0, separation: Some(found.separation.into()) }
+                }
+                Separation3::AtLeast(_) => Said { touching: false, separation: None },
+            },
+            Operation::Distance => {
+                let found = pair.distance();
+                Said { touching: found.is_none(), separation: found.map(|closest| closest.distance.into()) }
+            }
+            Operation::Manifold | Operation::Cached => of_manifolds(&pair.manifolds(0.0)),
+        }
+    }
+}
+
+/// Our answers to many pairs at once, to be judged.
+pub(super) fn said_at_once(operation: Operation, pairs: &[&Both]) -> Vec<Said> {
+    let is_sensor = operation == Operation::Boolean;
+    let jobs: Vec<Job3<'_>> = pairs.iter().map(|both| both.job(Hint::NONE, is_sensor)).collect();
+    let mut batch = Batch3::default();
+    collide3(&jobs, &mut batch);
+    batch.answers.iter().map(|answer| of_answer(answer, is_sensor, &batch.manifolds)).collect()
+}
+
+/// An answer of a batch, to be judged.
+pub(super) fn of_answer(answer: &Answer, is_sensor: bool, manifolds: &[Manifold3]) -> Said {
+    match answer {
+        Answer::Apart { .. } => Said { touching: false, separation: None },
+        Answer::Contact { overlapping, .. } if is_sensor => Said { touching: *overlapping, separation: None },
+        Answer::Contact { manifolds: range, .. } => {
+            of_manifolds(&manifolds[range.start as usize..range.end as usize])
+        }
+    }
+}
+
+fn of_manifolds(manifolds: &[Manifold3]) -> Said {
+    of_points(manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.separation))
+}
+
+/// As deep as the deepest point.
+fn of_points(separations: impl Iterator<Item = f32>) -> Said {
+    let deepest = separations.map(f64::from).reduce(f64::min);
+    Said { touching: deepest.is_some(), separation: deepest }
+}
+
+/// parry3d, with manifolds whose memory is kept from pair to pair.
+#[derive(Default)]
+pub(super) struct Peer {
+    manifolds: Manifolds,
+}
+
+impl Peer {
+    /// Its answer: something of it, so that none of it can be left out.
+    pub(super) fn ask(&mut self, operation: Operation, both: &Both) -> f32 {
+        let ([a, b], [pose_a, pose_b]) = (&both.shapes, &both.poses);
+        let (a, b) = (&*a.0, &*b.0);
+        match operation {
+            Operation::Boolean => f32::from(u8::from(both.peer_overlaps())),
+            Operation::Separation => match query::contact(pose_a, a, pose_b, b, 0.0) {
+                Ok(Some(contact)) => contact.dist + contact.normal1.x,
+                _ => 0.0,
+            },
+            Operation::Distance => query::distance(pose_a, a, pose_b, b).map_or(0.0, |found| found.distance),
+            Operation::Manifold | Operation::Cached => {
+                self.forget();
+                both.peer_manifolds(&mut self.manifolds)
+            }
+        }
+    }
+
+    /// Its answer, to be judged.
+    pub(super) fn said(&mut self, operation: Operation, both: &Both) -> Said {
+        let ([a, b], [pose_a, pose_b]) = (&both.shapes, &both.poses);
+        let (a, b) = (&*a.0, &*b.0);
+        match operation {
+            Operation::Boolean => Said { touching: both.peer_overlaps(), separation: None },
+            Operation::Separation => match query::contact(pose_a, a, pose_b, b, 0.0) {
+                Ok(Some(contact)) => Said { touching: true, separation: Some(contact.dist.into()) },
+                _ => Said { touching: false, separation: None },
+            },
+            Operation::Distance => {
+                let found = query::distance(pose_a, a, pose_b, b).map_or(0.0, |found| found.distance);
+                let touching = found == 0.0;
+                Said { touching, separation: (!touching).then_some(found.into()) }
+            }
+            Operation::Manifold | Operation::Cached => {
+                self.forget();
+                both.peer_manifolds(&mut self.manifolds);
+                of_peer(&self.manifolds)
+            }
+        }
+    }
+
+    /// An empty manifold without a normal is one without memory; its allocation may stay.
+    fn forget(&mut self) {
+        for manifold in &mut self.manifolds {
+            manifold.points.clear();
+            (manifold.local_n1, manifold.local_n2) = (Vec3::ZERO, Vec3::ZERO);
+        }
+    }
+}
+
+/// What parry3d's manifolds say, to be judged.
+pub(super) fn of_peer(manifolds: &Manifolds) -> Said {
+    of_points(manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.dist))
+}
+
+impl Both {
+    fn peer_overlaps(&self) -> bool {
+        let ([a, b], [pose_a, pose_b]) = (&self.shapes, &self.poses);
+        // Unsupported combinations do not occur: all shapes are convex.
+        query::intersection_test(pose_a, &*a.0, pose_b, &*b.0).is_ok_and(|found| found.intersecting)
+    }
+
+    /// parry3d's manifolds, from what they were.
+    pub(super) fn peer_manifolds(&self, manifolds: &mut Manifolds) -> f32 {
+        let ([a, b], [pose_a, pose_b]) = (&self.shapes, &self.poses);
+        let relative = pose_a.inv_mul(pose_b);
+        // Both shapes are convex, which parry3d supports in every combination.
+        let _ = DefaultQueryDispatcher.contact_manifolds(&relative, &*a.0, &*b.0, 0.0, manifolds, &mut None);
+        manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.dist).sum()
+    }
+}
