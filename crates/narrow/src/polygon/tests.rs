@@ -6,10 +6,11 @@ use super::outline::counted::steps_of;
 use super::outline::{Outline, Turn};
 use super::sat::{Axes, Outcome, Sides, Wanted, doubt, plain, separating_axes, sides};
 use super::search;
+use crate::Pair2;
 use crate::feature::Hint;
 use crate::precision::{IN_PLANE, Precision};
 use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::{Polygon, Rotation2, Shape2};
+use asunder_geometry::{Polygon, Pose2, Rotation2, Shape2};
 use oorandom::Rand64;
 
 const U: f64 = f64::EPSILON / 2.0;
@@ -289,4 +290,62 @@ fn no_pair_of_large_polygons_is_quadratic() {
         large += usize::from(edges > 600);
     }
     assert!(large > 50, "{large} large ones, {most} steps an edge");
+}
+
+/// Through every question there is, with no limit on how far apart: the whole outlines lie within the margin.
+#[test]
+fn no_question_about_large_polygons_is_quadratic() {
+    let mut random = Random(Rand64::new(44));
+    let (mut large, mut worst) = (0, 0.0_f64);
+    for round in 0..300 {
+        let (shape_a, shape_b) = (polygon(&mut random), polygon(&mut random));
+        let edges = shape_a.core().vertices().len() + shape_b.core().vertices().len();
+        let reach = f64::from(shape_a.outer_radius() + shape_b.outer_radius());
+        let centers = shape_a.center().as_dvec2() - shape_b.center().as_dvec2();
+        let turn = Rotation2::new(1.0, [0.0, 1e-4][round / 2 % 2]).unwrap();
+        let away = on_circle(random.angle()) * reach * [0.0, 1e-5, 0.3, 1.0, 3.0][round % 5];
+        let (here, there) = (Pose2::IDENTITY, Pose2::new(centers + away, turn).unwrap());
+        let pair = Pair2::new(&shape_a, &here, &shape_b, &there);
+        let (apart, of_distance) = steps_of(|| pair.distance().is_some());
+        let asked = [
+            of_distance,
+            steps_of(|| pair.separation(f32::INFINITY)).1,
+            steps_of(|| pair.manifold(1e6)).1,
+            steps_of(|| pair.overlaps()).1,
+        ];
+        let most = asked.into_iter().max().unwrap();
+        assert!(most <= 30 * edges + 2000, "{asked:?} steps for {edges} edges, apart: {apart}");
+        worst = worst.max(most as f64 / edges as f64);
+        large += usize::from(edges > 2000);
+    }
+    assert!(large > 10, "{large} large ones, {worst} steps an edge");
+}
+
+/// What parted them still parts them: two supports tell, however large the polygons.
+#[test]
+fn the_hint_of_a_pair_apart_saves_its_search() {
+    let mut random = Random(Rand64::new(45));
+    let (mut cases, mut searched, mut hinted) = (0, 0, 0);
+    for _ in 0..2000 {
+        let ([shape_a, shape_b], [turn_a, turn_b], offset) = pair(&mut random, usize::MAX);
+        let (core_a, core_b) = (shape_a.core(), shape_b.core());
+        let a = Outline::new(&shape_a, &core_a, turn_a, DVec2::ZERO);
+        let b = Outline::new(&shape_b, &core_b, turn_b, offset);
+        let precision = precision(&shape_a, &shape_b, offset);
+        let towards_b = on_circle(random.angle());
+        let band = doubt(&precision);
+        let wanted = Wanted { limit: band, band, hint: Hint::NONE, towards_b, precision: &precision };
+        let (first, steps) = steps_of(|| separating_axes(&a, &b, &wanted));
+        let Outcome::Beyond(separation, hint) = first else { continue };
+        // A direction is kept up to an f32 rounding, which turns a reach by as much.
+        if separation < 1e-6 * precision.reach {
+            continue;
+        }
+        let (again, steps_again) = steps_of(|| separating_axes(&a, &b, &Wanted { hint, ..wanted }));
+        assert!(matches!(again, Outcome::Beyond(_, kept) if kept == hint), "{shape_a:?}, {shape_b:?}");
+        assert!(steps_again <= 4 * 13, "{steps_again} steps");
+        cases += 1;
+        (searched, hinted) = (searched + steps, hinted + steps_again);
+    }
+    assert!(cases > 200 && 2 * hinted < searched, "{cases} cases: {searched} steps, {hinted} with a hint");
 }
