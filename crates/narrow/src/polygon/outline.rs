@@ -185,6 +185,13 @@ impl<'a> Outline<'a> {
     /// where they are few, else the logarithm of their number.
     #[inline]
     pub(crate) fn support(&self, direction: DVec2) -> Support {
+        self.support_near(direction, None)
+    }
+
+    /// The same, asked of one vertex first, which it may be, or be beside: two edges tell. Of those that tie up to rounding it
+    /// may be another.
+    #[inline]
+    pub(crate) fn support_near(&self, direction: DVec2, near: Option<usize>) -> Support {
         let local = self.turn.turn_back(direction);
         let vertex = match &self.extremes {
             None => self.furthest(local),
@@ -196,10 +203,35 @@ impl<'a> Outline<'a> {
                     (true, true) => (extremes[2], extremes[3]),
                     (false, true) => (extremes[3], extremes[0]),
                 };
-                self.climb_local(from, self.edges_between(from, to), local)
+                self.climb_near(from, self.edges_between(from, to), local, near)
             }
         };
         Support { vertex, reach: local.dot(self.vertices[vertex].as_dvec2()) + direction.dot(self.position) }
+    }
+
+    /// As [`climb_local`](Self::climb_local), beginning at a vertex where it is one of those.
+    #[inline]
+    fn climb_near(&self, from: usize, edges: usize, local: DVec2, near: Option<usize>) -> usize {
+        // How many of the edges lie before it.
+        let Some(before) = near.map(|near| self.edges_between(from, near)).filter(|&before| before <= edges)
+        else {
+            return self.climb_local(from, edges, local);
+        };
+        if before > 0 && !self.ascends(self.ahead(from, before - 1), local) {
+            return self.climb_local(from, before - 1, local);
+        }
+        if before < edges && self.ascends(self.ahead(from, before), local) {
+            return self.climb_local(self.ahead(from, before + 1), edges - before - 1, local);
+        }
+        self.ahead(from, before)
+    }
+
+    /// Whether the edge that starts at a vertex leads along a direction.
+    #[inline]
+    fn ascends(&self, start: usize, local: DVec2) -> bool {
+        count_step();
+        let along = self.vertices[self.after(start)].as_dvec2() - self.vertices[start].as_dvec2();
+        local.dot(along) > 0.0
     }
 
     fn furthest(&self, local: DVec2) -> usize {
@@ -229,11 +261,8 @@ impl<'a> Outline<'a> {
     fn climb_local(&self, from: usize, edges: usize, local: DVec2) -> usize {
         let (mut ascending, mut unknown) = (0, edges);
         while unknown > 0 {
-            count_step();
             let half = unknown / 2;
-            let start = self.ahead(from, ascending + half);
-            let along = self.vertices[self.after(start)].as_dvec2() - self.vertices[start].as_dvec2();
-            if local.dot(along) > 0.0 {
+            if self.ascends(self.ahead(from, ascending + half), local) {
                 (ascending, unknown) = (ascending + half + 1, unknown - half - 1);
             } else {
                 unknown = half;

@@ -111,16 +111,21 @@ fn a_searched_support_is_as_far_as_the_furthest_vertex() {
         let outline = Outline::new(&shape, &core, random.turn(), DVec2::new(0.5, -3.0));
         let furthest_out = core.vertices().iter().map(|v| v.as_dvec2().length()).fold(0.0, f64::max);
         for direction in directions(&mut random, &outline) {
-            let (found, steps) = steps_of(|| outline.support(direction));
-            let reach = |vertex: usize| direction.dot(outline.point(vertex));
-            let furthest = (0..core.vertices().len()).map(reach).fold(f64::NEG_INFINITY, f64::max);
-            let short = furthest - reach(found.vertex);
-            // What a search may lose, and this comparison's own rounding.
-            let size = f64::from(shape.outer_radius());
-            let bound = U * direction.length() * (4.0 * size + 8.0 * (furthest_out + 4.0));
-            assert!(short <= bound, "{short:e} above {bound:e}: {direction:?}, {shape:?}");
-            assert!(steps <= 13, "{steps} steps");
-            (worst, ties) = (worst.max(short / bound), ties + usize::from(short != 0.0));
+            let near = random.below(core.vertices().len());
+            for near in [None, Some(near)] {
+                let (found, steps) = steps_of(|| outline.support_near(direction, near));
+                let reach = |vertex: usize| direction.dot(outline.point(vertex));
+                let furthest = (0..core.vertices().len()).map(reach).fold(f64::NEG_INFINITY, f64::max);
+                let short = furthest - reach(found.vertex);
+                // What a search may lose, and this comparison's own rounding.
+                let size = f64::from(shape.outer_radius());
+                let bound = U * direction.length() * (4.0 * size + 8.0 * (furthest_out + 4.0));
+                assert!(short <= bound, "{short:e} above {bound:e}: {direction:?}, {shape:?}");
+                assert!(steps <= 15, "{steps} steps");
+                let again = steps_of(|| outline.support_near(direction, Some(found.vertex)));
+                assert!(again.0.vertex == found.vertex && again.1 <= 2, "it knows that it is the furthest");
+                (worst, ties) = (worst.max(short / bound), ties + usize::from(short != 0.0));
+            }
         }
     }
     assert!(ties > 0, "no direction was hard: {worst}");
