@@ -7,7 +7,7 @@
 //! many edges:          a search over directions               (search)
 //! ```
 //! Gottschalk, "Separating axis theorem" (1996). Whatever proposes an axis, it is believed only after both shapes were
-//! projected on it, by [`axis_a`] and [`axis_b`]; those are the definition, and `plain` below is the definition of the
+//! projected on it, by [`axis`]; that is the definition, and `plain` below is the definition of the
 //! best axis, kept to hold the kernels against.
 
 use super::few;
@@ -130,25 +130,15 @@ pub(crate) fn doubt(precision: &Precision) -> f64 {
     2.0 * precision.projection()
 }
 
-/// The normal of an edge of A, and both shapes projected on it.
-pub(super) fn axis_a(a: &Outline, b: &Outline, edge: usize) -> Axis {
-    let normal = a.normal(edge);
-    let separation = -b.support(-normal).reach - a.support(normal).reach;
-    Axis { separation, normal, of: AxisOf::EdgeA(edge) }
-}
-
-/// The normal of an edge of B, turned from A to B, and both shapes projected on it.
-pub(super) fn axis_b(a: &Outline, b: &Outline, edge: usize) -> Axis {
-    let normal = -b.normal(edge);
-    let separation = -b.support(-normal).reach - a.support(normal).reach;
-    Axis { separation, normal, of: AxisOf::EdgeB(edge) }
-}
-
-pub(super) fn axis(a: &Outline, b: &Outline, of: AxisOf) -> Axis {
-    match of {
-        AxisOf::EdgeA(edge) => axis_a(a, b, edge),
-        AxisOf::EdgeB(edge) => axis_b(a, b, edge),
-    }
+/// The normal of an edge, from A to B, and both shapes projected on it. `near` is a vertex of the other shape that may be
+/// the furthest one, or beside it; of the edge's own shape its start is.
+pub(super) fn axis(a: &Outline, b: &Outline, of: AxisOf, near: Option<usize>) -> Axis {
+    let (normal, near_a, near_b) = match of {
+        AxisOf::EdgeA(edge) => (a.normal(edge), Some(edge), near),
+        AxisOf::EdgeB(edge) => (-b.normal(edge), near, Some(edge)),
+    };
+    let separation = -b.support_near(-normal, near_b).reach - a.support_near(normal, near_a).reach;
+    Axis { separation, normal, of }
 }
 
 /// What a hint names: an edge that this pair has, or a direction.
@@ -204,13 +194,13 @@ pub(crate) fn hint_of_direction(direction: DVec2) -> Hint {
 pub(super) fn plain(a: &Outline, b: &Outline) -> Axes {
     let mut best = Axes::NONE;
     for edge in 0..a.edge_count() {
-        let axis = axis_a(a, b, edge);
+        let axis = axis(a, b, AxisOf::EdgeA(edge), None);
         if axis.separation > best.edge_a.separation {
             best.edge_a = axis;
         }
     }
     for edge in 0..b.edge_count() {
-        let axis = axis_b(a, b, edge);
+        let axis = axis(a, b, AxisOf::EdgeB(edge), None);
         if axis.separation > best.edge_b.separation {
             best.edge_b = axis;
         }

@@ -27,9 +27,7 @@
 //! which count what a search may lose.
 
 use super::outline::{Outline, count_step};
-use super::sat::{
-    Axes, Axis, AxisOf, Named, Outcome, Sides, Wanted, axis, axis_a, axis_b, doubt, hint_of_direction,
-};
+use super::sat::{Axes, Axis, AxisOf, Named, Outcome, Sides, Wanted, axis, doubt, hint_of_direction};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 
@@ -46,7 +44,7 @@ pub(super) fn separating_axes(a: &Outline, b: &Outline, hint: Option<Named>, wan
     search.band = wanted.band;
     let stop = match hint {
         Some(Named::Edge(of)) => {
-            let axis = axis(a, b, of);
+            let axis = axis(a, b, of, None);
             if axis.separation > wanted.limit {
                 return Outcome::Beyond(axis.separation, wanted.hint);
             }
@@ -98,20 +96,20 @@ pub(super) fn beside(a: &Outline, b: &Outline, normal: DVec2, least: f64) -> Axe
         axis.separation >= least
     };
     let (from_a, from_b) = (a.support(normal).vertex, b.support(-normal).vertex);
-    for (outline, from, of) in [
-        (a, from_a, (|edge| AxisOf::EdgeA(edge)) as fn(usize) -> AxisOf),
-        (b, from_b, |edge| AxisOf::EdgeB(edge)),
+    for (outline, from, of, near) in [
+        (a, from_a, (|edge| AxisOf::EdgeA(edge)) as fn(usize) -> AxisOf, from_b),
+        (b, from_b, |edge| AxisOf::EdgeB(edge), from_a),
     ] {
         let mut edge = from;
         for _ in 0..outline.edge_count() {
-            if !keep(axis(a, b, of(edge))) {
+            if !keep(axis(a, b, of(edge), Some(near))) {
                 break;
             }
             edge = outline.after(edge);
         }
         let mut edge = outline.before(from);
         for _ in 0..outline.edge_count() {
-            if !keep(axis(a, b, of(edge))) {
+            if !keep(axis(a, b, of(edge), Some(near))) {
                 break;
             }
             edge = outline.before(edge);
@@ -353,15 +351,15 @@ impl<'s, 'a> Search<'s, 'a> {
         let mut axes = Axes::NONE;
         let least = self.edge_a.0.min(self.edge_b.0);
         if self.edge_a.0 <= least + self.band && self.a.edge_count() > 0 {
-            axes.edge_a = axis_a(self.a, self.b, self.edge_a.1);
+            axes.edge_a = axis(self.a, self.b, AxisOf::EdgeA(self.edge_a.1), None);
         }
         if self.edge_b.0 <= least + self.band && self.b.edge_count() > 0 {
-            axes.edge_b = axis_b(self.a, self.b, self.edge_b.1);
+            axes.edge_b = axis(self.a, self.b, AxisOf::EdgeB(self.edge_b.1), None);
         }
         let best = axes.best().separation;
         axes.short = doubt + (-least - best).max(0.0);
         axes.kept =
-            kept.map(|of| axis(self.a, self.b, of)).filter(|axis| axis.separation >= best - self.band);
+            kept.map(|of| axis(self.a, self.b, of, None)).filter(|axis| axis.separation >= best - self.band);
         axes
     }
 }
