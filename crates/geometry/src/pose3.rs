@@ -96,11 +96,13 @@ pub(crate) fn check_rotation(components: &[f32]) -> Result<(), PoseError> {
 /// assert_eq!(pose.transform(Vec3::X).to_array(), [1e6, 1.0, 0.0]);
 /// # Ok::<(), asunder_geometry::PoseError>(())
 /// ```
+// The rotation first: a copy goes by sixteen bytes, and what is read right after it must not straddle two of those.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Pose3 {
-    position: DVec3,
     // Components x, y, z, w. Not a `Quat`, whose alignment would pad every pose to 48 bytes.
     rotation: [f32; 4],
+    position: DVec3,
 }
 
 impl Pose3 {
@@ -157,15 +159,7 @@ impl Pose3 {
     /// ```
     #[inline]
     pub fn basis_from(&self, other: &Self) -> Basis3 {
-        // conjugate(p) q. Products of f32 are exact in f64, so that equal rotations cancel to the last bit; pairs
-        // first, so that each component is rounded twice.
-        let ([a, b, c, d], [x, y, z, w]) = (other.rotation.map(f64::from), self.rotation.map(f64::from));
-        Basis3::of_quaternion([
-            (d * x - a * w) + (c * y - b * z),
-            (d * y - b * w) + (a * z - c * x),
-            (d * z - c * w) + (b * x - a * y),
-            (d * w + a * x) + (b * y + c * z),
-        ])
+        Basis3::between(other.rotation.map(f64::from), self.rotation.map(f64::from))
     }
 
     /// A local point, in metres, taken to the world.
@@ -223,9 +217,30 @@ pub struct Basis3 {
 }
 
 impl Basis3 {
-    /// M(q)/|q|^2 of a quaternion x, y, z, w that is not zero.
-    #[inline]
-    fn of_quaternion([x, y, z, w]: [f64; 4]) -> Self {
+    /// The axes of one rotation as seen from another: of quaternions x, y, z, w of any length but zero, with the values of
+    /// f32 numbers. [`Pose3::basis_from`] is made of it; it stands alone for those that hold many rotations side by
+    /// side.
+    ///
+    /// ```
+    /// use asunder_geometry::Basis3;
+    /// let turned = [0.5, -0.25, 1.0, 2.0];
+    /// assert_eq!(Basis3::between([0.0, 0.0, 0.0, 1.0], turned), Basis3::of_quaternion(turned));
+    /// ```
+    #[inline(always)]
+    pub fn between([a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]) -> Self {
+        // conjugate(p) q. Products of f32 are exact in f64, so that equal rotations cancel to the last bit; pairs
+        // first, so that each component is rounded twice.
+        Self::of_quaternion([
+            (d * x - a * w) + (c * y - b * z),
+            (d * y - b * w) + (a * z - c * x),
+            (d * z - c * w) + (b * x - a * y),
+            (d * w + a * x) + (b * y + c * z),
+        ])
+    }
+
+    /// M(q)/|q|^2 of a quaternion x, y, z, w of any length but zero, with the values of f32 numbers.
+    #[inline(always)]
+    pub fn of_quaternion([x, y, z, w]: [f64; 4]) -> Self {
         // The least product of two f32 squared is 2e-180: no component can underflow here, and the largest cannot
         // overflow.
         let scale = 2.0 / (x * x + y * y + z * z + w * w);

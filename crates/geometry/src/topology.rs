@@ -28,6 +28,10 @@ pub struct HalfEdge {
 pub struct Topology {
     half_edges: Box<[HalfEdge]>,
     first_of_face: Box<[u16]>,
+    /// Half-edges by the vertex that they leave.
+    by_origin: Box<[u16]>,
+    /// Where those of each vertex begin; at last, where all end.
+    first_of_vertex: Box<[u16]>,
     edges: Box<[u16]>,
 }
 
@@ -71,7 +75,14 @@ impl Topology {
             }
         }
         let edges = (0..half_edges.len() as u16).filter(|&i| i < half_edges[i as usize].twin).collect();
-        Self { half_edges: half_edges.into(), first_of_face: first_of_face.into(), edges }
+        let (by_origin, first_of_vertex) = by_origin(&half_edges);
+        Self {
+            half_edges: half_edges.into(),
+            first_of_face: first_of_face.into(),
+            by_origin,
+            first_of_vertex,
+            edges,
+        }
     }
 
     /// One vertex, whose face loop never leaves it.
@@ -79,6 +90,8 @@ impl Topology {
         static POINT: LazyLock<Topology> = LazyLock::new(|| Topology {
             half_edges: Box::new([HalfEdge { origin: 0, twin: 0, next: 0, face: 0 }]),
             first_of_face: Box::new([0]),
+            by_origin: Box::new([0]),
+            first_of_vertex: Box::new([0, 1]),
             edges: Box::new([]),
         });
         &POINT
@@ -123,6 +136,22 @@ impl Topology {
         self.half_edges[self.face_half_edges(face)].iter().map(|h| h.origin as usize)
     }
 
+    /// The half-edges that leave a vertex, ascending. They lead to its neighbours, and every face at the vertex has one.
+    /// None for a vertex that is not there.
+    ///
+    /// ```
+    /// use asunder_geometry::Cuboid;
+    /// let topology = Cuboid::topology();
+    /// let mut neighbours: Vec<_> = topology.leaving(0).iter().map(|&h| topology.ends(h.into()).1).collect();
+    /// neighbours.sort();
+    /// assert_eq!(neighbours, [1, 2, 4], "corners that differ in one bit");
+    /// ```
+    #[inline]
+    pub fn leaving(&self, vertex: usize) -> &[u16] {
+        let Some(&[first, end]) = self.first_of_vertex.get(vertex..vertex + 2) else { return &[] };
+        self.by_origin.get(usize::from(first)..usize::from(end)).unwrap_or_default()
+    }
+
     /// The two vertices of a half-edge: its origin and where it leads.
     #[inline]
     pub fn ends(&self, half_edge: usize) -> (usize, usize) {
@@ -135,4 +164,14 @@ impl Topology {
     pub fn edge_of(&self, half_edge: usize) -> usize {
         half_edge.min(self.half_edges[half_edge].twin as usize)
     }
+}
+
+/// Half-edges by their origins, ascending in each; where those of each vertex begin, and at last where all end.
+fn by_origin(half_edges: &[HalfEdge]) -> (Box<[u16]>, Box<[u16]>) {
+    let mut order: Vec<u16> = (0..half_edges.len() as u16).collect();
+    order.sort_by_key(|&i| half_edges[i as usize].origin);
+    let vertices = half_edges.iter().map(|h| h.origin + 1).max().unwrap_or(0);
+    let begin = |vertex| order.partition_point(|&i| half_edges[i as usize].origin < vertex) as u16;
+    let first = (0..=vertices).map(begin).collect();
+    (order.into(), first)
 }

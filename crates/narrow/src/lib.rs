@@ -50,6 +50,8 @@ mod batch;
 
 mod exact;
 mod feature;
+mod jobs3;
+mod lanes;
 mod least;
 mod pair2;
 mod pair3;
@@ -64,5 +66,6 @@ pub use answer::{
 pub use arrayvec::ArrayVec;
 pub use batch::{Batch, Batch2, Batch3};
 pub use feature::{Feature, FeatureId, Hint};
+pub use jobs3::{Job3, collide3};
 pub use pair2::{Job2, Pair2, collide2};
-pub use pair3::{Job3, Pair3, collide3};
+pub use pair3::Pair3;

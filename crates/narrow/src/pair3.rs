@@ -1,11 +1,13 @@
 //! One pair in space, and batches of them.
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
-use crate::batch::Batch3;
 use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
+use crate::polyhedron::cuboids::asked::Contact;
+use crate::polyhedron::cuboids::placed::Posed;
+use crate::polyhedron::sat::hint_to;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -41,8 +43,6 @@ pub struct Pair3<'a> {
     shape_b: &'a Shape3,
     pose_a: Pose3,
     pose_b: Pose3,
-    basis_a: Basis3,
-    basis_b: Basis3,
     /// B's position less A's.
     between: DVec3,
 }
@@ -69,11 +69,18 @@ struct Parts<'a> {
 }
 
 impl<'a> Pair3<'a> {
-    /// A pair of posed shapes. Cost: two rotations to matrices.
+    /// A pair of posed shapes. Cost: a subtraction.
+    #[inline]
     pub fn new(shape_a: &'a Shape3, pose_a: &Pose3, shape_b: &'a Shape3, pose_b: &Pose3) -> Self {
         let between = pose_b.position() - pose_a.position();
-        let (basis_a, basis_b) = (pose_a.basis(), pose_b.basis());
-        Self { shape_a, shape_b, pose_a: *pose_a, pose_b: *pose_b, basis_a, basis_b, between }
+        Self { shape_a, shape_b, pose_a: *pose_a, pose_b: *pose_b, between }
+    }
+
+    /// Both shapes, where they are cuboids: those have kernels of their own.
+    #[inline]
+    fn cuboids(&self) -> Option<Posed<'_>> {
+        let (Shape3::Cuboid(a), Shape3::Cuboid(b)) = (self.shape_a, self.shape_b) else { return None };
+        Some(Posed { cuboids: [a, b], poses: [&self.pose_a, &self.pose_b] })
     }
 
     /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-space, whose pairs have
@@ -106,6 +113,13 @@ impl<'a> Pair3<'a> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn verdict(&self) -> Verdict {
+        match self.cuboids().and_then(|cuboids| cuboids.overlaps()) {
+            Some(overlapping) => Verdict { overlapping, tier: Tier::Bound },
+            None => self.general_verdict(),
+        }
+    }
+
+    fn general_verdict(&self) -> Verdict {
         let mut tier = Tier::Bound;
         let overlapping = self.any(0.0, |parts| {
             let verdict = parts.convex.verdict();
@@ -130,6 +144,9 @@ impl<'a> Pair3<'a> {
     /// within the limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
+        if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
+            return found;
+        }
         match self.nearest(limit) {
             Ok((parts, near)) => Separation3::Measured(Measured3 {
                 separation: near.separation,
@@ -160,6 +177,14 @@ impl<'a> Pair3<'a> {
     /// them all. Nothing for two half-spaces that overlap without end. Cost: as the separation, plus clipping two
     /// faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
+        if let Some(cuboids) = self.cuboids() {
+            let mut manifold = Manifold3::BLANK;
+            match cuboids.contact(reach_of(margin), Hint::NONE, Some(&mut manifold)) {
+                Contact::Apart(_) => return None,
+                Contact::Touching(_) => return Some(manifold),
+                Contact::Unclear => {}
+            }
+        }
         let manifolds = self.manifolds(margin);
         manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
     }
@@ -188,15 +213,35 @@ impl<'a> Pair3<'a> {
 
     /// The hint for the next frame, and whether they overlap if they are within the margin. Manifolds go where they
     /// are wanted.
-    fn contact(
+    #[inline]
+    pub(crate) fn contact(
         &self,
         margin: f32,
         hint: Hint,
         mut manifolds: Option<&mut Vec<Manifold3>>,
     ) -> (Hint, Option<bool>) {
-        let margin = margin.max(0.0);
-        // What rounds to the margin counts as within it: the number that is told decides.
-        let reach = f64::from(margin.next_up());
+        let Some(cuboids) = self.cuboids() else {
+            return self.general_contact(margin, hint, manifolds);
+        };
+        let reach = reach_of(margin);
+        let contact = match &mut manifolds {
+            None => cuboids.contact(reach, hint, None),
+            Some(manifolds) => in_place(manifolds, |manifold| cuboids.contact(reach, hint, manifold)),
+        };
+        match contact {
+            Contact::Apart(hint) => (hint, None),
+            Contact::Touching(hint) => (hint, Some(true)),
+            Contact::Unclear => self.general_contact(margin, hint, manifolds),
+        }
+    }
+
+    fn general_contact(
+        &self,
+        margin: f32,
+        hint: Hint,
+        mut manifolds: Option<&mut Vec<Manifold3>>,
+    ) -> (Hint, Option<bool>) {
+        let (margin, reach) = (margin.max(0.0), reach_of(margin));
         let (mut next_hint, mut touch) = (Hint::NONE, None);
         let wanted = if manifolds.is_some() { Wanted::Points } else { Wanted::Number };
         self.any(reach, |parts| {
@@ -211,8 +256,11 @@ impl<'a> Pair3<'a> {
             let is_touching = near.verdict.overlapping;
             if is_touching || near.separation <= margin {
                 touch = Some(touch.unwrap_or(false) || is_touching);
-                if let Some(manifolds) = &mut manifolds {
-                    manifolds.extend(parts.manifold(&near, reach));
+                if let Some(manifolds) = &mut manifolds
+                    && let Some((manifold, hint)) = parts.manifold(&near, reach, hint)
+                {
+                    manifolds.push(manifold);
+                    next_hint = hint;
                 }
             }
             false
@@ -225,14 +273,15 @@ impl<'a> Pair3<'a> {
     fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
         let mut least = Least::within(limit);
         let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
-        let whole_b = Part::whole(self.shape_b, &self.basis_b);
-        for_parts(self.shape_a, &self.basis_a, |a| {
+        let bases = self.bases();
+        let whole_b = Part::whole(self.shape_b, &bases[1]);
+        for_parts(self.shape_a, &bases[0], |a| {
             if least.passes_over(gap(&a, &whole_b)) {
                 return false;
             }
-            for_parts(self.shape_b, &self.basis_b, |b| {
+            for_parts(self.shape_b, &bases[1], |b| {
                 if !least.passes_over(gap(&a, &b)) {
-                    let parts = self.parts(a, b);
+                    let parts = self.parts(&bases, a, b);
                     let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted: Wanted::Number };
                     match parts.convex.probe(asked) {
                         Probe::Beyond(at_least, _) => least.give_up(at_least),
@@ -252,15 +301,21 @@ impl<'a> Pair3<'a> {
 
     /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.
     fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
-        let whole_b = Part::whole(self.shape_b, &self.basis_b);
+        let bases = self.bases();
+        let whole_b = Part::whole(self.shape_b, &bases[1]);
         if !self.is_compound() {
-            return ask(&self.parts(Part::whole(self.shape_a, &self.basis_a), whole_b));
+            return ask(&self.parts(&bases, Part::whole(self.shape_a, &bases[0]), whole_b));
         }
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
-        for_parts(self.shape_a, &self.basis_a, |a| {
+        for_parts(self.shape_a, &bases[0], |a| {
             !is_far(&a, &whole_b)
-                && for_parts(self.shape_b, &self.basis_b, |b| !is_far(&a, &b) && ask(&self.parts(a, b)))
+                && for_parts(self.shape_b, &bases[1], |b| !is_far(&a, &b) && ask(&self.parts(&bases, a, b)))
         })
+    }
+
+    /// Both bodies' axes in the world.
+    fn bases(&self) -> [Basis3; 2] {
+        [self.pose_a.basis(), self.pose_b.basis()]
     }
 
     fn is_compound(&self) -> bool {
@@ -281,9 +336,9 @@ impl<'a> Pair3<'a> {
         if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
     }
 
-    fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
-        let (basis, shift_a) = a.placed(&self.basis_a);
-        let (basis_b, shift_b) = b.placed(&self.basis_b);
+    fn parts(&self, bases: &[Basis3; 2], a: Part<'a>, b: Part<'a>) -> Parts<'a> {
+        let (basis, shift_a) = a.placed(&bases[0]);
+        let (basis_b, shift_b) = b.placed(&bases[1]);
         // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
         let between = self.between + (shift_b - shift_a);
         let relative = match a.is_turned() || b.is_turned() {
@@ -326,6 +381,27 @@ impl<'a> Part<'a> {
     }
 }
 
+/// How far apart shapes may be for a contact: what rounds to the margin counts as within it, since the number that is
+/// told decides.
+#[inline]
+pub(crate) fn reach_of(margin: f32) -> f64 {
+    margin.max(0.0).next_up().into()
+}
+
+/// Asks for a contact whose manifold is filled in where it will stay.
+#[inline(always)]
+pub(crate) fn in_place(
+    manifolds: &mut Vec<Manifold3>,
+    ask: impl FnOnce(Option<&mut Manifold3>) -> Contact,
+) -> Contact {
+    manifolds.push(Manifold3::BLANK);
+    let contact = ask(manifolds.last_mut());
+    if !matches!(contact, Contact::Touching(_)) {
+        manifolds.pop();
+    }
+    contact
+}
+
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
 fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
     let Shape3::Compound(compound) = shape else {
@@ -338,22 +414,24 @@ fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'
 }
 
 impl Parts<'_> {
-    fn manifold(&self, near: &Near, margin: f64) -> Option<Manifold3> {
-        let touch = self.convex.touch(near, margin)?;
+    /// The contact points, and the hint that keeps them where they are in the next frame.
+    fn manifold(&self, near: &Near, margin: f64, hint: Hint) -> Option<(Manifold3, Hint)> {
+        let touch = self.convex.touch(near, margin, hint)?;
         let points = touch.points.iter().map(|point| ContactPoint3 {
             separation: point.separation as f32,
             anchor_a: self.anchor_a(point.on_a),
             anchor_b: self.anchor_b(point.on_b),
             feature: point.feature,
         });
-        Some(Manifold3 {
+        let manifold = Manifold3 {
             part_a: self.indices[0],
             part_b: self.indices[1],
             normal: self.basis.turn(touch.normal).as_vec3(),
             separation: near.separation,
             error: near.error,
             points: points.collect(),
-        })
+        };
+        Some((manifold, touch.of.map_or(near.hint, hint_to)))
     }
 
     /// From the frame of the pair to a world vector from A's position.
@@ -364,50 +442,5 @@ impl Parts<'_> {
     /// From the frame of the pair to a world vector from B's position.
     fn anchor_b(&self, point: DVec3) -> Vec3 {
         (self.basis.turn(point - self.convex.offset) + self.shifts[1]).as_vec3()
-    }
-}
-
-/// One question of a batch: are these within the margin of each other, and how do they touch?
-#[derive(Clone, Copy, Debug)]
-pub struct Job3<'a> {
-    /// Shape of A.
-    pub shape_a: &'a Shape3,
-    /// Pose of A.
-    pub pose_a: &'a Pose3,
-    /// Shape of B.
-    pub shape_b: &'a Shape3,
-    /// Pose of B.
-    pub pose_b: &'a Pose3,
-    /// Metres of gap within which a contact is wanted.
-    pub margin: f32,
-    /// What the last answer for this pair left, or [`Hint::NONE`].
-    pub hint: Hint,
-    /// Whether to leave out manifolds.
-    pub sensor: bool,
-}
-
-/// Answers a slice of jobs, appending to the batch. Jobs do not influence each other.
-///
-/// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
-/// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
-/// let (pose_a, pose_b) = (Pose3::IDENTITY, Pose3::at(Vec3::new(0.0, 0.0, 1.5))?);
-/// let job = Job3 {
-///     shape_a: &cube, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
-/// };
-/// let mut batch = Batch3::default();
-/// collide3(&[job], &mut batch);
-/// assert!(matches!(&batch.answers[0], Answer::Contact { overlapping: true, manifolds, .. } if *manifolds == (0..1)));
-/// batch.clear();
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn collide3(jobs: &[Job3<'_>], batch: &mut Batch3) {
-    for job in jobs {
-        let pair = Pair3::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
-        let first = batch.manifolds.len() as u32;
-        let wanted = (!job.sensor).then_some(&mut batch.manifolds);
-        let (hint, overlapping) = pair.contact(job.margin, job.hint, wanted);
-        batch.push(hint, overlapping, first);
     }
 }

@@ -27,8 +27,8 @@ mod told;
 use super::cuboids::{Cuboids, Sides};
 use super::distance::Witness;
 use super::half_space::Plane;
-use super::manifold::{Point, Touch, touch};
-use super::sat::Axes;
+use super::manifold::{Ask, Point, Touch, touch};
+use super::sat::{Axes, last_of};
 use super::slender::{self, Nearest};
 use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
@@ -193,13 +193,14 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-spaces that overlap
-    /// without end.
-    pub(crate) fn touch(&self, near: &Near, margin: f64) -> Option<Touch> {
+    /// Contact points of shapes at most `margin` metres apart, on their surfaces; the hint is of the last frame. None for
+    /// two half-spaces that overlap without end.
+    pub(crate) fn touch(&self, near: &Near, margin: f64, hint: Hint) -> Option<Touch> {
         let preference = self.preference();
         match &near.evidence {
             Evidence::Axes(axes, witness) => {
-                Some(self.with_solids(|a, b| touch(a, b, axes, witness.as_ref(), margin, preference)))
+                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last: last_of(hint) };
+                Some(self.with_solids(|a, b| touch(a, b, &ask)))
             }
             Evidence::Slender(nearest) => {
                 Some(self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference)))
@@ -212,7 +213,7 @@ impl<'a> Convex<'a> {
                 let separation = near.separation.into();
                 let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
                 let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
+                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points, of: None })
             }
         }
     }

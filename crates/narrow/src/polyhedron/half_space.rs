@@ -3,8 +3,8 @@
 //! Of all directions only the plane's own normal can show a gap or a finite depth, so the separation is exact up to
 //! rounding: the least height of a vertex over the plane.
 
-use super::manifold::{Point, Touch, opposed_face};
-use super::reduce::reduce_to_four;
+use super::manifold::{Frame, Point, Touch, opposed_face};
+use super::reduce::{Spot, pick_four};
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
@@ -58,10 +58,10 @@ impl Plane {
     /// The corners, at most four, of the face that looks at the plane, and no more than `margin` above it. Corners
     /// that are no higher than the lowest, up to `preference`, are as deep as any.
     pub(crate) fn touch(&self, core: &Solid, margin: f64, preference: f64) -> Touch {
-        let (lowest, height) = self.lowest(core);
-        let deep = height + preference;
+        let opposed = opposed_face(core, self.normal, preference);
+        let (face, lowest) = (opposed.face, opposed.deepest);
+        let deep = self.height(core.point(lowest)) + preference;
         let within = margin.max(deep - core.radius);
-        let face = opposed_face(core, self.normal, preference);
         // What is higher belongs to a tilted face, whose surface lies out along its own normal.
         let outwards = core.outwards(face, -self.normal);
         let mut points: ArrayVec<Point, MAX_HULL_VERTICES> = ArrayVec::new();
@@ -76,12 +76,29 @@ impl Plane {
             }
             let foot = point - self.normal * separation;
             let (of_plane, of_core) = (Feature::Face(0), Feature::Vertex(vertex as u32));
-            points.push(if self.is_b {
+            let _ = points.try_push(if self.is_b {
                 Point { separation, on_a: point, on_b: foot, feature: FeatureId::new(of_core, of_plane) }
             } else {
                 Point { separation, on_a: foot, on_b: point, feature: FeatureId::new(of_plane, of_core) }
             });
         }
-        Touch { normal: self.axis(), points: reduce_to_four(&points, self.normal) }
+        Touch { normal: self.axis(), points: self.kept(&points, preference), of: None }
+    }
+
+    /// At most four of the corners of a face, in order of their ids.
+    fn kept(&self, points: &[Point], slack: f64) -> ArrayVec<Point, 4> {
+        let mut kept: ArrayVec<Point, 4> = ArrayVec::new();
+        if points.len() <= 4 {
+            kept.extend(points.iter().copied());
+        } else {
+            let frame = Frame::level(self.normal, self.origin);
+            let spot =
+                |i: usize| Spot { at: frame.place(points[i].on_a).0, separation: points[i].separation };
+            kept.extend(
+                pick_four(points.len(), spot, |i| points[i].feature, slack).into_iter().map(|i| points[i]),
+            );
+        }
+        kept.sort_unstable_by_key(|point| point.feature);
+        kept
     }
 }

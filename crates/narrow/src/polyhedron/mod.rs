@@ -3,14 +3,14 @@
 //! This is the definition. It is meant to be read, and to be what faster kernels are measured against.
 
 pub(crate) mod convex;
-mod cuboids;
+pub(crate) mod cuboids;
 mod distance;
 mod half_space;
 mod manifold;
 mod portal;
 mod reduce;
 mod rods;
-mod sat;
+pub(crate) mod sat;
 mod simplex;
 mod slender;
 mod solid;

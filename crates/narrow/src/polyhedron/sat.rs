@@ -359,11 +359,29 @@ pub(crate) fn hinted_axis(a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
 
 /// The hint that leads back to an axis.
 pub(crate) fn hint_of(axis: &Axis) -> Hint {
-    Hint::axis(match axis.of {
+    hint_to(axis.of)
+}
+
+/// The hint that leads back to what an axis is the axis of.
+#[inline]
+pub(crate) fn hint_to(of: AxisOf) -> Hint {
+    Hint::axis(match of {
         AxisOf::FaceA(face) => FeatureId::new(Feature::Face(face as u32), Feature::Vertex(0)),
         AxisOf::FaceB(face) => FeatureId::new(Feature::Vertex(0), Feature::Face(face as u32)),
         AxisOf::Edges(a, b) => FeatureId::new(Feature::Edge(a as u32), Feature::Edge(b as u32)),
     })
+}
+
+/// What a hint says that the last axis was the axis of: of these shapes or of others.
+#[inline]
+pub(crate) fn last_of(hint: Hint) -> Option<AxisOf> {
+    let features = hint.features()?;
+    match (features.a(), features.b()) {
+        (Feature::Face(face), _) => Some(AxisOf::FaceA(face as usize)),
+        (_, Feature::Face(face)) => Some(AxisOf::FaceB(face as usize)),
+        (Feature::Edge(a), Feature::Edge(b)) => Some(AxisOf::Edges(a as usize, b as usize)),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

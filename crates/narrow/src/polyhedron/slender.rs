@@ -107,7 +107,7 @@ pub(crate) fn touch(a: &Solid, b: &Solid, nearest: &Nearest, within: f64, prefer
         points.push(point.on_surfaces(a, b, normal));
     }
     points.sort_unstable_by_key(|point| point.feature);
-    Touch { normal, points }
+    Touch { normal, points, of: None }
 }
 
 fn ends(core: &Solid) -> [DVec3; 2] {

@@ -19,7 +19,7 @@ pub(crate) struct Solid<'a> {
     pub(super) edge_octets: &'a [EdgeOctet],
     /// In the shape's own axes, in the order of the topology's edges.
     pub(super) arcs: &'a [EdgeArc],
-    basis: Basis3,
+    pub(super) basis: Basis3,
     position: DVec3,
     /// The greatest absolute value of a vertex' coordinate.
     pub(super) extent: f32,

@@ -15,7 +15,7 @@ use crate::answer::{Tier, Verdict};
 use crate::exact::{self, Corner};
 use crate::feature::Hint;
 use crate::polyhedron::distance::{Close, Reached, Until, Witness, distance};
-use crate::polyhedron::manifold::touch;
+use crate::polyhedron::manifold::{Ask, touch};
 use crate::polyhedron::portal::{self, Found};
 use crate::polyhedron::sat::{Axes, Axis, Outcome, Search, hint_of, hinted_axis, separating_axes};
 use crate::polyhedron::solid::Solid;
@@ -266,7 +266,8 @@ impl Convex<'_> {
         let precision = self.precision;
         let best = axes.best();
         let separation = best.separation.max(0.0) - self.radii;
-        let touch = touch(a, b, &axes, None, 0.0, self.preference());
+        let preference = self.preference();
+        let touch = touch(a, b, &Ask { axes: &axes, witness: None, margin: 0.0, preference, last: None });
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         Probe::Near(Near {
             verdict,

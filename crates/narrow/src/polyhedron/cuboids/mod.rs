@@ -8,6 +8,17 @@
 //! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). A projection radius in closed form takes the place of the
 //! eight vertices; everything else is as in the general test, the axis of nearly parallel edges included.
 
+pub(crate) mod asked;
+mod contact;
+pub(crate) mod eight;
+mod fifteen;
+mod names;
+mod patch;
+pub(crate) mod placed;
+mod reduce;
+mod settled;
+mod wide;
+
 use super::sat::{Axes, Axis, AxisOf, Outcome, Search};
 use super::solid::Solid;
 use crate::feature::{Feature, Hint};

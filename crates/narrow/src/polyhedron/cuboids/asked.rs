@@ -1,0 +1,125 @@
+//! The questions of a pair, as two cuboids answer them by themselves; what they cannot settle is left to the general
+//! path.
+
+use super::super::sat::{hint_of, hint_to, last_of};
+use super::contact::Touching;
+use super::eight::Eight;
+use super::placed::{Placed, Posed};
+use super::settled::Settled;
+use crate::answer::{Manifold3, Measured3, Separation3};
+use crate::feature::Hint;
+use crate::precision::{at_least, rounded_down, signed};
+
+/// What two cuboids say of their contact.
+#[derive(Clone, Copy)]
+pub(crate) enum Contact {
+    /// Further apart than the margin.
+    Apart(Hint),
+    /// Overlapping.
+    Touching(Hint),
+    /// That takes more than the axes.
+    Unclear,
+}
+
+impl Posed<'_> {
+    /// Whether they overlap; nothing where rounding might have told.
+    #[inline]
+    pub(crate) fn overlaps(&self) -> Option<bool> {
+        if self.are_far(0.0) {
+            return Some(false);
+        }
+        let placed = self.placed();
+        let (top, doubt) = (placed.fifteen.top(), placed.closed_form());
+        if top - placed.radii > doubt {
+            return Some(false);
+        }
+        (top < -doubt).then_some(true)
+    }
+
+    /// The separation within a limit; nothing where it takes more than the axes.
+    #[inline]
+    pub(crate) fn separation(&self, limit: f64) -> Option<Separation3> {
+        if self.are_far(limit) {
+            return Some(Separation3::AtLeast(rounded_down(self.gap_of_spheres().max(limit))));
+        }
+        let placed = self.placed();
+        match placed.settle(limit) {
+            Settled::Unclear => None,
+            Settled::Beyond(axis) => {
+                Some(Separation3::AtLeast(at_least(axis.separation - placed.radii, &placed.precision)))
+            }
+            Settled::Overlapping(best) => {
+                let depth = best.separation() - placed.radii;
+                Some(Separation3::Measured(Measured3 {
+                    separation: signed(depth, true),
+                    error: placed.precision.of_separation(depth, best.short),
+                    normal: placed.basis.turn(best.axis(&placed).normal).as_vec3(),
+                }))
+            }
+        }
+    }
+
+    /// How they touch within a margin, or what keeps them apart. The manifold, where one is wanted, is filled in where they
+    /// touch.
+    #[inline]
+    pub(crate) fn contact(&self, margin: f64, hint: Hint, manifold: Option<&mut Manifold3>) -> Contact {
+        if self.are_far(margin) {
+            return Contact::Apart(hint);
+        }
+        let placed = self.placed();
+        if let Some(of) = placed.parted(margin) {
+            return Contact::Apart(hint_to(of));
+        }
+        if manifold.is_none() && placed.are_deep() {
+            return Contact::Touching(hint);
+        }
+        self.contact_of(&placed, margin, hint, manifold)
+    }
+
+    /// What is clear at once of one of eight that were looked at, with the hint of its last frame. Whether they overlap is
+    /// enough for a sensor.
+    #[inline(always)]
+    pub(crate) fn clear_in((eight, lane): (&Eight, usize), hint: Hint, sensor: bool) -> Option<Contact> {
+        match eight.parted(lane) {
+            Some(of) => Some(Contact::Apart(hint_to(of))),
+            None => (sensor && eight.is_deep(lane)).then_some(Contact::Touching(hint)),
+        }
+    }
+
+    /// The rest of [`Posed::contact`] for one of eight where nothing is clear at once.
+    #[inline]
+    pub(crate) fn contact_in(
+        &self,
+        (eight, lane): (&Eight, usize),
+        margin: f64,
+        hint: Hint,
+        manifold: Option<&mut Manifold3>,
+    ) -> Contact {
+        self.contact_of(&eight.placed(lane, self), margin, hint, manifold)
+    }
+
+    /// Of a pair that no axis parts for certain.
+    #[inline]
+    fn contact_of(
+        &self,
+        placed: &Placed,
+        margin: f64,
+        hint: Hint,
+        manifold: Option<&mut Manifold3>,
+    ) -> Contact {
+        match placed.settle(margin) {
+            Settled::Unclear => Contact::Unclear,
+            Settled::Beyond(axis) => Contact::Apart(hint_of(&axis)),
+            Settled::Overlapping(best) => {
+                let of = match manifold {
+                    None => Some(best.axis_of(placed)),
+                    Some(manifold) => {
+                        let last = last_of(hint);
+                        Touching { posed: self, placed, best: &best, margin, last }.fill(manifold)
+                    }
+                };
+                of.map_or(Contact::Unclear, |of| Contact::Touching(hint_to(of)))
+            }
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! How two cuboids that overlap touch: the rules of `super::super::manifold`, for sharp cuboids.
+
+use super::super::sat::AxisOf;
+use super::names::{self, Names};
+use super::patch::{Patch, Reference, SLOTS, axes_of, sign_of};
+use super::placed::{Placed, Posed};
+use super::reduce::four_of;
+use super::settled::Best;
+use crate::answer::{ContactPoint3, Manifold3};
+use crate::feature::{Feature, FeatureId};
+use crate::lanes::Lanes;
+use crate::precision::signed;
+use arrayvec::ArrayVec;
+use asunder_geometry::Basis3;
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::tolerance::ALIGNED_FACES;
+
+impl Manifold3 {
+    /// To be filled in place: it is large, and every move of it shows.
+    pub(crate) const BLANK: Self = Self {
+        part_a: 0,
+        part_b: 0,
+        normal: Vec3::ZERO,
+        separation: 0.0,
+        error: 0.0,
+        points: ArrayVec::new_const(),
+    };
+}
+
+/// Two cuboids that overlap, and what their points are measured by.
+pub(super) struct Touching<'a> {
+    pub(super) posed: &'a Posed<'a>,
+    pub(super) placed: &'a Placed,
+    pub(super) best: &'a Best,
+    /// Points no higher than this are wanted, in metres.
+    pub(super) margin: f64,
+    /// What the points of the last frame were measured from.
+    pub(super) last: Option<AxisOf>,
+}
+
+impl Touching<'_> {
+    /// Fills in a manifold, and says what it is measured from; nothing where the general path must be asked.
+    #[inline(always)]
+    pub(super) fn fill(&self, manifold: &mut Manifold3) -> Option<AxisOf> {
+        let Self { placed, best, .. } = *self;
+        if placed.radii > 0.0 {
+            return None;
+        }
+        let separation = best.separation();
+        let of = self.kept().unwrap_or_else(|| self.preferred());
+        match of {
+            AxisOf::FaceA(face) => self.over_face(face, false, manifold)?,
+            AxisOf::FaceB(face) => self.over_face(face, true, manifold)?,
+            AxisOf::Edges(edge_a, edge_b) => self.over_edges(edge_a, edge_b, manifold)?,
+        }
+        manifold.separation = signed(separation, true);
+        manifold.error = placed.precision.of_separation(separation, best.short);
+        Some(of)
+    }
+
+    /// What the last frame's points were measured from, until another axis beats it by more than two preferences.
+    #[inline(always)]
+    fn kept(&self) -> Option<AxisOf> {
+        let Self { placed, best, .. } = *self;
+        let last = self.last?;
+        let separation = match last {
+            AxisOf::FaceA(face) if face < 6 && last == placed.of_face_a(face / 2) => {
+                placed.fifteen.faces_a[face / 2]
+            }
+            AxisOf::FaceB(face) if face < 6 && last == placed.of_face_b(face / 2) => {
+                placed.fifteen.faces_b.0[face / 2]
+            }
+            AxisOf::Edges(..) => {
+                let edges = best.edges.filter(|edges| last == placed.of_edges(edges.pair))?;
+                edges.separation
+            }
+            _ => return None,
+        };
+        (separation >= best.separation() - 2.0 * placed.preference).then_some(last)
+    }
+
+    /// A face of A, unless one of B, or edges, beat it by more than the preference.
+    #[inline(always)]
+    fn preferred(&self) -> AxisOf {
+        let Self { placed, best, .. } = *self;
+        let is_b = best.face_b.separation > best.face_a.separation + placed.preference;
+        let face = if is_b { best.face_b } else { best.face_a };
+        match best.edges.filter(|edges| edges.separation > face.separation + placed.preference) {
+            Some(edges) => placed.of_edges(edges.pair),
+            None if is_b => placed.of_face_b(face.axis),
+            None => placed.of_face_a(face.axis),
+        }
+    }
+
+    /// Points no higher than this are as deep as any.
+    #[inline(always)]
+    fn deep(&self) -> f64 {
+        self.best.separation() + self.placed.preference
+    }
+
+    #[inline(always)]
+    fn over_face(&self, face: usize, is_b: bool, manifold: &mut Manifold3) -> Option<()> {
+        let (slack, deep) = (self.placed.preference, self.deep());
+        let within = if deep > self.margin { deep } else { self.margin };
+        let (reference, faces) = self.placed.faces(is_b, face, slack)?;
+        self.points(&faces.patch(reference, within, slack), &reference, deep, manifold)
+    }
+
+    /// The point where two edges cross, unless the faces beside them nearly look at each other.
+    #[inline(never)]
+    fn over_edges(&self, edge_a: usize, edge_b: usize, manifold: &mut Manifold3) -> Option<()> {
+        let Self { placed, best, .. } = *self;
+        let normal = placed.edge_normal(best.edges?.pair);
+        let looks = |axes: DVec3| axes.abs().max_element() >= ALIGNED_FACES;
+        if looks(normal) && looks(placed.relative.turn_back(normal)) {
+            return None;
+        }
+        manifold.normal = placed.basis.turn(normal).as_vec3();
+        let point = self.crossing(normal, edge_a, edge_b);
+        manifold.points.push(point);
+        (f64::from(point.separation) <= self.deep()).then_some(())
+    }
+
+    /// At most four corners of a patch as contacts; nothing where none is as deep as the axis says.
+    #[inline(always)]
+    fn points(
+        &self,
+        patch: &Patch,
+        reference: &Reference,
+        deep: f64,
+        manifold: &mut Manifold3,
+    ) -> Option<()> {
+        let count = patch.held.count_ones() as usize;
+        if !patch.is_clear || count > 8 {
+            return None;
+        }
+        let (mut slots, mut rest) = ([0; 8], patch.held);
+        for slot in &mut slots[..count] {
+            *slot = patch.slot(rest.trailing_zeros());
+            rest &= rest.wrapping_sub(1);
+        }
+        let slots = match count {
+            0..=4 => [slots[0], slots[1], slots[2], slots[3]],
+            _ => four_of(patch, &slots, count, self.placed.preference),
+        };
+        let count = count.min(4);
+        let (mut order, mut deepest) = ([u32::MAX; 4], f64::INFINITY);
+        for (place, &slot) in order.iter_mut().zip(&slots[..count]) {
+            *place = patch.names(slot).0 << 4 | slot as u32;
+            deepest = deepest.min(patch.height[slot % SLOTS]);
+        }
+        if deepest > deep {
+            return None;
+        }
+        sort(&mut order);
+        Over::new(self, reference).write(patch, &order[..count], manifold);
+        Some(())
+    }
+
+    /// The nearest points of two edges that cross, each held to its edge.
+    #[inline]
+    fn crossing(&self, normal: DVec3, edge_a: usize, edge_b: usize) -> ContactPoint3 {
+        let Placed { half, basis, offset, .. } = self.placed;
+        let (i, j) = (names::axis_of(edge_a), names::axis_of(edge_b));
+        let corner = |half: DVec3, corner: usize| {
+            let side = |axis: usize| if corner >> axis & 1 == 1 { half[axis] } else { -half[axis] };
+            DVec3::new(side(0), side(1), side(2))
+        };
+        let a0 = corner(half[0], names::start(edge_a) & !(1 << i));
+        let b0 = *offset + self.placed.relative.turn(corner(half[1], names::start(edge_b) & !(1 << j)));
+        let along_a = DVec3::AXES[i] * (2.0 * half[0][i]);
+        let along_b = self.placed.axis_b(j) * (2.0 * half[1][j]);
+        let (between, cross) = (b0 - a0, along_a.cross(along_b));
+        // The axis came from this cross product, so it is not zero.
+        let inverse = 1.0 / cross.length_squared();
+        let s = (between.cross(along_b).dot(cross) * inverse).clamp(0.0, 1.0);
+        let t = (between.cross(along_a).dot(cross) * inverse).clamp(0.0, 1.0);
+        let (on_a, on_b) = (a0 + along_a * s, b0 + along_b * t);
+        ContactPoint3 {
+            separation: normal.dot(on_b - on_a) as f32,
+            anchor_a: basis.turn(on_a).as_vec3(),
+            anchor_b: basis.turn(on_b - *offset).as_vec3(),
+            feature: FeatureId::new(Feature::Edge(edge_a as u32), Feature::Edge(edge_b as u32)),
+        }
+    }
+}
+
+/// Ascending: five comparisons.
+#[inline(always)]
+fn sort(order: &mut [u32; 4]) {
+    for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
+        let (one, other) = (order[i], order[j]);
+        (order[i], order[j]) = (one.min(other), one.max(other));
+    }
+}
+
+/// A reference face in the world, to make anchors from.
+struct Over {
+    /// From the reference body's position to the middle of the face.
+    middle: DVec3,
+    u: DVec3,
+    v: DVec3,
+    /// Out of the reference face.
+    out: DVec3,
+    /// From the other body's position to the reference body's.
+    back: DVec3,
+    is_b: bool,
+}
+
+impl Over {
+    #[inline(always)]
+    fn new(touching: &Touching, reference: &Reference) -> Self {
+        let Touching { posed, placed, .. } = *touching;
+        let Reference { is_b, face, .. } = *reference;
+        let Basis3 { x, y, z } = if is_b { posed.poses[1].basis() } else { placed.basis };
+        let axes = [x, y, z];
+        let [i, u, v] = axes_of(face);
+        let out = axes[i] * sign_of(face);
+        let between = posed.between();
+        let back = if is_b { between } else { -between };
+        Self { middle: out * placed.half[usize::from(is_b)][i], u: axes[u], v: axes[v], out, back, is_b }
+    }
+
+    /// Writes contacts, by the slots in the low bits of their names, and the normal.
+    ///
+    /// Coordinate by coordinate, four points side by side: as many as there can be, whether they are there or not.
+    #[inline(always)]
+    fn write(&self, patch: &Patch, order: &[u32], manifold: &mut Manifold3) {
+        let mut places = [Lanes::<4>::ZERO; 3];
+        for (k, &names) in order.iter().enumerate() {
+            let slot = (names & 15) as usize % SLOTS;
+            places[0].0[k] = patch.u[slot];
+            places[1].0[k] = patch.v[slot];
+            places[2].0[k] = patch.height[slot];
+        }
+        let [u, v, height] = places;
+        let (mut feet, mut others) = ([[0.0_f32; 4]; 3], [[0.0_f32; 4]; 3]);
+        for c in 0..3 {
+            let foot = Lanes::all(self.middle[c]) + (u * self.u[c] + v * self.v[c]);
+            let other = foot + height * self.out[c] + Lanes::all(self.back[c]);
+            for k in 0..4 {
+                (feet[c][k], others[c][k]) = (foot.0[k] as f32, other.0[k] as f32);
+            }
+        }
+        let [on_a, on_b] = if self.is_b { [&others, &feet] } else { [&feet, &others] };
+        manifold.normal = if self.is_b { -self.out } else { self.out }.as_vec3();
+        let mut last = u32::MAX;
+        for (k, &names) in order.iter().enumerate().take(4) {
+            // The same twice, where three corners hold all of the patch, is one.
+            if names == last {
+                continue;
+            }
+            last = names;
+            let _ = manifold.points.try_push(ContactPoint3 {
+                separation: height.0[k] as f32,
+                anchor_a: Vec3::new(on_a[0][k], on_a[1][k], on_a[2][k]),
+                anchor_b: Vec3::new(on_b[0][k], on_b[1][k], on_b[2][k]),
+                feature: Names(names >> 4).id(),
+            });
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Eight pairs of cuboids side by side: B as A sees it, and what the fifteen axes say.
+//!
+//! ```text
+//! gather eight pairs, number by number
+//! for each lane:   rotations, offset, fifteen axes     (the very functions that one pair goes through)
+//!                  the axis that parts them, or how far they overlap on all
+//! those that are parted are done; the others go on as one pair does, from what is there already
+//! ```
+//! A loop over the lanes, from memory to memory, is what LLVM turns into vector instructions of any width. Since all that a
+//! lane goes through is the code of one pair, its bits are those of one pair.
+
+use super::super::sat::AxisOf;
+use super::fifteen::{Fifteen, closed_form};
+use super::placed::{Placed, Posed, Size};
+use super::settled::parted_by;
+use super::wide;
+use crate::lanes::Lanes;
+use asunder_geometry::Basis3;
+use asunder_geometry::glam::DVec3;
+
+/// How many pairs.
+pub(crate) const LANES: usize = 8;
+
+type Row<T = f64> = [T; LANES];
+
+/// What is asked of eight pairs.
+#[derive(Clone)]
+pub(super) struct Asked8 {
+    rotations: [[Row<f32>; 4]; 2],
+    halves: [[Row<f32>; 3]; 2],
+    between: [Row; 3],
+    /// Both cores' sizes and both radii, in metres.
+    sizes: Row,
+    /// Further apart than this is all that need be known, in metres.
+    limits: Row,
+}
+
+/// What eight pairs look like.
+#[derive(Clone)]
+pub(crate) struct Eight {
+    asked: Asked8,
+    seen: Seen8,
+}
+
+#[derive(Clone)]
+pub(super) struct Seen8 {
+    basis: [Row; 9],
+    relative: [Row; 9],
+    offset: [Row; 3],
+    faces_a: [Row; 3],
+    faces_b: [Row; 3],
+    ahead: [Row; 3],
+    edges: [Row; 9],
+    squared: [Row; 9],
+    parted: Row,
+    /// Below zero where the cores overlap for certain.
+    deep: Row,
+}
+
+impl Eight {
+    /// To be filled in.
+    pub(crate) const BLANK: Self = Self {
+        asked: Asked8 {
+            rotations: [[[0.0; LANES]; 4]; 2],
+            halves: [[[0.0; LANES]; 3]; 2],
+            between: [[0.0; LANES]; 3],
+            sizes: [0.0; LANES],
+            limits: [0.0; LANES],
+        },
+        seen: Seen8 {
+            basis: [[0.0; LANES]; 9],
+            relative: [[0.0; LANES]; 9],
+            offset: [[0.0; LANES]; 3],
+            faces_a: [[0.0; LANES]; 3],
+            faces_b: [[0.0; LANES]; 3],
+            ahead: [[0.0; LANES]; 3],
+            edges: [[0.0; LANES]; 9],
+            squared: [[0.0; LANES]; 9],
+            parted: [0.0; LANES],
+            deep: [0.0; LANES],
+        },
+    };
+
+    /// Puts a pair into a lane.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, lane: usize, posed: &Posed, margin: f64) {
+        let k = lane % LANES;
+        let asked = &mut self.asked;
+        for side in 0..2 {
+            let rotation = posed.poses[side].rotation().to_array();
+            let half = posed.cuboids[side].half_extents().to_array();
+            for c in 0..4 {
+                asked.rotations[side][c][k] = rotation[c];
+            }
+            for c in 0..3 {
+                asked.halves[side][c][k] = half[c];
+            }
+        }
+        let size = Size::of(posed);
+        let between = posed.between().to_array();
+        for c in 0..3 {
+            asked.between[c][k] = between[c];
+        }
+        asked.sizes[k] = size.cores + size.radii;
+        asked.limits[k] = margin + size.radii;
+    }
+
+    /// Looks at what was put in. Lanes that hold nothing say nothing.
+    #[inline]
+    pub(crate) fn look(&mut self) {
+        wide::look(&self.asked, &mut self.seen);
+    }
+
+    /// What parts a pair for certain: as [`Placed::parted`] has it.
+    #[inline(always)]
+    pub(crate) fn parted(&self, lane: usize) -> Option<AxisOf> {
+        let (k, seen) = (lane % LANES, &self.seen);
+        parted_by(seen.parted[k], |axis| seen.offset[axis][k] >= 0.0, |axis| seen.ahead[axis][k] >= 0.0)
+    }
+
+    /// Whether a pair's cores overlap for certain.
+    #[inline(always)]
+    pub(crate) fn is_deep(&self, lane: usize) -> bool {
+        self.seen.deep[lane % LANES] < 0.0
+    }
+
+    /// One pair, as it would be by itself.
+    #[inline(always)]
+    pub(super) fn placed(&self, lane: usize, posed: &Posed) -> Placed {
+        let k = lane % LANES;
+        let seen = &self.seen;
+        let vector = |rows: &[Row; 3]| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
+        let basis = |rows: &[Row; 9]| Basis3 {
+            x: DVec3::new(rows[0][k], rows[1][k], rows[2][k]),
+            y: DVec3::new(rows[3][k], rows[4][k], rows[5][k]),
+            z: DVec3::new(rows[6][k], rows[7][k], rows[8][k]),
+        };
+        let row = |rows: &[Row]| Lanes([rows[0][k], rows[1][k], rows[2][k], 0.0]);
+        let rows = |rows: &[Row; 9]| [row(&rows[..3]), row(&rows[3..6]), row(&rows[6..])];
+        let fifteen = Fifteen {
+            faces_a: [seen.faces_a[0][k], seen.faces_a[1][k], seen.faces_a[2][k]],
+            faces_b: row(&seen.faces_b),
+            ahead: row(&seen.ahead),
+            edges: rows(&seen.edges),
+            squared: rows(&seen.squared),
+        };
+        let place = (basis(&seen.relative), vector(&seen.offset));
+        Placed::new(posed, basis(&seen.basis), place, fifteen)
+    }
+}
+
+impl Asked8 {
+    #[inline(always)]
+    pub(super) fn look(&self, seen: &mut Seen8) {
+        for k in 0..LANES {
+            let rotation = |side: usize| {
+                let [x, y, z, w] = &self.rotations[side];
+                [x[k].into(), y[k].into(), z[k].into(), w[k].into()]
+            };
+            let half = |side: usize| {
+                let [x, y, z] = &self.halves[side];
+                DVec3::new(x[k].into(), y[k].into(), z[k].into())
+            };
+            let [x, y, z] = &self.between;
+            let basis = Basis3::of_quaternion(rotation(0));
+            let relative = Basis3::between(rotation(0), rotation(1));
+            let offset = basis.turn_back(DVec3::new(x[k], y[k], z[k]));
+            let fifteen = Fifteen::new(&[half(0), half(1)], &relative, offset);
+            let precision = Size::precision(0.0, self.sizes[k], offset);
+            seen.parted[k] = fifteen.parted(self.limits[k], &precision);
+            seen.deep[k] = fifteen.top() + closed_form(&precision);
+            write_basis(&mut seen.basis, &basis, k);
+            write_basis(&mut seen.relative, &relative, k);
+            for c in 0..3 {
+                seen.offset[c][k] = offset[c];
+                seen.faces_a[c][k] = fifteen.faces_a[c];
+                seen.faces_b[c][k] = fifteen.faces_b.0[c];
+                seen.ahead[c][k] = fifteen.ahead.0[c];
+                for j in 0..3 {
+                    seen.edges[3 * c + j][k] = fifteen.edges[c].0[j];
+                    seen.squared[3 * c + j][k] = fifteen.squared[c].0[j];
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn write_basis(rows: &mut [Row; 9], Basis3 { x, y, z }: &Basis3, k: usize) {
+    for c in 0..3 {
+        rows[c][k] = x[c];
+        rows[3 + c][k] = y[c];
+        rows[6 + c][k] = z[c];
+    }
+}

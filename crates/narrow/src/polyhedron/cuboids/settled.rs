@@ -1,0 +1,292 @@
+//! From fifteen separations to the best axis, and how much better the truth may be.
+//!
+//! ```text
+//! D = 1.5 P bounds what a separation in closed form is off by, times its axis' length     (docs/accuracy.md, 2)
+//! the best face is a lower bound b; an edge pair whose S + D <= (b + slack) length cannot matter, whatever its angle
+//! the others are normalised; the best of them counts if it beats the face
+//! ```
+//! `slack` is next to nothing beside the rounding of the answer to f32. Without it the four pairs of edges around two
+//! faces that lie flat on each other, whose axes are that of the faces, would all be looked at; and a pair whose D over
+//! its length is less needs no projection beyond its closed form.
+
+use super::super::sat::{Axis, AxisOf};
+use super::fifteen::closed_form;
+use super::names;
+use super::placed::Placed;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::PARALLEL_EDGES;
+
+/// Share of a separation by which edges may beat it unseen: a sixteenth of half an ulp of f32.
+const SLACK: f64 = f32::EPSILON as f64 / 32.0;
+
+/// What the fifteen axes say of two cores.
+pub(super) enum Settled {
+    /// This axis parts them by more than the limit.
+    Beyond(Axis),
+    /// They overlap for certain.
+    Overlapping(Best),
+    /// Neither is certain.
+    Unclear,
+}
+
+/// The best axes of two cores that overlap.
+#[derive(Clone, Copy)]
+pub(super) struct Best {
+    pub(super) face_a: Face,
+    pub(super) face_b: Face,
+    /// Where they are better than both faces.
+    pub(super) edges: Option<Edges>,
+    /// By how much the truth may exceed the best of them, or fall short of it.
+    pub(super) short: f64,
+}
+
+/// The best face of one cuboid.
+#[derive(Clone, Copy)]
+pub(super) struct Face {
+    pub(super) separation: f64,
+    pub(super) axis: usize,
+}
+
+/// One of nine edge pairs.
+#[derive(Clone, Copy)]
+pub(super) struct Edges {
+    pub(super) separation: f64,
+    pub(super) pair: usize,
+}
+
+impl Face {
+    /// Of equals, the first.
+    #[inline(always)]
+    fn best(x: f64, y: f64, z: f64) -> Self {
+        let (one, axis) = if y > x { (y, 1) } else { (x, 0) };
+        let (separation, axis) = if z > one { (z, 2) } else { (one, axis) };
+        Self { separation, axis }
+    }
+}
+
+impl Best {
+    /// Ties: a face of A, then a face of B, then edges.
+    #[inline(always)]
+    pub(super) fn separation(&self) -> f64 {
+        self.edges.map_or(self.of_faces(), |edges| edges.separation)
+    }
+
+    #[inline(always)]
+    fn of_faces(&self) -> f64 {
+        if self.face_b.separation > self.face_a.separation {
+            self.face_b.separation
+        } else {
+            self.face_a.separation
+        }
+    }
+
+    /// The best axis of all.
+    #[inline(always)]
+    pub(super) fn axis(&self, placed: &Placed) -> Axis {
+        match self.edges {
+            Some(edges) => placed.edges(edges.pair),
+            None if self.face_b.separation > self.face_a.separation => placed.face_b(self.face_b),
+            None => placed.face_a(self.face_a),
+        }
+    }
+
+    /// What the best axis is the axis of.
+    #[inline(always)]
+    pub(super) fn axis_of(&self, placed: &Placed) -> AxisOf {
+        match self.edges {
+            Some(edges) => placed.of_edges(edges.pair),
+            None if self.face_b.separation > self.face_a.separation => placed.of_face_b(self.face_b.axis),
+            None => placed.of_face_a(self.face_a.axis),
+        }
+    }
+}
+
+impl Placed {
+    /// What closed forms are off by at most, times the axis' length.
+    #[inline(always)]
+    pub(super) fn closed_form(&self) -> f64 {
+        closed_form(&self.precision)
+    }
+
+    /// What parts the shapes by more than `limit` metres for certain. Of edges, which of them does not matter.
+    #[inline(always)]
+    pub(super) fn parted(&self, limit: f64) -> Option<AxisOf> {
+        let by = self.fifteen.parted(limit + self.radii, &self.precision);
+        parted_by(by, |axis| self.offset[axis] >= 0.0, |axis| self.fifteen.ahead.0[axis] >= 0.0)
+    }
+
+    /// Whether the cores overlap for certain.
+    #[inline(always)]
+    pub(super) fn are_deep(&self) -> bool {
+        self.fifteen.top() + self.closed_form() < 0.0
+    }
+
+    /// Whether no axis parts the shapes by more than `limit` metres.
+    #[inline(always)]
+    pub(super) fn settle(&self, limit: f64) -> Settled {
+        let rounding = self.precision.projection();
+        let limit = limit + self.radii + rounding;
+        let ([ax, ay, az], [bx, by, bz, _]) = (self.fifteen.faces_a, self.fifteen.faces_b.0);
+        let (face_a, face_b) = (Face::best(ax, ay, az), Face::best(bx, by, bz));
+        let mut best = Best { face_a, face_b, edges: None, short: rounding };
+        let separation = best.of_faces();
+        if separation > limit {
+            return Settled::Beyond(best.axis(self));
+        }
+        let slack = separation.abs() * SLACK;
+        best.short = if slack > rounding { slack } else { rounding };
+        let matter = self.edges_that_matter(separation + slack);
+        if matter != 0 {
+            self.look_at_edges(matter, slack, &mut best);
+            if let Some(edges) = best.edges.filter(|edges| edges.separation > limit) {
+                let axis = self.edges(edges.pair);
+                return if axis.separation > limit { Settled::Beyond(axis) } else { Settled::Unclear };
+            }
+        }
+        if best.separation() + best.short < -2.0 * rounding {
+            return Settled::Overlapping(best);
+        }
+        Settled::Unclear
+    }
+
+    /// The edge pairs that may have a separation greater than `bound`, one bit each.
+    #[inline(always)]
+    fn edges_that_matter(&self, bound: f64) -> u32 {
+        // In a gap, squares tell nothing.
+        if bound > 0.0 {
+            return 0x1ff;
+        }
+        let (doubt, squared_bound) = (self.closed_form(), bound * bound);
+        let mut matter = 0;
+        for i in 0..3 {
+            for j in 0..3 {
+                let most = self.fifteen.edges[i].0[j] + doubt;
+                let least_squared = squared_bound * self.fifteen.squared[i].0[j];
+                let is_less = (most <= 0.0) & (most * most >= least_squared);
+                matter |= u32::from(!is_less) << (3 * i + j);
+            }
+        }
+        matter
+    }
+
+    /// Takes the best of some edge pairs if it beats the best face. Raises what the best axis may fall short by.
+    #[inline(never)]
+    fn look_at_edges(&self, matter: u32, slack: f64, best: &mut Best) {
+        let (doubt, face) = (self.closed_form(), best.of_faces());
+        let (mut separation, mut pair, mut lost) = (f64::NEG_INFINITY, 0, 0.0);
+        let (mut ceiling, mut left_out, mut rest) = (f64::NEG_INFINITY, 0.0_f64, matter);
+        while rest != 0 {
+            let next = rest.trailing_zeros() as usize;
+            rest &= rest - 1;
+            let (scaled, squared) = self.fifteen.edge_pair(next);
+            let length = squared.sqrt();
+            if squared <= PARALLEL_EDGES * PARALLEL_EDGES {
+                // As `Axes::leave_out` has it. Of no length at all the second is no number, and the first counts.
+                let by_axis = (scaled + 2.0 * doubt) / length - face;
+                left_out = left_out.max(self.precision.of_parallel_edges(squared).min(by_axis));
+                continue;
+            }
+            let inverse = 1.0 / length;
+            let (found, may_lose) = (scaled * inverse, doubt * inverse);
+            ceiling = if found + may_lose > ceiling { found + may_lose } else { ceiling };
+            if found > separation {
+                (separation, pair, lost) = (found, next, may_lose);
+            }
+        }
+        // Not by a hair: where the faces lie flat on each other, their edges show the same up to rounding.
+        let mut found = face;
+        if separation > face + doubt {
+            if lost > slack {
+                separation = self.along(self.edge_normal(pair));
+            }
+            if separation > face {
+                best.edges = Some(Edges { separation, pair });
+                found = separation;
+            }
+        }
+        best.short = best.short.max(ceiling - found).max(left_out);
+    }
+
+    #[inline(always)]
+    pub(super) fn of_face_a(&self, axis: usize) -> AxisOf {
+        face_of_a(axis, self.offset[axis] >= 0.0)
+    }
+
+    /// B's face looks back at A.
+    #[inline(always)]
+    pub(super) fn of_face_b(&self, axis: usize) -> AxisOf {
+        face_of_b(axis, self.fifteen.ahead.0[axis] >= 0.0)
+    }
+
+    #[inline]
+    pub(super) fn face_a(&self, Face { separation, axis }: Face) -> Axis {
+        let normal = if self.offset[axis] >= 0.0 { DVec3::AXES[axis] } else { -DVec3::AXES[axis] };
+        Axis { separation, normal, of: self.of_face_a(axis) }
+    }
+
+    #[inline]
+    pub(super) fn face_b(&self, Face { separation, axis }: Face) -> Axis {
+        let along = self.axis_b(axis);
+        let normal = if self.fifteen.ahead.0[axis] < 0.0 { -along } else { along };
+        Axis { separation, normal, of: self.of_face_b(axis) }
+    }
+
+    /// The axis of an edge pair, by full projection.
+    pub(super) fn edges(&self, pair: usize) -> Axis {
+        let normal = self.edge_normal(pair);
+        Axis { separation: self.along(normal), normal, of: self.of_edges_along(pair, normal) }
+    }
+
+    pub(super) fn of_edges(&self, pair: usize) -> AxisOf {
+        self.of_edges_along(pair, self.edge_normal(pair))
+    }
+
+    /// The edges that support an axis.
+    fn of_edges_along(&self, pair: usize, normal: DVec3) -> AxisOf {
+        let edge_a = names::edge_through(corner_along(normal), pair / 3);
+        let edge_b = names::edge_through(corner_along(self.relative.turn_back(-normal)), pair % 3);
+        AxisOf::Edges(edge_a, edge_b)
+    }
+
+    /// Turned to point from A to B. At equal centres either sense is right.
+    #[inline]
+    pub(super) fn edge_normal(&self, pair: usize) -> DVec3 {
+        let normal = DVec3::AXES[pair / 3 % 3].cross(self.axis_b(pair % 3)).normalize();
+        if normal.dot(self.offset) < 0.0 { -normal } else { normal }
+    }
+}
+
+#[inline(always)]
+fn face_of_a(axis: usize, is_ahead: bool) -> AxisOf {
+    AxisOf::FaceA(2 * axis + usize::from(is_ahead))
+}
+
+#[inline(always)]
+fn face_of_b(axis: usize, is_ahead: bool) -> AxisOf {
+    AxisOf::FaceB(2 * axis + usize::from(!is_ahead))
+}
+
+/// What [`Fifteen::parted`](super::fifteen::Fifteen::parted) found, by whether B lies ahead on an axis of A or of B.
+#[inline(always)]
+pub(super) fn parted_by(
+    by: f64,
+    of_a: impl FnOnce(usize) -> bool,
+    of_b: impl FnOnce(usize) -> bool,
+) -> Option<AxisOf> {
+    let by = by as i32;
+    match by as usize {
+        _ if by < 0 => None,
+        axis @ 0..3 => Some(face_of_a(axis, of_a(axis))),
+        axis @ 3..6 => Some(face_of_b(axis - 3, of_b(axis - 3))),
+        edges => {
+            let pair = edges - 6;
+            Some(AxisOf::Edges(names::edge_through(0, pair / 3), names::edge_through(0, pair % 3)))
+        }
+    }
+}
+
+/// The corner furthest along a direction in a cuboid's own axes; of equals, the lowest.
+#[inline]
+fn corner_along(v: DVec3) -> usize {
+    usize::from(v.x > 0.0) | usize::from(v.y > 0.0) << 1 | usize::from(v.z > 0.0) << 2
+}

@@ -1,0 +1,283 @@
+//! The patch that two faces share, and at most four points of it.
+//!
+//! ```text
+//! cut the incident face by the sides of the reference face                        (clip)
+//! corners no higher than wanted become spots; of neighbours in one place, one
+//! reduce to four                                                                  (reduce)
+//! back to space, and out to the surfaces
+//! ```
+//! All of it is done with the shapes' cores. What is deepest is moved out along the normal; a corner of a tilted face
+//! that is less deep, along that face's own normal, since the shape's surface beyond it looks that way.
+
+use super::super::reduce::{Spot, pick_four};
+use super::super::solid::Solid;
+use super::clip::{Corner, Name, Ring, Side};
+use super::frame::Frame;
+use super::{Depths, Point, Points};
+use crate::feature::{Feature, FeatureId};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+
+/// The most corners that the polygon can have: those of both faces.
+const MAX_CORNERS: usize = 512;
+
+/// Corners of both faces up to which the polygon is held in little memory.
+const FEW_CORNERS: usize = 24;
+
+/// A face of each shape.
+#[derive(Clone, Copy)]
+pub(super) struct Faces<'a> {
+    /// The shape whose face is measured from, and the face.
+    pub(super) reference: (&'a Solid<'a>, usize),
+    /// The shape whose face is cut, and the face.
+    pub(super) incident: (&'a Solid<'a>, usize),
+    /// Whether the reference shape is B.
+    pub(super) is_b: bool,
+}
+
+impl<'a> Faces<'a> {
+    /// Adds contacts at corners of what both faces share as seen along the frame's direction, in order of their ids.
+    pub(super) fn add_points(&self, frame: &Frame, depths: Depths, points: &mut Points) {
+        let corners =
+            |(solid, face): (&Solid, usize)| ExactSizeIterator::len(&solid.topology.face_half_edges(face));
+        if corners(self.reference) + corners(self.incident) <= FEW_CORNERS {
+            self.add::<FEW_CORNERS>(frame, depths, points);
+        } else {
+            self.add_of_many(frame, depths, points);
+        }
+    }
+
+    /// Apart, so that those with few corners never touch the memory of those with many.
+    #[inline(never)]
+    fn add_of_many(&self, frame: &Frame, depths: Depths, points: &mut Points) {
+        self.add::<MAX_CORNERS>(frame, depths, points);
+    }
+
+    fn add<const N: usize>(&self, frame: &Frame, depths: Depths, points: &mut Points) {
+        let mut rings = [Ring::<N>::new_const(), Ring::new_const()];
+        let [radius, incident_radius] = self.radii();
+        let is_sharp = radius + incident_radius == 0.0;
+        let mut spots = Spots::<N>::new(depths);
+        let ring = self.clipped(frame, [DVec3::ZERO; 2], depths.slack, &mut rings);
+        let (mut is_whole, mut last) = (is_sharp || !ring.is_empty(), None);
+        for corner in ring {
+            if is_sharp || corner.height <= depths.deep {
+                let separation = corner.height - radius - incident_radius;
+                spots.offer(corner, corner.height - incident_radius, separation, &mut last);
+            } else {
+                is_whole = false;
+            }
+        }
+        spots.close(0);
+        // What is less deep belongs to a tilted face, and lies out along its normal; there the corners are cut again.
+        if !is_whole && let Some(moved) = self.outwards(frame) {
+            self.add_higher(frame, moved, &mut rings, &mut spots);
+        }
+        self.add_kept(frame, &spots.list, depths.slack, points);
+    }
+
+    fn radii(&self) -> [f64; 2] {
+        [self.reference.0.radius, self.incident.0.radius]
+    }
+
+    /// From the cores' faces to the surfaces beyond them; nothing where the incident one has no direction of its own.
+    fn outwards(&self, frame: &Frame) -> Option<[DVec3; 2]> {
+        let (incident, face) = self.incident;
+        let [radius, incident_radius] = self.radii();
+        let outwards = incident.outwards(face, -frame.along)?;
+        Some([frame.facing() * radius, outwards * incident_radius])
+    }
+
+    /// Spots of the faces of the surfaces, where those of the cores left none.
+    fn add_higher<const N: usize>(
+        &self,
+        frame: &Frame,
+        moved: [DVec3; 2],
+        rings: &mut [Ring<N>; 2],
+        spots: &mut Spots<N>,
+    ) {
+        let [radius, _] = self.radii();
+        // How far over the core's plane the surface lies along the frame's direction.
+        let rise = radius * frame.lift(frame.facing());
+        let (slack, first) = (spots.depths.slack, spots.list.len());
+        let mut last = None;
+        for corner in self.clipped(frame, moved, slack, rings) {
+            let is_known = spots.list[..first]
+                .iter()
+                .any(|known| known.name == corner.name || is_near(known.spot.at, corner.at, slack));
+            if !is_known {
+                spots.offer(corner, corner.height, corner.height - rise, &mut last);
+            }
+        }
+        spots.close(first);
+        if first > 0 && spots.list.len() > 4 {
+            put_around(&mut spots.list);
+        }
+    }
+
+    /// The incident face cut by the sides of the reference face, both moved first. Returns whichever of the two rings
+    /// holds the result.
+    fn clipped<'r, const N: usize>(
+        &self,
+        frame: &Frame,
+        moved: [DVec3; 2],
+        slack: f64,
+        rings: &'r mut [Ring<N>; 2],
+    ) -> &'r Ring<N> {
+        let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
+        let [mut polygon, mut spare] = rings.each_mut();
+        polygon.clear();
+        for half_edge in incident.topology.face_half_edges(incident_face) {
+            let vertex = usize::from(incident.topology.half_edges()[half_edge].origin);
+            let (at, height) = frame.place(in_frame(incident, !self.is_b, vertex) + moved[1]);
+            let _ = polygon.try_push(Corner::of_incident(vertex, half_edge, at, height));
+        }
+        let half_edges = reference.topology.face_half_edges(face);
+        let (first, last) = (half_edges.start, half_edges.end - 1);
+        let origin = |half_edge: usize| reference.topology.half_edges()[half_edge].origin;
+        let place = |half_edge: usize| {
+            frame.place(in_frame(reference, self.is_b, origin(half_edge).into()) + moved[0]).0
+        };
+        let begin = place(first);
+        let (mut from, mut before) = (begin, last);
+        for half_edge in half_edges {
+            let after = if half_edge == last { first } else { half_edge + 1 };
+            let to = if after == first { begin } else { place(after) };
+            let side = Side {
+                from,
+                along: [to[0] - from[0], to[1] - from[1]],
+                half_edge: half_edge as u16,
+                start: (origin(half_edge), before as u16),
+                end: (origin(after), after as u16),
+            };
+            side.cut(&mut polygon, &mut spare, slack);
+            (from, before) = (to, half_edge);
+        }
+        polygon
+    }
+
+    /// At most four of the spots as contacts, in order of their ids.
+    fn add_kept(&self, frame: &Frame, spots: &[NamedSpot], slack: f64, points: &mut Points) {
+        let id = |i: usize| self.id(spots[i].name);
+        let mut kept: ArrayVec<(FeatureId, usize), 4> = ArrayVec::new();
+        if spots.len() <= 4 {
+            kept.extend((0..spots.len()).map(|i| (id(i), i)));
+        } else {
+            let chosen = pick_four(spots.len(), |i| spots[i].spot, id, slack);
+            kept.extend(chosen.iter().map(|&i| (id(i), i)));
+        }
+        kept.sort_unstable();
+        let mut last = None;
+        for &(feature, i) in &kept {
+            // Sides shorter than the slack can give two corners one name.
+            if last.replace(feature) != Some(feature) {
+                points.push(self.contact(frame, &spots[i], feature));
+            }
+        }
+    }
+
+    fn contact(&self, frame: &Frame, spot: &NamedSpot, feature: FeatureId) -> Point {
+        let separation = spot.spot.separation;
+        let on_incident = frame.point(spot.spot.at, spot.height);
+        let on_reference = on_incident - frame.along * separation;
+        let (on_a, on_b) = if self.is_b { (on_incident, on_reference) } else { (on_reference, on_incident) };
+        Point { separation, on_a, on_b, feature }
+    }
+
+    fn id(&self, name: Name) -> FeatureId {
+        let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
+        let edge =
+            |solid: &Solid, half_edge: u16| Feature::Edge(solid.topology.edge_of(half_edge.into()) as u32);
+        let (of_reference, of_incident) = match name {
+            Name::Incident(vertex) => (Feature::Face(face as u32), Feature::Vertex(vertex.into())),
+            Name::Reference(vertex) => (Feature::Vertex(vertex.into()), Feature::Face(incident_face as u32)),
+            Name::Crossing(side, other) => (edge(reference, side), edge(incident, other)),
+        };
+        if self.is_b {
+            FeatureId::new(of_incident, of_reference)
+        } else {
+            FeatureId::new(of_reference, of_incident)
+        }
+    }
+}
+
+/// A spot, where it stands on the incident surface, and what it is a corner of.
+#[derive(Clone, Copy)]
+struct NamedSpot {
+    spot: Spot,
+    /// Height of the incident surface's point in the frame.
+    height: f64,
+    name: Name,
+}
+
+/// Spots around the patch.
+struct Spots<const N: usize> {
+    depths: Depths,
+    list: ArrayVec<NamedSpot, N>,
+}
+
+impl<const N: usize> Spots<N> {
+    fn new(depths: Depths) -> Self {
+        Self { depths, list: ArrayVec::new() }
+    }
+
+    /// Takes a corner if it is wanted. Where edges run over corners, several features meet in one place: the deepest names
+    /// it, or of those that are as deep the first. `last` is the spot taken before.
+    fn offer(&mut self, corner: &Corner, height: f64, separation: f64, last: &mut Option<usize>) {
+        if separation > self.depths.within {
+            return;
+        }
+        let new = NamedSpot { spot: Spot { at: corner.at, separation }, height, name: corner.name };
+        if let Some(place) = *last
+            && is_near(self.list[place].spot.at, corner.at, self.depths.slack)
+        {
+            if self.is_deeper(&new, &self.list[place]) {
+                self.list[place] = new;
+            }
+            return;
+        }
+        *last = Some(self.list.len());
+        let _ = self.list.try_push(new);
+    }
+
+    /// The last spot of a round, which began at `first`, may be where the first is.
+    fn close(&mut self, first: usize) {
+        let [begin, .., end] = &self.list[first..] else { return };
+        if is_near(begin.spot.at, end.spot.at, self.depths.slack) {
+            let (is_deeper, end) = (self.is_deeper(end, begin), *end);
+            self.list.pop();
+            if is_deeper {
+                self.list[first] = end;
+            }
+        }
+    }
+
+    fn is_deeper(&self, one: &NamedSpot, other: &NamedSpot) -> bool {
+        one.spot.separation < other.spot.separation - self.depths.slack
+    }
+}
+
+/// A vertex in the frame of the pair, in whose axes A stands.
+#[inline]
+fn in_frame(solid: &Solid, is_b: bool, vertex: usize) -> DVec3 {
+    if is_b { solid.point(vertex) } else { solid.vertices[vertex].as_dvec3() }
+}
+
+fn is_near(one: [f64; 2], other: [f64; 2], slack: f64) -> bool {
+    let (x, y) = (one[0] - other[0], one[1] - other[1]);
+    x * x + y * y <= slack * slack
+}
+
+/// Spots of two rounds in one, clockwise about their middle.
+fn put_around(spots: &mut [NamedSpot]) {
+    let share = 1.0 / spots.len() as f64;
+    let sum = spots.iter().fold([0.0, 0.0], |[x, y], spot| [x + spot.spot.at[0], y + spot.spot.at[1]]);
+    let middle = sum.map(|sum| sum * share);
+    // Grows with the angle, clockwise from -x.
+    let turn = |spot: &NamedSpot| {
+        let [x, y] = [spot.spot.at[0] - middle[0], spot.spot.at[1] - middle[1]];
+        let slope = x / (x.abs() + y.abs());
+        if y >= 0.0 { slope } else { 2.0 - slope }
+    };
+    spots.sort_by(|one, other| turn(one).total_cmp(&turn(other)));
+}

@@ -1,0 +1,91 @@
+//! One contact point, where no two faces share a patch.
+
+use super::super::distance::Witness;
+use super::super::sat::{Axis, AxisOf};
+use super::super::solid::Solid;
+use super::Point;
+use crate::feature::{Feature, FeatureId};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+
+/// The nearest points of two edges that cross, each held to its edge.
+///
+/// Ericson, "Real-time collision detection" (2005), 5.1.9: where one place is held to an end, the other is the foot of
+/// that end.
+pub(super) fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), normal: DVec3) -> Point {
+    let ((a0, a1), (b0, b1)) = (a.edge(edges.0), b.edge(edges.1));
+    let (along_a, along_b, between) = (a1 - a0, b1 - b0, b0 - a0);
+    let cross = along_a.cross(along_b);
+    // The axis came from this cross product, so it is not zero.
+    let inverse = 1.0 / cross.length_squared();
+    let s = (between.cross(along_b).dot(cross) * inverse).clamp(0.0, 1.0);
+    let unheld = between.cross(along_a).dot(cross) * inverse;
+    let foot_on_b = (along_a * s - between).dot(along_b) / along_b.length_squared();
+    let t = if s > 0.0 && s < 1.0 { unheld } else { foot_on_b };
+    let held = t.clamp(0.0, 1.0);
+    let foot_on_a = || (along_b * held + between).dot(along_a) / along_a.length_squared();
+    let s = if held == t { s } else { foot_on_a().clamp(0.0, 1.0) };
+    let (on_a, on_b) = (a0 + along_a * s, b0 + along_b * held);
+    let feature = FeatureId::new(Feature::Edge(edges.0 as u32), Feature::Edge(edges.1 as u32));
+    Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature }.on_surfaces(a, b, normal)
+}
+
+/// The deepest vertex of one shape, and its foot on the other's supporting plane: what is left where a face looks past
+/// what touches it.
+pub(super) fn deepest_point(a: &Solid, b: &Solid, axis: &Axis) -> Point {
+    let Axis { separation, normal, of } = *axis;
+    let point = match of {
+        AxisOf::FaceB(face) => {
+            let vertex = a.support(normal).vertex;
+            let on_a = a.point(vertex);
+            let feature = FeatureId::new(Feature::Vertex(vertex as u32), Feature::Face(face as u32));
+            Point { separation, on_a, on_b: on_a + normal * separation, feature }
+        }
+        AxisOf::FaceA(_) | AxisOf::Edges(..) => {
+            let vertex = b.support(-normal).vertex;
+            let on_b = b.point(vertex);
+            let of_a = match of {
+                AxisOf::Edges(edge, _) => Feature::Edge(edge as u32),
+                AxisOf::FaceA(face) | AxisOf::FaceB(face) => Feature::Face(face as u32),
+            };
+            let feature = FeatureId::new(of_a, Feature::Vertex(vertex as u32));
+            Point { separation, on_a: on_b - normal * separation, on_b, feature }
+        }
+    };
+    point.on_surfaces(a, b, normal)
+}
+
+/// The witness points of a gap, named by the features that carry them.
+pub(super) fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> Point {
+    let carrier = |solid: &Solid, which: usize| {
+        let mut vertices: ArrayVec<usize, 4> = witness.corners.iter().map(|corner| corner[which]).collect();
+        vertices.sort_unstable();
+        let mut last = None;
+        vertices.retain(|vertex| last.replace(*vertex) != Some(*vertex));
+        feature_of(solid, &vertices)
+    };
+    let point = Point {
+        separation: witness.distance,
+        on_a: witness.point_a,
+        on_b: witness.point_b,
+        feature: FeatureId::new(carrier(a, 0), carrier(b, 1)),
+    };
+    point.on_surfaces(a, b, witness.across)
+}
+
+/// The least feature that holds all of these vertices.
+fn feature_of(solid: &Solid, vertices: &[usize]) -> Feature {
+    let vertex = Feature::Vertex(vertices.first().map_or(0, |&v| v as u32));
+    let (&[first, ..], topology) = (vertices, solid.topology) else { return vertex };
+    if let &[one, other] = vertices
+        && let Some(&half_edge) = topology.leaving(one).iter().find(|&&h| topology.ends(h.into()).1 == other)
+    {
+        return Feature::Edge(topology.edge_of(half_edge.into()) as u32);
+    }
+    let holds_all = |face: &usize| vertices.iter().all(|v| topology.face_vertices(*face).any(|w| w == *v));
+    let face_of = |&half_edge: &u16| usize::from(topology.half_edges()[usize::from(half_edge)].face);
+    match topology.leaving(first).iter().map(face_of).find(holds_all) {
+        Some(face) if vertices.len() > 1 => Feature::Face(face as u32),
+        _ => vertex,
+    }
+}

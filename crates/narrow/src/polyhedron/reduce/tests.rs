@@ -1,0 +1,187 @@
+use super::*;
+use crate::feature::Feature;
+use oorandom::Rand64;
+
+type Corner = ([f64; 2], f64);
+
+fn id(i: usize) -> FeatureId {
+    FeatureId::new(Feature::Face(0), Feature::Vertex(i as u32))
+}
+
+fn pick(corners: &[Corner], slack: f64) -> [usize; 4] {
+    let spot = |i: usize| Spot { at: corners[i].0, separation: corners[i].1 };
+    pick_four(corners.len(), spot, id, slack)
+}
+
+/// By the shoelace formula, for corners in order around their hull.
+fn area(corners: &[[f64; 2]]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(p, q)| p[0] * q[1] - p[1] * q[0]).sum::<f64>().abs() / 2.0
+}
+
+fn area_of(corners: &[Corner], mut four: [usize; 4]) -> f64 {
+    four.sort_unstable();
+    area(&four.map(|i| corners[i].0))
+}
+
+/// The area of the best four of those that some filter allows, by all there are.
+fn best_of_all(corners: &[Corner], is_allowed: impl Fn([usize; 4]) -> bool) -> f64 {
+    let mut best = 0.0_f64;
+    let count = corners.len();
+    for a in 0..count {
+        for b in a + 1..count {
+            for c in b + 1..count {
+                for d in c + 1..count {
+                    if is_allowed([a, b, c, d]) {
+                        best = best.max(area_of(corners, [a, b, c, d]));
+                    }
+                }
+            }
+        }
+    }
+    best
+}
+
+/// As above without a filter, by all diagonals, for many corners.
+fn best_by_diagonals(corners: &[Corner]) -> f64 {
+    let count = corners.len();
+    let mut best = 0.0_f64;
+    for a in 0..count {
+        for c in a + 2..count {
+            let triangle = |i: usize| area(&[corners[a].0, corners[i].0, corners[c].0]);
+            let near = (a + 1..c).map(triangle).fold(0.0, f64::max);
+            let far = (c + 1..count).chain(0..a).map(triangle).fold(0.0, f64::max);
+            best = best.max(near + far);
+        }
+    }
+    best
+}
+
+/// A point of the unit circle, which goes around once as the parameter goes from -1 to 1.
+fn on_circle(parameter: f64) -> [f64; 2] {
+    let slope = parameter / (1.0 - parameter.abs());
+    let scale = 1.0 / (1.0 + slope * slope);
+    [(1.0 - slope * slope) * scale, 2.0 * slope * scale]
+}
+
+/// Corners clockwise on an ellipse, so that all are, in random places, stretched and turned; all as deep.
+fn on_ellipse(random: &mut Rand64, count: usize) -> Vec<Corner> {
+    let stretch = [1.0, 2.0, 10.0, 100.0][random.rand_range(0..4) as usize];
+    let [cos, sin] = on_circle(random.rand_float() * 1.98 - 0.99);
+    let mut places: Vec<f64> = (0..count).map(|_| random.rand_float() * 1.98 - 0.99).collect();
+    places.sort_by(|one, other| other.total_cmp(one));
+    let corner = |&place: &f64| {
+        let [x, y] = on_circle(place);
+        ([cos * x * stretch - sin * y, sin * x * stretch + cos * y], 0.0)
+    };
+    places.iter().map(corner).collect()
+}
+
+fn regular(count: usize) -> Vec<Corner> {
+    // Evenly by the parameter is even enough for ties of every kind, but for few corners exactly so.
+    (0..count).rev().map(|i| (on_circle((2 * i + 1) as f64 / count as f64 - 1.0), 0.0)).collect()
+}
+
+#[test]
+fn corners_that_are_as_deep_keep_the_area_of_the_best_four() {
+    let mut random = Rand64::new(1);
+    for round in 0..4000 {
+        let corners = on_ellipse(&mut random, 5 + round % 9);
+        let (found, best) = (area_of(&corners, pick(&corners, 0.0)), best_of_all(&corners, |_| true));
+        assert!(found >= best * (1.0 - 1e-5), "{found} of {best}: {corners:?}");
+    }
+}
+
+#[test]
+fn of_many_corners_four_keep_nineteen_parts_in_twenty() {
+    let mut random = Rand64::new(2);
+    let mut least = 1.0_f64;
+    for round in 0..60 {
+        let count = 14 + 3 * round;
+        let corners = if round % 3 == 0 { regular(count) } else { on_ellipse(&mut random, count) };
+        let (found, best) = (area_of(&corners, pick(&corners, 0.0)), best_by_diagonals(&corners));
+        assert!(found >= 0.95 * best, "{found} of {best}: {count}");
+        least = least.min(found / best);
+    }
+    eprintln!("at least {least} of the best four");
+}
+
+#[test]
+fn one_that_is_deeper_is_kept_with_the_best_that_hold_it() {
+    let mut random = Rand64::new(3);
+    for round in 0..3000 {
+        let mut corners = on_ellipse(&mut random, 5 + round % 9);
+        let deepest = random.rand_range(0..corners.len() as u64) as usize;
+        corners[deepest].1 = -1.0;
+        let chosen = pick(&corners, 1e-3);
+        assert!(chosen.contains(&deepest), "{chosen:?} without {deepest}: {corners:?}");
+        let best = best_of_all(&corners, |four| four.contains(&deepest));
+        let found = area_of(&corners, chosen);
+        assert!(found >= best * (1.0 - 1e-5), "{found} of {best}: {corners:?}");
+        assert!(found >= 2.0 / 3.0 * best_of_all(&corners, |_| true), "{found}: {corners:?}");
+    }
+}
+
+/// Of several that are as deep, the one with the lowest id may not be a corner of the best four.
+#[test]
+fn any_of_several_that_are_as_deep_will_do() {
+    let mut random = Rand64::new(4);
+    let mut better = 0;
+    for round in 0..3000 {
+        let mut corners = on_ellipse(&mut random, 5 + round % 9);
+        for corner in &mut corners {
+            corner.1 = if random.rand_float() < 0.4 { 0.0 } else { 1.0 };
+        }
+        let is_deep = |i: usize| corners[i].1 == 0.0;
+        let Some(root) = (0..corners.len()).find(|&i| is_deep(i)) else { continue };
+        let chosen = pick(&corners, 1e-3);
+        assert!(chosen.into_iter().any(is_deep), "{chosen:?}: {corners:?}");
+        let (found, best) = (area_of(&corners, chosen), best_of_all(&corners, |_| true));
+        let with_root = best_of_all(&corners, |four| four.contains(&root));
+        assert!(found >= with_root * (1.0 - 1e-5), "{found} of {with_root}: {corners:?}");
+        // Where some four that have almost the area of the best hold a deep one, some of those are found.
+        if best_of_all(&corners, |four| four.into_iter().any(is_deep)) >= best {
+            assert!(found >= 0.95 * best, "{found} of {best}: {corners:?}");
+            better += usize::from(found > with_root * (1.0 + 1e-5));
+        }
+    }
+    assert!(better > 100, "{better}");
+}
+
+/// The middle of a trapezoid's longer side, deepest: the other three cannot have more than 2/3 with it.
+#[test]
+fn no_four_could_keep_more_with_the_middle_of_a_side() {
+    let trapezoid = [[-2.0, 0.0], [-1.0, 1.0], [1.0, 1.0], [2.0, 0.0], [0.0, -1e-9]];
+    let corners: Vec<Corner> = trapezoid.iter().map(|&at| (at, at[1])).collect();
+    let corners: Vec<Corner> =
+        corners.iter().map(|&(at, y)| (at, if y < 0.0 { -1.0 } else { 0.0 })).collect();
+    let chosen = pick(&corners, 1e-3);
+    assert!(chosen.contains(&4), "{chosen:?}");
+    assert!((area_of(&corners, chosen) / area(&trapezoid[..4]) - 2.0 / 3.0).abs() < 1e-6, "{chosen:?}");
+}
+
+/// A cap of twelve sides has three squares, which are equal up to rounding: the same one in every frame.
+#[test]
+fn ties_go_the_same_way_whatever_rounding_says() {
+    let mut random = Rand64::new(5);
+    let half = 3.0_f64.sqrt() / 2.0;
+    let quarter = [[0.0, 1.0], [0.5, half], [half, 0.5]];
+    let turn = |[x, y]: [f64; 2], quarters: usize| match quarters {
+        0 => [x, y],
+        1 => [y, -x],
+        2 => [-x, -y],
+        _ => [-y, x],
+    };
+    let cap: Vec<[f64; 2]> = (0..12).map(|i| turn(quarter[i % 3], i / 3)).collect();
+    let mut jitter = || (random.rand_float() - 0.5) * 1e-12;
+    let mut seen = std::collections::BTreeSet::new();
+    for _ in 0..1000 {
+        let corners: Vec<Corner> =
+            cap.iter().map(|[x, y]| ([x + jitter(), y + jitter()], jitter())).collect();
+        let mut chosen = pick(&corners, 1e-9);
+        chosen.sort_unstable();
+        seen.insert(chosen);
+    }
+    assert_eq!(seen.len(), 1, "{seen:?}");
+    assert!(seen.contains(&[0, 3, 6, 9]), "the square of the lowest id: {seen:?}");
+}
