@@ -95,8 +95,10 @@ impl<'a> Pair2<'a> {
     /// Whether the shapes share a point, exactly; touching counts.
     ///
     /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which. Cost: fifteen axes for cuboids, all edges for polygons of few; else some
-    /// support searches, each linear in the vertices; for shapes that touch up to rounding some microseconds more.
+    /// [`verdict`](Self::verdict) says which. Cost: constant where circles around or inside the shapes tell, and
+    /// for rectangles; the product of the vertex counts for polygons of up to 16 vertices; above, the logarithm of the
+    /// vertices, and no more than their number however they overlap; for shapes that touch up to rounding some
+    /// microseconds more.
     pub fn overlaps(&self) -> bool {
         self.verdict().overlapping
     }
@@ -136,8 +138,9 @@ impl<'a> Pair2<'a> {
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as no
     /// limit, and a negative limit as zero. Two half-planes have separation -inf unless they look exactly away from
-    /// each other. Cost: the product of the vertex counts; in a gap within the limit a few support searches more, for
-    /// the Euclidean distance.
+    /// each other. Cost: the product of the vertex counts for polygons of up to 16 vertices; above, the logarithm of
+    /// the vertices for shapes apart or slightly overlapping, their number for those on one centre; in a gap within the
+    /// limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
         let measured = |near: &Near| {

@@ -8,18 +8,27 @@
 //! ```
 //! That an edge's own vertex is furthest along its own normal is no guess: polygons are convex by exact predicates.
 //!
-//! What is lost to rounding: the normal is stored within 4 u of the true one (2 in direction, 2 in length), turned, 2.9 u, and
-//! multiplied by a scale, 2 u: less than 9 u of what is projected, which is a difference of points. Placing a vertex
-//! takes 2.9 u, adding the offset 1 u, each product 2 u, the difference 1 u. All in all less than 16 u of the reach: within two
-//! projections' rounding of the truth, in both directions, and so are parts', whose matrices take 3 u more.
+//! What is lost to rounding: the normal is stored within 4 u of the true one (2 in direction, 2 in length), turned,
+//! 2.9 u, and multiplied by a scale, 2 u: less than 9 u of what is projected, which is a difference of points. Placing a
+//! vertex takes 2.9 u, adding the offset 1 u, each product 2 u, the difference 1 u. All in all less than 16 u of the reach:
+//! within two projections' rounding of the truth, in both directions, and so are parts', whose matrices take 3 u more.
+//!
+//! 1. Coordinates stand in arrays of one length, eight or sixteen, and what is left is filled with the last: no loop
+//!    has a count.
+//! 2. The greatest separation is found by halves; which edge shows it, afterwards.
+//! 3. The best edge's normal is made a unit vector by one step of Newton's, without a root.
+//!
+//! Together, AMD EPYC, Zen 4, 2026-11-21: `poly8/mixed/separation` 160 ns to 132, `poly8/mixed/manifold` 189 to 164.
+//!
+//! The loops are the scalar definition too; a test holds them to the bits of one edge after the other.
 
 use super::outline::{Turn, renormalized};
 use super::placed::Placed;
 use super::sat::{Axes, Axis, AxisOf, Outcome, Sides, Wanted, doubt, hint_of};
 use asunder_geometry::glam::{DVec2, Vec2};
 
-/// A core's vertices in the frame of the pair, and its edges' outward normals. What is left of the arrays repeats the last
-/// one, so that loops need no count; a point's normals are zero.
+/// A core's vertices in the frame of the pair, and its edges' outward normals. What is left of the arrays repeats the
+/// last one, so that loops need no count; a point's normals are zero.
 pub(super) struct Few<const N: usize> {
     x: [f64; N],
     y: [f64; N],
@@ -67,6 +76,12 @@ impl<const N: usize> Few<N> {
             *least -= self.normal_x[i] * self.x[i] + self.normal_y[i] * self.y[i];
         }
         least
+    }
+
+    /// The best edge by its separation before any is normalised again, and which it is.
+    #[inline]
+    pub(super) fn best(&self, other: &Self) -> (f64, usize) {
+        self.greatest(&self.separations(other))
     }
 
     /// How far the core reaches along a direction.
@@ -158,11 +173,11 @@ pub(super) fn separating_axes<const N: usize>(
 /// Which side of touching the shapes are on.
 #[inline]
 pub(super) fn sides<const N: usize>([a, b]: [&Few<N>; 2], doubt: f64) -> Sides {
-    let (in_a, _) = a.greatest(&a.separations(b));
+    let (in_a, _) = a.best(b);
     if in_a > doubt {
         return Sides::Apart;
     }
-    let (in_b, _) = b.greatest(&b.separations(a));
+    let (in_b, _) = b.best(a);
     if in_b > doubt {
         return Sides::Apart;
     }

@@ -21,6 +21,24 @@
 //!    number of steps.
 //! 2. Where the centre of B lies as seen from A is a good first direction, last frame's axis a better one.
 //! 3. Bounds are compared as squares; a root is taken only of a new best.
+//! 4. The distance iteration asks its last corner first: 2340 ns to 2100 for polygons of 64 vertices in a gap, 6.25 us to
+//!    5.9 for 4096.
+//! 5. An edge's own end is asked first when its axis is projected, and beside a gap the vertex that faces it: 2100 ns to
+//!    1900, and 5.9 us to 4.55.
+//!
+//! How it grows, in ns (AMD EPYC, Zen 4, 2026-11-21, a busy machine, the lower of two runs; rows `grown*` of
+//! `compare -- narrow`, of pairs that circles do not tell; `apart` and `light` lie within 1e-2 of size of touching, `deep` on
+//! one centre, where every edge is as good):
+//!
+//! | vertices | 8 | 16 | 32 | 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 |
+//! |---|---|---|---|---|---|---|---|---|---|---|
+//! | apart, boolean | 109 | 183 | 93 | 91 | 98 | 109 | 108 | 106 | 145 | 203 |
+//! | light, boolean | 110 | 199 | 281 | 377 | 486 | 673 | 775 | 901 | 1019 | 1144 |
+//! | light, manifold | 160 | 304 | 628 | 818 | 1032 | 1252 | 1393 | 1729 | 1980 | 2400 |
+//! | apart, distance | 290 | 428 | 1706 | 1947 | 2221 | 2554 | 2890 | 3782 | 4364 | 4754 |
+//! | deep, separation | 164 | 293 | 2281 | 4070 | 7476 | 13700 | 26000 | 50400 | 93500 | 151000 |
+//!
+//! Up to 16 vertices it is all edges side by side that answer (`few`).
 //!
 //! Error: an arc that was left out has no axis within the band of the best, but for the rounding of two projections, which the
 //! band is wider than. An edge's own evaluation is as in `few`, plus a searched support: within two projections' rounding,

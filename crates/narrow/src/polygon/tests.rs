@@ -10,7 +10,7 @@ use crate::Pair2;
 use crate::feature::Hint;
 use crate::precision::{IN_PLANE, Precision};
 use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::{Polygon, Pose2, Rotation2, Shape2};
+use asunder_geometry::{Circle, Polygon, Pose2, Rotation2, Segment2, Shape2};
 use oorandom::Rand64;
 
 const U: f64 = f64::EPSILON / 2.0;
@@ -353,4 +353,39 @@ fn the_hint_of_a_pair_apart_saves_its_search() {
         (searched, hinted) = (searched + steps, hinted + steps_again);
     }
     assert!(cases > 200 && 2 * hinted < searched, "{cases} cases: {searched} steps, {hinted} with a hint");
+}
+
+/// The best edge, one edge and one vertex after the other: the definition of what lanes do.
+fn one_by_one(a: &Outline, b: &Outline) -> (f64, usize) {
+    let separation = |edge: usize| {
+        let normal = a.outward(edge);
+        let along = (0..b.vertices.len()).map(|vertex| normal.dot(b.point(vertex)));
+        along.fold(f64::INFINITY, f64::min) - normal.dot(a.point(edge))
+    };
+    let separations = (0..a.edge_count()).map(|edge| (separation(edge), edge));
+    separations.fold((f64::NEG_INFINITY, 0), |best, next| if next.0 > best.0 { next } else { best })
+}
+
+#[test]
+fn lanes_give_the_bits_of_one_edge_after_the_other() {
+    let mut random = Random(Rand64::new(46));
+    for round in 0..4000 {
+        let ([mut shape_a, shape_b], [turn_a, turn_b], offset) = pair(&mut random, [8, 16][round % 2]);
+        if round % 5 == 0 {
+            let from = Vec2::new(random.unit() as f32, 0.25);
+            shape_a = Segment2::new(from, -from).unwrap().into();
+        } else if round % 5 == 1 {
+            shape_a = Circle::new(0.5).unwrap().into();
+        }
+        let (core_a, core_b) = (shape_a.core(), shape_b.core());
+        let a = Outline::new(&shape_a, &core_a, turn_a, DVec2::ZERO);
+        let b = Outline::new(&shape_b, &core_b, turn_b, offset);
+        let expected = [one_by_one(&a, &b), one_by_one(&b, &a)];
+        let (wide_a, wide_b) = (a.few::<16>(), b.few::<16>());
+        assert_eq!([wide_a.best(&wide_b), wide_b.best(&wide_a)], expected, "{shape_a:?}, {shape_b:?}");
+        if a.vertices.len().max(b.vertices.len()) <= 8 {
+            let (narrow_a, narrow_b) = (a.few::<8>(), b.few::<8>());
+            assert_eq!([narrow_a.best(&narrow_b), narrow_b.best(&narrow_a)], expected);
+        }
+    }
 }
