@@ -250,15 +250,11 @@ impl Found {
     fn by_edge_pair(&mut self, a: &Solid, b: &Solid, edges: [usize; 2], search: &Search) {
         let precision = search.precision;
         let cross = Cross::outwards(a, b, edges[0], edges[1]);
-        let normal = cross.axis.normalize();
-        let lowest = self.seen[1].iter().map(|seen| normal.dot(seen.1)).fold(f64::INFINITY, f64::min);
-        let highest = self.seen[0].iter().map(|seen| normal.dot(seen.1)).fold(f64::NEG_INFINITY, f64::max);
-        let on_edges = normal.dot(b.edge(edges[1]).0 - a.edge(edges[0]).0);
-        // Twice: where rounding is no longer small next to the sine, the axis is off by more than their quotient.
-        let doubt = 2.0 * precision.of_edges(cross.squared_sine) + precision.projection();
-        if on_edges.min(lowest - highest) + doubt <= self.axes.best().separation {
+        let length = cross.axis.length();
+        if self.shows_too_little(a, b, edges, (&cross, length), precision) {
             return;
         }
+        let normal = cross.axis / length;
         let (in_a, in_b) = (a.support(normal), b.support(-normal));
         self.see(0, a, in_a.vertex);
         self.see(1, b, in_b.vertex);
@@ -274,6 +270,32 @@ impl Found {
         } else if axis.separation > self.axes.edges.separation && supports(a, b, &axis, search.slack) {
             self.offer(axis, search);
         }
+    }
+
+    /// Whether the axis of two edges is not the best, by these edges and by the vertices seen so far: all that they show
+    /// is more than the truth. No root and no quotient: everything stays as long as the cross product.
+    fn shows_too_little(
+        &self,
+        a: &Solid,
+        b: &Solid,
+        edges: [usize; 2],
+        (cross, length): (&Cross, f64),
+        precision: &Precision,
+    ) -> bool {
+        let axis = cross.axis;
+        let mut shown = axis.dot(b.edge(edges[1]).0 - a.edge(edges[0]).0);
+        let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (_, point) in &self.seen[1] {
+            lowest = lowest.min(axis.dot(*point));
+        }
+        for (_, point) in &self.seen[0] {
+            highest = highest.max(axis.dot(*point));
+        }
+        shown = shown.min(lowest - highest);
+        // Twice the rounding of an axis across two edges, which is a projection's over their sine: times the length of the
+        // cross product that is a projection's times both edges' lengths, of which half the sum of squares is no less.
+        let doubt = precision.projection() * (2.0 * cross.lengths + length);
+        shown + doubt <= self.axes.best().separation * length
     }
 
     fn offer(&mut self, axis: Axis, search: &Search) {
@@ -316,13 +338,16 @@ struct Cross {
     axis: DVec3,
     /// Of the sine between the edges.
     squared_sine: f64,
+    /// No less than the product of the edges' lengths.
+    lengths: f64,
 }
 
 impl Cross {
     fn new(along_a: DVec3, along_b: DVec3) -> Self {
         let axis = along_a.cross(along_b);
-        let squared_sine = axis.length_squared() / (along_a.length_squared() * along_b.length_squared());
-        Self { axis, squared_sine }
+        let (square_a, square_b) = (along_a.length_squared(), along_b.length_squared());
+        let squared_sine = axis.length_squared() / (square_a * square_b);
+        Self { axis, squared_sine, lengths: 0.5 * (square_a + square_b) }
     }
 
     /// Turned from A to B.
