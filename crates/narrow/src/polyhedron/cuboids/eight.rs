@@ -89,18 +89,11 @@ impl Eight {
         for side in 0..2 {
             let rotation = posed.poses[side].rotation().to_array();
             let half = posed.cuboids[side].half_extents().to_array();
-            for c in 0..4 {
-                asked.rotations[side][c][k] = rotation[c];
-            }
-            for c in 0..3 {
-                asked.halves[side][c][k] = half[c];
-            }
+            write(&mut asked.rotations[side], rotation, k);
+            write(&mut asked.halves[side], half, k);
         }
+        write(&mut asked.between, posed.between().to_array(), k);
         let size = Size::of(posed);
-        let between = posed.between().to_array();
-        for c in 0..3 {
-            asked.between[c][k] = between[c];
-        }
         asked.sizes[k] = size.cores + size.radii;
         asked.limits[k] = margin + size.radii;
     }
@@ -186,10 +179,81 @@ impl Asked8 {
 }
 
 #[inline(always)]
+fn write<T, const N: usize>(rows: &mut [Row<T>; N], values: [T; N], k: usize) {
+    for (row, value) in rows.iter_mut().zip(values) {
+        row[k] = value;
+    }
+}
+
+#[inline(always)]
 fn write_basis(rows: &mut [Row; 9], Basis3 { x, y, z }: &Basis3, k: usize) {
-    for c in 0..3 {
-        rows[c][k] = x[c];
-        rows[3 + c][k] = y[c];
-        rows[6 + c][k] = z[c];
+    write(rows, [x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z], k);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asunder_geometry::glam::{Quat, Vec3};
+    use asunder_geometry::{Cuboid, Pose3};
+
+    /// Cuboids of all sizes near each other, some of them turned alike.
+    fn pairs() -> Vec<([Cuboid; 2], [Pose3; 2])> {
+        let mut random = oorandom::Rand32::new(42);
+        let mut number = |span: f32| (2.0 * random.rand_float() - 1.0) * span;
+        (0..800)
+            .map(|round| {
+                let mut half = || Vec3::new(number(4.0).exp2(), number(4.0).exp2(), number(4.0).exp2());
+                let cuboids = [half(), half()].map(|half| Cuboid::from_half_extents(half).unwrap());
+                let mut turn = || Quat::from_xyzw(number(1.0), number(1.0), number(1.0), number(1.0));
+                let turns = [turn(), turn()];
+                let turns = if round % 4 == 0 { [turns[0]; 2] } else { turns };
+                let away = Vec3::new(number(9.0), number(9.0), number(9.0)).as_dvec3();
+                let poses = [Pose3::new(away * 1e5, turns[0]), Pose3::new(away * 1e5 + away, turns[1])];
+                (cuboids, poses.map(Result::unwrap))
+            })
+            .collect()
+    }
+
+    fn bits<const N: usize>(rows: &[Row; N]) -> Vec<u64> {
+        rows.iter().flatten().map(|number| number.to_bits()).collect()
+    }
+
+    fn all_bits(seen: &Seen8) -> Vec<u64> {
+        let nines = [&seen.basis, &seen.relative, &seen.edges, &seen.squared].map(bits);
+        let threes = [&seen.offset, &seen.faces_a, &seen.faces_b, &seen.ahead].map(bits);
+        let ones = [bits(&[seen.parted]), bits(&[seen.deep])];
+        [nines.concat(), threes.concat(), ones.concat()].concat()
+    }
+
+    #[test]
+    fn eight_pairs_are_bit_for_bit_what_each_is_alone_however_wide_the_registers() {
+        let pairs = pairs();
+        let mut eight = Eight::BLANK;
+        let (mut parted, mut deep) = (0, 0);
+        for eight_pairs in pairs.chunks_exact(LANES) {
+            let posed = |k: usize| {
+                let (cuboids, poses) = &eight_pairs[k];
+                Posed { cuboids: [&cuboids[0], &cuboids[1]], poses: [&poses[0], &poses[1]] }
+            };
+            let margin = 0.125;
+            (0..LANES).for_each(|k| eight.put(k, &posed(k), margin));
+            eight.look();
+            let mut portable = Eight::BLANK;
+            wide::look_anywhere(&eight.asked, &mut portable.seen);
+            assert_eq!(all_bits(&eight.seen), all_bits(&portable.seen));
+            for k in 0..LANES {
+                let (mut alone, placed) = (posed(k).placed(), eight.placed(k, &posed(k)));
+                let Fifteen { faces_b, ahead, edges: [x, y, z], squared: [i, j, last], .. } =
+                    &mut alone.fifteen;
+                [faces_b, ahead, x, y, z, i, j, last].map(|row| row.0[3] = 0.0);
+                // Debug output of a float is different where its bits are.
+                assert_eq!(format!("{alone:?}"), format!("{placed:?}"));
+                assert_eq!(alone.parted(margin), eight.parted(k));
+                assert_eq!(alone.are_deep(), eight.is_deep(k));
+                parted += usize::from(eight.parted(k).is_some());
+                deep += usize::from(eight.is_deep(k));
+            }
+        }
+        assert!(parted > 100 && deep > 100, "{parted} parted, {deep} deep");
     }
 }

@@ -14,6 +14,7 @@ pub(crate) struct Posed<'a> {
 }
 
 /// Two cuboids in A's axes, about A's position.
+#[derive(Debug)]
 pub(super) struct Placed {
     /// Half extents of the cores.
     pub(super) half: [DVec3; 2],
