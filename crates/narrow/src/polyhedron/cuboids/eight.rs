@@ -245,7 +245,9 @@ mod tests {
                 let (mut alone, placed) = (posed(k).placed(), eight.placed(k, &posed(k)));
                 let Fifteen { faces_b, ahead, edges: [x, y, z], squared: [i, j, last], .. } =
                     &mut alone.fifteen;
-                [faces_b, ahead, x, y, z, i, j, last].map(|row| row.0[3] = 0.0);
+                for row in [faces_b, ahead, x, y, z, i, j, last] {
+                    row.0[3] = 0.0;
+                }
                 // Debug output of a float is different where its bits are.
                 assert_eq!(format!("{alone:?}"), format!("{placed:?}"));
                 assert_eq!(alone.parted(margin), eight.parted(k));
