@@ -1,6 +1,7 @@
 //! What is left of a shape without its rounding: points, segments, polygons, polyhedra.
 
 use crate::cuboid::Cuboid;
+use crate::hull::Hull;
 use crate::octets::{self, EdgeArc, EdgeOctet, FaceOctet, VertexOctet};
 use crate::rect::Rect;
 use crate::shape::{Shape2, Shape3};
@@ -59,7 +60,22 @@ pub struct Core2<'a> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Core3<'a> {
+pub struct Core3<'a>(Kept<'a>);
+
+/// Where a core in space is: hulls keep all of theirs, of others it is made where it is asked for.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "it lives on the stack for one pair, and a frame allocates nothing"
+)]
+#[derive(Clone, Debug)]
+enum Kept<'a> {
+    ByHull(&'a Hull),
+    Here(Few<'a>),
+}
+
+/// The core of a shape that is no hull: up to eight vertices.
+#[derive(Clone, Debug)]
+struct Few<'a> {
     vertices: Held<'a, Vec3, 8>,
     vertex_octets: Held<'a, VertexOctet, 1>,
     normals: Held<'a, DVec3, 2>,
@@ -126,7 +142,135 @@ static CUBE: LazyLock<Cube> = LazyLock::new(|| {
 const TRIANGLE_EDGES: [u16; 6] = [0, 1, 2, 2, 1, 0];
 
 impl<'a> Core3<'a> {
+    #[inline]
     pub(crate) fn of(shape: &'a Shape3) -> Self {
+        match shape {
+            Shape3::Hull(hull) => Self(Kept::ByHull(hull)),
+            _ => Self(Kept::Here(Few::of(shape))),
+        }
+    }
+
+    /// The vertices, in metres.
+    #[inline]
+    pub fn vertices(&self) -> &[Vec3] {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.vertices(),
+            Kept::Here(few) => few.vertices.as_slice(),
+        }
+    }
+
+    /// The vertices eight by eight; none where there are no vertices.
+    #[inline]
+    pub fn vertex_octets(&self) -> &[VertexOctet] {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.vertex_octets(),
+            Kept::Here(few) => few.vertex_octets.as_slice(),
+        }
+    }
+
+    /// Outward unit normals of the faces, in f64.
+    #[inline]
+    pub fn normals(&self) -> &[DVec3] {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.normals(),
+            Kept::Here(few) => few.normals.as_slice(),
+        }
+    }
+
+    /// How far the vertices reach along each face's normal, in metres from the shape's origin.
+    #[inline]
+    pub fn heights(&self) -> &[f64] {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.heights(),
+            Kept::Here(few) => few.heights.as_slice(),
+        }
+    }
+
+    /// The faces eight by eight, in f32.
+    #[inline]
+    pub fn face_octets(&self) -> &[FaceOctet] {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.face_octets(),
+            Kept::Here(few) => few.face_octets.as_slice(),
+        }
+    }
+
+    /// The edges eight by eight, by the faces beside them; none of what has no faces, nor of a triangle, whose faces are back
+    /// to back.
+    #[inline]
+    pub fn edge_octets(&self) -> &[EdgeOctet] {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.edge_octets(),
+            Kept::Here(few) => few.edge_octets.as_slice(),
+        }
+    }
+
+    /// The edges on the Gauss map, in the order of the topology's edges.
+    #[inline]
+    pub fn arcs(&self) -> &[EdgeArc] {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.arcs().0,
+            Kept::Here(few) => few.arcs.as_slice(),
+        }
+    }
+
+    /// For each half-edge, the number of its edge in that order.
+    #[inline]
+    pub fn edge_numbers(&self) -> &[u16] {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.arcs().1,
+            Kept::Here(few) => few.edge_numbers,
+        }
+    }
+
+    /// The shape's centre, as [`Shape3::center`].
+    #[inline]
+    pub fn center(&self) -> Vec3 {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.center(),
+            Kept::Here(few) => few.center,
+        }
+    }
+
+    /// Radius in metres of a sphere about the centre that lies inside the core, rounded down. Where the centre is
+    /// not inside, minus a distance within which there is a point of the core.
+    ///
+    /// ```
+    /// use asunder_geometry::{Segment3, Shape3, glam::Vec3};
+    /// let segment = Shape3::from(Segment3::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 0.3))?);
+    /// assert!(segment.core().inner_radius() < 0.0, "its middle was rounded");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn inner_radius(&self) -> f32 {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.core_inner_radius(),
+            Kept::Here(few) => few.inner_radius,
+        }
+    }
+
+    /// The greatest absolute value of any vertex' coordinate, in metres: what the rounding of a product with it is
+    /// relative to.
+    #[inline]
+    pub fn extent(&self) -> f32 {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.extent(),
+            Kept::Here(few) => few.extent,
+        }
+    }
+
+    /// How vertices, edges and faces meet.
+    #[inline]
+    pub fn topology(&self) -> &'a Topology {
+        match &self.0 {
+            Kept::ByHull(hull) => hull.topology(),
+            Kept::Here(few) => few.topology,
+        }
+    }
+}
+
+impl<'a> Few<'a> {
+    fn of(shape: &'a Shape3) -> Self {
         match shape {
             Shape3::Sphere(_) => Self::without_faces(&[Vec3::ZERO], Topology::point(), shape),
             Shape3::Capsule(capsule) => {
@@ -152,21 +296,9 @@ impl<'a> Core3<'a> {
                     topology: Cuboid::topology(),
                 }
             }
-            Shape3::Hull(hull) => Self {
-                vertices: Held::Many(hull.vertices()),
-                vertex_octets: Held::Many(hull.vertex_octets()),
-                normals: Held::Many(hull.normals()),
-                heights: Held::Many(hull.heights()),
-                face_octets: Held::Many(hull.face_octets()),
-                edge_octets: Held::Many(hull.edge_octets()),
-                arcs: Held::Many(hull.arcs().0),
-                edge_numbers: hull.arcs().1,
-                center: hull.center(),
-                inner_radius: hull.core_inner_radius(),
-                extent: hull.extent(),
-                topology: hull.topology(),
-            },
-            Shape3::HalfSpace(_) | Shape3::Compound(_) => Self::without_faces(&[], Topology::point(), shape),
+            Shape3::Hull(_) | Shape3::HalfSpace(_) | Shape3::Compound(_) => {
+                Self::without_faces(&[], Topology::point(), shape)
+            }
         }
     }
 
@@ -216,88 +348,6 @@ impl<'a> Core3<'a> {
             extent: octets::extent(&vertices[..3]),
             topology,
         }
-    }
-
-    /// The vertices, in metres.
-    #[inline]
-    pub fn vertices(&self) -> &[Vec3] {
-        self.vertices.as_slice()
-    }
-
-    /// The vertices eight by eight; none where there are no vertices.
-    #[inline]
-    pub fn vertex_octets(&self) -> &[VertexOctet] {
-        self.vertex_octets.as_slice()
-    }
-
-    /// Outward unit normals of the faces, in f64.
-    #[inline]
-    pub fn normals(&self) -> &[DVec3] {
-        self.normals.as_slice()
-    }
-
-    /// How far the vertices reach along each face's normal, in metres from the shape's origin.
-    #[inline]
-    pub fn heights(&self) -> &[f64] {
-        self.heights.as_slice()
-    }
-
-    /// The faces eight by eight, in f32.
-    #[inline]
-    pub fn face_octets(&self) -> &[FaceOctet] {
-        self.face_octets.as_slice()
-    }
-
-    /// The edges eight by eight, by the faces beside them; none of what has no faces, nor of a triangle, whose faces are back
-    /// to back.
-    #[inline]
-    pub fn edge_octets(&self) -> &[EdgeOctet] {
-        self.edge_octets.as_slice()
-    }
-
-    /// The edges on the Gauss map, in the order of the topology's edges.
-    #[inline]
-    pub fn arcs(&self) -> &[EdgeArc] {
-        self.arcs.as_slice()
-    }
-
-    /// For each half-edge, the number of its edge in that order.
-    #[inline]
-    pub fn edge_numbers(&self) -> &[u16] {
-        self.edge_numbers
-    }
-
-    /// The shape's centre, as [`Shape3::center`].
-    #[inline]
-    pub fn center(&self) -> Vec3 {
-        self.center
-    }
-
-    /// Radius in metres of a sphere about the centre that lies inside the core, rounded down. Where the centre is
-    /// not inside, minus a distance within which there is a point of the core.
-    ///
-    /// ```
-    /// use asunder_geometry::{Segment3, Shape3, glam::Vec3};
-    /// let segment = Shape3::from(Segment3::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 0.3))?);
-    /// assert!(segment.core().inner_radius() < 0.0, "its middle was rounded");
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[inline]
-    pub fn inner_radius(&self) -> f32 {
-        self.inner_radius
-    }
-
-    /// The greatest absolute value of any vertex' coordinate, in metres: what the rounding of a product with it is
-    /// relative to.
-    #[inline]
-    pub fn extent(&self) -> f32 {
-        self.extent
-    }
-
-    /// How vertices, edges and faces meet.
-    #[inline]
-    pub fn topology(&self) -> &'a Topology {
-        self.topology
     }
 }
 
