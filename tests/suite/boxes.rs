@@ -2,7 +2,7 @@
 //! says; the other way round they mirror each other.
 
 use asunder_geometry::{Cuboid, Pose3, Shape3};
-use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, collide3};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, collide3, separations3};
 use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, frames3, pairs3};
 use asunder_tests::answers::{Asked, Asked3};
 use asunder_tests::cases::{Case3, Random};
@@ -98,6 +98,21 @@ fn a_batch_says_bit_for_bit_what_each_pair_says_alone() {
         apart > 1000 && touching > 2000 && points > 5000,
         "{apart} apart, {touching} touch in {points} points"
     );
+}
+
+#[test]
+fn separations_of_many_are_bit_for_bit_those_of_each() {
+    let crowd = crowd();
+    let pairs: Vec<Pair3> =
+        crowd.iter().map(|p| Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)).collect();
+    for limit in [0.0, 0.25, f32::INFINITY] {
+        let mut found = Vec::new();
+        pairs.chunks(61).for_each(|pairs| separations3(pairs, limit, &mut found));
+        assert_eq!(found.len(), pairs.len());
+        for (pair, found) in pairs.iter().zip(&found) {
+            assert_eq!(format!("{found:?}"), format!("{:?}", pair.separation(limit)), "{pair:?}");
+        }
+    }
 }
 
 /// Two cuboids a corner, an edge or a face of which are so far apart, by nothing or a few roundings.

@@ -10,11 +10,15 @@
 //! lane goes through is the code of one pair, its bits are those of one pair.
 
 use super::super::sat::AxisOf;
+use super::asked::measured;
 use super::fifteen::{Fifteen, closed_form};
+use super::graded::Graded;
 use super::placed::{Placed, Posed, Size};
-use super::settled::parted_by;
+use super::settled::{Best, parted_by};
 use super::wide;
+use crate::answer::Separation3;
 use crate::lanes::Lanes;
+use crate::precision::{Precision, at_least};
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 
@@ -55,6 +59,8 @@ pub(super) struct Seen8 {
     parted: Row,
     /// Below zero where the cores overlap for certain.
     deep: Row,
+    /// As [`Graded`] has them, in its order.
+    graded: [Row; 6],
 }
 
 impl Eight {
@@ -78,6 +84,7 @@ impl Eight {
             squared: [[0.0; LANES]; 9],
             parted: [0.0; LANES],
             deep: [0.0; LANES],
+            graded: [[0.0; LANES]; 6],
         },
     };
 
@@ -98,10 +105,11 @@ impl Eight {
         asked.limits[k] = margin + size.radii;
     }
 
-    /// Looks at what was put in. Lanes that hold nothing say nothing.
+    /// Looks at what was put in, and grades the axes where that is wanted: it is half as much again, and pays where nothing
+    /// but a number is asked for. Lanes that hold nothing say nothing.
     #[inline]
-    pub(crate) fn look(&mut self) {
-        wide::look(&self.asked, &mut self.seen);
+    pub(crate) fn look<const GRADED: bool>(&mut self) {
+        wide::look::<GRADED>(&self.asked, &mut self.seen);
     }
 
     /// What parts a pair for certain: as [`Placed::parted`] has it.
@@ -111,10 +119,53 @@ impl Eight {
         parted_by(seen.parted[k], |axis| seen.offset[axis][k] >= 0.0, |axis| seen.ahead[axis][k] >= 0.0)
     }
 
+    /// What the best face bounds the separation by, where it parts a pair: as [`Placed::settle`] has it.
+    #[inline(always)]
+    pub(super) fn parted_by_face(&self, lane: usize, posed: &Posed) -> Option<f32> {
+        let (k, seen) = (lane % LANES, &self.seen);
+        let separation = match seen.parted[k] as i32 {
+            n @ 0..3 => seen.faces_a[n as usize][k],
+            n @ 3..6 => seen.faces_b[n as usize - 3][k],
+            _ => return None,
+        };
+        let (radii, precision) = self.precision(k, posed);
+        Some(at_least(separation - radii, &precision))
+    }
+
+    /// The separation of a pair whose best axes are known.
+    #[inline(always)]
+    pub(super) fn measured(&self, lane: usize, posed: &Posed, best: &Best) -> Separation3 {
+        let (k, seen) = (lane % LANES, &self.seen);
+        let [x, y, z] = &seen.offset;
+        let relative = |c: usize| seen.relative[c % 9][k];
+        let axis_b = |j: usize| DVec3::new(relative(3 * j), relative(3 * j + 1), relative(3 * j + 2));
+        let ahead = |j: usize| seen.ahead[j % 3][k];
+        let normal = best.normal(&basis(&seen.basis, k), axis_b, DVec3::new(x[k], y[k], z[k]), ahead);
+        let (radii, precision) = self.precision(k, posed);
+        measured(best, normal, radii, &precision)
+    }
+
+    /// Both radii and the precision.
+    #[inline(always)]
+    fn precision(&self, k: usize, posed: &Posed) -> (f64, Precision) {
+        let Size { cores, radii, .. } = Size::of(posed);
+        let [x, y, z] = &self.seen.offset;
+        (radii, Size::precision(cores, cores + radii, DVec3::new(x[k], y[k], z[k])))
+    }
+
     /// Whether a pair's cores overlap for certain.
     #[inline(always)]
     pub(crate) fn is_deep(&self, lane: usize) -> bool {
         self.seen.deep[lane % LANES] < 0.0
+    }
+
+    /// The best axes of a pair that nothing parts, where they were graded and could be told.
+    #[inline(always)]
+    pub(super) fn best(&self, lane: usize) -> Option<Best> {
+        let (k, seen) = (lane % LANES, &self.seen);
+        let [is_settled, face_a, face_b, pair, edges, short] = seen.graded.map(|row| row[k]);
+        let faces = [seen.faces_a[face_a as usize % 3][k], seen.faces_b[face_b as usize % 3][k]];
+        Graded { is_settled, face_a, face_b, pair, edges, short }.best(faces)
     }
 
     /// One pair, as it would be by itself.
@@ -123,11 +174,6 @@ impl Eight {
         let k = lane % LANES;
         let seen = &self.seen;
         let vector = |rows: &[Row; 3]| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
-        let basis = |rows: &[Row; 9]| Basis3 {
-            x: DVec3::new(rows[0][k], rows[1][k], rows[2][k]),
-            y: DVec3::new(rows[3][k], rows[4][k], rows[5][k]),
-            z: DVec3::new(rows[6][k], rows[7][k], rows[8][k]),
-        };
         let row = |rows: &[Row]| Lanes([rows[0][k], rows[1][k], rows[2][k], 0.0]);
         let rows = |rows: &[Row; 9]| [row(&rows[..3]), row(&rows[3..6]), row(&rows[6..])];
         let fifteen = Fifteen {
@@ -137,14 +183,14 @@ impl Eight {
             edges: rows(&seen.edges),
             squared: rows(&seen.squared),
         };
-        let place = (basis(&seen.relative), vector(&seen.offset));
-        Placed::new(posed, basis(&seen.basis), place, fifteen)
+        let place = (basis(&seen.relative, k), vector(&seen.offset));
+        Placed::new(posed, basis(&seen.basis, k), place, fifteen)
     }
 }
 
 impl Asked8 {
     #[inline(always)]
-    pub(super) fn look(&self, seen: &mut Seen8) {
+    pub(super) fn look<const GRADED: bool>(&self, seen: &mut Seen8) {
         for k in 0..LANES {
             let rotation = |side: usize| {
                 let [x, y, z, w] = &self.rotations[side];
@@ -162,6 +208,10 @@ impl Asked8 {
             let precision = Size::precision(0.0, self.sizes[k], offset);
             seen.parted[k] = fifteen.parted(self.limits[k], &precision);
             seen.deep[k] = fifteen.top() + closed_form(&precision);
+            if GRADED {
+                let Graded { is_settled, face_a, face_b, pair, edges, short } = fifteen.graded(&precision);
+                write(&mut seen.graded, [is_settled, face_a, face_b, pair, edges, short], k);
+            }
             write_basis(&mut seen.basis, &basis, k);
             write_basis(&mut seen.relative, &relative, k);
             for c in 0..3 {
@@ -179,6 +229,15 @@ impl Asked8 {
 }
 
 #[inline(always)]
+fn basis(rows: &[Row; 9], k: usize) -> Basis3 {
+    Basis3 {
+        x: DVec3::new(rows[0][k], rows[1][k], rows[2][k]),
+        y: DVec3::new(rows[3][k], rows[4][k], rows[5][k]),
+        z: DVec3::new(rows[6][k], rows[7][k], rows[8][k]),
+    }
+}
+
+#[inline(always)]
 fn write<T, const N: usize>(rows: &mut [Row<T>; N], values: [T; N], k: usize) {
     for (row, value) in rows.iter_mut().zip(values) {
         row[k] = value;
@@ -192,6 +251,7 @@ fn write_basis(rows: &mut [Row; 9], Basis3 { x, y, z }: &Basis3, k: usize) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::settled::Settled;
     use super::*;
     use asunder_geometry::glam::{Quat, Vec3};
     use asunder_geometry::{Cuboid, Pose3};
@@ -221,7 +281,7 @@ mod tests {
     fn all_bits(seen: &Seen8) -> Vec<u64> {
         let nines = [&seen.basis, &seen.relative, &seen.edges, &seen.squared].map(bits);
         let threes = [&seen.offset, &seen.faces_a, &seen.faces_b, &seen.ahead].map(bits);
-        let ones = [bits(&[seen.parted]), bits(&[seen.deep])];
+        let ones = [bits(&[seen.parted]), bits(&[seen.deep]), bits(&seen.graded)];
         [nines.concat(), threes.concat(), ones.concat()].concat()
     }
 
@@ -229,7 +289,7 @@ mod tests {
     fn eight_pairs_are_bit_for_bit_what_each_is_alone_however_wide_the_registers() {
         let pairs = pairs();
         let mut eight = Eight::BLANK;
-        let (mut parted, mut deep) = (0, 0);
+        let (mut parted, mut deep, mut settled, mut by_edges) = (0, 0, 0, 0);
         for eight_pairs in pairs.chunks_exact(LANES) {
             let posed = |k: usize| {
                 let (cuboids, poses) = &eight_pairs[k];
@@ -237,9 +297,9 @@ mod tests {
             };
             let margin = 0.125;
             (0..LANES).for_each(|k| eight.put(k, &posed(k), margin));
-            eight.look();
+            eight.look::<true>();
             let mut portable = Eight::BLANK;
-            wide::look_anywhere(&eight.asked, &mut portable.seen);
+            wide::look_anywhere::<true>(&eight.asked, &mut portable.seen);
             assert_eq!(all_bits(&eight.seen), all_bits(&portable.seen));
             for k in 0..LANES {
                 let (mut alone, placed) = (posed(k).placed(), eight.placed(k, &posed(k)));
@@ -252,10 +312,17 @@ mod tests {
                 assert_eq!(format!("{alone:?}"), format!("{placed:?}"));
                 assert_eq!(alone.parted(margin), eight.parted(k));
                 assert_eq!(alone.are_deep(), eight.is_deep(k));
+                if let (None, Some(best)) = (eight.parted(k), eight.best(k)) {
+                    let Settled::Overlapping(own) = alone.settle(margin) else { panic!("they overlap") };
+                    assert_eq!(format!("{own:?}"), format!("{best:?}"));
+                    settled += 1;
+                    by_edges += usize::from(best.edges.is_some());
+                }
                 parted += usize::from(eight.parted(k).is_some());
                 deep += usize::from(eight.is_deep(k));
             }
         }
         assert!(parted > 100 && deep > 100, "{parted} parted, {deep} deep");
+        assert!(settled * 10 >= deep * 9 && by_edges > 10, "{settled} settled, {by_edges} by edges");
     }
 }

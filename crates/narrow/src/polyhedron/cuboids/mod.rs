@@ -12,6 +12,7 @@ pub(crate) mod asked;
 mod contact;
 pub(crate) mod eight;
 mod fifteen;
+mod graded;
 mod names;
 mod patch;
 pub(crate) mod placed;
