@@ -8,6 +8,9 @@ use std::collections::BTreeMap;
 /// A body in its slot, with the key that the world gave it.
 type Tenant<S> = (<S as Space>::Key, Collider<S>);
 
+/// What the last update learnt of two bodies, by their keys.
+type Known<S> = ((<S as Space>::Key, <S as Space>::Key), Hint);
+
 /// The model of a world.
 #[derive(Clone, Debug)]
 pub struct NaiveWorld<S: Engine> {
@@ -17,7 +20,7 @@ pub struct NaiveWorld<S: Engine> {
     records: BTreeMap<(u32, u32), Record<S>>,
     events: Vec<Event<S::Key>>,
     /// What the last update learnt of each pair whose boxes overlap, by the slots of their bodies.
-    hints: BTreeMap<(u32, u32), ((S::Key, S::Key), Hint)>,
+    hints: BTreeMap<(u32, u32), Known<S>>,
 }
 
 #[derive(Clone, Debug)]

@@ -120,7 +120,7 @@ fn near(random: &mut Random, round: usize) -> Case3 {
     let mut half = || Vec3::new(1.0 + random.below(8) as f32, 1.0 + random.below(8) as f32, 1.0) / 8.0;
     let (a, b) = (half(), half());
     let gap = [0.0, 1e-16, -1e-16, 1e-14, -1e-14, 1e-9, -1e-9][round % 7];
-    let turn = if round % 2 == 0 { Quat::IDENTITY } else { random.quaternion() };
+    let turn = if round.is_multiple_of(2) { Quat::IDENTITY } else { random.quaternion() };
     // On one, two or three of A's own axes: face, edge or corner.
     let sides = [DVec3::X, DVec3::new(1.0, -1.0, 0.0), DVec3::NEG_ONE][round % 3];
     let away = sides * ((a + b).as_dvec3() + DVec3::splat(gap));
