@@ -29,6 +29,9 @@ impl Posed<'_> {
         if self.are_far(0.0) {
             return Some(false);
         }
+        if self.are_near() {
+            return Some(true);
+        }
         let placed = self.placed();
         let (top, doubt) = (placed.fifteen.top(), placed.closed_form());
         if top - placed.radii > doubt {

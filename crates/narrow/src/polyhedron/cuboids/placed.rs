@@ -44,6 +44,15 @@ impl Posed<'_> {
         self.between().length_squared() > reach * reach * (1.0 + 8.0 * f64::EPSILON)
     }
 
+    /// Whether the inscribed spheres overlap for certain.
+    #[inline]
+    pub(super) fn are_near(&self) -> bool {
+        let [a, b] = self.cuboids;
+        let reach = f64::from(a.inner_radius()) + f64::from(b.inner_radius());
+        // Roundings as in `are_far`.
+        self.between().length_squared() * (1.0 + 8.0 * f64::EPSILON) < reach * reach
+    }
+
     /// A lower bound on the separation, from the bounding spheres.
     pub(super) fn gap_of_spheres(&self) -> f64 {
         let [a, b] = self.cuboids;
