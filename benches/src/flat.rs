@@ -1,5 +1,9 @@
 //! Narrow phase in the plane: the twin of [`narrow`](crate::narrow), without a peer.
 
+mod grown;
+
+pub use grown::Lie;
+
 use crate::clock::{Effort, Samples, time};
 use crate::narrow::{Operation, block_size};
 use crate::row::Row;
@@ -7,8 +11,14 @@ use asunder_narrow::{Answer, Batch2, Hint, Job2, Pair2, Separation2, collide2};
 use asunder_scenes::pairs::{FRAMES, PairSet, PlaneKind, PosedPair2, pairs2};
 use core::hint::black_box;
 
-/// One row: a family of shapes, a set of pairs, a question.
-pub type Case = (PlaneKind, PairSet, Operation);
+/// One row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Case {
+    /// A family of shapes, a set of pairs, a question.
+    Of(PlaneKind, PairSet, Operation),
+    /// Ellipses of so many vertices, how they lie, and a question: how its cost grows.
+    Grown(usize, Lie, Operation),
+}
 
 /// The questions asked of each family.
 const QUESTIONS: [(PairSet, Operation); 7] = [
@@ -21,44 +31,71 @@ const QUESTIONS: [(PairSet, Operation); 7] = [
     (PairSet::Deep, Operation::Boolean),
 ];
 
+/// Vertices of the polygons whose cost grows, and what is asked of them. Circles tell the yes or no of deep ones.
+const SIZES: [usize; 10] = [8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
+const OF_GROWN: [(Lie, Operation); 6] = [
+    (Lie::Apart, Operation::Boolean),
+    (Lie::Light, Operation::Boolean),
+    (Lie::Apart, Operation::Distance),
+    (Lie::Light, Operation::Manifold),
+    (Lie::Deep, Operation::Separation),
+    (Lie::Deep, Operation::Manifold),
+];
+
 /// Every row.
 ///
 /// ```
 /// use asunder_benches::flat;
 /// let names: Vec<String> = flat::cases().iter().map(flat::name).collect();
 /// assert!(names.contains(&"rect/mixed/boolean".into()) && names.contains(&"poly4096/far/boolean".into()));
+/// assert!(names.contains(&"grown1024/light/boolean".into()));
 /// ```
 pub fn cases() -> Vec<Case> {
-    let of_kind = |kind| QUESTIONS.into_iter().map(move |(set, operation)| (kind, set, operation));
-    let all = PlaneKind::ALL.into_iter().flat_map(of_kind);
+    let of_kind = |kind| QUESTIONS.into_iter().map(move |(set, operation)| Case::Of(kind, set, operation));
+    let of_kinds = PlaneKind::ALL.into_iter().flat_map(of_kind);
+    let grown = OF_GROWN
+        .into_iter()
+        .flat_map(|(lie, operation)| SIZES.map(|vertices| Case::Grown(vertices, lie, operation)));
     // Choosing which of the mixed pairs of huge polygons are apart would take longer than the row.
-    all.filter(|(kind, set, _)| *kind != PlaneKind::Poly4096 || *set != PairSet::Mixed).collect()
+    let is_slow = |case: &Case| matches!(case, Case::Of(PlaneKind::Poly4096, PairSet::Mixed, _));
+    of_kinds.filter(|case| !is_slow(case)).chain(grown).collect()
 }
 
 /// The name of a row, as `rect/mixed/manifold`.
 ///
 /// ```
-/// use asunder_benches::{flat, narrow::Operation};
+/// use asunder_benches::{flat, flat::Case, narrow::Operation};
 /// use asunder_scenes::pairs::{PairSet, PlaneKind};
-/// assert_eq!(flat::name(&(PlaneKind::Poly64, PairSet::Far, Operation::Boolean)), "poly64/far/boolean");
+/// assert_eq!(flat::name(&Case::Of(PlaneKind::Poly64, PairSet::Far, Operation::Boolean)), "poly64/far/boolean");
 /// ```
-pub fn name(&(kind, set, operation): &Case) -> String {
-    format!("{}/{}/{}", kind.name(), set.name(), operation.name())
+pub fn name(case: &Case) -> String {
+    match case {
+        Case::Of(kind, set, operation) => format!("{}/{}/{}", kind.name(), set.name(), operation.name()),
+        Case::Grown(vertices, lie, operation) => {
+            format!("grown{vertices}/{}/{}", lie.name(), operation.name())
+        }
+    }
 }
 
 /// Measures one row. Cost: about a second, and making the pairs.
 ///
 /// ```
-/// use asunder_benches::{clock::Effort, flat, narrow::Operation};
+/// use asunder_benches::{clock::Effort, flat, flat::Case, narrow::Operation};
 /// use asunder_scenes::pairs::{PairSet, PlaneKind};
 /// let effort = Effort { pairs: 250, rounds: 1, ..Effort::quick() };
-/// let row = flat::measure(&(PlaneKind::Poly8, PairSet::Mixed, Operation::Manifold), &effort);
+/// let row = flat::measure(&Case::Of(PlaneKind::Poly8, PairSet::Mixed, Operation::Manifold), &effort);
 /// assert!(row.done == 250 && row.ours_ns.is_some() && row.peer.is_none());
 /// ```
 pub fn measure(case: &Case, effort: &Effort) -> Row {
-    let &(kind, set, operation) = case;
-    let count = if kind == PlaneKind::Poly4096 { effort.pairs.min(1000) } else { effort.pairs };
-    let pairs = pairs2(kind, set, count, 1);
+    let (pairs, operation) = match *case {
+        Case::Of(kind, set, operation) => {
+            let most = if kind == PlaneKind::Poly4096 { 1000 } else { usize::MAX };
+            (pairs2(kind, set, effort.pairs.min(most), 1), operation)
+        }
+        Case::Grown(vertices, lie, operation) => {
+            (grown::pairs(vertices, lie, effort.pairs.min(1000)), operation)
+        }
+    };
     let mut row = Row::new(name(case), "pair", pairs.len());
     let samples = if operation == Operation::Cached {
         cached(&pairs, effort, &mut row)

@@ -5,8 +5,8 @@ mod units;
 
 use asunder_geometry::{Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Shape2, Shape3};
 use asunder_narrow::{
-    Answer, Batch2, Batch3, Hint, Job2, Job3, Manifold3, Pair2, Pair3, Separation2, Separation3, collide2,
-    collide3,
+    Answer, Batch2, Batch3, Hint, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3, Separation2, Separation3,
+    collide2, collide3,
 };
 use asunder_tests::answers::{Asked, Asked2, Asked3};
 use asunder_tests::cases::{Case2, Case3, Random};
@@ -320,13 +320,23 @@ fn hints_and_neighbours_in_a_batch_in_the_plane() {
     let misled = jobs(&|i| hint_of(&first.answers[(i * 7 + 1) % cases.len()]), false);
     let sensed = jobs(&|_| Hint::NONE, true);
     assert!(sensed.manifolds.is_empty());
+    let mut differing = 0;
     for (i, (case, margin)) in cases.iter().enumerate() {
         let fact = facts(&first.answers[i], &first.manifolds);
         assert_eq!(fact, facts(&hinted.answers[i], &hinted.manifolds), "its own hint: {case:?}");
-        assert_eq!(fact, facts(&misled.answers[i], &misled.manifolds), "a wrong hint: {case:?}");
+        // Among edges that are as good, up to two preferences, the hinted one is kept; the numbers are the same.
+        let numbers = |fact: Option<(bool, Vec<Manifold2>)>| {
+            fact.map(|(overlapping, m)| {
+                (overlapping, m.iter().map(|m| (m.separation, m.error)).collect::<Vec<_>>())
+            })
+        };
+        let wrong = facts(&misled.answers[i], &misled.manifolds);
+        differing += usize::from(fact != wrong);
+        assert_eq!(numbers(fact.clone()), numbers(wrong), "a wrong hint: {case:?}");
         let alone = pair2(case).manifold(*margin);
         assert_eq!(fact.as_ref().map(|(_, manifolds)| manifolds.clone()), alone.map(|m| vec![m]), "{case:?}");
         let sense = facts(&sensed.answers[i], &sensed.manifolds);
         assert_eq!(sense.map(|(overlapping, _)| overlapping), fact.map(|(overlapping, _)| overlapping));
     }
+    assert!(differing < cases.len() / 100, "{differing} wrong hints named an edge as good");
 }

@@ -21,7 +21,8 @@
 //! - [`agreement`]: separations, distances, points, records and events go with that yes or no, ulp by ulp
 //! - [`hard`]: 100,000 hard cases: nothing wrong, no bound broken, no panic, everything within 1e-6 of size
 //! - [`steady`]: a unit in the last place of a pose changes no count of points, and no depth by more than it is
-//! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair, with names that stay
+//! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair; what they keep of the faces; names that stay
+//! - [`plane`]: polygons of many edges against all edges, mirrored, and what hints may change: names, never a yes or no
 //! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
@@ -58,6 +59,7 @@ mod manifolds;
 mod mass;
 mod oracles;
 mod peer;
+mod plane;
 mod polygons;
 mod refusals;
 mod regressions;

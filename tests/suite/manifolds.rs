@@ -1,5 +1,8 @@
 //! Manifolds: points on both shapes, on one normal, that tell the same separation as the pair; and their names.
 
+mod faces;
+mod frames;
+
 use asunder_geometry::{Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
 use asunder_narrow::{ContactPoint3, Pair2, Pair3};
 use asunder_tests::answers::{Asked, Asked2, Asked3, Manifold};
@@ -117,6 +120,10 @@ fn resting(shape_b: &Shape3, height: f64, at: DVec2, rotation: Quat) -> Asked3 {
         shape_b: shape_b.clone(),
         pose_b: Pose3::new([at.x, height, at.y], rotation).unwrap(),
     })
+}
+
+fn pair3(case: &Case3) -> Pair3<'_> {
+    Pair3::new(&case.shape_a, &case.pose_a, &case.shape_b, &case.pose_b)
 }
 
 fn features(manifold: &Manifold) -> BTreeSet<u64> {

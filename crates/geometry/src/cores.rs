@@ -18,6 +18,7 @@ enum Held<'a, T, const N: usize> {
 }
 
 impl<T: Copy, const N: usize> Held<'_, T, N> {
+    #[inline]
     fn as_slice(&self) -> &[T] {
         match self {
             Self::Few(values, count) => &values[..*count],
@@ -91,6 +92,7 @@ struct Few<'a> {
 }
 
 impl<'a> Core2<'a> {
+    #[inline]
     pub(crate) fn of(shape: &'a Shape2) -> Self {
         let none = Held::Many(&[]);
         let (vertices, normals) = match shape {

@@ -94,6 +94,7 @@ impl Shape2 {
     }
 
     /// Local centre of the bounding circle.
+    #[inline]
     pub fn center(&self) -> Vec2 {
         match self {
             Self::Capsule(capsule) => capsule.segment().center(),
@@ -106,6 +107,7 @@ impl Shape2 {
 
     /// Bounding radius about [`Shape2::center`], in metres, rounded up. Tolerances of a pair are relative to the sum
     /// of two. Infinite for a half-plane.
+    #[inline]
     pub fn outer_radius(&self) -> f32 {
         match self {
             Self::Circle(circle) => circle.radius(),

@@ -97,7 +97,7 @@ enum Known {
     Nothing,
     /// Bits of a [`FeatureId`].
     Features([u32; 2]),
-    /// Bits of a vector in A's axes.
+    /// Bits of a vector: in A's axes in space, in the world's in the plane.
     Direction([u32; 3]),
 }
 
@@ -112,7 +112,7 @@ impl Hint {
         Self(Known::Features([(bits >> 32) as u32, bits as u32]))
     }
 
-    /// A direction that parts the shapes, in A's axes.
+    /// A direction that parts the shapes: in A's axes in space, in the world's in the plane.
     pub(crate) fn towards(direction: DVec3) -> Self {
         Self(Known::Direction(direction.as_vec3().to_array().map(f32::to_bits)))
     }
@@ -124,7 +124,7 @@ impl Hint {
         }
     }
 
-    /// Of unit length, in A's axes.
+    /// Of unit length, in the axes it was given in.
     pub(crate) fn direction(self) -> Option<DVec3> {
         match self.0 {
             Known::Direction(bits) => Vec3::from_array(bits.map(f32::from_bits)).as_dvec3().try_normalize(),

@@ -5,8 +5,12 @@ use crate::batch::Batch2;
 use crate::exact::Site2;
 use crate::feature::Hint;
 use crate::least::Least;
-use crate::polygon::convex::{Convex, Near, Probe};
+use crate::polygon::convex::Convex;
+use crate::polygon::manifold::Touch;
+use crate::polygon::measure::{Asked, Near, Probe};
 use crate::polygon::outline::Turn;
+use crate::polygon::quick::Bodies;
+use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
@@ -68,6 +72,7 @@ struct Parts<'a> {
 
 impl<'a> Pair2<'a> {
     /// A pair of posed shapes. Cost: constant.
+    #[inline]
     pub fn new(shape_a: &'a Shape2, pose_a: &Pose2, shape_b: &'a Shape2, pose_b: &Pose2) -> Self {
         let between = pose_b.position() - pose_a.position();
         Self {
@@ -90,8 +95,10 @@ impl<'a> Pair2<'a> {
     /// Whether the shapes share a point, exactly; touching counts.
     ///
     /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which. Cost: fifteen axes for cuboids, all edges for polygons of few; else some
-    /// support searches, each linear in the vertices; for shapes that touch up to rounding some microseconds more.
+    /// [`verdict`](Self::verdict) says which. Cost: constant where circles around or inside the shapes tell, and
+    /// for rectangles; the product of the vertex counts for polygons of up to 16 vertices; above, the logarithm of the
+    /// vertices, and no more than their number however they overlap; for shapes that touch up to rounding some
+    /// microseconds more.
     pub fn overlaps(&self) -> bool {
         self.verdict().overlapping
     }
@@ -108,6 +115,9 @@ impl<'a> Pair2<'a> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn verdict(&self) -> Verdict {
+        if let Some(overlapping) = self.bodies().overlap() {
+            return Verdict { overlapping, tier: Tier::Bound };
+        }
         let mut tier = Tier::Bound;
         let overlapping = self.any(0.0, |parts| {
             let verdict = parts.convex.verdict();
@@ -128,16 +138,22 @@ impl<'a> Pair2<'a> {
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as no
     /// limit, and a negative limit as zero. Two half-planes have separation -inf unless they look exactly away from
-    /// each other. Cost: the product of the vertex counts; in a gap within the limit a few support searches more, for
-    /// the Euclidean distance.
+    /// each other. Cost: the product of the vertex counts for polygons of up to 16 vertices; above, the logarithm of
+    /// the vertices for shapes apart or slightly overlapping, their number for those on one centre; in a gap within the
+    /// limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
+        let measured = |near: &Near| {
+            let (separation, error, normal) = (near.separation, near.error, near.normal.as_vec2());
+            Separation2::Measured(Measured2 { separation, error, normal })
+        };
+        match self.bodies().answer(&Asked { limit, hint: Hint::NONE, points: false }) {
+            Some(Probe::Near(near)) => return measured(&near),
+            Some(Probe::Beyond(at_least, _)) => return Separation2::AtLeast(at_least),
+            None => {}
+        }
         match self.nearest(limit) {
-            Ok((_, near)) => Separation2::Measured(Measured2 {
-                separation: near.separation,
-                error: near.error,
-                normal: near.normal.as_vec2(),
-            }),
+            Ok((_, near)) => measured(&near),
             Err(at_least) => Separation2::AtLeast(at_least),
         }
     }
@@ -162,8 +178,13 @@ impl<'a> Pair2<'a> {
     /// them all. Nothing for two half-planes that overlap without end. Cost: as the separation, plus clipping two
     /// edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
-        let manifolds = self.manifolds(margin);
-        manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
+        let mut best: Option<Manifold2> = None;
+        self.contact(margin, Hint::NONE, true, |next| {
+            if best.as_ref().is_none_or(|best| next.separation < best.separation) {
+                best = Some(next);
+            }
+        });
+        best
     }
 
     /// One manifold for each pair of convex parts at most `margin` metres apart, in order of the parts: at most one
@@ -184,7 +205,7 @@ impl<'a> Pair2<'a> {
     /// ```
     pub fn manifolds(&self, margin: f32) -> Vec<Manifold2> {
         let mut manifolds = Vec::new();
-        self.contact(margin, Hint::NONE, Some(&mut manifolds));
+        self.contact(margin, Hint::NONE, true, |manifold| manifolds.push(manifold));
         manifolds
     }
 
@@ -194,14 +215,30 @@ impl<'a> Pair2<'a> {
         &self,
         margin: f32,
         hint: Hint,
-        mut manifolds: Option<&mut Vec<Manifold2>>,
+        is_wanted: bool,
+        mut keep: impl FnMut(Manifold2),
     ) -> (Hint, Option<bool>) {
         let margin = margin.max(0.0);
         // What rounds to the margin counts as within it: the number that is told decides.
         let reach = f64::from(margin.next_up());
+        let asked = Asked { limit: reach, hint, points: is_wanted };
+        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
+        match self.bodies().answer(&asked) {
+            Some(Probe::Near(near)) => {
+                if !is_near(&near) {
+                    return (near.hint, None);
+                }
+                if let Some(touch) = &near.touch {
+                    keep(manifold(&near, touch, ([0, 0], [DVec2::ZERO, -self.between])));
+                }
+                return (near.hint, Some(near.verdict.overlapping));
+            }
+            Some(Probe::Beyond(_, hint)) => return (hint, None),
+            None => {}
+        }
         let (mut next_hint, mut touch) = (Hint::NONE, None);
         self.any(reach, |parts| {
-            let near = match parts.convex.probe(reach, hint) {
+            let near = match parts.convex.probe(&asked) {
                 Probe::Beyond(_, hint) => {
                     next_hint = hint;
                     return false;
@@ -209,11 +246,10 @@ impl<'a> Pair2<'a> {
                 Probe::Near(near) => near,
             };
             next_hint = near.hint;
-            let is_touching = near.verdict.overlapping;
-            if is_touching || near.separation <= margin {
-                touch = Some(touch.unwrap_or(false) || is_touching);
-                if let Some(manifolds) = &mut manifolds {
-                    manifolds.extend(parts.manifold(&near, reach));
+            if is_near(&near) {
+                touch = Some(touch.unwrap_or(false) || near.verdict.overlapping);
+                if let Some(touch) = &near.touch {
+                    keep(manifold(&near, touch, (parts.indices, parts.shifts())));
                 }
             }
             false
@@ -234,7 +270,8 @@ impl<'a> Pair2<'a> {
             for_parts(self.shape_b, &self.turn_b, |b| {
                 if !least.passes_over(gap(&a, &b)) {
                     let parts = self.parts(a, b);
-                    match parts.convex.probe(least.reach(), Hint::NONE) {
+                    let asked = Asked { limit: least.reach(), hint: Hint::NONE, points: false };
+                    match parts.convex.probe(&asked) {
                         Probe::Beyond(at_least, _) => least.give_up(at_least),
                         Probe::Near(near) => {
                             let (separation, error) = (near.separation, near.error);
@@ -248,6 +285,12 @@ impl<'a> Pair2<'a> {
         let ((parts, mut near), error) = least.finish()?;
         near.error = error;
         Ok((parts, near))
+    }
+
+    /// As a whole, without parts.
+    fn bodies(&self) -> Bodies<'_> {
+        let (shapes, turns) = ([self.shape_a, self.shape_b], [&self.turn_a, &self.turn_b]);
+        Bodies { shapes, turns, between: self.between }
     }
 
     /// Whether the answer is yes for any pair of parts whose bounding circles are at most `within` apart.
@@ -279,8 +322,8 @@ impl<'a> Pair2<'a> {
     }
 
     /// How long the vectors are that the way from part to part is a sum of, where it is one of several.
-    fn summed(&self, shift_a: DVec2, shift_b: DVec2) -> f64 {
-        if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
+    fn summed(&self, shift_a: DVec2, shift_b: DVec2) -> Option<f64> {
+        self.is_compound().then(|| self.between.length() + shift_a.length() + shift_b.length())
     }
 
     fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
@@ -326,22 +369,9 @@ fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>)
 }
 
 impl Parts<'_> {
-    fn manifold(&self, near: &Near, margin: f64) -> Option<Manifold2> {
-        let touch = self.convex.touch(near, margin)?;
-        let points = touch.points.iter().map(|point| ContactPoint2 {
-            separation: point.separation as f32,
-            anchor_a: self.anchor_a(point.on_a),
-            anchor_b: self.anchor_b(point.on_b),
-            feature: point.feature,
-        });
-        Some(Manifold2 {
-            part_a: self.indices[0],
-            part_b: self.indices[1],
-            normal: touch.normal.as_vec2(),
-            separation: near.separation,
-            error: near.error,
-            points: points.collect(),
-        })
+    /// From the frame of the pair to world vectors from A's position and from B's.
+    fn shifts(&self) -> [DVec2; 2] {
+        [self.shifts[0], self.shifts[1] - self.convex.offset]
     }
 
     /// From the frame of the pair to a world vector from A's position.
@@ -352,6 +382,29 @@ impl Parts<'_> {
     /// From the frame of the pair to a world vector from B's position.
     fn anchor_b(&self, point: DVec2) -> Vec2 {
         (point - self.convex.offset + self.shifts[1]).as_vec2()
+    }
+}
+
+/// The parts by their indices, and how points of the frame of the pair are shifted to become vectors from A's position and
+/// from B's.
+#[inline]
+fn manifold(near: &Near, touch: &Touch, (indices, shifts): ([u32; 2], [DVec2; 2])) -> Manifold2 {
+    let mut points = ArrayVec::new();
+    for point in &touch.points {
+        points.push(ContactPoint2 {
+            separation: point.separation as f32,
+            anchor_a: (point.on_a + shifts[0]).as_vec2(),
+            anchor_b: (point.on_b + shifts[1]).as_vec2(),
+            feature: point.feature,
+        });
+    }
+    Manifold2 {
+        part_a: indices[0],
+        part_b: indices[1],
+        normal: touch.normal.as_vec2(),
+        separation: near.separation,
+        error: near.error,
+        points,
     }
 }
 
@@ -394,8 +447,9 @@ pub fn collide2(jobs: &[Job2<'_>], batch: &mut Batch2) {
     for job in jobs {
         let pair = Pair2::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
         let first = batch.manifolds.len() as u32;
-        let wanted = (!job.sensor).then_some(&mut batch.manifolds);
-        let (hint, overlapping) = pair.contact(job.margin, job.hint, wanted);
+        let manifolds = &mut batch.manifolds;
+        let (hint, overlapping) =
+            pair.contact(job.margin, job.hint, !job.sensor, |manifold| manifolds.push(manifold));
         batch.push(hint, overlapping, first);
     }
 }

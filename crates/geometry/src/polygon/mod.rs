@@ -44,6 +44,7 @@ pub struct Polygon {
 struct PolygonData {
     vertices: Box<[Vec2]>,
     normals: Box<[DVec2]>,
+    extremes: [u16; 4],
     center: Vec2,
     outer_radius: f32,
     inner_radius: f32,
@@ -145,8 +146,9 @@ impl Polygon {
             return Err(PolygonError::TooSmall { radius: outer_radius });
         }
         let inner_radius = round_down((inner - 8.0 * f64::EPSILON * outer).max(0.0));
-        let data =
-            PolygonData { vertices: vertices.into(), normals, center, outer_radius, inner_radius, error };
+        let extremes = extremes(&vertices);
+        let vertices = vertices.into();
+        let data = PolygonData { vertices, normals, extremes, center, outer_radius, inner_radius, error };
         Ok(Self { data: Arc::new(data), radius: 0.0 })
     }
 
@@ -160,6 +162,21 @@ impl Polygon {
     #[inline]
     pub fn normals(&self) -> &[DVec2] {
         &self.data.normals
+    }
+
+    /// The vertices furthest along +x, +y, -x and -y; of two that are as far, the first, counter-clockwise.
+    ///
+    /// From one to the next, edges look into one quadrant: where a search for a supporting vertex begins and ends.
+    ///
+    /// ```
+    /// use asunder_geometry::{Polygon, glam::Vec2};
+    /// let square = Polygon::new(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(Vec2::from))?;
+    /// assert_eq!(square.extremes(), [1, 2, 3, 0]);
+    /// # Ok::<(), asunder_geometry::PolygonError>(())
+    /// ```
+    #[inline]
+    pub fn extremes(&self) -> [usize; 4] {
+        self.data.extremes.map(usize::from)
     }
 
     /// The centre that both radii are about: the centroid, rounded to f32.
@@ -281,6 +298,23 @@ fn hull_vertices(points: &[Vec2]) -> Result<Vec<Vec2>, PolygonError> {
         hull.pop();
     }
     if hull.len() < 3 { Err(PolygonError::Collinear) } else { Ok(hull) }
+}
+
+/// The vertices furthest along +x, +y, -x and -y; of two that are as far, the first, counter-clockwise.
+fn extremes(vertices: &[Vec2]) -> [u16; 4] {
+    // Of two on an edge across the direction, the first is the one further clockwise.
+    let keys: [fn(Vec2) -> [f32; 2]; 4] =
+        [|v| [v.x, -v.y], |v| [v.y, v.x], |v| [-v.x, v.y], |v| [-v.y, -v.x]];
+    keys.map(|key| {
+        let mut best = 0;
+        for (index, &vertex) in vertices.iter().enumerate() {
+            if key(vertex) > key(vertices[best]) {
+                best = index;
+            }
+        }
+        // No polygon has more than 4096 vertices.
+        best as u16
+    })
 }
 
 /// The centre of area. Where rounding leaves a sliver none that lies in its box, the middle of the box.

@@ -7,449 +7,190 @@
 //! everything else:                  edge normals                               (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
-//! Whether they overlap is settled in three tiers, each asked only where the one before cannot tell:
-//!
-//! ```text
-//! Bound    what is asked first: all axes of boxes and small polygons, a distance in closed form, or as below
-//! Double   an axis that parts them, or corners around a common point, each further off than rounding   (distance)
-//! Exact    integers, from the corners where f64 stopped                                               (exact)
-//! ```
-//! The number then takes the decision's sign: where it says otherwise, it is rounding.
+//! Whether they overlap is settled in three tiers (`tiers`); the number then takes the decision's sign: where it says
+//! otherwise, it is rounding.
 //!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
 //! line out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
-use super::distance::{Close, Reached, Until, Witness, distance};
 use super::half_plane::Line;
-use super::manifold::{Point, Touch, touch};
+use super::manifold::{Point, Touch};
+use super::measure::{Asked, Measure, Near, Probe};
 use super::outline::{Outline, Turn};
-use super::sat::{Axes, Axis, Outcome, Sides, hint_of, overlaps, separating_axes, sides};
-use crate::answer::{Tier, Verdict};
-use crate::exact::{self, Corner, Site2};
+use super::sat::{Outcome, doubt, separating_axes};
+use super::search::beside;
+use super::tiers::Cores;
+use crate::exact::{self, Site2};
 use crate::feature::{Feature, FeatureId, Hint};
-use crate::precision::{IN_PLANE, Precision, at_least, signed};
+use crate::precision::{at_least, signed};
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Core2, Shape2};
-
-/// Edges of two polygons together up to which a yes or no comes cheaper from all axes than from a search.
-const FEW_EDGES: usize = 20;
 
 /// Two convex shapes in the frame of the pair: the world's axes, about A's position.
 pub(crate) struct Convex<'a> {
-    sites: [Site2<'a>; 2],
+    pub(super) sites: [Site2<'a>; 2],
     pub(crate) shape_a: &'a Shape2,
     pub(crate) shape_b: &'a Shape2,
     pub(crate) turn_a: Turn,
     pub(crate) turn_b: Turn,
     /// B's position less A's.
     pub(crate) offset: DVec2,
-    precision: Precision,
-    /// Both radii, in metres.
-    radii: f64,
-}
-
-/// What a pair looks like within a limit.
-#[allow(
-    clippy::large_enum_variant,
-    reason = "it lives on the stack for one pair, and a frame allocates nothing"
-)]
-pub(crate) enum Probe {
-    /// Further apart than the limit: by at least so much.
-    Beyond(f32, Hint),
-    /// The separation, and all that is needed to make contact points.
-    Near(Near),
-}
-
-/// The separation of two shapes, and where it was seen.
-pub(crate) struct Near {
-    pub(crate) verdict: Verdict,
-    pub(crate) separation: f32,
-    pub(crate) error: f32,
-    /// Unit axis from A to B.
-    pub(crate) normal: DVec2,
-    /// Closest points of the shapes, where they do not overlap.
-    pub(crate) closest: Option<[DVec2; 2]>,
-    pub(crate) hint: Hint,
-    evidence: Evidence,
-}
-
-/// How two cores lie, as far as the distance iteration came.
-#[allow(clippy::large_enum_variant, reason = "as Probe")]
-enum Cores {
-    /// Overlapping, or apart by at most so many metres.
-    Within(f64),
-    /// Two bounds on their distance, with witness points.
-    Between(Witness),
+    pub(super) measure: Measure,
 }
 
 /// What a kernel in closed form says of two shapes.
-struct Told {
-    separation: f64,
-    /// A lower bound on it.
-    at_least: f64,
+pub(super) struct Told {
+    pub(super) separation: f64,
     /// Unit axis from A to B.
-    normal: DVec2,
+    pub(super) normal: DVec2,
     /// Closest points on the surfaces; they mean nothing in overlap.
     closest: [DVec2; 2],
-    evidence: Evidence,
-}
-
-#[allow(clippy::large_enum_variant, reason = "as Probe")]
-enum Evidence {
-    /// The best axes; closest points of the cores, where those do not overlap.
-    Axes(Axes, Option<Witness>),
-    /// The line through two points.
-    Points,
-    HalfPlane(Line),
-    HalfPlanes(Line, Line),
 }
 
 impl<'a> Convex<'a> {
     /// Two shapes, how they are turned, and B's position less A's. `summed` is how long the vectors were that the
     /// position is a sum of, in metres, where it is one of several.
-    pub(crate) fn new(sites: [Site2<'a>; 2], turns: [Turn; 2], offset: DVec2, summed: f64) -> Self {
-        let ([shape_a, shape_b], [turn_a, turn_b]) = (sites.map(|site| site.shape), turns);
-        let radii = f64::from(shape_a.radius()) + f64::from(shape_b.radius());
-        // What the distance iteration's steps are relative to: radii do not enter it.
-        let size = core_size(shape_a) + core_size(shape_b);
-        // Sums of coordinates bound lengths, and need no root.
-        let length = |v: DVec2| v.abs().element_sum();
-        let off_center = length(shape_a.center().as_dvec2()) + length(shape_b.center().as_dvec2());
-        let reach = size + radii + off_center + length(offset) + summed;
-        let roundings = IN_PLANE[usize::from(sites.iter().any(|site| site.part.is_some()))];
-        let precision = Precision { size, reach, planarity: 0.0, roundings };
-        Self { sites, shape_a, shape_b, turn_a, turn_b, offset, precision, radii }
-    }
-
-    /// The separation where it is at most `limit` metres; the hinted axis is tried first.
-    pub(crate) fn probe(&self, limit: f64, hint: Hint) -> Probe {
-        match self.lines() {
-            [Some(a), Some(b)] => self.told(self.told_half_planes(a, b), limit),
-            [Some(line), None] | [None, Some(line)] => self.told(self.told_half_plane(line), limit),
-            [None, None] => self.with_outlines(|a, b| {
-                if a.edge_count() + b.edge_count() == 0 {
-                    self.told(self.told_points(a, b), limit)
-                } else {
-                    self.probe_outlines(a, b, limit, hint)
-                }
-            }),
+    #[inline]
+    pub(crate) fn new(sites: [Site2<'a>; 2], turns: [Turn; 2], offset: DVec2, summed: Option<f64>) -> Self {
+        let (shapes, [turn_a, turn_b]) = (sites.map(|site| site.shape), turns);
+        let [shape_a, shape_b] = shapes;
+        Self {
+            sites,
+            shape_a,
+            shape_b,
+            turn_a,
+            turn_b,
+            offset,
+            measure: Measure::new(shapes, offset, summed),
         }
     }
 
-    /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
-    ///
-    /// For polygons of few edges that is all their axes; for others a search for a direction that parts them, or for
-    /// corners around a common point.
-    pub(crate) fn verdict(&self) -> Verdict {
-        match self.lines() {
-            [None, None] => self.with_outlines(|a, b| {
-                let edges = a.edge_count() + b.edge_count();
-                if edges == 0 {
-                    return self.told_verdict(&self.told_points(a, b));
-                }
-                if self.radii == 0.0 && edges <= FEW_EDGES {
-                    return match sides(a, b, &self.precision) {
-                        Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
-                        Sides::Overlapping if !is_thin(a, b) => {
-                            Verdict { overlapping: true, tier: Tier::Bound }
-                        }
-                        _ => self.look_closer(a, b, None).0,
-                    };
-                }
-                let verdict = self.conclude(distance(a, b, self.towards_b(), &self.until_told())).0;
-                // What was asked first is the first tier.
-                let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
-                Verdict { tier, ..verdict }
-            }),
-            [Some(a), Some(b)] => self.told_verdict(&self.told_half_planes(a, b)),
-            [Some(line), None] | [None, Some(line)] => self.told_verdict(&self.told_half_plane(line)),
+    /// The separation where it is at most the limit; the hinted axis is tried first.
+    #[inline]
+    pub(crate) fn probe(&self, asked: &Asked) -> Probe {
+        if self.has_line() {
+            return self.probe_lines(asked);
         }
-    }
-
-    /// What the first tier's numbers say of the overlap, within their error of zero too.
-    pub(crate) fn guess(&self) -> bool {
-        match self.lines() {
-            [None, None] => self.with_outlines(|a, b| {
-                let edges = a.edge_count() + b.edge_count();
-                if edges == 0 {
-                    return self.told_points(a, b).separation <= 0.0;
-                }
-                if self.radii == 0.0 && edges <= FEW_EDGES {
-                    return overlaps(a, b);
-                }
-                let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
-                match distance(a, b, self.towards_b(), &until) {
-                    Reached::Between(witness) => witness.distance <= self.radii,
-                    Reached::Origin(_) => true,
-                }
-            }),
-            [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
-            [Some(line), None] | [None, Some(line)] => self.told_half_plane(line).separation <= 0.0,
-        }
-    }
-
-    /// From A's centre to B's: where a search may begin.
-    fn towards_b(&self) -> DVec2 {
-        let center_b = self.offset + self.turn_b.turn(self.shape_b.center().as_dvec2());
-        (center_b - self.turn_a.turn(self.shape_a.center().as_dvec2())).try_normalize().unwrap_or(DVec2::X)
-    }
-
-    /// For a yes or no a distance is known well enough once it tells whether the radii close the gap.
-    fn until_told(&self) -> Until<'_> {
-        let doubt = self.precision.projection();
-        Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
-    }
-
-    /// Contact points of shapes at most `margin` metres apart, on their surfaces. None for two half-planes that overlap
-    /// without end.
-    pub(crate) fn touch(&self, near: &Near, margin: f64) -> Option<Touch> {
-        let preference = self.preference();
-        match &near.evidence {
-            Evidence::Axes(axes, witness) => {
-                Some(self.with_outlines(|a, b| touch(a, b, axes, witness.as_ref(), margin, preference)))
+        self.with_outlines(|a, b| {
+            if a.edge_count() + b.edge_count() > 0 {
+                return self.probe_outlines(a, b, asked);
             }
-            Evidence::Points => {
+            self.told(&self.told_points(a, b), asked, |told| {
+                let (on_a, on_b) = (a.point(0), b.point(0));
+                let separation = told.normal.dot(on_b - on_a);
                 let feature = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
-                let point = self.with_outlines(|a, b| {
-                    let (on_a, on_b) = (a.point(0), b.point(0));
-                    let separation = near.normal.dot(on_b - on_a);
-                    Point { separation, on_a, on_b, feature }.on_surfaces(a, b, near.normal)
-                });
-                Some(Touch { normal: near.normal, points: core::iter::once(point).collect() })
-            }
-            Evidence::HalfPlane(line) => {
-                Some(self.with_outlines(|a, b| line.touch(if line.is_b { a } else { b }, margin, preference)))
-            }
-            Evidence::HalfPlanes(a, b) => {
-                let [on_a, on_b] = a.points_with(b);
-                let separation = near.separation.into();
+                let point =
+                    Point { separation, on_a, on_b, feature }.on_surfaces([a.radius, b.radius], told.normal);
+                Some(Touch::of_point(told.normal, point, None))
+            })
+        })
+    }
+
+    /// Of shapes of which at least one is a half-plane.
+    fn probe_lines(&self, asked: &Asked) -> Probe {
+        match self.lines() {
+            [Some(a), Some(b)] => self.told(&self.told_half_planes(a, b), asked, |told| {
+                let ([on_a, on_b], separation) = (a.points_with(&b), f64::from(told.separation as f32));
                 let feature = FeatureId::new(Feature::Edge(0), Feature::Edge(0));
-                let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points })
-            }
+                let point = Point { separation, on_a, on_b, feature };
+                (separation > f64::NEG_INFINITY).then(|| Touch::of_point(told.normal, point, None))
+            }),
+            [Some(line), _] | [_, Some(line)] => self.with_outlines(|a, b| {
+                let core = if line.is_b { a } else { b };
+                let told = self.told_half_plane(line, core);
+                self.told(&told, asked, |_| Some(line.touch(core, asked.limit, self.measure.preference)))
+            }),
+            [None, None] => Probe::Beyond(0.0, Hint::NONE),
         }
     }
 
-    fn told_half_planes(&self, a: Line, b: Line) -> Told {
+    pub(super) fn told_half_planes(&self, a: Line, b: Line) -> Told {
         let separation = a.separation_from(&b, || exact::are_opposed2([&self.sites[0], &self.sites[1]]));
-        Told {
-            separation,
-            at_least: separation,
-            normal: a.axis(),
-            closest: a.points_with(&b),
-            evidence: Evidence::HalfPlanes(a, b),
-        }
+        Told { separation, normal: a.axis(), closest: a.points_with(&b) }
     }
 
-    fn told_half_plane(&self, line: Line) -> Told {
-        let (vertex, height) = self.with_outlines(|a, b| {
-            let core = if line.is_b { a } else { b };
-            let (vertex, height) = line.lowest(core);
-            (core.point(vertex), height)
-        });
-        let separation = height - self.radii;
-        let on_shape = vertex - line.normal * self.radii;
+    pub(super) fn told_half_plane(&self, line: Line, core: &Outline) -> Told {
+        let (vertex, height) = line.lowest(core);
+        let vertex = core.point(vertex);
+        let on_shape = vertex - line.normal * self.measure.radii;
         let on_line = vertex - line.normal * height;
         let closest = if line.is_b { [on_shape, on_line] } else { [on_line, on_shape] };
-        let evidence = Evidence::HalfPlane(line);
-        Told { separation, at_least: separation, normal: line.axis(), closest, evidence }
+        Told { separation: height - self.measure.radii, normal: line.axis(), closest }
     }
 
-    fn told_points(&self, a: &Outline, b: &Outline) -> Told {
+    pub(super) fn told_points(&self, a: &Outline, b: &Outline) -> Told {
         let (on_a, on_b) = (a.point(0), b.point(0));
         let distance = (on_b - on_a).length();
         let normal = if distance > 0.0 { (on_b - on_a) / distance } else { DVec2::Y };
-        let separation = distance - self.radii;
-        let closest = self.on_surfaces([on_a, on_b], normal);
-        Told { separation, at_least: separation, normal, closest, evidence: Evidence::Points }
-    }
-
-    /// Whether the shapes overlap, where closed-form kernels have told two bounds.
-    fn told_verdict(&self, told: &Told) -> Verdict {
-        let doubt = 2.0 * self.precision.projection();
-        if told.at_least > doubt || told.separation < -doubt {
-            return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
-        }
-        self.exactly(&[])
+        let separation = distance - self.measure.radii;
+        let closest = self.measure.on_surfaces([on_a, on_b], normal);
+        Told { separation, normal, closest }
     }
 
     /// What a kernel without axes to try has told, within the limit.
-    fn told(&self, told: Told, limit: f64) -> Probe {
-        let precision = self.precision;
-        if told.at_least > limit + precision.projection() {
-            return Probe::Beyond(at_least(told.at_least, &precision), Hint::NONE);
+    fn told(&self, told: &Told, asked: &Asked, touch: impl FnOnce(&Told) -> Option<Touch>) -> Probe {
+        let precision = self.measure.precision;
+        let separation = told.separation;
+        if separation > asked.limit + precision.projection() {
+            return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
-        let verdict = self.told_verdict(&told);
-        let Told { separation, at_least: bound, normal, closest, evidence } = told;
+        let verdict = self.told_verdict(told);
         // Half-planes that overlap without end do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
-        let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
-            error,
-            normal,
-            closest: (!verdict.overlapping).then_some(closest),
+            error: if is_endless { 0.0 } else { precision.of_distance(separation, 0.0) },
+            normal: told.normal,
+            closest: (!verdict.overlapping).then_some(told.closest),
             hint: Hint::NONE,
-            evidence,
+            touch: if asked.points { touch(told) } else { None },
         })
     }
 
     /// Axes first; the decision next; then the number that agrees with it.
-    fn probe_outlines(&self, a: &Outline, b: &Outline, limit: f64, hint: Hint) -> Probe {
-        let precision = self.precision;
-        let axes = match separating_axes(a, b, limit + self.radii + precision.projection(), hint) {
-            Outcome::Beyond(axis) => {
-                return Probe::Beyond(at_least(axis.separation - self.radii, &precision), hint_of(&axis));
+    fn probe_outlines(&self, a: &Outline, b: &Outline, asked: &Asked) -> Probe {
+        let measure = &self.measure;
+        let wanted = measure.wanted(asked, self.towards_b());
+        let outcome = separating_axes(a, b, &wanted);
+        if let Some(probe) = measure.at_once([a, b], asked, &outcome) {
+            return probe;
+        }
+        match outcome {
+            Outcome::Beyond(separation, hint) => {
+                Probe::Beyond(at_least(separation - measure.radii, &measure.precision), hint)
             }
-            Outcome::Within(axes) => axes,
+            Outcome::Gap(separation, normal) => self.gap([a, b], asked, (separation, normal), wanted.band),
+            Outcome::Within(axes) => {
+                let best = axes.best();
+                let looked = self.look_closer(a, b, Some((best.separation, best.normal)));
+                measure.close_cores([a, b], asked, &axes, &looked)
+            }
+        }
+    }
+
+    /// Shapes with a gap between their cores that one direction shows for certain: the nearest points first, and then the
+    /// axes that matter beside them.
+    fn gap(&self, [a, b]: [&Outline; 2], asked: &Asked, shown: (f64, DVec2), band: f64) -> Probe {
+        let looked = self.look_closer(a, b, Some(shown));
+        let (normal, least) = match &looked.1 {
+            Cores::Between(witness) => (witness.normal, witness.distance),
+            Cores::Within(_) => (shown.1, shown.0),
         };
-        // Every edge normal was tried, each as far off its place as any.
-        let is_clear = axes.best().separation < -(precision.of_face() + 2.0 * precision.projection());
-        if is_clear && !is_thin(a, b) {
-            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
-        }
-        match self.look_closer(a, b, Some(axes.best())) {
-            // A search that proved no gap, where all axes show an overlap.
-            (verdict, Cores::Between(witness))
-                if verdict.overlapping && axes.best().separation + precision.of_face() < 0.0 =>
-            {
-                self.overlap_of_cores(axes, verdict, witness.distance)
-            }
-            (verdict, Cores::Between(witness)) => self.gap_of_cores(axes, verdict, witness),
-            (verdict, Cores::Within(gap)) if verdict.overlapping => self.overlap_of_cores(axes, verdict, gap),
-            (verdict, Cores::Within(gap)) => self.all_but_touching(a, b, axes, (verdict, gap)),
-        }
+        let mut axes = beside(a, b, normal, least - band);
+        axes.short = doubt(&self.measure.precision);
+        self.measure.close_cores([a, b], asked, &axes, &looked)
     }
 
-    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
-    /// most that the gap can be.
-    fn overlap_of_cores(&self, axes: Axes, verdict: Verdict, gap: f64) -> Probe {
-        let best = *axes.best();
-        let depth = best.separation - self.radii;
-        Probe::Near(Near {
-            verdict,
-            separation: signed(depth, true),
-            error: self.precision.of_separation(depth, self.short(&axes, gap)),
-            normal: best.normal,
-            closest: None,
-            hint: hint_of(&best),
-            evidence: Evidence::Axes(axes, None),
-        })
-    }
-
-    /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
-    ///
-    /// In overlap the axes are all there are. In a gap the best one may be none of them, and only witness points tell.
-    fn short(&self, axes: &Axes, gap: f64) -> f64 {
-        let (best, short) = (axes.best().separation, self.precision.of_face());
-        if best + short < 0.0 { short } else { short.max(gap - best) }
-    }
-
-    /// Shapes with a gap between their cores, which their radii may close.
-    fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness) -> Probe {
-        let precision = self.precision;
-        // Where both bounds meet up to rounding, the projection went through less of it.
-        let gap = witness.distance - witness.at_least;
-        let is_met = self.radii > 0.0 && gap <= precision.projection();
-        let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
-        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
-        Probe::Near(Near {
-            verdict,
-            separation: signed(separation, verdict.overlapping),
-            error: precision.of_distance(separation, gap),
-            normal: witness.normal,
-            closest: (!verdict.overlapping).then_some(closest),
-            hint: hint_of(axes.best()),
-            evidence: Evidence::Axes(axes, Some(witness)),
-        })
-    }
-
-    /// The second tier and the third, and how the cores lie. `best` is the axis that the first tier found best.
-    ///
-    /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
-    fn look_closer(&self, a: &Outline, b: &Outline, best: Option<&Axis>) -> (Verdict, Cores) {
-        let towards = best.map_or_else(|| self.towards_b(), |axis| axis.normal);
-        let mut reached = distance(a, b, towards, &Until::met(&self.precision));
-        let mut tier = Tier::Double;
-        if let (Reached::Between(witness), Some(best)) = (&mut reached, best)
-            && best.separation >= witness.at_least
-        {
-            if witness.is_close(self.precision.size) {
-                witness.across = best.normal;
-            }
-            (witness.at_least, witness.normal) = (best.separation, best.normal);
-            tier = Tier::Bound;
-        }
-        let (verdict, witness) = self.conclude(reached);
-        let tier = if verdict.tier == Tier::Double && !verdict.overlapping { tier } else { verdict.tier };
-        (Verdict { tier, ..verdict }, witness)
-    }
-
-    /// What the distance iteration has proved, and the third tier where it has proved nothing.
-    fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
-        let doubt = self.precision.projection();
-        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
-        let witness = match reached {
-            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), Cores::Within(0.0)),
-            Reached::Origin(close) => {
-                let verdict = self.exactly(&close.corners);
-                let do_overlap = self.radii == 0.0 && verdict.overlapping;
-                return (verdict, Cores::Within(if do_overlap { 0.0 } else { close.within }));
-            }
-            Reached::Between(witness) => witness,
-        };
-        if witness.at_least - self.radii > doubt {
-            return (double(false), Cores::Between(witness));
-        }
-        if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
-            return (double(true), Cores::Between(witness));
-        }
-        let verdict = self.exactly(&witness.corners);
-        let do_overlap = self.radii == 0.0 && verdict.overlapping;
-        (verdict, if do_overlap { Cores::Within(0.0) } else { Cores::Between(witness) })
-    }
-
-    /// The third tier, from the corners where f64 stopped.
-    fn exactly(&self, start: &[Corner]) -> Verdict {
-        let overlapping = exact::overlaps2([&self.sites[0], &self.sites[1]], start);
-        Verdict { overlapping, tier: Tier::Exact }
-    }
-
-    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
-    /// overlapped.
-    fn all_but_touching(
-        &self,
-        a: &Outline,
-        b: &Outline,
-        axes: Axes,
-        (verdict, gap): (Verdict, f64),
-    ) -> Probe {
-        let precision = self.precision;
-        let best = axes.best();
-        let separation = best.separation.max(0.0) - self.radii;
-        let touch = touch(a, b, &axes, None, 0.0, self.preference());
-        let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
-        Probe::Near(Near {
-            verdict,
-            separation: signed(separation, verdict.overlapping),
-            error: precision.of_separation(separation, self.short(&axes, gap) + 3.0 * precision.projection()),
-            normal: best.normal,
-            closest: deepest.map(|point| [point.on_a, point.on_b]),
-            hint: hint_of(best),
-            evidence: Evidence::Axes(axes, None),
-        })
-    }
-
-    /// Points of the cores moved out to the shapes' surfaces.
-    fn on_surfaces(&self, [on_a, on_b]: [DVec2; 2], normal: DVec2) -> [DVec2; 2] {
-        [on_a + normal * f64::from(self.shape_a.radius()), on_b - normal * f64::from(self.shape_b.radius())]
+    /// Whether a shape is a half-plane.
+    #[inline]
+    pub(super) fn has_line(&self) -> bool {
+        [self.shape_a, self.shape_b].iter().any(|shape| matches!(shape, Shape2::HalfPlane(_)))
     }
 
     /// The lines of half-planes.
-    fn lines(&self) -> [Option<Line>; 2] {
+    pub(super) fn lines(&self) -> [Option<Line>; 2] {
         let line = |shape: &Shape2, is_b: bool| {
             let Shape2::HalfPlane(half_plane) = shape else { return None };
             let (turn, origin) = if is_b { (self.turn_b, self.offset) } else { (self.turn_a, DVec2::ZERO) };
@@ -458,30 +199,11 @@ impl<'a> Convex<'a> {
         [line(self.shape_a, false), line(self.shape_b, true)]
     }
 
-    pub(crate) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
+    #[inline]
+    pub(super) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
         let (core_a, core_b): (Core2, Core2) = (self.shape_a.core(), self.shape_b.core());
-        let a = Outline::new(&core_a, self.turn_a, DVec2::ZERO, f64::from(self.shape_a.radius()));
-        let b = Outline::new(&core_b, self.turn_b, self.offset, f64::from(self.shape_b.radius()));
+        let a = Outline::new(self.shape_a, &core_a, self.turn_a, DVec2::ZERO);
+        let b = Outline::new(self.shape_b, &core_b, self.turn_b, self.offset);
         ask(&a, &b)
-    }
-
-    /// How much another axis must beat a face of A by, in metres. Relative to the smaller shape: what is nothing to a
-    /// floor may be all of a pebble. Never below rounding.
-    fn preference(&self) -> f64 {
-        let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
-        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision.projection())
-    }
-}
-
-/// Whether neither core has an inside: they may lie on one line, and have no axis along it.
-fn is_thin(a: &Outline, b: &Outline) -> bool {
-    a.is_flat() && b.is_flat()
-}
-
-/// Bounding radius of a core. A half-plane has none: only the other shape's vertices enter its pairs.
-fn core_size(shape: &Shape2) -> f64 {
-    match shape {
-        Shape2::HalfPlane(_) => 0.0,
-        _ => f64::from(shape.outer_radius()) - f64::from(shape.radius()),
     }
 }

@@ -85,12 +85,15 @@ type Simplex = ArrayVec<([usize; 2], DVec2, f64), 3>;
 pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until) -> Reached {
     let precision = until.precision;
     let size = precision.size;
-    let corner = |direction: DVec2| {
-        let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
+    // Steps grow ever shorter: the last corner, or one beside it, most often is the next.
+    let corner = |direction: DVec2, near: Option<[usize; 2]>| {
+        let in_a = a.support_near(direction, near.map(|near| near[0])).vertex;
+        let in_b = b.support_near(-direction, near.map(|near| near[1])).vertex;
         ([in_a, in_b], a.point(in_a) - b.point(in_b), 1.0)
     };
     let mut simplex = Simplex::new();
-    simplex.push(corner(towards_b));
+    simplex.push(corner(towards_b, None));
+    let mut last = simplex[0].0;
     let mut v = simplex[0].1;
     let (mut at_least, mut normal) = (f64::NEG_INFINITY, towards_b);
     'steps: for _ in 0..MAX_STEPS {
@@ -99,7 +102,8 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
             return Reached::Origin(Close { corners: vertices(&simplex), is_proved: false, within: length });
         }
         for direction in to_origin(&simplex, v) {
-            let found = corner(direction);
+            let found = corner(direction, Some(last));
+            last = found.0;
             let bound = -direction.dot(found.1);
             if bound > at_least {
                 (at_least, normal) = (bound, direction);

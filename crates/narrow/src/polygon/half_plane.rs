@@ -84,6 +84,6 @@ impl Line {
             points.extend(core::iter::once(contact(neighbour)).filter(|point| point.separation <= within));
         }
         points.sort_unstable_by_key(|point| point.feature);
-        Touch { normal: self.axis(), points }
+        Touch { normal: self.axis(), points, reference: None }
     }
 }

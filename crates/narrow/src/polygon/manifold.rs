@@ -1,7 +1,8 @@
 //! Where two polygons touch: one or two points on one normal.
 //!
 //! ```text
-//! the reference edge is A's unless B's beats it by more than a relative preference
+//! the reference edge is last frame's unless another beats it by more than two relative preferences
+//!   else A's unless B's beats it by more than one
 //! the incident edge is, of the two at the other shape's deepest vertex, the one most opposed
 //! clip the incident edge to the reference edge's width
 //! keep the ends within the margin of the reference line
@@ -12,7 +13,7 @@
 //! looks that way.
 
 use super::distance::Witness;
-use super::outline::Outline;
+use super::placed::Placed;
 use super::sat::{Axes, Axis, AxisOf};
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
@@ -28,12 +29,12 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// A point where two cores are closest, moved out to the surfaces along the normal.
-    pub(super) fn on_surfaces(self, a: &Outline, b: &Outline, normal: DVec2) -> Self {
+    /// A point where two cores are closest, moved out to the surfaces along the normal, by both radii.
+    pub(super) fn on_surfaces(self, [a, b]: [f64; 2], normal: DVec2) -> Self {
         Self {
-            separation: self.separation - a.radius - b.radius,
-            on_a: self.on_a + normal * a.radius,
-            on_b: self.on_b - normal * b.radius,
+            separation: self.separation - a - b,
+            on_a: self.on_a + normal * a,
+            on_b: self.on_b - normal * b,
             ..self
         }
     }
@@ -43,6 +44,16 @@ impl Point {
 pub(crate) struct Touch {
     pub(crate) normal: DVec2,
     pub(crate) points: ArrayVec<Point, 2>,
+    /// The edge that it was built on, if it was one: what the next frame tries first, and keeps among equals.
+    pub(crate) reference: Option<AxisOf>,
+}
+
+impl Touch {
+    pub(super) fn of_point(normal: DVec2, point: Point, reference: Option<AxisOf>) -> Self {
+        let mut points = ArrayVec::new();
+        points.push(point);
+        Self { normal, points, reference }
+    }
 }
 
 /// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
@@ -50,36 +61,53 @@ pub(crate) struct Touch {
 ///
 /// An axis that only nearly is the best may have its deepest point clipped away, because what touches lies just beside
 /// its edge. Then the best axis is asked in its place, and in a gap, the witness points.
+#[inline]
 pub(crate) fn touch(
-    a: &Outline,
-    b: &Outline,
+    [a, b]: [&impl Placed; 2],
     axes: &Axes,
     witness: Option<&Witness>,
     margin: f64,
     preference: f64,
 ) -> Touch {
-    let at_stake = witness.map_or(axes.best().separation, |witness| witness.distance);
+    let best = axes.best();
+    let at_stake = witness.map_or(best.separation, |witness| witness.distance);
     let deep = at_stake + preference;
-    let least = deep - a.radius - b.radius;
+    let least = deep - a.radius() - b.radius();
     // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
     // deeper than zero: a body that rests exactly on an edge rests on both of its ends.
     let depths = Depths { deep, within: margin.max(least) };
-    let b_wins = axes.edge_b.separation > axes.edge_a.separation + preference;
-    for axis in [if b_wins { &axes.edge_b } else { &axes.edge_a }, axes.best()] {
-        if axis.separation < at_stake - preference {
-            continue;
-        }
+    let on_edge = |axis: &Axis| {
         let points = match axis.of {
-            AxisOf::EdgeA(edge) => edge_points(a, b, edge, axis.normal, depths, false),
-            AxisOf::EdgeB(edge) => edge_points(b, a, edge, -axis.normal, depths, true),
+            AxisOf::EdgeA(edge) => edge_points(a, b, (edge, axis.normal), depths, false),
+            AxisOf::EdgeB(edge) => edge_points(b, a, (edge, -axis.normal), depths, true),
         };
-        if points.iter().any(|point| point.separation <= least) {
-            return Touch { normal: axis.normal, points };
-        }
+        let is_deep = points.iter().any(|point| point.separation <= least);
+        is_deep.then_some(Touch { normal: axis.normal, points, reference: Some(axis.of) })
+    };
+    // A reference that changed from frame to frame would change all names.
+    let kept = axes.kept.as_ref().filter(|kept| kept.separation >= best.separation - 2.0 * preference);
+    if let Some(kept) = kept
+        && kept.separation >= at_stake - 2.0 * preference
+        && let Some(touch) = on_edge(kept)
+    {
+        return touch;
+    }
+    let b_wins = axes.edge_b.separation > axes.edge_a.separation + preference;
+    let plain = if b_wins { &axes.edge_b } else { &axes.edge_a };
+    if plain.separation >= at_stake - preference
+        && let Some(touch) = on_edge(plain)
+    {
+        return touch;
+    }
+    if best.of != plain.of
+        && best.separation >= at_stake - preference
+        && let Some(touch) = on_edge(best)
+    {
+        return touch;
     }
     match witness {
-        Some(witness) => Touch { normal: witness.across, points: closest_point(a, b, witness) },
-        None => Touch { normal: axes.best().normal, points: deepest_point(a, b, axes.best()) },
+        Some(witness) => Touch::of_point(witness.across, closest_point(a, b, witness), None),
+        None => Touch::of_point(best.normal, deepest_point(a, b, best), Some(best.of)),
     }
 }
 
@@ -94,47 +122,53 @@ struct Depths {
 
 /// The deepest vertex of the shape whose edge the axis is not, and its foot on that edge's line: what is left where an
 /// edge looks past what touches it.
-fn deepest_point(a: &Outline, b: &Outline, axis: &Axis) -> ArrayVec<Point, 2> {
-    let (in_a, in_b) = (a.support(axis.normal), b.support(-axis.normal));
-    let (low_a, low_b) = (a.point(in_a.vertex), b.point(in_b.vertex));
-    let (on_a, on_b) = (Feature::Vertex(in_a.vertex as u32), Feature::Vertex(in_b.vertex as u32));
-    let point = match axis.of {
+#[cold]
+fn deepest_point(a: &impl Placed, b: &impl Placed, axis: &Axis) -> Point {
+    match axis.of {
         AxisOf::EdgeA(edge) => {
-            let features = (Feature::Edge(edge as u32), on_b);
-            Reference::of(a, axis.normal, false).lowest(low_b, b.radius, features)
+            let vertex = b.furthest(-axis.normal);
+            let features = (Feature::Edge(edge as u32), Feature::Vertex(vertex as u32));
+            Reference::of(a, edge, axis.normal, false).lowest(b.point(vertex), b.radius(), features)
         }
         AxisOf::EdgeB(edge) => {
-            let features = (Feature::Edge(edge as u32), on_a);
-            Reference::of(b, -axis.normal, true).lowest(low_a, a.radius, features)
+            let vertex = a.furthest(axis.normal);
+            let features = (Feature::Edge(edge as u32), Feature::Vertex(vertex as u32));
+            Reference::of(b, edge, -axis.normal, true).lowest(a.point(vertex), a.radius(), features)
         }
-    };
-    core::iter::once(point).collect()
+    }
 }
 
 /// The witness points of a gap, named by the features that carry them.
-fn closest_point(a: &Outline, b: &Outline, witness: &Witness) -> ArrayVec<Point, 2> {
-    let carrier = |outline: &Outline, which: usize, towards: DVec2| {
-        let first = witness.corners[0][which];
-        let other = witness.corners.iter().map(|corner| corner[which]).find(|&vertex| vertex != first);
-        match other {
-            None => Feature::Vertex(first as u32),
-            // Both edges of a segment have both its ends: the one that looks at the other shape.
-            Some(_) if outline.is_flat() => Feature::Edge(u32::from(outline.normal(0).dot(towards) < 0.0)),
-            Some(other) if outline.after(first) == other => Feature::Edge(first as u32),
-            Some(other) => Feature::Edge(other as u32),
-        }
-    };
+fn closest_point(a: &impl Placed, b: &impl Placed, witness: &Witness) -> Point {
     let point = Point {
         separation: witness.distance,
         on_a: witness.point_a,
         on_b: witness.point_b,
-        feature: FeatureId::new(carrier(a, 0, witness.normal), carrier(b, 1, -witness.normal)),
+        feature: FeatureId::new(
+            carrier(a, witness, 0, witness.normal),
+            carrier(b, witness, 1, -witness.normal),
+        ),
     };
-    core::iter::once(point.on_surfaces(a, b, witness.across)).collect()
+    point.on_surfaces([a.radius(), b.radius()], witness.across)
+}
+
+/// The vertex or edge of a shape that carries its witness point.
+fn carrier(outline: &impl Placed, witness: &Witness, which: usize, towards: DVec2) -> Feature {
+    let first = witness.corners[0][which];
+    let other = witness.corners.iter().map(|corner| corner[which]).find(|&vertex| vertex != first);
+    match other {
+        None => Feature::Vertex(first as u32),
+        // Both edges of a segment have both its ends: the one that looks at the other shape.
+        Some(_) if outline.is_flat() => Feature::Edge(u32::from(outline.outward(0).dot(towards) < 0.0)),
+        Some(other) if outline.after(first) == other => Feature::Edge(first as u32),
+        Some(other) => Feature::Edge(other as u32),
+    }
 }
 
 /// A line to measure contact points from: that of the reference edge's surface.
 struct Reference {
+    /// The ends of the edge.
+    ends: [DVec2; 2],
     /// Its outward unit normal.
     normal: DVec2,
     /// How far the surface reaches along it.
@@ -143,16 +177,23 @@ struct Reference {
 }
 
 impl Reference {
-    fn of(outline: &Outline, normal: DVec2, is_b: bool) -> Self {
-        Self { normal, reach: outline.support(normal).reach + outline.radius, is_b }
+    #[inline]
+    fn of(outline: &impl Placed, edge: usize, normal: DVec2, is_b: bool) -> Self {
+        let ends = [outline.point(edge), outline.point(outline.after(edge))];
+        // Polygons are convex by exact predicates: nothing reaches further along an edge's normal than its ends.
+        let [from, to] = ends.map(|end| normal.dot(end));
+        let reach = (if to > from { to } else { from }) + outline.radius();
+        Self { ends, normal, reach, is_b }
     }
 
     /// The contact of a point of the other shape's core, moved out to its surface along the normal.
+    #[inline]
     fn lowest(&self, point: DVec2, radius: f64, features: (Feature, Feature)) -> Point {
         self.contact(point - self.normal * radius, features)
     }
 
     /// The contact of a point of the other shape's surface with its foot on the line. Features: the reference's first.
+    #[inline]
     fn contact(&self, point: DVec2, (of_reference, of_incident): (Feature, Feature)) -> Point {
         let separation = self.normal.dot(point) - self.reach;
         let foot = point - self.normal * separation;
@@ -164,81 +205,158 @@ impl Reference {
     }
 }
 
-/// Contact points of an edge of `outline` with outward normal `normal`, and the incident shape.
+/// The nearest points of two cores with a gap between them, where they lie on the edge that the best axis is normal to and
+/// along that axis: then they are as far apart as it shows, and no search is needed. `tiny` is how much further is as near.
+pub(super) fn nearest_on_edge([a, b]: [&impl Placed; 2], axis: &Axis, tiny: f64) -> Option<Witness> {
+    let witness = match axis.of {
+        AxisOf::EdgeA(edge) => on_edge(a, b, (edge, axis.normal), tiny, false),
+        AxisOf::EdgeB(edge) => on_edge(b, a, (edge, -axis.normal), tiny, true),
+    }?;
+    let [point_a, point_b] = witness.1;
+    let distance = (point_b - point_a).length();
+    let (normal, at_least) = (axis.normal, axis.separation);
+    Some(Witness { distance, at_least, normal, across: normal, point_a, point_b, corners: witness.0 })
+}
+
+/// Corners that carry the nearest points, and those, A's first.
+type Carried = (ArrayVec<[usize; 2], 3>, [DVec2; 2]);
+
+fn on_edge(
+    outline: &impl Placed,
+    incident: &impl Placed,
+    (edge, normal): (usize, DVec2),
+    tiny: f64,
+    is_b: bool,
+) -> Option<Carried> {
+    let reference = Reference::of(outline, edge, normal, is_b);
+    let next = outline.after(edge);
+    let ([from, to], deepest) = (reference.ends, incident.furthest(-normal));
+    let (along, vertex) = (to - from, incident.point(deepest));
+    let place = along.dot(vertex - from) / along.length_squared();
+    let (place, vertices, point) = if (0.0..=1.0).contains(&place) {
+        (place, [deepest, deepest], vertex)
+    } else {
+        if incident.edge_count() == 0 {
+            return None;
+        }
+        // The edge there may be parallel, and beside the other all the same.
+        let second = facing_edge(incident, deepest, normal);
+        let vertices = [second, incident.after(second)];
+        let ends = vertices.map(|vertex| incident.point(vertex));
+        let clipped = clip(&reference.ends, ends, [(edge, next), (vertices[0], vertices[1])])?;
+        let [one, other] = clipped.map(|(point, _)| (normal.dot(point), point));
+        let (height, point) = if other.0 < one.0 { other } else { one };
+        if height - normal.dot(vertex) > tiny {
+            return None;
+        }
+        (along.dot(point - from) / along.length_squared(), vertices, point)
+    };
+    let foot = from + along * place.clamp(0.0, 1.0);
+    let pairs = [[edge, vertices[0]], [next, vertices[1]]];
+    let corners =
+        pairs.into_iter().map(|[one, other]| if is_b { [other, one] } else { [one, other] }).collect();
+    Some((corners, if is_b { [point, foot] } else { [foot, point] }))
+}
+
+/// Of the two edges at a shape's deepest vertex, the one that looks most against a normal; ties go to the one before.
+#[inline]
+fn facing_edge(incident: &impl Placed, deepest: usize, normal: DVec2) -> usize {
+    let previous = incident.before(deepest);
+    let facing = |edge: usize| incident.outward(edge).dot(normal);
+    if facing(deepest) < facing(previous) { deepest } else { previous }
+}
+
+/// Contact points of an edge of `outline` with this outward normal, and the incident shape.
+#[inline]
 fn edge_points(
-    outline: &Outline,
-    incident: &Outline,
-    edge: usize,
-    normal: DVec2,
+    outline: &impl Placed,
+    incident: &impl Placed,
+    (edge, normal): (usize, DVec2),
     depths: Depths,
     is_b: bool,
 ) -> ArrayVec<Point, 2> {
-    let reference = Reference::of(outline, normal, is_b);
-    let deepest = incident.support(-normal).vertex;
+    let reference = Reference::of(outline, edge, normal, is_b);
+    let deepest = incident.furthest(-normal);
     if incident.edge_count() == 0 {
-        let point = incident.point(deepest);
-        let (from, to) = (outline.point(edge), outline.point(outline.after(edge)));
-        let is_beside = (point - from).dot(to - from) >= 0.0 && (point - to).dot(from - to) >= 0.0;
-        let features = (Feature::Edge(edge as u32), Feature::Vertex(deepest as u32));
-        let contact = reference.lowest(point, incident.radius, features);
-        return (is_beside && contact.separation <= depths.within).then_some(contact).into_iter().collect();
+        return vertex_point(&reference, (edge, deepest), incident, depths).into_iter().collect();
     }
-    let previous = incident.before(deepest);
-    // Ties go to the edge before the deepest vertex.
-    let facing = |edge: usize| incident.normal(edge).dot(normal);
-    let incident_edge = if facing(deepest) < facing(previous) { deepest } else { previous };
-
+    let second = facing_edge(incident, deepest, normal);
+    let radius = incident.radius();
+    let is_sharp = outline.radius() + radius == 0.0;
+    let edges = [(edge, outline.after(edge)), (second, incident.after(second))];
+    let ends = [incident.point(edges[1].0), incident.point(edges[1].1)];
     let mut points: ArrayVec<Point, 2> = ArrayVec::new();
-    let is_sharp = outline.radius + incident.radius == 0.0;
-    // How deep the cores are, seen from a contact made along the normal.
-    let core = |contact: &Point| contact.separation + outline.radius + incident.radius;
-    let on_core = clip((outline, edge), (incident, incident_edge), DVec2::ZERO);
-    let lowest = on_core.into_iter().map(|(point, of)| reference.lowest(point, incident.radius, of));
-    let wanted = |contact: &Point| contact.separation <= depths.within;
-    points.extend(lowest.filter(|contact| wanted(contact) && (is_sharp || core(contact) <= depths.deep)));
-    if points.len() < 2 && !is_sharp {
-        // What is less deep belongs to a tilted edge, and lies out along its normal; there the ends are cut again.
-        let outwards = incident.normal(incident_edge) * incident.radius;
-        let mut ends: ArrayVec<Point, 2> = clip((outline, edge), (incident, incident_edge), outwards)
-            .into_iter()
-            .map(|(point, features)| reference.contact(point, features))
-            .filter(wanted)
-            .collect();
-        if let Some(&known) = points.first() {
-            // The end that is not the deep one.
-            let away = |end: &Point| (end.on_a - known.on_a).length_squared();
-            ends.retain(|end| end.feature != known.feature);
-            ends.sort_unstable_by(|one, other| away(other).total_cmp(&away(one)));
+    for (point, features) in clip(&reference.ends, ends, edges).into_iter().flatten() {
+        let contact = reference.lowest(point, radius, features);
+        // How deep the cores are, seen from a contact made along the normal.
+        let core = contact.separation + outline.radius() + radius;
+        if contact.separation <= depths.within && (is_sharp || core <= depths.deep) {
+            points.push(contact);
         }
-        let room = points.remaining_capacity();
-        points.extend(ends.into_iter().take(room));
     }
-    points.sort_unstable_by_key(|point| point.feature);
+    if points.len() < 2 && !is_sharp {
+        let outwards = incident.outward(second) * radius;
+        let clipped = clip(&reference.ends, ends.map(|end| end + outwards), edges);
+        add_tilted(&mut points, &reference, clipped, depths);
+    }
+    if let [first, second] = points.as_mut_slice()
+        && second.feature < first.feature
+    {
+        core::mem::swap(first, second);
+    }
     points
 }
 
-/// The ends of the incident edge, moved by `aside` and held to the width of the reference edge; none where they face
-/// past each other.
-fn clip(
-    (outline, edge): (&Outline, usize),
-    (incident, incident_edge): (&Outline, usize),
-    aside: DVec2,
-) -> ArrayVec<(DVec2, (Feature, Feature)), 2> {
-    let mut kept = ArrayVec::new();
-    let (from, to) = (outline.point(edge), outline.point(outline.after(edge)));
+/// The contact of an edge with a point, if that is beside it.
+fn vertex_point(
+    reference: &Reference,
+    (edge, vertex): (usize, usize),
+    incident: &impl Placed,
+    depths: Depths,
+) -> Option<Point> {
+    let (point, [from, to]) = (incident.point(vertex), reference.ends);
+    let is_beside = (point - from).dot(to - from) >= 0.0 && (point - to).dot(from - to) >= 0.0;
+    let features = (Feature::Edge(edge as u32), Feature::Vertex(vertex as u32));
+    let contact = reference.lowest(point, incident.radius(), features);
+    (is_beside && contact.separation <= depths.within).then_some(contact)
+}
+
+/// Adds what is less deep: it belongs to a tilted edge, and lies out along its normal; there the ends are cut again.
+fn add_tilted(points: &mut ArrayVec<Point, 2>, reference: &Reference, clipped: Clipped, depths: Depths) {
+    let contacts = clipped.into_iter().flatten().map(|(point, features)| reference.contact(point, features));
+    let mut ends: ArrayVec<Point, 2> =
+        contacts.filter(|contact| contact.separation <= depths.within).collect();
+    if let Some(&known) = points.first() {
+        // The end that is not the deep one.
+        let away = |end: &Point| (end.on_a - known.on_a).length_squared();
+        ends.retain(|end| end.feature != known.feature);
+        ends.sort_unstable_by(|one, other| away(other).total_cmp(&away(one)));
+    }
+    let room = points.remaining_capacity();
+    points.extend(ends.into_iter().take(room));
+}
+
+/// Points of the incident edge and their features, the reference's first.
+type Clipped = Option<[(DVec2, (Feature, Feature)); 2]>;
+
+/// The ends of the incident edge held to the width of the reference edge; none where they face past each other. `edges`
+/// are the vertices at their ends, the reference's first.
+#[inline]
+fn clip(&[from, to]: &[DVec2; 2], [start, end]: [DVec2; 2], edges: [(usize, usize); 2]) -> Clipped {
     let along = to - from;
-    let (first, second) = (incident_edge, incident.after(incident_edge));
-    let (start, end) = (incident.point(first) + aside, incident.point(second) + aside);
     // Places along the reference edge, 0 to 1. The incident edge runs against it, so that `low` is its end.
-    let place = |point: DVec2| along.dot(point - from) / along.length_squared();
+    let inverse = 1.0 / along.length_squared();
+    let place = |point: DVec2| along.dot(point - from) * inverse;
     let (high, low) = (place(start), place(end));
     if high <= low || high < 0.0 || low > 1.0 {
-        return kept;
+        return None;
     }
     let at = |place: f64| start + (end - start) * ((high - place) / (high - low));
+    let [(edge, next), (first, second)] = edges;
     let on_edge = |vertex: usize| (Feature::Edge(edge as u32), Feature::Vertex(vertex as u32));
-    let on_corner = |vertex: usize| (Feature::Vertex(vertex as u32), Feature::Edge(incident_edge as u32));
-    kept.push(if low >= 0.0 { (end, on_edge(second)) } else { (at(0.0), on_corner(edge)) });
-    kept.push(if high <= 1.0 { (start, on_edge(first)) } else { (at(1.0), on_corner(outline.after(edge))) });
-    kept
+    let on_corner = |vertex: usize| (Feature::Vertex(vertex as u32), Feature::Edge(first as u32));
+    Some([
+        if low >= 0.0 { (end, on_edge(second)) } else { (at(0.0), on_corner(edge)) },
+        if high <= 1.0 { (start, on_edge(first)) } else { (at(1.0), on_corner(next)) },
+    ])
 }

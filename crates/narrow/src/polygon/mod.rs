@@ -1,10 +1,27 @@
 //! Convex polygons: the separating axis test, the distance and the manifold, in plain f64.
 //!
-//! This is the definition. It is meant to be read, and to be what faster kernels are measured against.
+//! ```text
+//! circles around and inside, rectangles at once        quick, rects
+//! all edges of few, side by side                       few
+//! many: a search over directions                       search
+//! in a gap that no edge's normal measures: GJK         distance
+//! yes or no, where f64 cannot tell: integers           tiers
+//! what it means: number, error, sign, points           measure, manifold
+//! ```
+//! What each trick buys stands above its kernel; the definition of the best axis is `sat::plain`.
 
 pub(crate) mod convex;
 mod distance;
+mod few;
 mod half_plane;
-mod manifold;
+pub(crate) mod manifold;
+pub(crate) mod measure;
 pub(crate) mod outline;
+mod placed;
+pub(crate) mod quick;
+mod rects;
 mod sat;
+mod search;
+#[cfg(test)]
+mod tests;
+mod tiers;

@@ -1,7 +1,8 @@
 //! A shape as the kernels see it: stored vertices, and how they stand in the frame of the pair.
 
+use super::few::Few;
 use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::{Core2, Rotation2};
+use asunder_geometry::{Core2, Rotation2, Shape2};
 
 /// A rotation by its matrix [c -s; s c], in f64: the stored one of a body, or its product with a part's.
 ///
@@ -16,6 +17,22 @@ pub(crate) struct Turn {
 impl Turn {
     pub(crate) fn of(rotation: Rotation2) -> Self {
         Self { cos: f64::from(rotation.cos()), sin: f64::from(rotation.sin()) }
+    }
+
+    /// One over the matrix' stretch, within 3 roundings of 2^-53.
+    ///
+    /// The squared stretch is 1 + e with |e| < 3e-7, also for the product of two matrices: the third power of that is
+    /// nothing, and no root and no quotient are taken.
+    #[inline]
+    pub(crate) fn unit(&self) -> f64 {
+        let excess = self.cos * self.cos + self.sin * self.sin - 1.0;
+        1.0 - excess * (0.5 - 0.375 * excess)
+    }
+
+    /// The columns of the matrix: the local axes.
+    #[inline]
+    pub(crate) fn axes(&self) -> [DVec2; 2] {
+        [DVec2::new(self.cos, self.sin), DVec2::new(-self.sin, self.cos)]
     }
 
     /// A vector turned.
@@ -37,6 +54,13 @@ impl Turn {
     }
 }
 
+/// Vertices of a polygon above which a support is searched and no longer looked for one by one.
+pub(super) const FEW_VERTICES: usize = 16;
+
+/// What a searched support adds to the roundings of a projection, in units of 2^-53 of the reach: see
+/// [`Outline::climb`].
+pub(super) const OF_SEARCH: f64 = 4.0;
+
 /// A core in the frame of a pair: the world's axes, about A's position. Most often a polygon; a segment has two edges
 /// back to back, a point none.
 ///
@@ -45,8 +69,13 @@ impl Turn {
 pub(crate) struct Outline<'a> {
     pub(crate) vertices: &'a [Vec2],
     normals: &'a [DVec2],
-    turn: Turn,
-    position: DVec2,
+    /// Of a polygon of many vertices, those furthest along +x, +y, -x and -y.
+    extremes: Option<[usize; 4]>,
+    /// Half extents of a rectangle.
+    pub(super) half: Option<DVec2>,
+    pub(super) turn: Turn,
+    unit: f64,
+    pub(super) position: DVec2,
     /// How far the shape reaches beyond this core. Axes and distances leave it out; contact points lie on the shape.
     pub(crate) radius: f64,
 }
@@ -58,9 +87,43 @@ pub(crate) struct Support {
     pub(crate) reach: f64,
 }
 
+/// A vector that is of unit length up to some roundings, made so up to 3: by one step of Newton's, without a root.
+#[inline]
+pub(super) fn renormalized(v: DVec2) -> DVec2 {
+    v * (1.5 - 0.5 * v.length_squared())
+}
+
+/// Whether supports of a shape are searched, and so [`OF_SEARCH`] less exact.
+pub(crate) fn is_searched(shape: &Shape2) -> bool {
+    matches!(shape, Shape2::Polygon(polygon) if polygon.vertices().len() > FEW_VERTICES)
+}
+
 impl<'a> Outline<'a> {
-    pub(crate) fn new(core: &'a Core2<'a>, turn: Turn, position: DVec2, radius: f64) -> Self {
-        Self { vertices: core.vertices(), normals: core.normals(), turn, position, radius }
+    pub(crate) fn new(shape: &Shape2, core: &'a Core2<'a>, turn: Turn, position: DVec2) -> Self {
+        let extremes = match shape {
+            Shape2::Polygon(polygon) if is_searched(shape) => Some(polygon.extremes()),
+            _ => None,
+        };
+        let half = match shape {
+            Shape2::Rect(rect) => Some(rect.half_extents().as_dvec2()),
+            _ => None,
+        };
+        Self {
+            vertices: core.vertices(),
+            normals: core.normals(),
+            extremes,
+            half,
+            turn,
+            unit: turn.unit(),
+            position,
+            radius: f64::from(shape.radius()),
+        }
+    }
+
+    /// The same, placed, of no more than N vertices.
+    #[inline]
+    pub(super) fn few<const N: usize>(&self) -> Few<N> {
+        Few::new((self.vertices, self.normals), &self.turn, self.position, self.radius)
     }
 
     /// Whether it has no inside: a point or a segment.
@@ -87,17 +150,29 @@ impl<'a> Outline<'a> {
         if vertex == 0 { self.vertices.len() - 1 } else { vertex - 1 }
     }
 
+    /// The vertex so many edges after this one, no more than all.
+    #[inline]
+    pub(super) fn ahead(&self, vertex: usize, edges: usize) -> usize {
+        let ahead = vertex + edges;
+        if ahead >= self.vertices.len() { ahead - self.vertices.len() } else { ahead }
+    }
+
+    /// How many edges lead from one vertex to another, counter-clockwise: less than all.
+    #[inline]
+    pub(super) fn edges_between(&self, from: usize, to: usize) -> usize {
+        if to >= from { to - from } else { to + self.vertices.len() - from }
+    }
+
     /// Outward unit normal of an edge, in the frame of the pair.
     #[inline]
     pub(crate) fn normal(&self, edge: usize) -> DVec2 {
-        self.turn.turn(self.normals[edge]).normalize()
+        renormalized(self.outward(edge))
     }
 
-    /// Outward normal of an edge, of any length: enough for a yes or no, and rounded less.
+    /// Outward normal of an edge, of unit length up to 7 roundings.
     #[inline]
     pub(crate) fn outward(&self, edge: usize) -> DVec2 {
-        let along = self.vertices[self.after(edge)].as_dvec2() - self.vertices[edge].as_dvec2();
-        self.turn.turn(DVec2::new(along.y, -along.x))
+        self.turn.turn(self.normals[edge]) * self.unit
     }
 
     /// Number of edges: none of a point, two of a segment.
@@ -106,18 +181,119 @@ impl<'a> Outline<'a> {
         self.normals.len()
     }
 
-    /// The vertex furthest along a direction; ties go to the lowest index. Cost: linear in the vertices.
+    /// The vertex furthest along a direction; of few vertices that tie, the lowest index. Cost: linear in the vertices
+    /// where they are few, else the logarithm of their number.
     #[inline]
     pub(crate) fn support(&self, direction: DVec2) -> Support {
+        self.support_near(direction, None)
+    }
+
+    /// The same, asked of one vertex first, which it may be, or be beside: two edges tell. Of those that tie up to rounding it
+    /// may be another.
+    #[inline]
+    pub(crate) fn support_near(&self, direction: DVec2, near: Option<usize>) -> Support {
         let local = self.turn.turn_back(direction);
-        let mut best = Support { vertex: 0, reach: f64::NEG_INFINITY };
+        let vertex = match &self.extremes {
+            None => self.furthest(local),
+            Some(extremes) => {
+                // Edges from one extreme vertex to the next look into one quadrant, in order of their angles.
+                let (from, to) = match (local.x < 0.0, local.y < 0.0) {
+                    (false, false) => (extremes[0], extremes[1]),
+                    (true, false) => (extremes[1], extremes[2]),
+                    (true, true) => (extremes[2], extremes[3]),
+                    (false, true) => (extremes[3], extremes[0]),
+                };
+                self.climb_near(from, self.edges_between(from, to), local, near)
+            }
+        };
+        Support { vertex, reach: local.dot(self.vertices[vertex].as_dvec2()) + direction.dot(self.position) }
+    }
+
+    /// As [`climb_local`](Self::climb_local), beginning at a vertex where it is one of those.
+    #[inline]
+    fn climb_near(&self, from: usize, edges: usize, local: DVec2, near: Option<usize>) -> usize {
+        // How many of the edges lie before it.
+        let Some(before) = near.map(|near| self.edges_between(from, near)).filter(|&before| before <= edges)
+        else {
+            return self.climb_local(from, edges, local);
+        };
+        if before > 0 && !self.ascends(self.ahead(from, before - 1), local) {
+            return self.climb_local(from, before - 1, local);
+        }
+        if before < edges && self.ascends(self.ahead(from, before), local) {
+            return self.climb_local(self.ahead(from, before + 1), edges - before - 1, local);
+        }
+        self.ahead(from, before)
+    }
+
+    /// Whether the edge that starts at a vertex leads along a direction.
+    #[inline]
+    fn ascends(&self, start: usize, local: DVec2) -> bool {
+        count_step();
+        let along = self.vertices[self.after(start)].as_dvec2() - self.vertices[start].as_dvec2();
+        local.dot(along) > 0.0
+    }
+
+    fn furthest(&self, local: DVec2) -> usize {
+        let (mut best, mut reach) = (0, f64::NEG_INFINITY);
         for (vertex, point) in self.vertices.iter().enumerate() {
-            let reach = local.dot(point.as_dvec2());
-            if reach > best.reach {
-                best = Support { vertex, reach };
+            let next = local.dot(point.as_dvec2());
+            if next > reach {
+                (best, reach) = (vertex, next);
             }
         }
-        best.reach += direction.dot(self.position);
         best
+    }
+
+    /// The vertex furthest along a direction, of those from `from` on up to so many edges later. Those edges turn by less
+    /// than half a circle, and the direction lies between the first one's normal and the last one's.
+    ///
+    /// Then edges first ascend and afterwards descend, and the last that ascends is found by halving. An edge e of which
+    /// the sign of d.e is rounded away has |d.e| <= 2 u |d| |e|: where it vanishes, both products are at most |d| |e| / 2,
+    /// and their sum is rounded by next to nothing; the difference of two f32 is off by u at most. All such edges stand
+    /// side by side, nearly on one line, and are no longer together than the polygon, 2 R. So whichever of them the search
+    /// ends at, it falls short of the furthest vertex by at most 4 u R: [`OF_SEARCH`].
+    #[inline]
+    pub(super) fn climb(&self, from: usize, edges: usize, direction: DVec2) -> usize {
+        self.climb_local(from, edges, self.turn.turn_back(direction))
+    }
+
+    fn climb_local(&self, from: usize, edges: usize, local: DVec2) -> usize {
+        let (mut ascending, mut unknown) = (0, edges);
+        while unknown > 0 {
+            let half = unknown / 2;
+            if self.ascends(self.ahead(from, ascending + half), local) {
+                (ascending, unknown) = (ascending + half + 1, unknown - half - 1);
+            } else {
+                unknown = half;
+            }
+        }
+        self.ahead(from, ascending)
+    }
+}
+
+#[cfg(not(test))]
+#[inline]
+pub(super) fn count_step() {}
+
+#[cfg(test)]
+pub(super) use counted::count_step;
+
+/// Steps of searches and projections on this thread, so that tests can count what they cannot time.
+#[cfg(test)]
+pub(super) mod counted {
+    use core::cell::Cell;
+
+    thread_local!(static STEPS: Cell<usize> = const { Cell::new(0) });
+
+    pub(crate) fn count_step() {
+        STEPS.with(|steps| steps.set(steps.get() + 1));
+    }
+
+    /// The steps that something takes.
+    pub(crate) fn steps_of<R>(run: impl FnOnce() -> R) -> (R, usize) {
+        let before = STEPS.with(Cell::get);
+        let result = run();
+        (result, STEPS.with(Cell::get) - before)
     }
 }

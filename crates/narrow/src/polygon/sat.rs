@@ -1,13 +1,19 @@
-//! The separating axis test for two convex polygons.
+//! Axes that may part two convex polygons: what they are, how one is evaluated, and which kernel finds the best.
 //!
 //! ```text
-//! for each edge of A, of B: axis = its normal
-//! the separation along an axis = min over B - max over A, projecting *every* vertex
-//! one axis beyond the limit settles it; else the greatest separation wins
+//! two polygons are apart, or as deep as they are, along a normal of an edge of either
+//! two rectangles:      four axes in closed form               (rects)
+//! few edges:           all of them, side by side              (few)
+//! many edges:          a search over directions               (search)
 //! ```
-//! Gottschalk, "Separating axis theorem" (1996). Cost: the product of the vertex counts, twice.
+//! Gottschalk, "Separating axis theorem" (1996). Whatever proposes an axis, it is believed only after both shapes were
+//! projected on it, by [`axis`]; that is the definition, and `plain` below is the definition of the
+//! best axis, kept to hold the kernels against.
 
-use super::outline::Outline;
+use super::few;
+use super::outline::{FEW_VERTICES, Outline};
+use super::rects;
+use super::search;
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::Precision;
 use asunder_geometry::glam::DVec2;
@@ -27,59 +33,56 @@ pub(crate) struct Axis {
     pub(crate) of: AxisOf,
 }
 
-/// The best axis of each shape.
+/// The best axis of each shape, as far as it matters: one that is further than the band of the question below the best
+/// of all may be missing, with a separation of -inf, or not be the best of its shape.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axes {
     pub(crate) edge_a: Axis,
     pub(crate) edge_b: Axis,
+    /// The axis that the hint named, where it is within the band.
+    pub(crate) kept: Option<Axis>,
+    /// By how much any other axis may truly exceed the best one.
+    pub(crate) short: f64,
 }
 
 impl Axes {
     /// No axis was looked at: separation -inf.
-    const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         edge_a: Axis { separation: f64::NEG_INFINITY, normal: DVec2::X, of: AxisOf::EdgeA(0) },
         edge_b: Axis { separation: f64::NEG_INFINITY, normal: DVec2::X, of: AxisOf::EdgeB(0) },
+        kept: None,
+        short: 0.0,
     };
 
     /// The greater separation of the two. Ties: A's.
+    #[inline]
     pub(crate) fn best(&self) -> &Axis {
         if self.edge_b.separation > self.edge_a.separation { &self.edge_b } else { &self.edge_a }
     }
 }
 
-/// Outcome of the test: one axis that parts the shapes by more than the limit, or the best of each shape.
-pub(crate) enum Outcome {
-    Beyond(Axis),
-    Within(Axes),
+/// What is wanted of the best axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wanted<'a> {
+    /// An axis that shows more settles it.
+    pub(crate) limit: f64,
+    /// How far below the best axis another one matters: not less than two projections' rounding.
+    pub(crate) band: f64,
+    /// What the last frame found. It is tried first; the number does not depend on it.
+    pub(crate) hint: Hint,
+    /// A's centre to B's, of any length.
+    pub(crate) towards_b: DVec2,
+    /// That of the pair.
+    pub(crate) precision: &'a Precision,
 }
 
-/// Runs the test; `hint` is tried first. The outcome within the limit does not depend on the hint.
-pub(crate) fn separating_axes(a: &Outline, b: &Outline, limit: f64, hint: Hint) -> Outcome {
-    if let Some(axis) = hinted_axis(a, b, hint)
-        && axis.separation > limit
-    {
-        return Outcome::Beyond(axis);
-    }
-    let mut best = Axes::NONE;
-    for edge in 0..a.edge_count() {
-        let axis = axis_a(a, b, edge);
-        if axis.separation > limit {
-            return Outcome::Beyond(axis);
-        }
-        if axis.separation > best.edge_a.separation {
-            best.edge_a = axis;
-        }
-    }
-    for edge in 0..b.edge_count() {
-        let axis = axis_b(a, b, edge);
-        if axis.separation > limit {
-            return Outcome::Beyond(axis);
-        }
-        if axis.separation > best.edge_b.separation {
-            best.edge_b = axis;
-        }
-    }
-    Outcome::Within(best)
+/// Outcome of a test: an axis that parts the shapes by more than the limit, or a gap within it that only the nearest
+/// points tell, or the best axes.
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]
+pub(crate) enum Outcome {
+    Beyond(f64, Hint),
+    Gap(f64, DVec2),
+    Within(Axes),
 }
 
 /// Which side of touching all edge normals put two shapes on.
@@ -93,62 +96,114 @@ pub(crate) enum Sides {
     Unclear,
 }
 
-/// Which side of touching the shapes are on.
-///
-/// No axis is normalised: what is lost to rounding is no more than along an axis as long as the longest edge can be.
-pub(crate) fn sides(a: &Outline, b: &Outline, precision: &Precision) -> Sides {
-    // An outward vector is as long as its edge, no edge is longer than its shape, and no core than this.
-    let rounding = precision.projection() * 2.0 * precision.size;
-    let mut top = f64::NEG_INFINITY;
-    let mut parts = |one: &Outline, other: &Outline, edge: usize| {
-        let outward = one.outward(edge);
-        let separation = -other.support(-outward).reach - one.support(outward).reach;
-        top = top.max(separation);
-        separation > rounding
-    };
-    if (0..a.edge_count()).any(|edge| parts(a, b, edge)) || (0..b.edge_count()).any(|edge| parts(b, a, edge))
-    {
-        return Sides::Apart;
+/// Finds the best axes.
+pub(crate) fn separating_axes(a: &Outline, b: &Outline, wanted: &Wanted) -> Outcome {
+    let kept = named([a.edge_count(), b.edge_count()], wanted.hint);
+    let edge = kept.and_then(Named::edge);
+    if let (Some(half_a), Some(half_b)) = (a.half, b.half) {
+        return rects::separating_axes(
+            [half_a, half_b],
+            [&a.turn, &b.turn],
+            b.position - a.position,
+            (edge, wanted),
+        );
     }
-    let doubt = rounding + precision.of_face() * 2.0 * precision.size;
-    if top < -doubt { Sides::Overlapping } else { Sides::Unclear }
+    match a.vertices.len().max(b.vertices.len()) {
+        0..=8 => few::separating_axes([&a.few::<8>(), &b.few()], edge, wanted),
+        9..=FEW_VERTICES => few::separating_axes([&a.few::<FEW_VERTICES>(), &b.few()], edge, wanted),
+        _ => search::separating_axes(a, b, kept, wanted),
+    }
 }
 
-/// Whether no edge normal parts the shapes. Asks for a yes or no only, so no axis is normalised.
-pub(crate) fn overlaps(a: &Outline, b: &Outline) -> bool {
-    let parts = |one: &Outline, other: &Outline, edge: usize| {
-        let outward = one.outward(edge);
-        -other.support(-outward).reach > one.support(outward).reach
+/// Which side of touching the shapes are on, by axes that show more than `doubt`.
+pub(crate) fn sides(a: &Outline, b: &Outline, towards_b: DVec2, doubt: f64) -> Sides {
+    match a.vertices.len().max(b.vertices.len()) {
+        0..=8 => few::sides([&a.few::<8>(), &b.few()], doubt),
+        9..=FEW_VERTICES => few::sides([&a.few::<FEW_VERTICES>(), &b.few()], doubt),
+        _ => search::sides(a, b, towards_b, doubt),
+    }
+}
+
+/// What an axis may show too much or too little that no kernel has projected fully yet: two projections' rounding.
+#[inline]
+pub(crate) fn doubt(precision: &Precision) -> f64 {
+    2.0 * precision.projection()
+}
+
+/// The normal of an edge, from A to B, and both shapes projected on it. `near` is a vertex of the other shape that may be
+/// the furthest one, or beside it; of the edge's own shape its start is.
+pub(super) fn axis(a: &Outline, b: &Outline, of: AxisOf, near: Option<usize>) -> Axis {
+    let (normal, near_a, near_b) = match of {
+        AxisOf::EdgeA(edge) => (a.normal(edge), Some(edge), near),
+        AxisOf::EdgeB(edge) => (-b.normal(edge), near, Some(edge)),
     };
-    !(0..a.edge_count()).any(|edge| parts(a, b, edge)) && !(0..b.edge_count()).any(|edge| parts(b, a, edge))
+    let separation = -b.support_near(-normal, near_b).reach - a.support_near(normal, near_a).reach;
+    Axis { separation, normal, of }
 }
 
-fn axis_a(a: &Outline, b: &Outline, edge: usize) -> Axis {
-    let normal = a.normal(edge);
-    let separation = -b.support(-normal).reach - a.support(normal).reach;
-    Axis { separation, normal, of: AxisOf::EdgeA(edge) }
+/// What a hint names: an edge that this pair has, or a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Named {
+    Edge(AxisOf),
+    Direction(DVec2),
 }
 
-fn axis_b(a: &Outline, b: &Outline, edge: usize) -> Axis {
-    let normal = -b.normal(edge);
-    let separation = -b.support(-normal).reach - a.support(normal).reach;
-    Axis { separation, normal, of: AxisOf::EdgeB(edge) }
+impl Named {
+    pub(super) fn edge(self) -> Option<AxisOf> {
+        match self {
+            Self::Edge(of) => Some(of),
+            Self::Direction(_) => None,
+        }
+    }
 }
 
-/// The axis that a hint names, evaluated; nothing where it names none that this pair has.
-fn hinted_axis(a: &Outline, b: &Outline, hint: Hint) -> Option<Axis> {
-    let features = hint.features()?;
+/// What a hint names; nothing where a pair of so many edges each has no such thing.
+#[inline]
+pub(super) fn named(edges: [usize; 2], hint: Hint) -> Option<Named> {
+    let Some(features) = hint.features() else {
+        // A hint from space may lie across the plane.
+        return hint.direction()?.truncate().try_normalize().map(Named::Direction);
+    };
     match (features.a(), features.b()) {
-        (Feature::Edge(edge), _) if (edge as usize) < a.edge_count() => Some(axis_a(a, b, edge as usize)),
-        (_, Feature::Edge(edge)) if (edge as usize) < b.edge_count() => Some(axis_b(a, b, edge as usize)),
+        (Feature::Edge(edge), _) => {
+            ((edge as usize) < edges[0]).then_some(Named::Edge(AxisOf::EdgeA(edge as usize)))
+        }
+        (_, Feature::Edge(edge)) => {
+            ((edge as usize) < edges[1]).then_some(Named::Edge(AxisOf::EdgeB(edge as usize)))
+        }
         _ => None,
     }
 }
 
 /// The hint that leads back to an axis.
-pub(crate) fn hint_of(axis: &Axis) -> Hint {
-    Hint::axis(match axis.of {
+pub(crate) fn hint_of(of: AxisOf) -> Hint {
+    Hint::axis(match of {
         AxisOf::EdgeA(edge) => FeatureId::new(Feature::Edge(edge as u32), Feature::Vertex(0)),
         AxisOf::EdgeB(edge) => FeatureId::new(Feature::Vertex(0), Feature::Edge(edge as u32)),
     })
+}
+
+/// The hint that leads back to a direction, up to an f32 rounding of its coordinates.
+pub(crate) fn hint_of_direction(direction: DVec2) -> Hint {
+    Hint::towards(direction.extend(0.0))
+}
+
+/// The definition: the best axis of each shape, every one of them fully projected. Cost: the product of the vertex
+/// counts, twice, or less by what a search saves.
+#[cfg(test)]
+pub(super) fn plain(a: &Outline, b: &Outline) -> Axes {
+    let mut best = Axes::NONE;
+    for edge in 0..a.edge_count() {
+        let axis = axis(a, b, AxisOf::EdgeA(edge), None);
+        if axis.separation > best.edge_a.separation {
+            best.edge_a = axis;
+        }
+    }
+    for edge in 0..b.edge_count() {
+        let axis = axis(a, b, AxisOf::EdgeB(edge), None);
+        if axis.separation > best.edge_b.separation {
+            best.edge_b = axis;
+        }
+    }
+    best
 }

@@ -27,7 +27,7 @@ mod told;
 use super::cuboids::{Cuboids, Sides};
 use super::distance::Witness;
 use super::half_space::Plane;
-use super::manifold::{Ask, Point, Touch, touch};
+use super::manifold::{Ask, Point, Touch, touch_into};
 use super::sat::{Axes, last_of};
 use super::slender::{self, Nearest};
 use super::solid::Solid;
@@ -37,7 +37,7 @@ use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
-use asunder_geometry::{Basis3, Core3, Hull, Shape3};
+use asunder_geometry::{Basis3, Hull, Shape3};
 
 /// Two convex shapes in the frame of the pair: A's axes, about A's position.
 pub(crate) struct Convex<'a> {
@@ -193,14 +193,16 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// Contact points of shapes at most `margin` metres apart, on their surfaces; the hint is of the last frame. None for
-    /// two half-spaces that overlap without end.
+    /// Contact points of shapes at most `margin` metres apart, on their surfaces, made where last frame's hint says they
+    /// were unless that is worse by two preferences. None for two half-spaces that overlap without end.
     pub(crate) fn touch(&self, near: &Near, margin: f64, hint: Hint) -> Option<Touch> {
         let preference = self.preference();
         match &near.evidence {
             Evidence::Axes(axes, witness) => {
                 let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last: last_of(hint) };
-                Some(self.with_solids(|a, b| touch(a, b, &ask)))
+                let mut touch = Touch::NONE;
+                self.with_solids(|a, b| touch_into(a, b, &ask, &mut touch));
+                Some(touch)
             }
             Evidence::Slender(nearest) => {
                 Some(self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference)))
@@ -240,7 +242,9 @@ impl<'a> Convex<'a> {
     }
 
     pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
-        let (core_a, core_b): (Core3, Core3) = (self.shape_a.core(), self.shape_b.core());
+        // One by one: a pair of them would be moved, and those that are made here are large.
+        let core_a = self.shape_a.core();
+        let core_b = self.shape_b.core();
         let a = Solid::new(&core_a, IDENTITY, DVec3::ZERO, f64::from(self.shape_a.radius()));
         let b = Solid::new(&core_b, self.relative, self.offset, f64::from(self.shape_b.radius()));
         ask(&a, &b)

@@ -6,7 +6,7 @@ pub(crate) mod convex;
 pub(crate) mod cuboids;
 mod distance;
 mod half_space;
-mod manifold;
+pub(crate) mod manifold;
 mod portal;
 mod reduce;
 mod rods;

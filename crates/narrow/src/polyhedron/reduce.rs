@@ -43,10 +43,17 @@ where
     S: Fn(usize) -> Spot,
     I: Fn(usize) -> FeatureId,
 {
-    let deepest = (0..count).map(|i| spot(i).separation).fold(f64::INFINITY, f64::min);
-    let is_deep = |i: usize| spot(i).separation <= deepest + slack;
-    let root = (0..count).filter(|&i| is_deep(i)).min_by_key(|&i| id(i)).unwrap_or(0);
+    let least = (0..count).map(|i| spot(i).separation).fold(f64::INFINITY, f64::min) + slack;
+    let is_deep = |i: usize| spot(i).separation <= least;
     let around = Around { count, at: |i| spot(i).at };
+    match count {
+        5 => return pick_of_few::<5>(around.places(), is_deep, id),
+        6 => return pick_of_few::<6>(around.places(), is_deep, id),
+        7 => return pick_of_few::<7>(around.places(), is_deep, id),
+        8 => return pick_of_few::<8>(around.places(), is_deep, id),
+        _ => {}
+    }
+    let root = (0..count).filter(|&i| is_deep(i)).min_by_key(|&i| id(i)).unwrap_or(0);
     let mut best = around.rooted(root, [(1, count - 3), (2, count - 2), (3, count - 1)]);
     let is_alone = (0..count).filter(|&i| is_deep(i)).nth(1).is_none();
     if !is_alone {
@@ -57,6 +64,41 @@ where
         });
     }
     best.corners
+}
+
+/// The best four of a few that hold a deep one, by trying all.
+fn pick_of_few<const N: usize>(
+    places: [[f64; 2]; N],
+    is_deep: impl Fn(usize) -> bool,
+    id: impl Fn(usize) -> FeatureId,
+) -> [usize; 4] {
+    let deep = (0..N).map(|i| u32::from(is_deep(i)) << i).fold(0, |bits, bit| bits | bit);
+    let (mut best, mut tie, mut beats) = ([0, 1, 2, 3], f64::NEG_INFINITY, f64::NEG_INFINITY);
+    for a in 0..N {
+        for c in a + 2..N {
+            let [x, y] = [places[c][0] - places[a][0], places[c][1] - places[a][1]];
+            for b in a + 1..c {
+                for d in c + 1..N {
+                    // Twice the area: the cross product of the diagonals.
+                    let area = y * (places[d][0] - places[b][0]) - x * (places[d][1] - places[b][1]);
+                    if area < tie || deep & (1 << a | 1 << b | 1 << c | 1 << d) == 0 {
+                        continue;
+                    }
+                    let four = [a, b, c, d];
+                    if area > beats || lowest(four, &id) < lowest(best, &id) {
+                        (best, tie, beats) = (four, area * (1.0 - BEATS), area * (1.0 + BEATS));
+                    }
+                }
+            }
+        }
+    }
+    best
+}
+
+fn lowest(four: [usize; 4], id: impl Fn(usize) -> FeatureId) -> [FeatureId; 4] {
+    let mut ids = four.map(id);
+    ids.sort_unstable();
+    ids
 }
 
 /// Corners around a patch.
@@ -73,6 +115,10 @@ struct Four {
 }
 
 impl<F: Fn(usize) -> [f64; 2]> Around<F> {
+    fn places<const N: usize>(&self) -> [[f64; 2]; N] {
+        core::array::from_fn(&self.at)
+    }
+
     /// The best four that hold a root, the others each so many corners further on.
     fn rooted(
         &self,

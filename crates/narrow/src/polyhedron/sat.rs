@@ -20,6 +20,7 @@
 
 mod arcs;
 mod cull;
+mod facet;
 
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId, Hint};
@@ -29,6 +30,7 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{MAX_HULL_VERTICES, PARALLEL_EDGES};
 use cull::Sight;
+use facet::is_nearest;
 
 /// Edges of a hull with the most vertices, by Euler's formula.
 const MAX_EDGES: usize = 3 * MAX_HULL_VERTICES - 6;
@@ -160,9 +162,12 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome 
     let mut sights = [Sight::new(a, b), Sight::new(b, a)];
     let seen = [ArrayVec::new(), ArrayVec::new()];
     let mut found = Found { axes: Axes::NONE, floor: search.known, beyond: None, seen };
-    found.by_faces(&mut sights, search);
-    if found.beyond.is_none() {
-        found.by_edges(&mut sights, search);
+    let first = found.by_first_faces(&mut sights, search);
+    if found.beyond.is_none() && !found.is_proved((a, b), &first, search) {
+        found.by_faces(&mut sights, &first, search);
+        if found.beyond.is_none() {
+            found.by_edges(&mut sights, search);
+        }
     }
     found.beyond.map_or(Outcome::Within(found.axes), Outcome::Beyond)
 }
@@ -179,20 +184,36 @@ struct Found {
 }
 
 impl Found {
-    /// The most promising face of each solid first, since the better the best axis is, the more is culled by it.
-    fn by_faces(&mut self, sights: &mut [Sight; 2], search: &Search) {
+    /// The most promising face of each solid first, since the better the best axis is, the more is culled by it. Returns
+    /// those faces, and the other's vertices that are furthest against them.
+    fn by_first_faces(&mut self, sights: &mut [Sight; 2], search: &Search) -> [Option<[usize; 2]>; 2] {
         let mut first = [None; 2];
         for (which, sight) in sights.iter_mut().enumerate() {
-            first[which] = sight.highest();
-            if let Some(face) = first[which] {
+            if let Some(face) = sight.highest() {
                 let vertex = self.by_face([sight.solid, sight.other], which, face, search);
                 sight.add(vertex);
+                first[which] = Some([face, vertex]);
             }
         }
+        self.axes.raise(self.axes.best().separation, search.precision.of_face());
+        first
+    }
+
+    /// Whether the best of the first faces is the best axis of all, and is known to be.
+    fn is_proved(&self, pair: (&Solid, &Solid), first: &[Option<[usize; 2]>; 2], search: &Search) -> bool {
+        let best = self.axes.best();
+        let [of_a, of_b] = first;
+        let deepest = if matches!(best.of, AxisOf::FaceA(_)) { of_a } else { of_b };
+        deepest.is_some_and(|[_, vertex]| is_nearest(pair, best, vertex, search.precision))
+    }
+
+    /// All other faces that may be as good.
+    fn by_faces(&mut self, sights: &mut [Sight; 2], first: &[Option<[usize; 2]>; 2], search: &Search) {
         for (which, sight) in sights.iter_mut().enumerate() {
             let pair = [sight.solid, sight.other];
+            let known = first[which].map(|[face, _]| face);
             sight.for_faces(self.floor - search.keep(), |face| {
-                let is_open = Some(face) != first[which] && self.beyond.is_none();
+                let is_open = Some(face) != known && self.beyond.is_none();
                 let vertex = if is_open { self.by_face(pair, which, face, search) } else { 0 };
                 (vertex, self.floor - search.keep())
             });
@@ -282,13 +303,13 @@ impl Found {
     }
 }
 
-fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
+pub(super) fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
     let normal = a.normal(face);
     let separation = -b.support(-normal).reach - a.face_reach(face, normal);
     Axis { separation, normal, of: AxisOf::FaceA(face) }
 }
 
-fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
+pub(super) fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
     let outward = b.normal(face);
     let separation = -b.face_reach(face, outward) - a.support(-outward).reach;
     Axis { separation, normal: -outward, of: AxisOf::FaceB(face) }

@@ -11,7 +11,7 @@ use asunder_geometry::{Basis3, Core3, EdgeArc, EdgeOctet, FaceOctet, Topology, V
 /// coordinates exact and B's with one rounding step less.
 pub(crate) struct Solid<'a> {
     pub(crate) vertices: &'a [Vec3],
-    vertex_octets: &'a [VertexOctet],
+    pub(super) vertex_octets: &'a [VertexOctet],
     pub(crate) topology: &'a Topology,
     normals: &'a [DVec3],
     heights: &'a [f64],
@@ -147,16 +147,7 @@ impl<'a> Solid<'a> {
     #[inline]
     pub(super) fn local_support(&self, direction: DVec3) -> Support {
         let lanes = direction.as_vec3();
-        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides.
-        let doubt = 8.5 * (f32::EPSILON / 2.0) * self.extent * lanes.abs().element_sum();
-        let mut top = [f32::NEG_INFINITY; 8];
-        for octet in self.vertex_octets {
-            let reach = project(octet, lanes);
-            for i in 0..8 {
-                top[i] = if reach[i] > top[i] { reach[i] } else { top[i] };
-            }
-        }
-        let least = greatest(top) - doubt;
+        let least = self.least_lane(lanes);
         let mut best = Support { vertex: 0, reach: f64::NEG_INFINITY };
         for (place, octet) in self.vertex_octets.iter().enumerate() {
             let reach = project(octet, lanes);
@@ -169,6 +160,21 @@ impl<'a> Solid<'a> {
             }
         }
         best
+    }
+
+    /// What a vertex' lane comes to at least if the vertex may be the furthest, in the shape's own axes.
+    #[inline(always)]
+    pub(super) fn least_lane(&self, direction: Vec3) -> f32 {
+        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides.
+        let doubt = 8.5 * (f32::EPSILON / 2.0) * self.extent * direction.abs().element_sum();
+        let mut top = [f32::NEG_INFINITY; 8];
+        for octet in self.vertex_octets {
+            let reach = project(octet, direction);
+            for i in 0..8 {
+                top[i] = if reach[i] > top[i] { reach[i] } else { top[i] };
+            }
+        }
+        greatest(top) - doubt
     }
 
     /// [`Solid::support`] by its definition.
@@ -190,6 +196,12 @@ impl<'a> Solid<'a> {
     #[inline]
     pub(super) fn turned(&self, direction: DVec3) -> DVec3 {
         self.basis.turn(direction)
+    }
+
+    /// A direction of the frame of the pair in the shape's own axes.
+    #[inline]
+    pub(super) fn turned_back(&self, direction: DVec3) -> DVec3 {
+        self.basis.turn_back(direction)
     }
 
     /// The centre in the frame of the pair.
@@ -242,7 +254,7 @@ impl<'a> Solid<'a> {
 
 /// Projections of eight vertices.
 #[inline(always)]
-fn project(octet: &VertexOctet, direction: Vec3) -> [f32; 8] {
+pub(super) fn project(octet: &VertexOctet, direction: Vec3) -> [f32; 8] {
     let mut reach = [0.0; 8];
     for (i, reach) in reach.iter_mut().enumerate() {
         *reach = direction.x * octet.x[i] + direction.y * octet.y[i] + direction.z * octet.z[i];

@@ -16,8 +16,18 @@
 
 use arrayvec::ArrayVec;
 
-/// A polygon being clipped, of at most `N` corners: clockwise, since it is a face seen from behind.
-pub(super) type Ring<const N: usize> = ArrayVec<Corner, N>;
+/// A polygon being clipped: clockwise, since it is a face seen from behind.
+///
+/// Corners are made once and never moved: what changes from side to side is a list of their places. A corner that was
+/// just written and is copied in wider steps waits until it has gone to the cache.
+pub(super) struct Polygon<const N: usize> {
+    corners: ArrayVec<Corner, N>,
+    /// The polygon, and the one before it, by turns.
+    rings: [ArrayVec<u16, N>; 2],
+    turn: usize,
+    /// For each corner of the ring, how far it lies beyond the side that is being cut at, times that side's length.
+    beyond: ArrayVec<f64, N>,
+}
 
 /// A corner of the polygon being clipped.
 #[derive(Clone, Copy, Debug)]
@@ -26,17 +36,15 @@ pub(super) struct Corner {
     pub(super) height: f64,
     pub(super) name: Name,
     /// What the polygon's edge from this corner to the next lies on.
-    pub(super) leaving: Leaving,
-    /// How far it lies beyond the side that is being cut at, times that side's length.
-    beyond: f64,
+    leaving: Leaving,
 }
 
 /// What a corner of a patch is made of, by the indices of the two faces' own topologies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Name {
-    /// A vertex of the incident face.
+    /// A vertex of the incident face, by the half-edge of that face that starts from it.
     Incident(u16),
-    /// A vertex of the reference face.
+    /// A vertex of the reference face, by the half-edge of that face that starts from it.
     Reference(u16),
     /// A half-edge of the reference face and one of the incident face, over each other.
     Crossing(u16, u16),
@@ -51,123 +59,173 @@ pub(super) enum Leaving {
     Side(u16),
 }
 
-impl Corner {
-    /// The start of an edge of the incident face.
-    pub(super) fn of_incident(vertex: usize, half_edge: usize, at: [f64; 2], height: f64) -> Self {
-        let leaving = Leaving::Incident(half_edge as u16);
-        Self { at, height, name: Name::Incident(vertex as u16), leaving, beyond: 0.0 }
-    }
-
-    /// The corner where an edge from one within to one beyond meets the side.
-    fn between(within: &Self, beyond: &Self, name: Name, leaving: Leaving) -> Self {
-        let share = within.beyond / (within.beyond - beyond.beyond);
-        let mix = |from: f64, to: f64| from + (to - from) * share;
-        let at = [mix(within.at[0], beyond.at[0]), mix(within.at[1], beyond.at[1])];
-        Self { at, height: mix(within.height, beyond.height), name, leaving, beyond: 0.0 }
-    }
-}
-
 /// A side of the reference face, which lies to its left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     pub(super) from: [f64; 2],
-    pub(super) along: [f64; 2],
+    pub(super) to: [f64; 2],
     pub(super) half_edge: u16,
-    /// The vertex that the side starts from, and the side that leads there.
-    pub(super) start: (u16, u16),
-    /// The vertex that it leads to, and the side that goes on from there.
-    pub(super) end: (u16, u16),
+    /// The half-edge of the side that leads to its start.
+    pub(super) before: u16,
+    /// The half-edge of the side that goes on from its end.
+    pub(super) after: u16,
+}
+
+impl<const N: usize> Polygon<N> {
+    /// No corners, and room for those of one face and twice those of another.
+    pub(super) fn new() -> Self {
+        Self {
+            corners: ArrayVec::new(),
+            rings: [ArrayVec::new(), ArrayVec::new()],
+            turn: 0,
+            beyond: ArrayVec::new(),
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.corners.clear();
+        self.rings[self.turn].clear();
+    }
+
+    fn ring(&self) -> &[u16] {
+        &self.rings[self.turn]
+    }
+
+    fn corner(&self, i: usize) -> &Corner {
+        &self.corners[usize::from(self.ring()[i])]
+    }
+
+    /// Adds the vertex of the incident face that a half-edge starts from.
+    #[inline]
+    pub(super) fn add_vertex(&mut self, half_edge: u16, (at, height): ([f64; 2], f64)) {
+        let (name, leaving) = (Name::Incident(half_edge), Leaving::Incident(half_edge));
+        self.rings[self.turn].push(self.corners.len() as u16);
+        self.corners.push(Corner { at, height, name, leaving });
+    }
+
+    /// What is left of it.
+    pub(super) fn corners(&self) -> impl ExactSizeIterator<Item = &Corner> {
+        self.ring().iter().map(|&i| &self.corners[usize::from(i)])
+    }
+
+    /// Keeps the part that is not beyond a side; what is beyond by no more than `slack` stays.
+    #[inline]
+    pub(super) fn cut(&mut self, side: &Side, slack: f64) {
+        let [dx, dy] = [side.to[0] - side.from[0], side.to[1] - side.from[1]];
+        // The sum of absolute values bounds the length, and needs no root.
+        let slack = slack * (dx.abs() + dy.abs());
+        let [from_x, from_y] = side.from;
+        let mut furthest = f64::NEG_INFINITY;
+        self.beyond.clear();
+        for &i in &self.rings[self.turn] {
+            let [x, y] = self.corners[usize::from(i)].at;
+            let beyond = dy * (x - from_x) - dx * (y - from_y);
+            furthest = if beyond > furthest { beyond } else { furthest };
+            self.beyond.push(beyond);
+        }
+        if furthest > slack {
+            self.rings[1 - self.turn].clear();
+            if let Some(kept) = self.run_within(furthest, slack) {
+                self.keep(kept, side, slack);
+            }
+            self.turn = 1 - self.turn;
+        }
+    }
+
+    /// Where the corners begin that are not beyond a side, and how many they are, around the polygon; none if all are
+    /// beyond.
+    ///
+    /// A convex polygon goes beyond a line once. One that rounding has dented may do so twice; then only what is around
+    /// the furthest corner counts.
+    fn run_within(&self, furthest: f64, slack: f64) -> Option<(usize, usize)> {
+        let (beyond, count) = (self.beyond.as_slice(), self.beyond.len());
+        if count <= 64 {
+            // A bit for each corner: no loop whose end must be guessed.
+            let is_beyond = |i: usize| u64::from(beyond[i] > slack) << i;
+            let bits = (0..count).map(is_beyond).fold(0, |bits, bit| bits | bit);
+            let full = u64::MAX >> (64 - count);
+            let before = (bits << 1 | bits >> (count - 1)) & full;
+            let (goes_out, comes_in) = (bits & !before, before & !bits);
+            if bits == full {
+                return None;
+            }
+            if goes_out & (goes_out - 1) == 0 {
+                return Some((comes_in.trailing_zeros() as usize, count - bits.count_ones() as usize));
+            }
+        }
+        let top = beyond.iter().position(|&beyond| beyond == furthest)?;
+        let (mut begin, mut removed) = (after(top, count), 1);
+        while beyond[begin] > slack {
+            if begin == top {
+                return None;
+            }
+            (begin, removed) = (after(begin, count), removed + 1);
+        }
+        let mut last = before(top, count);
+        while beyond[last] > slack {
+            (last, removed) = (before(last, count), removed + 1);
+        }
+        Some((begin, count - removed))
+    }
+
+    /// Takes a run of so many corners, and what stands where the polygon comes back from beyond a side and where it goes
+    /// out.
+    fn keep(&mut self, (begin, kept): (usize, usize), side: &Side, slack: f64) {
+        let count = self.ring().len();
+        let around = |i: usize| if i >= count { i - count } else { i };
+        let (outside, last, end) = (before(begin, count), around(begin + kept - 1), around(begin + kept));
+        // Coming in, the polygon follows its old edge; going out, it follows the side from there.
+        if self.beyond[begin] < -slack {
+            let leaving = self.corner(outside).leaving;
+            self.add_crossing((begin, outside), side.crossing(leaving), leaving);
+        }
+        let [one, other] = self.rings.each_mut();
+        let (ring, spare) = if self.turn == 0 { (one, other) } else { (other, one) };
+        for i in begin..begin + kept {
+            spare.push(ring[around(i)]);
+        }
+        let leaving = self.corner(last).leaving;
+        let along_side = Leaving::Side(side.half_edge);
+        if self.beyond[last] < -slack {
+            self.add_crossing((last, end), side.crossing(leaving), along_side);
+        } else {
+            let last = usize::from(self.ring()[last]);
+            self.corners[last].leaving = along_side;
+        }
+    }
+
+    /// The corner where the edge from a corner within to one beyond meets the side.
+    #[inline]
+    fn add_crossing(&mut self, (within, beyond): (usize, usize), name: Name, leaving: Leaving) {
+        let share = self.beyond[within] / (self.beyond[within] - self.beyond[beyond]);
+        let (from, to) = (*self.corner(within), *self.corner(beyond));
+        let mix = |from: f64, to: f64| from + (to - from) * share;
+        let at = [mix(from.at[0], to.at[0]), mix(from.at[1], to.at[1])];
+        let corner = Corner { at, height: mix(from.height, to.height), name, leaving };
+        if self.corners.try_push(corner).is_ok() {
+            self.rings[1 - self.turn].push(self.corners.len() as u16 - 1);
+        }
+    }
+}
+
+fn after(i: usize, count: usize) -> usize {
+    if i + 1 == count { 0 } else { i + 1 }
+}
+
+fn before(i: usize, count: usize) -> usize {
+    if i == 0 { count - 1 } else { i - 1 }
 }
 
 impl Side {
-    /// Keeps the part of the polygon that is not beyond this side; what is beyond by no more than `slack` stays. What is
-    /// kept is put together in `spare`, which then is the polygon.
-    pub(super) fn cut<'r, const N: usize>(
-        &self,
-        polygon: &mut &'r mut Ring<N>,
-        spare: &mut &'r mut Ring<N>,
-        slack: f64,
-    ) {
-        let [dx, dy] = self.along;
-        let slack = slack * (dx * dx + dy * dy).sqrt();
-        let mut furthest = f64::NEG_INFINITY;
-        for corner in polygon.iter_mut() {
-            corner.beyond = dy * (corner.at[0] - self.from[0]) - dx * (corner.at[1] - self.from[1]);
-            furthest = furthest.max(corner.beyond);
-        }
-        if furthest > slack {
-            spare.clear();
-            if let Some(kept) = run_within(polygon, furthest, slack) {
-                self.keep(kept, polygon, spare, slack);
-            }
-            core::mem::swap(polygon, spare);
-        }
-    }
-
-    /// Takes the corners of a run, which ends before `end` and may go around, and what stands where the polygon comes
-    /// back from beyond this side and where it goes out.
-    fn keep<const N: usize>(
-        &self,
-        (begin, end): (usize, usize),
-        polygon: &Ring<N>,
-        clipped: &mut Ring<N>,
-        slack: f64,
-    ) {
-        let before = |i: usize| if i == 0 { polygon.len() - 1 } else { i - 1 };
-        let is_within = |corner: &Corner| corner.beyond < -slack;
-        let mut push = |corner: Corner| {
-            let _ = clipped.try_push(corner);
-        };
-        let (beyond, first) = (&polygon[before(begin)], &polygon[begin]);
-        // Coming in, the polygon follows its old edge; going out, it follows the side from there.
-        if is_within(first) {
-            push(Corner::between(first, beyond, self.crossing(beyond.leaving), beyond.leaving));
-        }
-        let last = before(end);
-        let (low, high) = if begin <= last { (begin..last, 0..0) } else { (begin..polygon.len(), 0..last) };
-        polygon[low].iter().for_each(|corner| push(*corner));
-        polygon[high].iter().for_each(|corner| push(*corner));
-        let (beyond, last, leaving) = (&polygon[end], &polygon[last], Leaving::Side(self.half_edge));
-        if is_within(last) {
-            push(*last);
-            push(Corner::between(last, beyond, self.crossing(last.leaving), leaving));
-        } else {
-            push(Corner { leaving, ..*last });
-        }
-    }
-
     /// What stands where an edge of the polygon meets this side.
     fn crossing(&self, leaving: Leaving) -> Name {
         match leaving {
             Leaving::Incident(edge) => Name::Crossing(self.half_edge, edge),
             // Two sides meet over a vertex of the reference face: the one that both have.
-            Leaving::Side(other) if other == self.end.1 && other != self.start.1 => {
-                Name::Reference(self.end.0)
+            Leaving::Side(other) if other == self.after && other != self.before => {
+                Name::Reference(self.after)
             }
-            Leaving::Side(_) => Name::Reference(self.start.0),
+            Leaving::Side(_) => Name::Reference(self.half_edge),
         }
     }
-}
-
-/// Where the corners begin that are not beyond a side, and before which they end, around the polygon; none if all are
-/// beyond.
-///
-/// A convex polygon goes beyond a line once. One that rounding has dented may do so twice; then only what is around the
-/// furthest corner counts.
-fn run_within<const N: usize>(polygon: &Ring<N>, furthest: f64, slack: f64) -> Option<(usize, usize)> {
-    let count = polygon.len();
-    let top = polygon.iter().position(|corner| corner.beyond == furthest)?;
-    let after = |i: usize| if i + 1 == count { 0 } else { i + 1 };
-    let before = |i: usize| if i == 0 { count - 1 } else { i - 1 };
-    let (mut begin, mut end) = (after(top), top);
-    while polygon[begin].beyond > slack {
-        if begin == top {
-            return None;
-        }
-        begin = after(begin);
-    }
-    while polygon[before(end)].beyond > slack {
-        end = before(end);
-    }
-    Some((begin, end))
 }

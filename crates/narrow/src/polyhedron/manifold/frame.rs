@@ -54,13 +54,19 @@ impl Frame {
     /// A vector's coordinates across the direction of measurement.
     #[inline]
     pub(super) fn shift(&self, vector: DVec3) -> [f64; 2] {
-        self.across.map(|across| across.dot(vector))
+        [self.across[0].dot(vector), self.across[1].dot(vector)]
     }
 
     /// A vector's share of the height.
     #[inline]
     pub(super) fn lift(&self, vector: DVec3) -> f64 {
         self.over.dot(vector)
+    }
+
+    /// A point's coordinates across the direction of measurement.
+    #[inline]
+    pub(super) fn shift_of(&self, point: DVec3) -> [f64; 2] {
+        self.shift(point - self.origin)
     }
 
     /// A point's coordinates and height.

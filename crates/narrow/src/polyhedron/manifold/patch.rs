@@ -11,18 +11,18 @@
 
 use super::super::reduce::{Spot, pick_four};
 use super::super::solid::Solid;
-use super::clip::{Corner, Name, Ring, Side};
+use super::clip::{Corner, Name, Polygon, Side};
 use super::frame::Frame;
 use super::{Depths, Point, Points};
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
-/// The most corners that the polygon can have: those of both faces.
-const MAX_CORNERS: usize = 512;
+/// The most corners that are made: those of the incident face, and two for each of the reference face.
+const MAX_CORNERS: usize = 768;
 
-/// Corners of both faces up to which the polygon is held in little memory.
-const FEW_CORNERS: usize = 24;
+/// As many are made in little memory.
+const FEW_CORNERS: usize = 32;
 
 /// A face of each shape.
 #[derive(Clone, Copy)]
@@ -37,10 +37,10 @@ pub(super) struct Faces<'a> {
 
 impl<'a> Faces<'a> {
     /// Adds contacts at corners of what both faces share as seen along the frame's direction, in order of their ids.
-    pub(super) fn add_points(&self, frame: &Frame, depths: Depths, points: &mut Points) {
+    pub(super) fn add_points(&self, frame: &Frame, depths: &Depths, points: &mut Points) {
         let corners =
             |(solid, face): (&Solid, usize)| ExactSizeIterator::len(&solid.topology.face_half_edges(face));
-        if corners(self.reference) + corners(self.incident) <= FEW_CORNERS {
+        if 2 * corners(self.reference) + corners(self.incident) <= FEW_CORNERS {
             self.add::<FEW_CORNERS>(frame, depths, points);
         } else {
             self.add_of_many(frame, depths, points);
@@ -49,18 +49,18 @@ impl<'a> Faces<'a> {
 
     /// Apart, so that those with few corners never touch the memory of those with many.
     #[inline(never)]
-    fn add_of_many(&self, frame: &Frame, depths: Depths, points: &mut Points) {
+    fn add_of_many(&self, frame: &Frame, depths: &Depths, points: &mut Points) {
         self.add::<MAX_CORNERS>(frame, depths, points);
     }
 
-    fn add<const N: usize>(&self, frame: &Frame, depths: Depths, points: &mut Points) {
-        let mut rings = [Ring::<N>::new_const(), Ring::new_const()];
+    fn add<const N: usize>(&self, frame: &Frame, depths: &Depths, points: &mut Points) {
         let [radius, incident_radius] = self.radii();
         let is_sharp = radius + incident_radius == 0.0;
+        let mut polygon = Polygon::<N>::new();
         let mut spots = Spots::<N>::new(depths);
-        let ring = self.clipped(frame, [DVec3::ZERO; 2], depths.slack, &mut rings);
-        let (mut is_whole, mut last) = (is_sharp || !ring.is_empty(), None);
-        for corner in ring {
+        self.clip(frame, [DVec3::ZERO; 2], depths.slack, &mut polygon);
+        let (mut is_whole, mut last) = (is_sharp || polygon.corners().len() > 0, None);
+        for corner in polygon.corners() {
             if is_sharp || corner.height <= depths.deep {
                 let separation = corner.height - radius - incident_radius;
                 spots.offer(corner, corner.height - incident_radius, separation, &mut last);
@@ -71,7 +71,7 @@ impl<'a> Faces<'a> {
         spots.close(0);
         // What is less deep belongs to a tilted face, and lies out along its normal; there the corners are cut again.
         if !is_whole && let Some(moved) = self.outwards(frame) {
-            self.add_higher(frame, moved, &mut rings, &mut spots);
+            self.add_higher(frame, moved, &mut polygon, &mut spots);
         }
         self.add_kept(frame, &spots.list, depths.slack, points);
     }
@@ -93,15 +93,16 @@ impl<'a> Faces<'a> {
         &self,
         frame: &Frame,
         moved: [DVec3; 2],
-        rings: &mut [Ring<N>; 2],
-        spots: &mut Spots<N>,
+        polygon: &mut Polygon<N>,
+        spots: &mut Spots<'_, N>,
     ) {
         let [radius, _] = self.radii();
         // How far over the core's plane the surface lies along the frame's direction.
         let rise = radius * frame.lift(frame.facing());
         let (slack, first) = (spots.depths.slack, spots.list.len());
         let mut last = None;
-        for corner in self.clipped(frame, moved, slack, rings) {
+        self.clip(frame, moved, slack, polygon);
+        for corner in polygon.corners() {
             let is_known = spots.list[..first]
                 .iter()
                 .any(|known| known.name == corner.name || is_near(known.spot.at, corner.at, slack));
@@ -115,45 +116,28 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// The incident face cut by the sides of the reference face, both moved first. Returns whichever of the two rings
-    /// holds the result.
-    fn clipped<'r, const N: usize>(
-        &self,
-        frame: &Frame,
-        moved: [DVec3; 2],
-        slack: f64,
-        rings: &'r mut [Ring<N>; 2],
-    ) -> &'r Ring<N> {
+    /// The incident face cut by the sides of the reference face, both moved first.
+    fn clip<const N: usize>(&self, frame: &Frame, moved: [DVec3; 2], slack: f64, polygon: &mut Polygon<N>) {
         let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
-        let [mut polygon, mut spare] = rings.each_mut();
         polygon.clear();
         for half_edge in incident.topology.face_half_edges(incident_face) {
-            let vertex = usize::from(incident.topology.half_edges()[half_edge].origin);
-            let (at, height) = frame.place(in_frame(incident, !self.is_b, vertex) + moved[1]);
-            let _ = polygon.try_push(Corner::of_incident(vertex, half_edge, at, height));
+            let vertex = incident.topology.half_edges()[half_edge].origin;
+            let point = in_frame(incident, !self.is_b, vertex.into()) + moved[1];
+            polygon.add_vertex(half_edge as u16, frame.place(point));
         }
         let half_edges = reference.topology.face_half_edges(face);
-        let (first, last) = (half_edges.start, half_edges.end - 1);
-        let origin = |half_edge: usize| reference.topology.half_edges()[half_edge].origin;
-        let place = |half_edge: usize| {
-            frame.place(in_frame(reference, self.is_b, origin(half_edge).into()) + moved[0]).0
-        };
-        let begin = place(first);
-        let (mut from, mut before) = (begin, last);
-        for half_edge in half_edges {
-            let after = if half_edge == last { first } else { half_edge + 1 };
-            let to = if after == first { begin } else { place(after) };
-            let side = Side {
-                from,
-                along: [to[0] - from[0], to[1] - from[1]],
-                half_edge: half_edge as u16,
-                start: (origin(half_edge), before as u16),
-                end: (origin(after), after as u16),
-            };
-            side.cut(&mut polygon, &mut spare, slack);
-            (from, before) = (to, half_edge);
+        let mut places: ArrayVec<[f64; 2], N> = ArrayVec::new();
+        for half_edge in half_edges.clone() {
+            let vertex = reference.topology.half_edges()[half_edge].origin;
+            let _ = places.try_push(frame.shift_of(in_frame(reference, self.is_b, vertex.into()) + moved[0]));
         }
-        polygon
+        let (first, last) = (half_edges.start as u16, half_edges.end as u16 - 1);
+        for (half_edge, (i, &from)) in (first..=last).zip(places.iter().enumerate()) {
+            let before = if half_edge == first { last } else { half_edge - 1 };
+            let after = if half_edge == last { first } else { half_edge + 1 };
+            let to = places[if half_edge == last { 0 } else { i + 1 }];
+            polygon.cut(&Side { from, to, half_edge, before, after }, slack);
+        }
     }
 
     /// At most four of the spots as contacts, in order of their ids.
@@ -188,9 +172,12 @@ impl<'a> Faces<'a> {
         let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
         let edge =
             |solid: &Solid, half_edge: u16| Feature::Edge(solid.topology.edge_of(half_edge.into()) as u32);
+        let vertex = |solid: &Solid, half_edge: u16| {
+            Feature::Vertex(solid.topology.half_edges()[usize::from(half_edge)].origin.into())
+        };
         let (of_reference, of_incident) = match name {
-            Name::Incident(vertex) => (Feature::Face(face as u32), Feature::Vertex(vertex.into())),
-            Name::Reference(vertex) => (Feature::Vertex(vertex.into()), Feature::Face(incident_face as u32)),
+            Name::Incident(start) => (Feature::Face(face as u32), vertex(incident, start)),
+            Name::Reference(start) => (vertex(reference, start), Feature::Face(incident_face as u32)),
             Name::Crossing(side, other) => (edge(reference, side), edge(incident, other)),
         };
         if self.is_b {
@@ -211,13 +198,13 @@ struct NamedSpot {
 }
 
 /// Spots around the patch.
-struct Spots<const N: usize> {
-    depths: Depths,
+struct Spots<'d, const N: usize> {
+    depths: &'d Depths,
     list: ArrayVec<NamedSpot, N>,
 }
 
-impl<const N: usize> Spots<N> {
-    fn new(depths: Depths) -> Self {
+impl<'d, const N: usize> Spots<'d, N> {
+    fn new(depths: &'d Depths) -> Self {
         Self { depths, list: ArrayVec::new() }
     }
 

@@ -78,8 +78,8 @@ impl<'a, 'b> Sight<'a, 'b> {
             self.over.push(over);
         }
         let top = top.into_iter().fold(f32::NEG_INFINITY, f32::max);
-        let place = self.over.iter().position(|over| above_or_at(over, top) != NONE_OPEN)?;
-        let i = self.over[place].iter().position(|&over| over >= top)?;
+        let place = self.over.iter().position(|over| over.contains(&top))?;
+        let i = self.over[place].iter().position(|&over| over == top)?;
         Some(8 * place + i)
     }
 
@@ -235,15 +235,18 @@ impl Ball {
 
 #[inline]
 fn above(over: &[f32; 8], least: f32) -> Open {
-    over.map(|over| u32::from(over > least))
-}
-
-#[inline]
-fn above_or_at(over: &[f32; 8], least: f32) -> Open {
-    over.map(|over| u32::from(over >= least))
+    let mut open = NONE_OPEN;
+    for (open, &over) in open.iter_mut().zip(over) {
+        *open = u32::from(over > least);
+    }
+    open
 }
 
 #[inline]
 fn both(one: Open, other: Open) -> Open {
-    core::array::from_fn(|i| one[i] & other[i])
+    let mut both = NONE_OPEN;
+    for (i, both) in both.iter_mut().enumerate() {
+        *both = one[i] & other[i];
+    }
+    both
 }

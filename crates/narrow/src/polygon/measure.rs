@@ -1,0 +1,261 @@
+//! What axes and nearest points mean for two shapes: the number, its error, its sign, and where they touch.
+
+use super::distance::Witness;
+use super::manifold::{Touch, nearest_on_edge, touch};
+use super::outline::{OF_SEARCH, is_searched};
+use super::placed::Placed;
+use super::sat::{Axes, Outcome, Wanted, doubt, hint_of, hint_of_direction};
+use super::tiers::Cores;
+use crate::answer::{Tier, Verdict};
+use crate::feature::Hint;
+use crate::precision::{IN_PLANE, Precision, at_least, signed};
+use asunder_geometry::Shape2;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::tolerance::{DISTANCE_GAP, FACE_PREFERENCE};
+
+/// What is asked of two shapes.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked {
+    /// Metres beyond which nobody wants to know.
+    pub(crate) limit: f64,
+    /// The axis to try first.
+    pub(crate) hint: Hint,
+    /// Whether contact points are wanted, those up to the limit.
+    pub(crate) points: bool,
+}
+
+#[allow(
+    clippy::large_enum_variant,
+    reason = "it lives on the stack for one pair, and a frame allocates nothing"
+)]
+pub(crate) enum Probe {
+    /// Further apart than the limit: by at least so much.
+    Beyond(f32, Hint),
+    /// The separation, and all that is needed to make contact points.
+    Near(Near),
+}
+
+/// The separation of two shapes, and where they touch.
+pub(crate) struct Near {
+    pub(crate) verdict: Verdict,
+    pub(crate) separation: f32,
+    pub(crate) error: f32,
+    /// Unit axis from A to B.
+    pub(crate) normal: DVec2,
+    /// Closest points of the shapes, where they do not overlap.
+    pub(crate) closest: Option<[DVec2; 2]>,
+    /// What leads the next frame back to this axis.
+    pub(crate) hint: Hint,
+    /// Contact points, where they were wanted. None for two half-planes that overlap without end.
+    pub(crate) touch: Option<Touch>,
+}
+
+/// What the answers about a pair are relative to, in metres.
+#[derive(Clone, Copy)]
+pub(crate) struct Measure {
+    pub(super) precision: Precision,
+    /// Both radii, and A's.
+    pub(super) radii: f64,
+    radius_a: f64,
+    /// How much another axis must beat a face of A by. Relative to the smaller shape: what is nothing to a floor may be all
+    /// of a pebble. Never below rounding.
+    pub(super) preference: f64,
+}
+
+impl Measure {
+    /// Two shapes, and B's position less A's. `summed` is how long the vectors were that the position is a sum of, in metres,
+    /// where it is one of several: of parts.
+    #[inline]
+    pub(crate) fn new([a, b]: [&Shape2; 2], offset: DVec2, summed: Option<f64>) -> Self {
+        let (radius_a, radius_b) = (f64::from(a.radius()), f64::from(b.radius()));
+        let (outer_a, outer_b) = (a.outer_radius(), b.outer_radius());
+        let radii = radius_a + radius_b;
+        // What the distance iteration's steps are relative to: radii do not enter it. A half-plane has no size: only the
+        // other shape's vertices enter its pairs.
+        let core =
+            |outer: f32, radius: f64| if outer < f32::INFINITY { f64::from(outer) - radius } else { 0.0 };
+        let size = core(outer_a, radius_a) + core(outer_b, radius_b);
+        // Sums of coordinates bound lengths, and need no root.
+        let length = |v: DVec2| v.abs().element_sum();
+        let off_center = length(a.center().as_dvec2()) + length(b.center().as_dvec2());
+        let reach = size + radii + off_center + length(offset) + summed.unwrap_or(0.0);
+        let searched = if is_searched(a) || is_searched(b) { OF_SEARCH } else { 0.0 };
+        let roundings = IN_PLANE[usize::from(summed.is_some())] + searched;
+        let precision = Precision { size, reach, planarity: 0.0, roundings };
+        let smaller = f64::from(if outer_b < outer_a { outer_b } else { outer_a });
+        let (preference, rounding) = (FACE_PREFERENCE * 2.0 * smaller, precision.projection());
+        Self {
+            precision,
+            radii,
+            radius_a,
+            preference: if preference > rounding { preference } else { rounding },
+        }
+    }
+
+    /// What is wanted of the best axis. `towards_b` leads from A's centre to B's.
+    #[inline]
+    pub(super) fn wanted(&self, asked: &Asked, towards_b: DVec2) -> Wanted<'_> {
+        Wanted {
+            limit: asked.limit + self.radii + self.precision.projection(),
+            band: 2.0 * self.preference,
+            hint: asked.hint,
+            towards_b,
+            precision: &self.precision,
+        }
+    }
+
+    /// The answer, where it is beyond doubt by the axes, or by the nearest points where those lie on the best axis' edge.
+    #[inline]
+    pub(super) fn at_once(
+        &self,
+        placed: [&impl Placed; 2],
+        asked: &Asked,
+        outcome: &Outcome,
+    ) -> Option<Probe> {
+        let axes = match outcome {
+            Outcome::Beyond(separation, hint) => {
+                return Some(Probe::Beyond(at_least(separation - self.radii, &self.precision), *hint));
+            }
+            Outcome::Gap(..) => return None,
+            Outcome::Within(axes) => axes,
+        };
+        let (best, rounding) = (axes.best(), self.precision.projection());
+        // Every edge normal was tried, or is known to be no better. Shapes without an inside may lie on one line, and have
+        // no axis along it.
+        if best.separation < -(axes.short + 2.0 * rounding) {
+            let is_thin = placed[0].is_flat() && placed[1].is_flat();
+            let verdict = Verdict { overlapping: true, tier: Tier::Bound };
+            return (!is_thin).then(|| self.overlap_of_cores(placed, asked, axes, (verdict, 0.0)));
+        }
+        if best.separation <= doubt(&self.precision) {
+            return None;
+        }
+        let witness = nearest_on_edge(placed, best, DISTANCE_GAP * self.precision.size)?;
+        let overlapping = witness.distance - self.radii < -2.0 * rounding;
+        if !overlapping && witness.at_least - self.radii <= rounding {
+            return None;
+        }
+        let verdict = Verdict { overlapping, tier: Tier::Bound };
+        Some(self.gap_of_cores(placed, asked, axes, (verdict, &witness)))
+    }
+
+    /// Shapes whose cores are neither clearly apart nor clearly overlapping by their axes alone.
+    pub(super) fn close_cores(
+        &self,
+        placed: [&impl Placed; 2],
+        asked: &Asked,
+        axes: &Axes,
+        (verdict, cores): &(Verdict, Cores),
+    ) -> Probe {
+        let verdict = *verdict;
+        match cores {
+            // A search that proved no gap, where all axes show an overlap.
+            Cores::Between(witness) if verdict.overlapping && axes.best().separation + axes.short < 0.0 => {
+                self.overlap_of_cores(placed, asked, axes, (verdict, witness.distance))
+            }
+            Cores::Between(witness) => self.gap_of_cores(placed, asked, axes, (verdict, witness)),
+            Cores::Within(gap) if verdict.overlapping => {
+                self.overlap_of_cores(placed, asked, axes, (verdict, *gap))
+            }
+            Cores::Within(gap) => self.all_but_touching(placed, asked, axes, (verdict, *gap)),
+        }
+    }
+
+    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
+    /// most that the gap can be.
+    #[inline]
+    fn overlap_of_cores(
+        &self,
+        placed: [&impl Placed; 2],
+        asked: &Asked,
+        axes: &Axes,
+        (verdict, gap): (Verdict, f64),
+    ) -> Probe {
+        let best = axes.best();
+        let depth = best.separation - self.radii;
+        let touch = asked.points.then(|| touch(placed, axes, None, asked.limit, self.preference));
+        Probe::Near(Near {
+            verdict,
+            separation: signed(depth, true),
+            error: self.precision.of_separation(depth, Self::short(axes, gap)),
+            normal: best.normal,
+            closest: None,
+            hint: Self::hint(touch.as_ref(), hint_of(best.of)),
+            touch,
+        })
+    }
+
+    /// What leads back to the edge that contact points were made on; else to the best axis.
+    fn hint(touch: Option<&Touch>, best: Hint) -> Hint {
+        touch.and_then(|touch| touch.reference).map_or(best, hint_of)
+    }
+
+    /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
+    ///
+    /// In overlap the axes are all there are. In a gap the best one may be none of them, and only witness points tell.
+    fn short(axes: &Axes, gap: f64) -> f64 {
+        let (best, short) = (axes.best().separation, axes.short);
+        if best + short < 0.0 { short } else { short.max(gap - best) }
+    }
+
+    /// Shapes with a gap between their cores, which their radii may close.
+    fn gap_of_cores(
+        &self,
+        placed: [&impl Placed; 2],
+        asked: &Asked,
+        axes: &Axes,
+        (verdict, witness): (Verdict, &Witness),
+    ) -> Probe {
+        let precision = self.precision;
+        // Where both bounds meet up to rounding, the projection went through less of it.
+        let gap = witness.distance - witness.at_least;
+        let is_met = self.radii > 0.0 && gap <= precision.projection();
+        let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
+        let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
+        let best = axes.best();
+        let has_axis = best.separation > f64::NEG_INFINITY;
+        let hint = if has_axis { hint_of(best.of) } else { hint_of_direction(witness.normal) };
+        let touch = asked.points.then(|| touch(placed, axes, Some(witness), asked.limit, self.preference));
+        Probe::Near(Near {
+            verdict,
+            separation: signed(separation, verdict.overlapping),
+            error: precision.of_distance(separation, gap),
+            normal: witness.normal,
+            closest: (!verdict.overlapping).then_some(closest),
+            hint: Self::hint(touch.as_ref(), hint),
+            touch,
+        })
+    }
+
+    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
+    /// overlapped.
+    fn all_but_touching(
+        &self,
+        placed: [&impl Placed; 2],
+        asked: &Asked,
+        axes: &Axes,
+        (verdict, gap): (Verdict, f64),
+    ) -> Probe {
+        let precision = self.precision;
+        let best = axes.best();
+        let separation = best.separation.max(0.0) - self.radii;
+        let nearest = touch(placed, axes, None, 0.0, self.preference);
+        let deepest = nearest.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        let short = Self::short(axes, gap) + 3.0 * precision.projection();
+        let touch = asked.points.then(|| touch(placed, axes, None, asked.limit, self.preference));
+        Probe::Near(Near {
+            verdict,
+            separation: signed(separation, verdict.overlapping),
+            error: precision.of_separation(separation, short),
+            normal: best.normal,
+            closest: deepest.map(|point| [point.on_a, point.on_b]),
+            hint: Self::hint(touch.as_ref(), hint_of(best.of)),
+            touch,
+        })
+    }
+
+    /// Points of the cores moved out to the shapes' surfaces.
+    pub(super) fn on_surfaces(&self, [on_a, on_b]: [DVec2; 2], normal: DVec2) -> [DVec2; 2] {
+        [on_a + normal * self.radius_a, on_b - normal * (self.radii - self.radius_a)]
+    }
+}

@@ -1,0 +1,210 @@
+//! Two rectangles: four axes, and how far each shape reaches along them in closed form.
+//!
+//! ```text
+//! C = A's x axis . B's x axis,  S = A's x axis . B's y axis,  both of the stored matrices, stretch and all
+//! along A's x axis: separation = |offset . axis| - (|axis|^2 A.x + |C| B.x + |S| B.y), and so on
+//! ```
+//! Gottschalk, Lin and Manocha, "OBBTree" (1996), in the plane. That is the projection of all eight vertices.
+//!
+//! What is lost to rounding: C and S are sums of exact products, 1 u; a product, 1 u; three sums, 3 u; the offset, its products
+//! and their sum, 4 u; the scale to unit length, 3 u: less than 10 u of the reach. An axis is the stored direction itself
+//! and so not beside its place at all. Parts' matrices and offsets add what they do everywhere.
+//!
+//! | trick | gain, rectangles of a broad phase, yes or no |
+//! |---|---|
+//! | closed form in place of eight dot products an axis | 103 ns to 52 |
+//! | asked before a pair has been made ready for other kernels | 52 ns to 30 |
+
+use super::outline::Turn;
+use super::placed::Placed;
+use super::sat::{Axes, Axis, AxisOf, Outcome, Wanted, hint_of};
+use asunder_geometry::glam::DVec2;
+
+/// How two rectangles lie along the local axes of A and of B, x and y.
+pub(crate) struct Rects {
+    /// B's centre less A's, along each axis.
+    offsets: [f64; 4],
+    /// How far both reach.
+    reaches: [f64; 4],
+}
+
+impl Rects {
+    /// Half extents of both, how they are turned, and B's position less A's.
+    #[inline]
+    pub(crate) fn new([a, b]: [DVec2; 2], [turn_a, turn_b]: [&Turn; 2], offset: DVec2) -> Self {
+        let ([a_x, a_y], [b_x, b_y]) = (turn_a.axes(), turn_b.axes());
+        let (along, across) = (a_x.dot(b_x).abs(), a_x.dot(b_y).abs());
+        let (stretch_a, stretch_b) = (a_x.length_squared(), b_x.length_squared());
+        Self {
+            offsets: [offset.dot(a_x), offset.dot(a_y), offset.dot(b_x), offset.dot(b_y)],
+            reaches: [
+                stretch_a * a.x + (along * b.x + across * b.y),
+                stretch_a * a.y + (across * b.x + along * b.y),
+                stretch_b * b.x + (along * a.x + across * a.y),
+                stretch_b * b.y + (across * a.x + along * a.y),
+            ],
+        }
+    }
+
+    /// The greatest separation along any axis, none of them of unit length but for an f32 rounding.
+    #[inline]
+    pub(crate) fn top(&self) -> f64 {
+        let along = |axis: usize| self.offsets[axis].abs() - self.reaches[axis];
+        let greater = |one: f64, other: f64| if other > one { other } else { one };
+        greater(greater(along(0), along(1)), greater(along(2), along(3)))
+    }
+
+    /// The edge of a shape that looks at the other along one of its axes; of two that do, the lower one.
+    #[inline]
+    fn facing(&self, axis: usize) -> usize {
+        let offset = self.offsets[axis];
+        match axis {
+            0 => {
+                if offset >= 0.0 {
+                    1
+                } else {
+                    3
+                }
+            }
+            1 => {
+                if offset > 0.0 {
+                    2
+                } else {
+                    0
+                }
+            }
+            2 => {
+                if offset > 0.0 {
+                    3
+                } else {
+                    1
+                }
+            }
+            _ => {
+                if offset >= 0.0 {
+                    0
+                } else {
+                    2
+                }
+            }
+        }
+    }
+
+    /// The axis that is normal to an edge, by shape and index.
+    #[inline]
+    fn axis(&self, of: AxisOf, turns: [&Turn; 2]) -> Axis {
+        // Edges look along -y, x, y and -x.
+        let (edge, turn, first, sign) = match of {
+            AxisOf::EdgeA(edge) => (edge, turns[0], 0, 1.0),
+            AxisOf::EdgeB(edge) => (edge, turns[1], 2, -1.0),
+        };
+        let sign = if edge == 1 || edge == 2 { sign } else { -sign };
+        let (axis, unit) = (usize::from(edge.is_multiple_of(2)), turn.unit());
+        let separation = sign * self.offsets[first + axis] - self.reaches[first + axis];
+        Axis { separation: separation * unit, normal: turn.axes()[axis] * (sign * unit), of }
+    }
+
+    /// The best axis of one shape: the first is number `first`.
+    #[inline]
+    fn best(&self, first: usize) -> (usize, f64) {
+        let along = |axis: usize| self.offsets[axis].abs() - self.reaches[axis];
+        let (x, y) = (along(first), along(first + 1));
+        let (edge_x, edge_y) = (self.facing(first), self.facing(first + 1));
+        if x > y || x == y && edge_x < edge_y { (edge_x, x) } else { (edge_y, y) }
+    }
+}
+
+/// Finds the best axes of two rectangles: half extents of both, how they are turned, and B's position less A's; what the hint
+/// names, and what is wanted.
+#[inline]
+pub(super) fn separating_axes(
+    halves: [DVec2; 2],
+    turns: [&Turn; 2],
+    offset: DVec2,
+    (kept, wanted): (Option<AxisOf>, &Wanted),
+) -> Outcome {
+    let rects = Rects::new(halves, turns, offset);
+    let (in_a, in_b) = (AxisOf::EdgeA(rects.best(0).0), AxisOf::EdgeB(rects.best(2).0));
+    let (edge_a, edge_b) = (rects.axis(in_a, turns), rects.axis(in_b, turns));
+    let mut axes = Axes { edge_a, edge_b, kept: None, short: wanted.precision.of_face() };
+    let best = axes.best();
+    if best.separation > wanted.limit {
+        return Outcome::Beyond(best.separation, hint_of(best.of));
+    }
+    if let Some(of) = kept {
+        let kept = rects.axis(of, turns);
+        if kept.separation >= best.separation - wanted.band {
+            axes.kept = Some(kept);
+        }
+    }
+    Outcome::Within(axes)
+}
+
+/// A rectangle in the frame of the pair.
+pub(super) struct Corners {
+    center: DVec2,
+    /// Local axes of unit length, up to some roundings.
+    axes: [DVec2; 2],
+    /// Local axes as long as the half extents, as the matrix turns and stretches them.
+    halves: [DVec2; 2],
+    radius: f64,
+}
+
+impl Corners {
+    #[inline]
+    pub(super) fn new(half: DVec2, turn: &Turn, center: DVec2, radius: f64) -> Self {
+        let ([x, y], unit) = (turn.axes(), turn.unit());
+        Self { center, axes: [x * unit, y * unit], halves: [x * half.x, y * half.y], radius }
+    }
+}
+
+impl Placed for Corners {
+    #[inline]
+    fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    #[inline]
+    fn is_flat(&self) -> bool {
+        false
+    }
+
+    #[inline]
+    fn edge_count(&self) -> usize {
+        4
+    }
+
+    #[inline]
+    fn after(&self, vertex: usize) -> usize {
+        (vertex + 1) % 4
+    }
+
+    #[inline]
+    fn before(&self, vertex: usize) -> usize {
+        (vertex + 3) % 4
+    }
+
+    #[inline]
+    fn point(&self, vertex: usize) -> DVec2 {
+        // Counter-clockwise from the least corner. Looked up, since which it is cannot be foretold.
+        const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let [x, y] = SIGNS[vertex % 4];
+        self.center + (self.halves[0] * x + self.halves[1] * y)
+    }
+
+    #[inline]
+    fn outward(&self, edge: usize) -> DVec2 {
+        // Edges look along -y, x, y and -x.
+        const SIGNS: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
+        self.axes[usize::from(edge.is_multiple_of(2))] * SIGNS[edge % 4]
+    }
+
+    #[inline]
+    fn furthest(&self, direction: DVec2) -> usize {
+        // Ties go to the lowest vertex.
+        let (x, y) = (direction.dot(self.axes[0]), direction.dot(self.axes[1]));
+        let below = usize::from(x > 0.0);
+        let above = if x >= 0.0 { 2 } else { 3 };
+        if y > 0.0 { above } else { below }
+    }
+}

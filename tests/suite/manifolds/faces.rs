@@ -1,0 +1,248 @@
+//! What is kept of the patch that two faces share, against the exact patch: its corners by another method, and the best
+//! four of them by trying all.
+
+use super::{check_manifold, pair3};
+use asunder_geometry::{Pose3, Shape3};
+use asunder_narrow::{ContactPoint3, FeatureId, Manifold3};
+use asunder_tests::answers::{Asked, Asked3};
+use asunder_tests::cases::{Case3, Random, prism};
+use glam::{DVec2, DVec3, Quat, Vec2};
+
+/// Rounding of poses and anchors, which are f32, as a share of areas of about 1.
+const ROUNDING: f64 = 2e-6;
+
+/// A strictly convex outline of some corners, counter-clockwise: sorted angles on an ellipse.
+fn outline(random: &mut Random, corners: usize, size: f64) -> Vec<Vec2> {
+    let stretch = DVec2::new(size, size * random.between(0.3, 1.0));
+    let step = core::f64::consts::TAU / corners as f64;
+    let angle = |i: usize, random: &mut Random| (i as f64 + random.between(-0.35, 0.35)) * step;
+    (0..corners).map(|i| (DVec2::from_angle(angle(i, random)) * stretch).as_vec2()).collect()
+}
+
+/// Corners of what two convex outlines share: corners of each that lie in the other, and where their edges cross. In no
+/// order.
+fn shared(p: &[DVec2], q: &[DVec2]) -> Vec<DVec2> {
+    let edges = |outline: &[DVec2]| -> Vec<[DVec2; 2]> {
+        (0..outline.len()).map(|i| [outline[i], outline[(i + 1) % outline.len()]]).collect()
+    };
+    let is_in = |at: DVec2, outline: &[DVec2]| {
+        edges(outline).iter().all(|[from, to]| (to - from).perp_dot(at - from) >= 0.0)
+    };
+    let mut corners: Vec<DVec2> = p.iter().copied().filter(|&at| is_in(at, q)).collect();
+    corners.extend(q.iter().copied().filter(|&at| is_in(at, p)));
+    for [a, b] in edges(p) {
+        for [c, d] in edges(q) {
+            let (along, other) = (b - a, d - c);
+            let cross = along.perp_dot(other);
+            let (s, t) = ((c - a).perp_dot(other) / cross, (c - a).perp_dot(along) / cross);
+            if s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 {
+                corners.push(a + along * s);
+            }
+        }
+    }
+    corners
+}
+
+/// Corners in order around their middle.
+fn around(mut corners: Vec<DVec2>) -> Vec<DVec2> {
+    let middle = corners.iter().sum::<DVec2>() / corners.len() as f64;
+    corners.sort_by(|p, q| (p - middle).to_angle().total_cmp(&(q - middle).to_angle()));
+    corners
+}
+
+fn area(corners: Vec<DVec2>) -> f64 {
+    let corners = around(corners);
+    (0..corners.len()).map(|i| corners[i].perp_dot(corners[(i + 1) % corners.len()])).sum::<f64>() / 2.0
+}
+
+/// The greatest area of four corners, one of which is in `among`; all of it where there are no more than four.
+fn best_four(corners: &[DVec2], among: impl Fn(DVec2) -> bool) -> f64 {
+    if corners.len() <= 4 {
+        return area(corners.to_vec());
+    }
+    let mut best: f64 = 0.0;
+    for a in 0..corners.len() {
+        for b in 0..a {
+            for c in 0..b {
+                for d in 0..c {
+                    let four = [a, b, c, d].map(|i| corners[i]);
+                    if four.iter().any(|&corner| among(corner)) {
+                        best = best.max(area(four.to_vec()));
+                    }
+                }
+            }
+        }
+    }
+    best
+}
+
+/// Two prisms whose end faces look at each other, square to z: B sunk into A, or `sunk` below zero above it.
+fn face_to_face(
+    random: &mut Random,
+    corners: [usize; 2],
+    sunk: f64,
+    tilt: DVec3,
+) -> (Case3, [Vec<DVec2>; 2]) {
+    let sizes = [random.between(0.5, 1.5), random.between(0.5, 1.5)];
+    let outlines = [outline(random, corners[0], sizes[0]), outline(random, corners[1], sizes[1])];
+    let shapes: [Shape3; 2] = [prism(&outlines[0], 0.5), prism(&outlines[1], 0.25)];
+    let aside = DVec2::new(random.signed(), random.signed()) * 0.4 * (sizes[0] + sizes[1]);
+    let turn = random.direction2();
+    let rotation = Quat::from_xyzw(tilt.x as f32, tilt.y as f32, turn.y as f32, turn.x as f32);
+    let pose_b = Pose3::new(aside.extend(0.75 - sunk), rotation).unwrap();
+    let of_a = outlines[0].iter().map(|v| v.as_dvec2()).collect();
+    // The rotation that was stored: its quaternion is normalised on the way.
+    let seen = |v: &Vec2| (pose_b.basis().turn(v.as_dvec2().extend(-0.25)) + pose_b.position()).truncate();
+    let of_b = outlines[1].iter().map(seen).collect();
+    let [shape_a, shape_b] = shapes;
+    (Case3 { shape_a, pose_a: Pose3::IDENTITY, shape_b, pose_b }, [of_a, of_b])
+}
+
+/// Places on A, seen from above.
+fn places(manifold: &Manifold3) -> Vec<DVec2> {
+    manifold.points.iter().map(|point| point.anchor_a.as_dvec3().truncate()).collect()
+}
+
+#[test]
+fn four_points_keep_nineteen_parts_in_twenty_of_what_faces_share() {
+    let mut random = Random::new(320);
+    let (mut whole, mut reduced) = (0, 0);
+    for round in 0..1500 {
+        let corners = [3 + random.below(10), 3 + random.below(10)];
+        let sunk = [0.02, 1e-4, -1e-4, -0.01][round % 4];
+        let (case, [of_a, of_b]) = face_to_face(&mut random, corners, sunk, DVec3::ZERO);
+        let exact = shared(&of_a, &of_b);
+        let best = if exact.len() >= 3 { best_four(&exact, |_| true) } else { 0.0 };
+        if best < 0.01 {
+            continue;
+        }
+        let manifold = pair3(&case).manifold(0.015).unwrap();
+        let found = area(places(&manifold));
+        let least = if exact.len() <= 4 { best } else { 0.95 * best };
+        assert!(found >= least - ROUNDING, "{found} of {best}, {} corners: {case:?}", exact.len());
+        assert!(found <= best + ROUNDING, "no more than the faces share: {found} of {best}: {case:?}");
+        for point in &manifold.points {
+            assert!((f64::from(point.separation) + sunk).abs() < 1e-6, "as deep as the faces: {manifold:?}");
+        }
+        if exact.len() > 4 { reduced += 1 } else { whole += 1 }
+    }
+    assert!(whole > 100 && reduced > 500, "patches of both kinds: {whole}, {reduced}");
+}
+
+/// Tilted, one corner is the deepest. It is kept, and the others make the most of it that there is.
+#[test]
+fn of_tilted_faces_the_deepest_corner_is_kept_with_the_best_three_others() {
+    let mut random = Random::new(321);
+    let mut judged = 0;
+    for _ in 0..600 {
+        let corners = [4 + random.below(8), 4 + random.below(8)];
+        let tilt = DVec3::new(random.signed(), random.signed(), 0.0) * 4e-4;
+        let (case, [of_a, of_b]) = face_to_face(&mut random, corners, 0.05, tilt);
+        let exact = shared(&of_a, &of_b);
+        if exact.len() < 5 || best_four(&exact, |_| true) < 0.05 {
+            continue;
+        }
+        let asked = Asked3::new(case);
+        let case = asked.case();
+        let manifold = pair3(case).manifold(0.0).unwrap();
+        let towards = case.pose_b.basis().turn(DVec3::NEG_Z);
+        let depth = |at: DVec2| {
+            // Height of B's end face over A's at a place, along z: both are flat.
+            let center = case.pose_b.position() + towards * 0.25;
+            center.z - (at - center.truncate()).dot(towards.truncate()) / towards.z
+        };
+        // What differs by less than a face is preferred by is as deep.
+        let least = exact.iter().map(|&corner| depth(corner)).fold(f64::INFINITY, f64::min) + 2e-6;
+        let deepest: Vec<DVec2> = exact.iter().copied().filter(|&corner| depth(corner) <= least).collect();
+        let with = |corner: &DVec2| best_four(&exact, |other| other == *corner);
+        let best = deepest.iter().map(with).fold(f64::INFINITY, f64::min);
+        let found = area(places(&manifold));
+        // Edges that cross at a small angle cross further on.
+        let is_kept = |at: &DVec2| deepest.iter().any(|corner| (at - corner).length() < 2e-3);
+        assert!(places(&manifold).iter().any(is_kept), "{deepest:?} of {manifold:?}: {case:?}");
+        // A normal that is tilted by up to 1.2e-3 moves what is sunk by 0.05 by up to 6e-5, along a rim of up to 5.
+        assert!(found >= best - 3e-4, "{found} of {best}: {case:?}");
+        check_manifold(&asked, &asked.manifold(0.0).unwrap(), 0.0);
+        judged += 1;
+    }
+    assert!(judged > 200, "only {judged}");
+}
+
+/// Features of the points with their separations, as the other order of the shapes names them.
+fn named(manifold: &Manifold3, is_swapped: bool) -> Vec<(FeatureId, f32)> {
+    let name = |point: &ContactPoint3| {
+        let id = point.feature;
+        (if is_swapped { FeatureId::new(id.b(), id.a()) } else { id }, point.separation)
+    };
+    let mut named: Vec<_> = manifold.points.iter().map(name).collect();
+    named.sort_by_key(|&(id, _)| id);
+    named
+}
+
+fn assert_alike(one: &[(FeatureId, f32)], other: &[(FeatureId, f32)], slack: f64, case: &Case3) {
+    let ids = |named: &[(FeatureId, f32)]| named.iter().map(|&(id, _)| id).collect::<Vec<_>>();
+    assert_eq!(ids(one), ids(other), "{one:?} and {other:?}: {case:?}");
+    for ((_, one), (_, other)) in one.iter().zip(other) {
+        assert!((f64::from(*one) - f64::from(*other)).abs() <= slack, "{one} and {other}: {case:?}");
+    }
+}
+
+/// Faces a little tilted, bodies that stick in each other anyhow: with margins and without.
+fn any_case(random: &mut Random, round: usize) -> (Case3, f32) {
+    let margin = [0.0, 0.02][round / 2 % 2];
+    if !round.is_multiple_of(2) {
+        return (random.case3(), margin);
+    }
+    let corners = [3 + random.below(8), 3 + random.below(8)];
+    let tilt = DVec3::new(random.signed(), random.signed(), 0.0) * 0.02;
+    let sunk = random.between(-0.01, 0.05);
+    (face_to_face(random, corners, sunk, tilt).0, margin)
+}
+
+/// Called the other way round, the same points carry the same names, mirrored.
+#[test]
+fn the_manifold_of_b_and_a_mirrors_that_of_a_and_b() {
+    let mut random = Random::new(322);
+    let mut points = [0; 5];
+    for round in 0..4000 {
+        let (case, margin) = any_case(&mut random, round);
+        let Some(one) = pair3(&case).manifold(margin) else { continue };
+        let other = pair3(&case.swapped()).manifold(margin).unwrap();
+        let slack = 1e-6 * case.size();
+        assert_alike(&named(&one, false), &named(&other, true), slack, &case);
+        assert!((one.normal + other.normal).length() < 1e-5, "{} and {}: {case:?}", one.normal, other.normal);
+        points[one.points.len()] += 1;
+    }
+    assert!(points[1..].iter().all(|&count| count > 50), "manifolds of every size: {points:?}");
+}
+
+/// Turned together, both have the same points, by the same names; what differs is the rounding of the quaternions, which
+/// are f32.
+#[test]
+fn a_turn_of_both_changes_no_name_of_a_point() {
+    let mut random = Random::new(323);
+    let mut points = [0; 5];
+    for round in 0..4000 {
+        let (case, margin) = any_case(&mut random, round);
+        let Some(one) = pair3(&case).manifold(margin) else { continue };
+        if f64::from(one.separation - margin).abs() < 1e-5 {
+            continue;
+        }
+        let turn = random.quaternion();
+        let turned = |pose: &Pose3| {
+            let rotation = turn.as_dquat() * pose.rotation().as_dquat();
+            Pose3::new(turn.as_dquat().normalize() * pose.position(), rotation.as_quat()).unwrap()
+        };
+        let other = Case3 { pose_a: turned(&case.pose_a), pose_b: turned(&case.pose_b), ..case.clone() };
+        let other = pair3(&other).manifold(margin).unwrap();
+        let (one_named, other_named) = (named(&one, false), named(&other, false));
+        // A point at the margin may be let in or not.
+        let is_at_margin = |named: &(FeatureId, f32)| (named.1 - margin).abs() < 1e-5;
+        if one_named.iter().chain(&other_named).any(is_at_margin) {
+            continue;
+        }
+        assert_alike(&one_named, &other_named, 2e-6 * case.size(), &case);
+        points[one.points.len()] += 1;
+    }
+    assert!(points[1..].iter().all(|&count| count > 50), "manifolds of every size: {points:?}");
+}
