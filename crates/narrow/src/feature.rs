@@ -79,10 +79,11 @@ impl FeatureId {
 
 /// What the last frame learnt about a pair: opaque, cheap to keep, and safe to lose.
 ///
-/// It names the axis to try first: the features that it belongs to, or the direction that parted the shapes. A stale hint,
-/// also one made for other shapes, costs one projection and can never change whether shapes overlap, nor break a bound on
-/// an error: an axis is believed only after both shapes were projected on it. Among features that are equally good up to
-/// rounding, contact points are made where the hint says that they were: what a solver stands on does not flicker.
+/// It names the axis to try first: the features that it belongs to, or the direction that parted the shapes; and, where it
+/// is another, the face that contact points were made on. A stale hint, also one made for other shapes, costs a projection
+/// or two and can never change whether shapes overlap, nor break a bound on an error: an axis is believed only after both
+/// shapes were projected on it. Among features that are equally good up to rounding, contact points are made where the
+/// hint says that they were: what a solver stands on does not flicker.
 ///
 /// ```
 /// use asunder_narrow::Hint;
@@ -91,12 +92,20 @@ impl FeatureId {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Hint(Known);
 
+/// A face of either shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum OnFace {
+    OfA(u32),
+    OfB(u32),
+}
+
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 enum Known {
     #[default]
     Nothing,
-    /// Bits of a [`FeatureId`].
-    Features([u32; 2]),
+    /// Bits of a [`FeatureId`]; then the face that contact points were made on, where it is another: the top bit, its
+    /// index, and whose it is. Zero where it is not.
+    Features([u32; 3]),
     /// Bits of a vector: in A's axes in space, in the world's in the plane.
     Direction([u32; 3]),
 }
@@ -109,7 +118,31 @@ impl Hint {
     /// the other, or two edges.
     pub(crate) const fn axis(features: FeatureId) -> Self {
         let bits = features.to_bits();
-        Self(Known::Features([(bits >> 32) as u32, bits as u32]))
+        Self(Known::Features([(bits >> 32) as u32, bits as u32, 0]))
+    }
+
+    /// The same, with the face of either shape that contact points were made on; nothing where it is the axis' own.
+    pub(crate) fn with_points_on(self, face: Option<OnFace>) -> Self {
+        let bits = match face {
+            None => 0,
+            Some(OnFace::OfA(face)) => face << 1 | 1 << 31,
+            Some(OnFace::OfB(face)) => face << 1 | 1 << 31 | 1,
+        };
+        match self.0 {
+            Known::Features([a, b, _]) => Self(Known::Features([a, b, bits])),
+            _ => self,
+        }
+    }
+
+    /// Where contact points were made, if not on the axis' own feature.
+    pub(crate) const fn points_on(self) -> Option<OnFace> {
+        match self.0 {
+            Known::Features([_, _, bits]) if bits >> 31 == 1 => {
+                let face = (bits & !(1 << 31)) >> 1;
+                Some(if bits & 1 == 0 { OnFace::OfA(face) } else { OnFace::OfB(face) })
+            }
+            _ => None,
+        }
     }
 
     /// A direction that parts the shapes: in A's axes in space, in the world's in the plane.
@@ -119,7 +152,7 @@ impl Hint {
 
     pub(crate) const fn features(self) -> Option<FeatureId> {
         match self.0 {
-            Known::Features([a, b]) => Some(FeatureId::from_bits((a as u64) << 32 | b as u64)),
+            Known::Features([a, b, _]) => Some(FeatureId::from_bits((a as u64) << 32 | b as u64)),
             _ => None,
         }
     }
@@ -147,6 +180,10 @@ mod tests {
             FeatureId::new(Feature::Face(3), Feature::Vertex(0)),
         ] {
             assert_eq!(Hint::axis(id).features(), Some(id));
+            for face in [None, Some(OnFace::OfA(0)), Some(OnFace::OfB(0)), Some(OnFace::OfA(509))] {
+                let hint = Hint::axis(id).with_points_on(face);
+                assert_eq!((hint.features(), hint.points_on()), (Some(id), face));
+            }
         }
     }
 

@@ -7,7 +7,8 @@ use crate::least::Least;
 use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::placed::Posed;
-use crate::polyhedron::sat::hint_to;
+use crate::polyhedron::sat::hint_with;
+use crate::precision::rounded_down;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -121,6 +122,9 @@ impl<'a> Pair3<'a> {
 
     fn general_verdict(&self) -> Verdict {
         let mut tier = Tier::Bound;
+        if self.gap_of_spheres() > 0.0 {
+            return Verdict { overlapping: false, tier };
+        }
         let overlapping = self.any(0.0, |parts| {
             let verdict = parts.convex.verdict();
             tier = tier.max(verdict.tier);
@@ -147,7 +151,7 @@ impl<'a> Pair3<'a> {
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
             return found;
         }
-        match self.nearest(limit) {
+        match self.nearest(limit, Wanted::Number) {
             Ok((parts, near)) => Separation3::Measured(Measured3 {
                 separation: near.separation,
                 error: near.error,
@@ -160,7 +164,7 @@ impl<'a> Pair3<'a> {
     /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a
     /// limit.
     pub fn distance(&self) -> Option<Closest3> {
-        let (parts, near) = self.nearest(f64::INFINITY).ok()?;
+        let (parts, near) = self.nearest(f64::INFINITY, Wanted::Closest).ok()?;
         let [on_a, on_b] = near.closest?;
         Some(Closest3 {
             distance: near.separation,
@@ -242,6 +246,9 @@ impl<'a> Pair3<'a> {
         mut manifolds: Option<&mut Vec<Manifold3>>,
     ) -> (Hint, Option<bool>) {
         let (margin, reach) = (margin.max(0.0), reach_of(margin));
+        if self.gap_of_spheres() > reach {
+            return (hint, None);
+        }
         let (mut next_hint, mut touch) = (Hint::NONE, None);
         let wanted = if manifolds.is_some() { Wanted::Points } else { Wanted::Number };
         self.any(reach, |parts| {
@@ -270,7 +277,11 @@ impl<'a> Pair3<'a> {
     }
 
     /// The pair of parts with the least separation, or a bound where all are beyond the limit.
-    fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
+    fn nearest(&self, limit: f64, wanted: Wanted) -> Result<(Parts<'a>, Near), f32> {
+        let gap = self.gap_of_spheres();
+        if gap > limit {
+            return Err(rounded_down(gap));
+        }
         let mut least = Least::within(limit);
         let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
         let bases = self.bases();
@@ -282,7 +293,7 @@ impl<'a> Pair3<'a> {
             for_parts(self.shape_b, &bases[1], |b| {
                 if !least.passes_over(gap(&a, &b)) {
                     let parts = self.parts(&bases, a, b);
-                    let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted: Wanted::Number };
+                    let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted };
                     match parts.convex.probe(asked) {
                         Probe::Beyond(at_least, _) => least.give_up(at_least),
                         Probe::Near(near) => {
@@ -320,6 +331,17 @@ impl<'a> Pair3<'a> {
 
     fn is_compound(&self) -> bool {
         matches!(self.shape_a, Shape3::Compound(_)) || matches!(self.shape_b, Shape3::Compound(_))
+    }
+
+    /// A lower bound on the separation: the gap between spheres about the bodies' positions, less what it may have lost to
+    /// rounding. It asks for no rotation.
+    fn gap_of_spheres(&self) -> f64 {
+        // A sum of coordinates bounds a length, and needs no root.
+        let radius = |shape: &Shape3| {
+            f64::from(shape.outer_radius()) + f64::from(shape.center().abs().element_sum().next_up())
+        };
+        let (apart, radii) = (self.between.length(), radius(self.shape_a) + radius(self.shape_b));
+        apart - radii - 16.0 * f64::EPSILON * (apart + radii)
     }
 
     /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have
@@ -437,7 +459,7 @@ impl Parts<'_> {
             error: near.error,
             points: points.collect(),
         };
-        Some((manifold, touch.of.map_or(near.hint, hint_to)))
+        Some((manifold, touch.of.map_or(near.hint, |of| hint_with(near.hint, of))))
     }
 
     /// From the frame of the pair to a world vector from A's position.

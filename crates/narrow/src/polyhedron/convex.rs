@@ -91,8 +91,10 @@ pub(crate) struct Asked {
 /// What an answer is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wanted {
-    /// The separation, or closest points.
+    /// The separation.
     Number,
+    /// Closest points, where there is a gap.
+    Closest,
     /// Contact points: then [`Convex::touch`] may be asked.
     Points,
 }

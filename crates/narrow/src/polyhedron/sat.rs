@@ -23,7 +23,7 @@ mod cull;
 mod facet;
 
 use super::solid::Solid;
-use crate::feature::{Feature, FeatureId, Hint};
+use crate::feature::{Feature, FeatureId, Hint, OnFace};
 use crate::precision::Precision;
 use arcs::for_edge_pairs;
 use arrayvec::ArrayVec;
@@ -136,8 +136,6 @@ pub(crate) enum Outcome {
 pub(crate) struct Search<'a> {
     /// One axis that parts the shapes by more than this ends it.
     pub(crate) limit: f64,
-    /// Tried first. The outcome within the limit does not depend on it.
-    pub(crate) hint: Hint,
     /// A separation that the shapes have for certain: what is no better is left out.
     pub(crate) known: f64,
     /// How far edges may lie from the supporting planes of the axis that is theirs.
@@ -154,11 +152,6 @@ impl Search<'_> {
 
 /// Runs the test.
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome {
-    if let Some(axis) = hinted_axis(a, b, search.hint)
-        && axis.separation > search.limit
-    {
-        return Outcome::Beyond(axis);
-    }
     let mut sights = [Sight::new(a, b), Sight::new(b, a)];
     let seen = [ArrayVec::new(), ArrayVec::new()];
     let mut found = Found { axes: Axes::NONE, floor: search.known, beyond: None, seen };
@@ -303,12 +296,14 @@ impl Found {
     }
 }
 
+/// The axis of a face of A.
 pub(super) fn face_axis_a(a: &Solid, b: &Solid, face: usize) -> Axis {
     let normal = a.normal(face);
     let separation = -b.support(-normal).reach - a.face_reach(face, normal);
     Axis { separation, normal, of: AxisOf::FaceA(face) }
 }
 
+/// The axis of a face of B.
 pub(super) fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
     let outward = b.normal(face);
     let separation = -b.face_reach(face, outward) - a.support(-outward).reach;
@@ -348,11 +343,6 @@ impl Cross {
     }
 }
 
-fn edge_axis(a: &Solid, b: &Solid, [edge_a, edge_b]: [usize; 2], normal: DVec3) -> Axis {
-    let separation = -b.support(-normal).reach - a.support(normal).reach;
-    Axis { separation, normal, of: AxisOf::Edges(edge_a, edge_b) }
-}
-
 /// Whether an axis' edges lie where both shapes reach furthest along it.
 ///
 /// An arc that was kept because it was a close call need not: its axis is a true axis, but not that of its edges, and
@@ -363,18 +353,49 @@ fn supports(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> bool {
     axis.normal.dot(between) - axis.separation <= slack
 }
 
-/// The axis that a hint names, evaluated; nothing where it names none that this pair has.
-pub(crate) fn hinted_axis(a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
-    let features = hint.features()?;
-    match (features.a(), features.b()) {
-        (Feature::Face(face), _) if a.has_face(face) => Some(face_axis_a(a, b, face as usize)),
-        (_, Feature::Face(face)) if b.has_face(face) => Some(face_axis_b(a, b, face as usize)),
-        (Feature::Edge(edge_a), Feature::Edge(edge_b)) if a.has_edge(edge_a) && b.has_edge(edge_b) => {
-            let edges = [edge_a as usize, edge_b as usize];
-            let cross = Cross::outwards(a, b, edges[0], edges[1]);
-            (!cross.is_noise()).then(|| edge_axis(a, b, edges, cross.axis.normalize()))
-        }
-        _ => None,
+/// An axis that a hint names, evaluated.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hinted {
+    pub(crate) axis: Axis,
+    /// The vertex of the other solid that is furthest against the face.
+    deepest: usize,
+    /// How much less than the truth the axis may show.
+    doubt: f64,
+}
+
+impl Hinted {
+    /// Nothing where the hint names no axis that this pair has.
+    pub(crate) fn new((a, b): (&Solid, &Solid), hint: Hint, precision: &Precision) -> Option<Self> {
+        let of = axis_in(hint)?;
+        let (normal, doubt) = match of {
+            AxisOf::FaceA(face) if a.has_face(face as u32) => (a.normal(face), precision.of_face()),
+            AxisOf::FaceB(face) if b.has_face(face as u32) => (-b.normal(face), precision.of_face()),
+            AxisOf::Edges(edge_a, edge_b) if a.has_edge(edge_a as u32) && b.has_edge(edge_b as u32) => {
+                let cross = Cross::outwards(a, b, edge_a, edge_b);
+                if cross.is_noise() {
+                    return None;
+                }
+                (cross.axis.normalize(), precision.of_edges(cross.squared_sine))
+            }
+            _ => return None,
+        };
+        let (reach, deepest) = match of {
+            AxisOf::FaceA(face) => (a.face_reach(face, normal), b.support(-normal)),
+            AxisOf::FaceB(face) => (b.face_reach(face, -normal), a.support(normal)),
+            AxisOf::Edges(..) => (a.support(normal).reach, b.support(-normal)),
+        };
+        let axis = Axis { separation: -deepest.reach - reach, normal, of };
+        Some(Self { axis, deepest: deepest.vertex, doubt })
+    }
+
+    /// The axes of solids that overlap, where this one is known to be the best.
+    pub(crate) fn proved(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Option<Axes> {
+        is_nearest((a, b), &self.axis, self.deepest, precision).then(|| {
+            let mut axes = Axes::NONE;
+            axes.offer(self.axis);
+            axes.raise(self.axis.separation, self.doubt);
+            axes
+        })
     }
 }
 
@@ -395,13 +416,35 @@ pub(crate) fn hint_to(of: AxisOf) -> Hint {
 
 /// What a hint says that the last axis was the axis of: of these shapes or of others.
 #[inline]
-pub(crate) fn last_of(hint: Hint) -> Option<AxisOf> {
+fn axis_in(hint: Hint) -> Option<AxisOf> {
     let features = hint.features()?;
     match (features.a(), features.b()) {
         (Feature::Face(face), _) => Some(AxisOf::FaceA(face as usize)),
         (_, Feature::Face(face)) => Some(AxisOf::FaceB(face as usize)),
         (Feature::Edge(a), Feature::Edge(b)) => Some(AxisOf::Edges(a as usize, b as usize)),
         _ => None,
+    }
+}
+
+/// What a hint says that the last contact points were made on: of these shapes or of others.
+#[inline]
+pub(crate) fn last_of(hint: Hint) -> Option<AxisOf> {
+    match hint.points_on() {
+        Some(OnFace::OfA(face)) => Some(AxisOf::FaceA(face as usize)),
+        Some(OnFace::OfB(face)) => Some(AxisOf::FaceB(face as usize)),
+        None => axis_in(hint),
+    }
+}
+
+/// The hint of an axis that contact points were not made on, but on another.
+pub(crate) fn hint_with(hint: Hint, points_on: AxisOf) -> Hint {
+    if axis_in(hint) == Some(points_on) {
+        return hint;
+    }
+    match points_on {
+        AxisOf::FaceA(face) => hint.with_points_on(Some(OnFace::OfA(face as u32))),
+        AxisOf::FaceB(face) => hint.with_points_on(Some(OnFace::OfB(face as u32))),
+        AxisOf::Edges(..) => hint_to(points_on),
     }
 }
 

@@ -17,7 +17,7 @@ use crate::feature::Hint;
 use crate::polyhedron::distance::{Close, Reached, Until, Witness, distance};
 use crate::polyhedron::manifold::{Ask, touch};
 use crate::polyhedron::portal::{self, Found};
-use crate::polyhedron::sat::{Axes, Axis, Outcome, Search, hint_of, hinted_axis, separating_axes};
+use crate::polyhedron::sat::{Axes, Axis, Hinted, Outcome, Search, hint_of, separating_axes};
 use crate::polyhedron::solid::Solid;
 use crate::precision::{at_least, signed};
 use asunder_geometry::glam::DVec3;
@@ -35,16 +35,27 @@ enum Cores {
 impl Convex<'_> {
     pub(super) fn probe_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
         let beyond = asked.limit + self.radii + self.precision.projection();
-        if self.cuboids().is_some() {
-            return self.probe_cuboids(a, b, beyond, asked.hint);
+        if let Some(direction) = asked.hint.direction() {
+            let separation = -b.support(-direction).reach - a.support(direction).reach;
+            if separation > beyond {
+                return self.beyond(separation, asked.hint);
+            }
         }
-        if let Some(separation) = hinted_separation(a, b, asked.hint)
-            && separation > beyond
+        let hinted = Hinted::new((a, b), asked.hint, &self.precision);
+        if let Some(Hinted { axis, .. }) = &hinted
+            && axis.separation > beyond
         {
-            return self.beyond(separation, asked.hint);
+            return self.beyond(axis.separation, asked.hint);
+        }
+        if self.cuboids().is_some() {
+            return self.probe_cuboids(a, b, beyond);
+        }
+        if let Some(axes) = hinted.and_then(|hinted| hinted.proved((a, b), &self.precision)) {
+            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
         }
         let reached = match portal::search(a, b, beyond, &self.precision) {
             Found::Beyond(direction, separation) => return self.beyond(separation, Hint::towards(direction)),
+            Found::Overlap if asked.wanted == Wanted::Closest => return self.just_overlapping(),
             Found::Overlap => {
                 let axes = self.all_axes(a, b, f64::NEG_INFINITY);
                 return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
@@ -55,6 +66,9 @@ impl Convex<'_> {
             }
         };
         match reached {
+            Reached::Origin(Close { is_proved: true, .. }) if asked.wanted == Wanted::Closest => {
+                self.just_overlapping()
+            }
             Reached::Between(witness) if witness.at_least > beyond => {
                 self.beyond(witness.at_least, Hint::towards(witness.normal))
             }
@@ -66,7 +80,7 @@ impl Convex<'_> {
                 };
                 // Where points are wanted, the axes say which faces look at each other.
                 let axes = match asked.wanted {
-                    Wanted::Number => Axes::NONE,
+                    Wanted::Number | Wanted::Closest => Axes::NONE,
                     Wanted::Points => self.all_axes(a, b, witness.at_least),
                 };
                 self.gap_of_cores(axes, verdict, witness)
@@ -79,8 +93,8 @@ impl Convex<'_> {
         }
     }
 
-    fn probe_cuboids(&self, a: &Solid, b: &Solid, beyond: f64, hint: Hint) -> Probe {
-        let axes = match self.axes(a, b, beyond, (hint, f64::NEG_INFINITY)) {
+    fn probe_cuboids(&self, a: &Solid, b: &Solid, beyond: f64) -> Probe {
+        let axes = match self.axes(a, b, beyond, f64::NEG_INFINITY) {
             Outcome::Beyond(axis) => return self.beyond(axis.separation, hint_of(&axis)),
             Outcome::Within(axes) => axes,
         };
@@ -90,6 +104,19 @@ impl Convex<'_> {
         }
         let closer = self.look_closer(a, b, Some(axes.best()));
         self.probe_close(a, b, axes, closer)
+    }
+
+    /// Cores that overlap, of which nothing else was asked: they have no closest points.
+    fn just_overlapping(&self) -> Probe {
+        Probe::Near(Near {
+            verdict: Verdict { overlapping: true, tier: Tier::Bound },
+            separation: 0.0,
+            error: f32::INFINITY,
+            normal: DVec3::X,
+            closest: None,
+            hint: Hint::NONE,
+            evidence: Evidence::Axes(Axes::NONE, None),
+        })
     }
 
     fn beyond(&self, separation: f64, hint: Hint) -> Probe {
@@ -282,7 +309,7 @@ impl Convex<'_> {
 
     /// All axes that may be as good as one that shows `known`.
     fn all_axes(&self, a: &Solid, b: &Solid, known: f64) -> Axes {
-        match self.axes(a, b, f64::INFINITY, (Hint::NONE, known)) {
+        match self.axes(a, b, f64::INFINITY, known) {
             Outcome::Within(axes) => axes,
             // Nothing is beyond infinity.
             Outcome::Beyond(_) => Axes::NONE,
@@ -290,20 +317,12 @@ impl Convex<'_> {
     }
 
     /// The test of axes, for an axis beyond `limit`. What shows less than is `known` for certain may be left out.
-    pub(crate) fn axes(&self, a: &Solid, b: &Solid, limit: f64, (hint, known): (Hint, f64)) -> Outcome {
+    pub(crate) fn axes(&self, a: &Solid, b: &Solid, limit: f64, known: f64) -> Outcome {
         let slack = self.preference() + 4.0 * self.precision.planarity;
-        let search = Search { limit, hint, known, slack, precision: &self.precision };
+        let search = Search { limit, known, slack, precision: &self.precision };
         match self.cuboids() {
             Some(cuboids) => cuboids.separating_axes(a, b, &search),
             None => separating_axes(a, b, &search),
         }
-    }
-}
-
-/// The separation along the axis that a hint names, if it means anything here.
-fn hinted_separation(a: &Solid, b: &Solid, hint: Hint) -> Option<f64> {
-    match hint.direction() {
-        Some(direction) => Some(-b.support(-direction).reach - a.support(direction).reach),
-        None => hinted_axis(a, b, hint).map(|axis| axis.separation),
     }
 }

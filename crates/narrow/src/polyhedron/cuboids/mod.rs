@@ -22,7 +22,6 @@ mod wide;
 
 use super::sat::{Axes, Axis, AxisOf, Outcome, Search};
 use super::solid::Solid;
-use crate::feature::{Feature, Hint};
 use crate::precision::Precision;
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
@@ -112,14 +111,9 @@ impl Cuboids {
         }
     }
 
-    /// All fifteen axes, the hinted one first; the outcome within the limit does not depend on the hint.
+    /// All fifteen axes.
     pub(crate) fn separating_axes(&self, a: &Solid, b: &Solid, search: &Search) -> Outcome {
-        let Search { limit, hint, precision, .. } = *search;
-        if let Some(axis) = self.hinted_axis(a, b, hint)
-            && axis.separation > limit
-        {
-            return Outcome::Beyond(axis);
-        }
+        let Search { limit, precision, .. } = *search;
         let mut axes = Axes::NONE;
         for i in 0..3 {
             axes.offer(self.face_axis_a(i));
@@ -193,20 +187,6 @@ impl Cuboids {
         let edge_a = edge_along(a, i, a.support(normal).vertex);
         let edge_b = edge_along(b, j, b.support(-normal).vertex);
         Axis { separation, normal, of: AxisOf::Edges(edge_a, edge_b) }
-    }
-
-    fn hinted_axis(&self, a: &Solid, b: &Solid, hint: Hint) -> Option<Axis> {
-        let features = hint.features()?;
-        match (features.a(), features.b()) {
-            (Feature::Face(face), _) if a.has_face(face) => Some(self.face_axis_a(face as usize / 2)),
-            (_, Feature::Face(face)) if b.has_face(face) => Some(self.face_axis_b(face as usize / 2)),
-            (Feature::Edge(edge_a), Feature::Edge(edge_b)) if a.has_edge(edge_a) && b.has_edge(edge_b) => {
-                let (i, j) = (axis_of_edge(a, edge_a as usize), axis_of_edge(b, edge_b as usize));
-                let normal = self.cross(i, j).ok()?.normalize();
-                Some(self.edge_axis(a, b, (i, j), self.along(normal), normal))
-            }
-            _ => None,
-        }
     }
 }
 

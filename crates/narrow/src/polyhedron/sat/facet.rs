@@ -29,7 +29,7 @@ pub(super) fn is_nearest(
     deepest: usize,
     precision: &Precision,
 ) -> bool {
-    let doubt = 8.0 * precision.projection();
+    let doubt = 8.0 * precision.projection() + 4.0 * precision.planarity;
     let depth = -axis.separation;
     // A depth within rounding has no direction.
     if depth <= doubt {
@@ -38,7 +38,12 @@ pub(super) fn is_nearest(
     let disc = match axis.of {
         AxisOf::FaceA(face) => in_face(a, face, axis.normal, b.point(deepest)),
         AxisOf::FaceB(face) => in_face(b, face, -axis.normal, a.point(deepest)),
-        AxisOf::Edges(edge_a, edge_b) => in_parallelogram(a.edge(edge_a), b.edge(edge_b), axis.normal),
+        AxisOf::Edges(edge_a, edge_b) => {
+            let edges = [a.edge(edge_a), b.edge(edge_b)];
+            // Edges that are named by a stale hint need not be where the solids reach furthest.
+            let is_facet = axis.normal.dot(edges[0].0 - edges[1].0) >= depth - doubt;
+            if is_facet { in_parallelogram(edges, axis.normal) } else { f64::NEG_INFINITY }
+        }
     };
     disc > doubt && does_ball_cover(a, b, axis.normal, (depth + doubt, disc - doubt))
 }
@@ -64,7 +69,7 @@ fn in_face(solid: &Solid, face: usize, outward: DVec3, point: DVec3) -> f64 {
 }
 
 /// How far the origin is inside the difference of two edges, as seen along the normal of both.
-fn in_parallelogram((from_a, to_a): (DVec3, DVec3), (from_b, to_b): (DVec3, DVec3), normal: DVec3) -> f64 {
+fn in_parallelogram([(from_a, to_a), (from_b, to_b)]: [(DVec3, DVec3); 2], normal: DVec3) -> f64 {
     let between = from_a - from_b;
     let (along_a, along_b) = (to_a - from_a, to_b - from_b);
     let strip = |side: DVec3, other: DVec3| {

@@ -89,8 +89,7 @@ fn pruned_and_exhaustive_agree_within_the_reported_error() {
             (Pose3::new(Vec3::ZERO, turns[0]).unwrap(), Pose3::new(offset, turns[1]).unwrap());
         let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
         pair.with_solids(|a, b| {
-            let Outcome::Within(axes) = pair.axes(a, b, f64::INFINITY, (Hint::NONE, f64::NEG_INFINITY))
-            else {
+            let Outcome::Within(axes) = pair.axes(a, b, f64::INFINITY, f64::NEG_INFINITY) else {
                 unreachable!()
             };
             let faces = axes.face_a.separation.max(axes.face_b.separation);
@@ -138,8 +137,7 @@ fn half_circles_and_whole_circles_lose_no_axis_either() {
             (pose(random.turn(case / 2), Vec3::ZERO), pose(random.turn(case / 3), random.vector()));
         let pair = convex(shape_a, pose_a, shape_b, pose_b);
         pair.with_solids(|a, b| {
-            let Outcome::Within(axes) = pair.axes(a, b, f64::INFINITY, (Hint::NONE, f64::NEG_INFINITY))
-            else {
+            let Outcome::Within(axes) = pair.axes(a, b, f64::INFINITY, f64::NEG_INFINITY) else {
                 unreachable!()
             };
             let faces = axes.face_a.separation.max(axes.face_b.separation);
