@@ -8,6 +8,7 @@
 //! | manifold | `Pair3::manifold(0)` | `contact_manifolds` into an empty manifold |
 //! | cached | `collide3` with last frame's hints | `contact_manifolds` into last frame's manifold |
 //! | `box8`: boolean, manifold | `collide3` over a slice of sensors, of bodies, without hints | as above, one by one |
+//! | `box8`: separation | `separations3` | as above, one by one |
 //!
 //! A set is measured in blocks of a few hundred pairs that the variants take in turns; the figure is the median of the
 //! blocks, in nanoseconds a pair. Making the relative pose is part of the question.
@@ -24,7 +25,7 @@ use crate::clock::{Effort, Samples, time};
 use crate::judge::Judge;
 use crate::parry::Shapes;
 use crate::row::Row;
-use asunder_narrow::{Batch3, Hint, Job3, collide3};
+use asunder_narrow::{Batch3, Hint, Job3, Pair3, collide3, separations3};
 use asunder_scenes::pairs::{FRAMES, PairSet, PosedPair3, SolidKind, frames3, pairs3};
 use both::{Both, Peer};
 
@@ -124,7 +125,7 @@ pub fn cases() -> Vec<Case> {
         cases.extend(QUESTIONS.map(|(set, operation)| case(kind, set, operation)));
         if kind == SolidKind::Box {
             let batch = |operation| Case { at_once: true, ..case(kind, PairSet::Mixed, operation) };
-            cases.extend([Operation::Boolean, Operation::Manifold].map(batch));
+            cases.extend([Operation::Boolean, Operation::Separation, Operation::Manifold].map(batch));
         }
     }
     let growth = |kind| GROWTH_SETS.map(|set| case(kind, set, Operation::Separation));
@@ -284,7 +285,13 @@ fn batched(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row)
     let blocks: Vec<(usize, Block<'_>)> =
         pairs.chunks(BLOCK).map(|pairs| (pairs.len(), Block::new(pairs, is_sensor))).collect();
     let (mut batch, mut peer) = (Batch3::default(), Peer::default());
+    let mut found = Vec::new();
     let ours = |block: &Block<'_>| {
+        if operation == Operation::Separation {
+            found.clear();
+            separations3(&block.ours, 0.0, &mut found);
+            return found.len() as f32;
+        }
         batch.clear();
         collide3(&block.jobs, &mut batch);
         batch.answers.len() as f32
@@ -297,12 +304,14 @@ fn batched(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row)
 /// Pairs, and the jobs that they are for us.
 struct Block<'a> {
     pairs: &'a [Both],
+    ours: Vec<Pair3<'a>>,
     jobs: Vec<Job3<'a>>,
 }
 
 impl<'a> Block<'a> {
     fn new(pairs: &'a [Both], is_sensor: bool) -> Self {
-        Self { pairs, jobs: pairs.iter().map(|both| both.job(Hint::NONE, is_sensor)).collect() }
+        let jobs = pairs.iter().map(|both| both.job(Hint::NONE, is_sensor)).collect();
+        Self { pairs, ours: pairs.iter().map(Both::pair).collect(), jobs }
     }
 }
 

@@ -7,6 +7,7 @@ use asunder::{
     Collider, Contact, Cuboid, Event, Hull, Layers, Pair2, Pair3, Plane, Polygon, Pose2, Pose3, Rect, Shape2,
     Shape3, Space, Volume, World,
 };
+use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
 use glam::{Vec2, Vec3};
 
 /// A dimension's world, by the calls that both have.
@@ -47,7 +48,8 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn boxes_overlap(a: &Collider<Self>, b: &Collider<Self>) -> bool;
     /// What the narrow phase says of two bodies that overlap or are within the margin: which of both, and their manifolds.
     /// Half-spaces that overlap without end have none.
-    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Vec<Self::Manifold>)>;
+    /// Contact points keep to what they were made on in the last frame, which the hint says; the next one comes back.
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, hint: Hint) -> (Hint, Met<Self>);
     /// A unit cube or square, of side 1, at `x` on the first axis.
     fn unit_at(x: f64) -> Collider<Self>;
     /// The pose of [`Engine::unit_at`].
@@ -57,6 +59,9 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     /// A body of about a metre, of any kind, within `reach` of the origin on each axis.
     fn random_body(random: &mut Random, reach: f64) -> Collider<Self>;
 }
+
+/// Whether two bodies overlap, and their manifolds, if they are within the margin.
+pub type Met<S> = Option<(bool, Vec<<S as Space>::Manifold>)>;
 
 /// The slot of a key, by which pairs are ordered: the low half of a slotmap key's bits.
 pub fn slot_of(key: impl Key) -> u32 {
@@ -151,10 +156,23 @@ impl Engine for Volume {
         bounds(a).overlaps(&bounds(b))
     }
 
-    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Vec<Self::Manifold>)> {
-        let pair = Pair3::new(a.shape(), a.pose(), b.shape(), b.pose());
-        let (overlapping, manifolds) = (pair.overlaps(), pair.manifolds(margin));
-        (overlapping || !manifolds.is_empty()).then_some((overlapping, manifolds))
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, hint: Hint) -> (Hint, Met<Self>) {
+        let mut batch = Batch3::default();
+        let margin = a.get_margin() + b.get_margin();
+        let (shape_a, pose_a, shape_b, pose_b) = (a.shape(), a.pose(), b.shape(), b.pose());
+        let sensor = a.is_sensor() || b.is_sensor();
+        collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor }], &mut batch);
+        let overlaps = Pair3::new(shape_a, pose_a, shape_b, pose_b).overlaps();
+        match batch.answers[0] {
+            Answer::Apart { hint } => {
+                assert!(!overlaps);
+                (hint, None)
+            }
+            Answer::Contact { hint, overlapping, .. } => {
+                assert_eq!(overlapping, overlaps);
+                (hint, Some((overlapping, batch.manifolds)))
+            }
+        }
     }
 
     fn unit_at(x: f64) -> Collider<Self> {
@@ -255,10 +273,10 @@ impl Engine for Plane {
         bounds(a).overlaps(&bounds(b))
     }
 
-    fn meet(a: &Collider<Self>, b: &Collider<Self>, margin: f32) -> Option<(bool, Vec<Self::Manifold>)> {
+    fn meet(a: &Collider<Self>, b: &Collider<Self>, _: Hint) -> (Hint, Met<Self>) {
         let pair = Pair2::new(a.shape(), a.pose(), b.shape(), b.pose());
-        let (overlapping, manifolds) = (pair.overlaps(), pair.manifolds(margin));
-        (overlapping || !manifolds.is_empty()).then_some((overlapping, manifolds))
+        let (overlapping, manifolds) = (pair.overlaps(), pair.manifolds(a.get_margin() + b.get_margin()));
+        (Hint::NONE, (overlapping || !manifolds.is_empty()).then_some((overlapping, manifolds)))
     }
 
     fn unit_at(x: f64) -> Collider<Self> {

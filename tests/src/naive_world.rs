@@ -1,11 +1,15 @@
-//! What a world must say, from all pairs of bodies and two plain lists: no boxes, no hints, no order to keep up.
+//! What a world must say, from all pairs of bodies and three plain lists: no boxes, no batches, no order to keep up.
 
 use crate::engine::{Engine, slot_of};
 use asunder::{Collider, Event, Space, World};
+use asunder_narrow::Hint;
 use std::collections::BTreeMap;
 
 /// A body in its slot, with the key that the world gave it.
 type Tenant<S> = (<S as Space>::Key, Collider<S>);
+
+/// What the last update learnt of two bodies, by their keys.
+type Known<S> = ((<S as Space>::Key, <S as Space>::Key), Hint);
 
 /// The model of a world.
 #[derive(Clone, Debug)]
@@ -15,6 +19,8 @@ pub struct NaiveWorld<S: Engine> {
     /// Contacts of the last update, by the slots of their bodies.
     records: BTreeMap<(u32, u32), Record<S>>,
     events: Vec<Event<S::Key>>,
+    /// What the last update learnt of each pair whose boxes overlap, by the slots of their bodies.
+    hints: BTreeMap<(u32, u32), Known<S>>,
 }
 
 #[derive(Clone, Debug)]
@@ -30,7 +36,7 @@ struct Record<S: Engine> {
 
 impl<S: Engine> Default for NaiveWorld<S> {
     fn default() -> Self {
-        Self { bodies: BTreeMap::new(), records: BTreeMap::new(), events: Vec::new() }
+        Self { bodies: BTreeMap::new(), records: BTreeMap::new(), events: Vec::new(), hints: BTreeMap::new() }
     }
 }
 
@@ -67,13 +73,17 @@ impl<S: Engine> NaiveWorld<S> {
 
     /// Contacts from all pairs, and events from the difference of two sets.
     pub fn update(&mut self) {
-        let mut records = BTreeMap::new();
+        let (mut records, mut hints) = (BTreeMap::new(), BTreeMap::new());
         for [a, b] in self.pairs_that_may_meet() {
             let slots = (slot_of(a.0), slot_of(b.0));
-            let margin = a.1.get_margin() + b.1.get_margin();
-            let Some((overlapping, manifolds)) = S::meet(&a.1, &b.1, margin) else { continue };
-            let sensor = a.1.is_sensor() || b.1.is_sensor();
             let keys = (a.0, b.0);
+            let known = self.hints.get(&slots).filter(|(known, _)| *known == keys);
+            let (hint, met) = S::meet(&a.1, &b.1, known.map_or(Hint::NONE, |(_, hint)| *hint));
+            if S::boxes_overlap(&a.1, &b.1) {
+                hints.insert(slots, (keys, hint));
+            }
+            let Some((overlapping, manifolds)) = met else { continue };
+            let sensor = a.1.is_sensor() || b.1.is_sensor();
             let before = self.records.get(&slots).filter(|before| before.keys == keys);
             let had_begun = before.is_some_and(|before| before.begun);
             let record = Record {
@@ -105,7 +115,7 @@ impl<S: Engine> NaiveWorld<S> {
                 self.events.push(Event::Began { a, b, user_data_a, user_data_b });
             }
         }
-        self.records = records;
+        (self.records, self.hints) = (records, hints);
     }
 
     /// Pairs in order of their slots.

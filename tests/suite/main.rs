@@ -16,6 +16,7 @@
 //!
 //! Narrow phase
 //! - [`separation`]: every separation and distance is right within its own error; closest points lie on the shapes
+//! - [`boxes`]: pairs of cuboids, eight at a time and alone, are what exact arithmetic says, and mirror each other
 //! - [`exactness`]: yes or no is what exact arithmetic says, far, near, and a rounding from touching
 //! - [`agreement`]: separations, distances, points, records and events go with that yes or no, ulp by ulp
 //! - [`hard`]: 100,000 hard cases: nothing wrong, no bound broken, no panic, everything within 1e-6 of size
@@ -46,6 +47,7 @@
 mod agreement;
 mod architecture;
 mod bounds;
+mod boxes;
 mod broad;
 mod exactness;
 mod fuzzed;

@@ -3,7 +3,7 @@
 use super::Operation;
 use crate::accuracy::Said;
 use crate::parry::{self, Shapes};
-use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, Separation3, collide3};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, Separation3, collide3, separations3};
 use asunder_scenes::pairs::PosedPair3;
 use core::hint::black_box;
 use glam::Vec3;
@@ -65,12 +65,7 @@ impl Both {
         let pair = self.pair();
         match operation {
             Operation::Boolean => Said { touching: pair.overlaps(), separation: None },
-            Operation::Separation => match pair.separation(0.0) {
-                Separation3::Measured(found) => {
-                    Said { touching: found.separation <= 0.0, separation: Some(found.separation.into()) }
-                }
-                Separation3::AtLeast(_) => Said { touching: false, separation: None },
-            },
+            Operation::Separation => of_separation(&pair.separation(0.0)),
             Operation::Distance => {
                 let found = pair.distance();
                 Said { touching: found.is_none(), separation: found.map(|closest| closest.distance.into()) }
@@ -82,11 +77,26 @@ impl Both {
 
 /// Our answers to many pairs at once, to be judged.
 pub(super) fn said_at_once(operation: Operation, pairs: &[&Both]) -> Vec<Said> {
+    if operation == Operation::Separation {
+        let ours: Vec<Pair3<'_>> = pairs.iter().map(|both| both.pair()).collect();
+        let mut found = Vec::new();
+        separations3(&ours, 0.0, &mut found);
+        return found.iter().map(of_separation).collect();
+    }
     let is_sensor = operation == Operation::Boolean;
     let jobs: Vec<Job3<'_>> = pairs.iter().map(|both| both.job(Hint::NONE, is_sensor)).collect();
     let mut batch = Batch3::default();
     collide3(&jobs, &mut batch);
     batch.answers.iter().map(|answer| of_answer(answer, is_sensor, &batch.manifolds)).collect()
+}
+
+fn of_separation(found: &Separation3) -> Said {
+    match found {
+        Separation3::Measured(found) => {
+            Said { touching: found.separation <= 0.0, separation: Some(found.separation.into()) }
+        }
+        Separation3::AtLeast(_) => Said { touching: false, separation: None },
+    }
 }
 
 /// An answer of a batch, to be judged.

@@ -66,6 +66,6 @@ pub use answer::{
 pub use arrayvec::ArrayVec;
 pub use batch::{Batch, Batch2, Batch3};
 pub use feature::{Feature, FeatureId, Hint};
-pub use jobs3::{Job3, collide3};
+pub use jobs3::{Job3, collide3, separations3};
 pub use pair2::{Job2, Pair2, collide2};
 pub use pair3::Pair3;

@@ -79,7 +79,7 @@ impl<'a> Pair3<'a> {
 
     /// Both shapes, where they are cuboids: those have kernels of their own.
     #[inline]
-    fn cuboids(&self) -> Option<Posed<'_>> {
+    pub(crate) fn cuboids(&self) -> Option<Posed<'_>> {
         let (Shape3::Cuboid(a), Shape3::Cuboid(b)) = (self.shape_a, self.shape_b) else { return None };
         Some(Posed { cuboids: [a, b], poses: [&self.pose_a, &self.pose_b] })
     }
@@ -147,7 +147,7 @@ impl<'a> Pair3<'a> {
     /// each other. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes for cuboids; in a gap
     /// within the limit a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
-        let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
+        let limit = limit_of(limit);
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
             return found;
         }
@@ -401,6 +401,12 @@ impl<'a> Part<'a> {
         let basis = Basis3 { x: body.turn(local.x), y: body.turn(local.y), z: body.turn(local.z) };
         (basis, body.turn(pose.position()))
     }
+}
+
+/// A NaN counts as no limit, and a negative limit as zero.
+#[inline]
+pub(crate) fn limit_of(limit: f32) -> f64 {
+    if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) }
 }
 
 /// How far apart shapes may be for a contact: what rounds to the margin counts as within it, since the number that is

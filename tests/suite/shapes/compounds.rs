@@ -4,7 +4,7 @@ use crate::shapes::Judged;
 use asunder_geometry::{
     Circle, Compound2, Compound3, Cuboid, Pose2, Pose3, Rotation2, Segment2, Shape2, Shape3, Sphere,
 };
-use asunder_narrow::{Pair2, Pair3, Separation2, Separation3};
+use asunder_narrow::{ContactPoint3, Pair2, Pair3, Separation2, Separation3};
 use asunder_tests::answers::Asked;
 use asunder_tests::bodies::{Bodies2, Bodies3};
 use asunder_tests::cases::{Case2, Case3, Random};
@@ -78,6 +78,18 @@ fn every_pair_of_parts_in_the_plane_that_touches_has_one_manifold() {
     assert!(several > 400 && none > 200, "{several} with several, {none} with none");
 }
 
+/// Two cuboids have a kernel of their own, and as parts of compounds they do not: the same points, up to rounding to f32.
+fn assert_alike(one: &[ContactPoint3], other: &[ContactPoint3], size: f64) {
+    let features = |points: &[ContactPoint3]| points.iter().map(|point| point.feature).collect::<Vec<_>>();
+    assert_eq!(features(one), features(other));
+    let slack = 4.0 * f64::from(f32::EPSILON) * size;
+    for (one, other) in one.iter().zip(other) {
+        let apart = (one.anchor_a - other.anchor_a).length().max((one.anchor_b - other.anchor_b).length());
+        let deeper = (one.separation - other.separation).abs();
+        assert!(f64::from(apart.max(deeper)) <= slack, "{one:?}, {other:?}");
+    }
+}
+
 /// One part, not moved inside its compound, gives the same bits as the shape alone; moved, the same up to the errors.
 #[test]
 fn a_compound_of_one_part_is_that_part() {
@@ -94,8 +106,13 @@ fn a_compound_of_one_part_is_that_part() {
             panic!("no limit")
         };
         assert_eq!((one.separation, one.normal), (other.separation, other.normal), "{bodies:?}");
-        let points = |pair: &Pair3| pair.manifold(0.1).map(|manifold| manifold.points);
-        assert_eq!(points(&pair), points(&bodies.pair()), "{bodies:?}");
+        let points = |pair: &Pair3| pair.manifold(0.1).map_or(Default::default(), |manifold| manifold.points);
+        let (of_part, of_body) = (points(&pair), points(&bodies.pair()));
+        if matches!((shape_a, shape_b), (Shape3::Cuboid(_), Shape3::Cuboid(_))) {
+            assert_alike(&of_part, &of_body, f64::from(bodies.pair().size()));
+        } else {
+            assert_eq!(of_part, of_body, "{bodies:?}");
+        }
         // A body at the origin whose one part is where the shape was.
         if pose_a.position().length() < 10.0 {
             let moved = Compound3::new([(*pose_a, shape_a.clone())]).unwrap().into();

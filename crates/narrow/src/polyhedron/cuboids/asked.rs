@@ -5,10 +5,11 @@ use super::super::sat::{hint_of, hint_to, last_of};
 use super::contact::Touching;
 use super::eight::Eight;
 use super::placed::{Placed, Posed};
-use super::settled::Settled;
+use super::settled::{Best, Settled};
 use crate::answer::{Manifold3, Measured3, Separation3};
 use crate::feature::Hint;
-use crate::precision::{at_least, rounded_down, signed};
+use crate::precision::{Precision, at_least, rounded_down, signed};
+use asunder_geometry::glam::DVec3;
 
 /// What two cuboids say of their contact.
 #[derive(Clone, Copy)]
@@ -28,6 +29,9 @@ impl Posed<'_> {
         if self.are_far(0.0) {
             return Some(false);
         }
+        if self.are_near() {
+            return Some(true);
+        }
         let placed = self.placed();
         let (top, doubt) = (placed.fifteen.top(), placed.closed_form());
         if top - placed.radii > doubt {
@@ -42,20 +46,18 @@ impl Posed<'_> {
         if self.are_far(limit) {
             return Some(Separation3::AtLeast(rounded_down(self.gap_of_spheres().max(limit))));
         }
-        let placed = self.placed();
-        match placed.settle(limit) {
-            Settled::Unclear => None,
-            Settled::Beyond(axis) => {
-                Some(Separation3::AtLeast(at_least(axis.separation - placed.radii, &placed.precision)))
-            }
-            Settled::Overlapping(best) => {
-                let depth = best.separation() - placed.radii;
-                Some(Separation3::Measured(Measured3 {
-                    separation: signed(depth, true),
-                    error: placed.precision.of_separation(depth, best.short),
-                    normal: placed.basis.turn(best.axis(&placed).normal).as_vec3(),
-                }))
-            }
+        separation_of(&self.placed(), limit)
+    }
+
+    /// The same for one of eight, with the limit that it was put there with.
+    #[inline(always)]
+    pub(crate) fn separation_in(&self, (eight, lane): (&Eight, usize), limit: f64) -> Option<Separation3> {
+        if let Some(bound) = eight.parted_by_face(lane, self) {
+            return Some(Separation3::AtLeast(bound));
+        }
+        match eight.best(lane) {
+            Some(best) => Some(eight.measured(lane, self, &best)),
+            None => separation_of(&eight.placed(lane, self), limit),
         }
     }
 
@@ -122,4 +124,31 @@ impl Posed<'_> {
             }
         }
     }
+}
+
+/// The separation of the shapes within a limit; nothing where it takes more than the axes.
+#[inline(always)]
+fn separation_of(placed: &Placed, limit: f64) -> Option<Separation3> {
+    match placed.settle(limit) {
+        Settled::Unclear => None,
+        Settled::Beyond(axis) => {
+            Some(Separation3::AtLeast(at_least(axis.separation - placed.radii, &placed.precision)))
+        }
+        Settled::Overlapping(best) => {
+            let (axis_b, ahead) = (|j| placed.axis_b(j), |j: usize| placed.fifteen.ahead.0[j]);
+            let normal = best.normal(&placed.basis, axis_b, placed.offset, ahead);
+            Some(measured(&best, normal, placed.radii, &placed.precision))
+        }
+    }
+}
+
+/// The separation of shapes whose cores overlap.
+#[inline(always)]
+pub(super) fn measured(best: &Best, normal: DVec3, radii: f64, precision: &Precision) -> Separation3 {
+    let depth = best.separation() - radii;
+    Separation3::Measured(Measured3 {
+        separation: signed(depth, true),
+        error: precision.of_separation(depth, best.short),
+        normal: normal.as_vec3(),
+    })
 }

@@ -12,6 +12,7 @@ pub(crate) mod asked;
 mod contact;
 pub(crate) mod eight;
 mod fifteen;
+mod graded;
 mod names;
 mod patch;
 pub(crate) mod placed;
@@ -193,9 +194,4 @@ impl Cuboids {
 fn edge_along(cuboid: &Solid, axis: usize, corner: usize) -> usize {
     // Corners that differ in one bit share an edge, and every such edge exists.
     cuboid.edge_between(corner & !(1 << axis), corner | 1 << axis).unwrap_or(0)
-}
-
-fn axis_of_edge(cuboid: &Solid, half_edge: usize) -> usize {
-    let (from, to) = cuboid.topology.ends(half_edge);
-    (from ^ to).trailing_zeros() as usize
 }

@@ -14,6 +14,7 @@ pub(crate) struct Posed<'a> {
 }
 
 /// Two cuboids in A's axes, about A's position.
+#[derive(Debug)]
 pub(super) struct Placed {
     /// Half extents of the cores.
     pub(super) half: [DVec3; 2],
@@ -41,6 +42,15 @@ impl Posed<'_> {
         let reach = f64::from(a.outer_radius()) + f64::from(b.outer_radius()) + limit;
         // The subtraction of positions, three squares, three sums: eight roundings at most.
         self.between().length_squared() > reach * reach * (1.0 + 8.0 * f64::EPSILON)
+    }
+
+    /// Whether the inscribed spheres overlap for certain.
+    #[inline]
+    pub(super) fn are_near(&self) -> bool {
+        let [a, b] = self.cuboids;
+        let reach = f64::from(a.inner_radius()) + f64::from(b.inner_radius());
+        // Roundings as in `are_far`.
+        self.between().length_squared() * (1.0 + 8.0 * f64::EPSILON) < reach * reach
     }
 
     /// A lower bound on the separation, from the bounding spheres.

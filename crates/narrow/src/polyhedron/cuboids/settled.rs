@@ -13,11 +13,12 @@ use super::super::sat::{Axis, AxisOf};
 use super::fifteen::closed_form;
 use super::names;
 use super::placed::Placed;
+use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::PARALLEL_EDGES;
 
 /// Share of a separation by which edges may beat it unseen: a sixteenth of half an ulp of f32.
-const SLACK: f64 = f32::EPSILON as f64 / 32.0;
+pub(super) const SLACK: f64 = f32::EPSILON as f64 / 32.0;
 
 /// What the fifteen axes say of two cores.
 pub(super) enum Settled {
@@ -30,7 +31,7 @@ pub(super) enum Settled {
 }
 
 /// The best axes of two cores that overlap.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Best {
     pub(super) face_a: Face,
     pub(super) face_b: Face,
@@ -41,14 +42,14 @@ pub(super) struct Best {
 }
 
 /// The best face of one cuboid.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
     pub(super) separation: f64,
     pub(super) axis: usize,
 }
 
 /// One of nine edge pairs.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Edges {
     pub(super) separation: f64,
     pub(super) pair: usize,
@@ -179,14 +180,13 @@ impl Placed {
             let next = rest.trailing_zeros() as usize;
             rest &= rest - 1;
             let (scaled, squared) = self.fifteen.edge_pair(next);
-            let length = squared.sqrt();
+            let inverse = 1.0 / squared.sqrt();
             if squared <= PARALLEL_EDGES * PARALLEL_EDGES {
-                // As `Axes::leave_out` has it. Of no length at all the second is no number, and the first counts.
-                let by_axis = (scaled + 2.0 * doubt) / length - face;
+                // As `Axes::leave_out` has it. Of no length at all the second is no number, or endless, and the first counts.
+                let by_axis = (scaled + 2.0 * doubt) * inverse - face;
                 left_out = left_out.max(self.precision.of_parallel_edges(squared).min(by_axis));
                 continue;
             }
-            let inverse = 1.0 / length;
             let (found, may_lose) = (scaled * inverse, doubt * inverse);
             ceiling = if found + may_lose > ceiling { found + may_lose } else { ceiling };
             if found > separation {
@@ -251,8 +251,36 @@ impl Placed {
     /// Turned to point from A to B. At equal centres either sense is right.
     #[inline]
     pub(super) fn edge_normal(&self, pair: usize) -> DVec3 {
-        let normal = DVec3::AXES[pair / 3 % 3].cross(self.axis_b(pair % 3)).normalize();
-        if normal.dot(self.offset) < 0.0 { -normal } else { normal }
+        edge_normal(pair, self.axis_b(pair % 3), self.offset)
+    }
+}
+
+#[inline(always)]
+fn edge_normal(pair: usize, axis_b: DVec3, offset: DVec3) -> DVec3 {
+    let normal = DVec3::AXES[pair / 3 % 3].cross(axis_b).normalize();
+    if normal.dot(offset) < 0.0 { -normal } else { normal }
+}
+
+impl Best {
+    /// The best axis in the world, by A's axes, one of B's as A sees them, B's centre, and how far that lies along B's own.
+    #[inline(always)]
+    pub(super) fn normal(
+        &self,
+        basis: &Basis3,
+        axis_b: impl FnOnce(usize) -> DVec3,
+        offset: DVec3,
+        ahead: impl FnOnce(usize) -> f64,
+    ) -> DVec3 {
+        let turned = |axis: DVec3, along: f64| if along >= 0.0 { axis } else { -axis };
+        if let Some(Edges { pair, .. }) = self.edges {
+            return basis.turn(edge_normal(pair, axis_b(pair % 3), offset));
+        }
+        if self.face_b.separation > self.face_a.separation {
+            let j = self.face_b.axis;
+            return basis.turn(turned(axis_b(j), ahead(j)));
+        }
+        let i = self.face_a.axis % 3;
+        turned([basis.x, basis.y, basis.z][i], offset[i])
     }
 }
 

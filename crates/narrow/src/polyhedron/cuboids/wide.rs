@@ -8,23 +8,23 @@ use super::eight::{Asked8, Seen8};
 
 /// Looks at eight pairs.
 #[inline]
-pub(super) fn look(asked: &Asked8, seen: &mut Seen8) {
+pub(super) fn look<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has been asked, and has AVX2. There is no other condition.
-        return unsafe { look_with_avx2(asked, seen) };
+        return unsafe { look_with_avx2::<GRADED>(asked, seen) };
     }
-    look_anywhere(asked, seen);
+    look_anywhere::<GRADED>(asked, seen);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn look_with_avx2(asked: &Asked8, seen: &mut Seen8) {
-    asked.look(seen);
+fn look_with_avx2<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
+    asked.look::<GRADED>(seen);
 }
 
 /// The portable twin.
 #[inline(never)]
-pub(super) fn look_anywhere(asked: &Asked8, seen: &mut Seen8) {
-    asked.look(seen);
+pub(super) fn look_anywhere<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
+    asked.look::<GRADED>(seen);
 }
