@@ -213,15 +213,21 @@ impl Ball {
     /// Which of eight edges' arcs may come to show `separation`.
     #[inline]
     fn rises(&self, edges: &EdgeOctet, separation: f64) -> Open {
-        let (c, least) = (self.center, self.least(separation));
-        // Below zero an arc comes to no more than its ends.
-        let square = if least > 0.0 { least * least } else { f32::INFINITY };
-        let (slack, [left, right]) = (4.0 * self.doubt, &edges.sides);
+        let least = self.least(separation);
+        let [left, right] = &edges.sides;
+        let (over, other) = (self.over(left), self.over(right));
         let mut open = NONE_OPEN;
+        // Below zero an arc comes to no more than its ends.
+        if least <= 0.0 {
+            for (i, open) in open.iter_mut().enumerate() {
+                *open = u32::from((over[i] > least) | (other[i] > least));
+            }
+            return open;
+        }
+        let (square, slack) = (least * least, 4.0 * self.doubt);
         for (i, open) in open.iter_mut().enumerate() {
-            let over = c.x * left.x[i] + c.y * left.y[i] + c.z * left.z[i] - left.height[i] + self.doubt;
-            let other = c.x * right.x[i] + c.y * right.y[i] + c.z * right.z[i] - right.height[i] + self.doubt;
-            let (higher, cosine) = (if over > other { over } else { other }, edges.cosine[i]);
+            let (over, other, cosine) = (over[i], other[i], edges.cosine[i]);
+            let higher = if over > other { over } else { other };
             // Greatest inside the arc only where it rises from both ends.
             let is_inside =
                 (other + slack > cosine * over) & (over + slack > cosine * other) & (higher > 0.0);
