@@ -47,7 +47,7 @@
 
 mod answer;
 mod batch;
-
+mod counted;
 mod exact;
 mod feature;
 mod jobs3;

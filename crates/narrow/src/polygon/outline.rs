@@ -1,6 +1,7 @@
 //! A shape as the kernels see it: stored vertices, and how they stand in the frame of the pair.
 
 use super::few::Few;
+use crate::counted::count_step;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Core2, Rotation2, Shape2};
 
@@ -269,31 +270,5 @@ impl<'a> Outline<'a> {
             }
         }
         self.ahead(from, ascending)
-    }
-}
-
-#[cfg(not(test))]
-#[inline]
-pub(super) fn count_step() {}
-
-#[cfg(test)]
-pub(super) use counted::count_step;
-
-/// Steps of searches and projections on this thread, so that tests can count what they cannot time.
-#[cfg(test)]
-pub(super) mod counted {
-    use core::cell::Cell;
-
-    thread_local!(static STEPS: Cell<usize> = const { Cell::new(0) });
-
-    pub(crate) fn count_step() {
-        STEPS.with(|steps| steps.set(steps.get() + 1));
-    }
-
-    /// The steps that something takes.
-    pub(crate) fn steps_of<R>(run: impl FnOnce() -> R) -> (R, usize) {
-        let before = STEPS.with(Cell::get);
-        let result = run();
-        (result, STEPS.with(Cell::get) - before)
     }
 }

@@ -44,8 +44,9 @@
 //! band is wider than. An edge's own evaluation is as in `few`, plus a searched support: within two projections' rounding,
 //! which count what a search may lose.
 
-use super::outline::{Outline, count_step};
+use super::outline::Outline;
 use super::sat::{Axes, Axis, AxisOf, Named, Outcome, Sides, Wanted, axis, doubt, hint_of_direction};
+use crate::counted::count_step;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 

@@ -2,11 +2,11 @@
 
 use super::distance::{Reached, Until, distance};
 use super::few;
-use super::outline::counted::steps_of;
 use super::outline::{Outline, Turn};
 use super::sat::{Axes, Outcome, Sides, Wanted, doubt, plain, separating_axes, sides};
 use super::search;
 use crate::Pair2;
+use crate::counted::steps_of;
 use crate::feature::Hint;
 use crate::precision::{IN_PLANE, Precision};
 use asunder_geometry::glam::{DVec2, Vec2};

@@ -23,6 +23,7 @@ mod cull;
 mod facet;
 
 use super::solid::Solid;
+use crate::counted::count_step;
 use crate::feature::{Feature, FeatureId, Hint, OnFace};
 use crate::precision::Precision;
 use arcs::for_edge_pairs;
@@ -248,6 +249,7 @@ impl Found {
 
     /// One pair of edges, unless the vertices seen so far show that its axis is not the best.
     fn by_edge_pair(&mut self, a: &Solid, b: &Solid, edges: [usize; 2], search: &Search) {
+        count_step();
         let precision = search.precision;
         let cross = Cross::outwards(a, b, edges[0], edges[1]);
         let length = cross.axis.length();
@@ -474,4 +476,4 @@ pub(crate) fn hint_with(hint: Hint, points_on: AxisOf) -> Hint {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -1,5 +1,6 @@
 //! A shape as the kernels see it: stored vertices, and how they stand in the frame of the pair.
 
+use crate::counted::count_step;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::ALIGNED_FACES;
 use asunder_geometry::{Basis3, Core3, EdgeArc, EdgeOctet, FaceOctet, Topology, VertexOctet};
@@ -255,6 +256,7 @@ impl<'a> Solid<'a> {
 /// Projections of eight vertices.
 #[inline(always)]
 pub(super) fn project(octet: &VertexOctet, direction: Vec3) -> [f32; 8] {
+    count_step();
     let mut reach = [0.0; 8];
     for (i, reach) in reach.iter_mut().enumerate() {
         *reach = direction.x * octet.x[i] + direction.y * octet.y[i] + direction.z * octet.z[i];

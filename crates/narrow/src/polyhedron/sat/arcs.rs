@@ -13,6 +13,7 @@
 
 use super::super::solid::Solid;
 use super::MAX_EDGES;
+use crate::counted::count_step;
 use arrayvec::ArrayVec;
 use asunder_geometry::EdgeArc;
 use asunder_geometry::glam::Vec3;
@@ -47,6 +48,7 @@ impl ArcOctet {
 
     /// Taken to other axes, by the images of their own.
     fn turned(&self, basis: &[Vec3; 3]) -> Self {
+        count_step();
         let turn = |v: &Eight| turned(v, basis);
         Self {
             along: turn(&self.along),
@@ -120,6 +122,7 @@ pub(super) fn may_cross(a: &EdgeArc, b: &EdgeArc) -> bool {
 #[inline]
 fn may_cross_eight(a: &EdgeArc, b: &ArcOctet) -> [u32; 8] {
     let dot = |v: Vec3, w: &Eight, i: usize| v.x * w[0][i] + v.y * w[1][i] + v.z * w[2][i];
+    count_step();
     let mut crossing = [0; 8];
     for (i, crossing) in crossing.iter_mut().enumerate() {
         let by_a = same_side(dot(a.along, &b.ends[0], i), dot(a.along, &b.ends[1], i));
@@ -143,7 +146,10 @@ fn opposite(one: f32, other: f32) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::{Random, convex};
     use super::*;
+    use asunder_geometry::Pose3;
+    use asunder_geometry::glam::DVec3;
 
     #[test]
     fn lanes_say_what_the_definition_says() {
@@ -167,5 +173,80 @@ mod tests {
             crossings += lanes.iter().filter(|&&lane| lane).count();
         }
         assert!((100..15_900).contains(&crossings), "both answers came up: {crossings}");
+    }
+
+    /// Whether the arcs of two edges cross for certain, in f64 and in the frame of the pair.
+    fn do_cross(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> bool {
+        let normals = |solid: &Solid, edge: usize| {
+            let half_edges = solid.topology.half_edges();
+            [edge, half_edges[edge].twin as usize].map(|edge| solid.normal(half_edges[edge].face as usize))
+        };
+        let parts = |along: DVec3, [left, right]: [DVec3; 2]| along.dot(left) * along.dot(right) < 0.0;
+        let (along_a, along_b) = (a.edge_direction(edge_a), b.edge_direction(edge_b));
+        let meeting = along_a.cross(along_b);
+        let sides = [meeting.dot(a.out_of_edge(edge_a)), -meeting.dot(b.out_of_edge(edge_b))];
+        parts(along_a, normals(b, edge_b)) && parts(along_b, normals(a, edge_a)) && sides[0] * sides[1] > 0.0
+    }
+
+    #[test]
+    fn no_pair_of_edges_is_pruned_whose_arcs_cross_in_f64() {
+        let mut random = Random(0x1D8E_4E27_C47D_124F);
+        let (mut crossing, mut visited, mut generic) = (0, 0, [0, 0]);
+        for case in 0..1500_u64 {
+            let (shape_a, shape_b) = (random.hull(case), random.hull(case / 5));
+            let poses = [case / 2, case / 3].map(|kind| {
+                let turn = random.turn(kind);
+                Pose3::new(random.vector() * 100.0, turn).unwrap()
+            });
+            let pair = convex(&shape_a, poses[0], &shape_b, poses[1]);
+            pair.with_solids(|a, b| {
+                // Any part of the edges, so that places and numbers differ.
+                let some = |solid: &Solid, from: usize| -> Vec<u16> {
+                    (0..solid.arcs.len() as u16).skip(from).step_by(1 + case as usize % 3).collect()
+                };
+                let (edges_a, edges_b) = (some(a, case as usize % 2), some(b, case as usize % 4));
+                let mut kept = Vec::new();
+                for_edge_pairs((a, &edges_a), (b, &edges_b), |edge_a, edge_b| {
+                    kept.push((edge_a, edge_b));
+                    false
+                });
+                let half_edge = |solid: &Solid, edge: u16| solid.topology.edges()[edge as usize] as usize;
+                let mut expected = 0;
+                for &edge_a in &edges_a {
+                    for &edge_b in &edges_b {
+                        let (edge_a, edge_b) = (half_edge(a, edge_a), half_edge(b, edge_b));
+                        let do_cross = do_cross(a, b, edge_a, edge_b);
+                        assert!(
+                            !do_cross || kept.contains(&(edge_a, edge_b)),
+                            "case {case}: {edge_a}, {edge_b}"
+                        );
+                        expected += usize::from(do_cross);
+                    }
+                }
+                assert!(kept.is_sorted_by(|one, next| one < next) || kept.len() < 2, "each once, in order");
+                (crossing, visited) = (crossing + expected, visited + kept.len());
+                if case % 5 == 0 && case / 5 % 5 == 0 && case / 2 % 4 == 0 {
+                    generic = [generic[0] + expected, generic[1] + kept.len()];
+                }
+            });
+        }
+        assert!(crossing > 5000 && visited > crossing, "{crossing} of {visited}");
+        assert!(generic[0] > 100 && generic[1] * 10 < generic[0] * 11, "{generic:?}: kept without need");
+    }
+
+    #[test]
+    fn a_visitor_that_has_enough_is_left_alone() {
+        let mut random = Random(0xEB44_ACCA_B455_D165);
+        let shape = random.hull(0);
+        let pair = convex(&shape, Pose3::IDENTITY, &shape, Pose3::IDENTITY);
+        pair.with_solids(|a, b| {
+            let edges: Vec<u16> = (0..a.arcs.len() as u16).collect();
+            let mut visits = 0;
+            for_edge_pairs((a, &edges), (b, &edges), |_, _| {
+                visits += 1;
+                visits == 3
+            });
+            assert_eq!(visits, 3);
+        });
     }
 }

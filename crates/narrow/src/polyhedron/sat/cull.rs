@@ -19,6 +19,7 @@
 
 use super::super::solid::Solid;
 use super::MAX_EDGES;
+use crate::counted::count_step;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::Vec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
@@ -202,6 +203,7 @@ impl Ball {
     /// How far the centre lies over eight faces, rounded up.
     #[inline]
     fn over(&self, faces: &FaceOctet) -> [f32; 8] {
+        count_step();
         let c = self.center;
         let mut over = [0.0; 8];
         for (i, over) in over.iter_mut().enumerate() {
@@ -256,3 +258,6 @@ fn both(one: Open, other: Open) -> Open {
     }
     both
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,8 @@
 //! Pruning by arcs must not lose the axis that decides.
 
+mod cost;
+mod proofs;
+
 use super::*;
 use crate::exact::Site3;
 use crate::polyhedron::convex::Convex;
@@ -7,21 +10,21 @@ use asunder_geometry::glam::{Quat, Vec3};
 use asunder_geometry::{Capsule3, Hull, Pose3, Shape3, Triangle3};
 
 /// xorshift, for cases without a dependency.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn number(&mut self) -> f32 {
+    pub(super) fn number(&mut self) -> f32 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         (self.0 >> 40) as f32 / (1_u32 << 23) as f32 - 1.0
     }
 
-    fn vector(&mut self) -> Vec3 {
+    pub(super) fn vector(&mut self) -> Vec3 {
         Vec3::new(self.number(), self.number(), self.number())
     }
 
-    fn turn(&mut self, kind: u64) -> Quat {
+    pub(super) fn turn(&mut self, kind: u64) -> Quat {
         let any = Quat::from_xyzw(self.number(), self.number(), self.number(), self.number());
         match kind % 4 {
             0 => any,
@@ -32,8 +35,14 @@ impl Random {
         }
     }
 
+    /// Vertices on a sphere.
+    pub(super) fn round_hull(&mut self, vertices: usize) -> Shape3 {
+        let points: Vec<Vec3> = (0..vertices).map(|_| self.vector().normalize_or(Vec3::X)).collect();
+        Hull::from_points(&points).unwrap().into()
+    }
+
     /// Random hulls, cubes, prisms, plates, and turned lattices, whose faces were merged.
-    fn hull(&mut self, kind: u64) -> Shape3 {
+    pub(super) fn hull(&mut self, kind: u64) -> Shape3 {
         let pose = Pose3::new(Vec3::ZERO, self.turn(0)).unwrap();
         let lattice = |i: i32| Vec3::new((i % 3) as f32, (i / 3 % 3) as f32, (i / 9) as f32) - Vec3::ONE;
         let points: Vec<Vec3> = match kind % 5 {
@@ -54,7 +63,12 @@ impl Random {
 }
 
 /// A pair in A's axes.
-fn convex<'a>(shape_a: &'a Shape3, pose_a: Pose3, shape_b: &'a Shape3, pose_b: Pose3) -> Convex<'a> {
+pub(super) fn convex<'a>(
+    shape_a: &'a Shape3,
+    pose_a: Pose3,
+    shape_b: &'a Shape3,
+    pose_b: Pose3,
+) -> Convex<'a> {
     let relative = pose_b.basis().relative_to(&pose_a.basis());
     let site = |shape, pose: &Pose3| Site3 { shape, body: *pose, part: None };
     let sites = [site(shape_a, &pose_a), site(shape_b, &pose_b)];

@@ -1,0 +1,30 @@
+//! Steps of kernels, so that tests can count what they cannot time.
+//!
+//! A step is some tens of nanoseconds at most: one halving of a search, one edge, or one go over eight vertices, faces or
+//! edges. In what is shipped there is no counter.
+
+/// Counts one step, in tests.
+#[cfg(not(test))]
+#[inline(always)]
+pub(crate) fn count_step() {}
+
+#[cfg(test)]
+pub(crate) use on_this_thread::{count_step, steps_of};
+
+#[cfg(test)]
+mod on_this_thread {
+    use core::cell::Cell;
+
+    thread_local!(static STEPS: Cell<usize> = const { Cell::new(0) });
+
+    pub(crate) fn count_step() {
+        STEPS.with(|steps| steps.set(steps.get() + 1));
+    }
+
+    /// The steps that something takes.
+    pub(crate) fn steps_of<R>(run: impl FnOnce() -> R) -> (R, usize) {
+        let before = STEPS.with(Cell::get);
+        let result = run();
+        (result, STEPS.with(Cell::get) - before)
+    }
+}

@@ -1,0 +1,143 @@
+//! What the proof by a facet calls the best axis is the best of all, whatever a hint named.
+
+use super::*;
+use crate::{Pair3, Separation3};
+
+/// Hulls of 32 vertices on a sphere, boxes as hulls, and what [`Random::hull`] makes.
+fn hull(random: &mut Random, kind: u64) -> Shape3 {
+    let points: Vec<Vec3> = match kind % 3 {
+        0 => return random.round_hull(32),
+        1 => {
+            let half = random.vector().abs() * 0.5 + 0.5;
+            (0..8).map(|i| half * Vec3::new(sign(i), sign(i / 2), sign(i / 4))).collect()
+        }
+        _ => return random.hull(kind / 3),
+    };
+    Hull::from_points(&points).unwrap().into()
+}
+
+fn sign(bit: i32) -> f32 {
+    if bit % 2 == 0 { 1.0 } else { -1.0 }
+}
+
+/// The best axis by projecting every vertex on every normal and on every cross product.
+fn exhaustive(a: &Solid, b: &Solid) -> f64 {
+    let projected = |normal: DVec3| b.project(normal).0 - a.project(normal).1;
+    let of_a = (0..a.face_count()).map(|face| projected(a.normal(face)));
+    let of_b = (0..b.face_count()).map(|face| projected(-b.normal(face)));
+    of_a.chain(of_b).fold(all_edge_pairs(a, b), f64::max)
+}
+
+/// Every axis that a hint can name: all faces, and all pairs of half-edges of every so manieth edge.
+fn every_axis(a: &Solid, b: &Solid, stride: usize) -> Vec<AxisOf> {
+    let faces_a = (0..a.face_count()).map(AxisOf::FaceA);
+    let faces_b = (0..b.face_count()).map(AxisOf::FaceB);
+    let edges = |solid: &Solid| solid.topology.edges().to_vec();
+    let pairs = edges(a).into_iter().flat_map(|edge_a| {
+        edges(b).into_iter().map(move |edge_b| AxisOf::Edges(edge_a.into(), edge_b.into()))
+    });
+    faces_a.chain(faces_b).chain(pairs.step_by(stride)).collect()
+}
+
+/// How deep pairs overlap, as a share of their size.
+const DEPTHS: [f64; 4] = [1e-6, 1e-3, 0.01, 0.02];
+
+/// A pair that overlaps by so much, B somewhere about A, or lies anywhere near.
+fn placed(random: &mut Random, shapes: [&Shape3; 2], case: u64) -> [Pose3; 2] {
+    let turns = [random.turn(case / 2), random.turn(case / 3)];
+    let posed =
+        |at: DVec3| [(DVec3::ZERO, turns[0]), (at, turns[1])].map(|(at, turn)| Pose3::new(at, turn).unwrap());
+    let towards = random.vector().normalize_or(Vec3::X).as_dvec3();
+    if case % 5 == 0 {
+        return posed(towards * 0.5);
+    }
+    // Of a convex difference only one place on the ray is as deep, from its deepest on.
+    let (mut near, mut far) = (0.0, 20.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (near + far);
+        let poses = posed(towards * middle);
+        let pair = Pair3::new(shapes[0], &poses[0], shapes[1], &poses[1]);
+        let depth = DEPTHS[case as usize % 4] * f64::from(pair.size());
+        let is_deeper = match pair.separation(0.0) {
+            Separation3::Measured(found) => f64::from(found.separation) < -depth,
+            Separation3::AtLeast(_) => false,
+        };
+        if is_deeper { near = middle } else { far = middle }
+    }
+    posed(towards * near)
+}
+
+/// What came of hints.
+#[derive(Debug, Default)]
+struct Seen {
+    proved: usize,
+    /// Shallow pairs, and those whose best axis is proved to be it.
+    shallow: usize,
+    shallow_proved: usize,
+    /// Axes that are worse than the best by more than rounding.
+    stale: usize,
+    edges_proved: usize,
+}
+
+#[test]
+fn only_the_best_axis_is_proved_and_of_shallow_pairs_it_mostly_is() {
+    let mut random = Random(0xA076_1D64_78BD_642F);
+    let mut seen = Seen::default();
+    for case in 0..400_u64 {
+        let (shape_a, shape_b) = (hull(&mut random, case), hull(&mut random, case / 3));
+        let [pose_a, pose_b] = placed(&mut random, [&shape_a, &shape_b], case);
+        let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
+        pair.with_solids(|a, b| {
+            let best = exhaustive(a, b);
+            let (mut is_best_proved, stride) = (false, 1 + 7 * (case as usize % 3));
+            for of in every_axis(a, b, stride).into_iter().chain(own_best(&pair, a, b)) {
+                let Some(hinted) = Hinted::new((a, b), hint_to(of), &pair.precision) else { continue };
+                let shown = hinted.axis.separation;
+                let Some(axes) = hinted.proved((a, b), &pair.precision) else {
+                    let error = f64::from(pair.precision.of_separation(shown, hinted.doubt));
+                    seen.stale += usize::from(best - shown > error);
+                    continue;
+                };
+                let error = f64::from(pair.precision.of_separation(shown, axes.short()));
+                assert!(
+                    best < 0.0 && best - shown <= error,
+                    "case {case}: {of:?} shows {shown}, the best is {best}"
+                );
+                seen.proved += 1;
+                seen.edges_proved += usize::from(matches!(of, AxisOf::Edges(..)));
+                is_best_proved = true;
+            }
+            // Flat hulls have no inside, and what overlaps by less than rounding has no direction.
+            let is_solid = a.inner_radius > 0.05 && b.inner_radius > 0.05;
+            if is_solid && best < -1e-9 && best > -0.02 * pair.precision.size {
+                seen.shallow += 1;
+                seen.shallow_proved += usize::from(is_best_proved);
+            }
+        });
+    }
+    assert!(seen.stale > 50_000 && seen.proved > 200 && seen.edges_proved > 10, "{seen:?}");
+    assert!(seen.shallow > 100 && seen.shallow_proved * 4 > seen.shallow * 3, "{seen:?}");
+}
+
+/// The axis that the whole test finds best.
+fn own_best(pair: &Convex, a: &Solid, b: &Solid) -> Option<AxisOf> {
+    match pair.axes(a, b, f64::INFINITY, f64::NEG_INFINITY) {
+        Outcome::Within(axes) => Some(axes.best().of),
+        Outcome::Beyond(_) => None,
+    }
+}
+
+#[test]
+fn a_hint_of_features_that_are_not_there_names_no_axis() {
+    let mut random = Random(0xE703_7ED1_A0B4_28DB);
+    let (shape_a, shape_b) = (hull(&mut random, 0), hull(&mut random, 1));
+    let pair = convex(&shape_a, Pose3::IDENTITY, &shape_b, Pose3::IDENTITY);
+    pair.with_solids(|a, b| {
+        let none = |of: AxisOf| Hinted::new((a, b), hint_to(of), &pair.precision).is_none();
+        let (faces, edges) =
+            ([a.face_count(), b.face_count()], [a, b].map(|solid| solid.topology.half_edges().len()));
+        assert!(!none(AxisOf::FaceA(faces[0] - 1)) && none(AxisOf::FaceA(faces[0])));
+        assert!(!none(AxisOf::FaceB(faces[1] - 1)) && none(AxisOf::FaceB(faces[1])));
+        assert!(none(AxisOf::Edges(edges[0], 0)) && none(AxisOf::Edges(0, edges[1])));
+    });
+}
