@@ -20,6 +20,8 @@ pub(crate) struct Solid<'a> {
     /// In the shape's own axes, in the order of the topology's edges.
     pub(super) arcs: &'a [EdgeArc],
     pub(super) basis: Basis3,
+    /// Whether the frame of the pair is this solid's own, so that nothing needs turning.
+    is_home: bool,
     position: DVec3,
     /// The greatest absolute value of a vertex' coordinate.
     pub(super) extent: f32,
@@ -50,6 +52,7 @@ impl<'a> Solid<'a> {
             face_octets: core.face_octets(),
             edge_octets: core.edge_octets(),
             arcs: core.arcs(),
+            is_home: position == DVec3::ZERO && basis.x == DVec3::X && basis.y == DVec3::Y,
             basis,
             position,
             extent: core.extent(),
@@ -57,6 +60,18 @@ impl<'a> Solid<'a> {
             inner_radius: f64::from(core.inner_radius()),
             radius,
         }
+    }
+
+    /// From the shape's own axes to those of the pair.
+    #[inline(always)]
+    fn forth(&self, v: DVec3) -> DVec3 {
+        if self.is_home { v } else { self.basis.turn(v) }
+    }
+
+    /// From the axes of the pair to the shape's own.
+    #[inline(always)]
+    fn back(&self, v: DVec3) -> DVec3 {
+        if self.is_home { v } else { self.basis.turn_back(v) }
     }
 
     /// Number of faces that have a normal.
@@ -74,13 +89,13 @@ impl<'a> Solid<'a> {
     /// A vertex in the frame of the pair.
     #[inline]
     pub(crate) fn point(&self, vertex: usize) -> DVec3 {
-        self.position + self.basis.turn(self.vertices[vertex].as_dvec3())
+        self.position + self.forth(self.vertices[vertex].as_dvec3())
     }
 
     /// Outward unit normal of a face, in the frame of the pair.
     #[inline]
     pub(crate) fn normal(&self, face: usize) -> DVec3 {
-        self.basis.turn(self.normals[face])
+        self.forth(self.normals[face])
     }
 
     /// The direction in which the shape's surface lies beyond a face of its core; beyond a segment, the one across it
@@ -106,7 +121,7 @@ impl<'a> Solid<'a> {
     #[inline]
     pub(crate) fn edge_direction(&self, half_edge: usize) -> DVec3 {
         let (from, to) = self.topology.ends(half_edge);
-        self.basis.turn(self.vertices[to].as_dvec3() - self.vertices[from].as_dvec3())
+        self.forth(self.vertices[to].as_dvec3() - self.vertices[from].as_dvec3())
     }
 
     /// A direction, of any length, that lies between the normals beside an edge, in the frame of the pair: outwards as seen
@@ -120,15 +135,15 @@ impl<'a> Solid<'a> {
         };
         if left.dot(right) < 0.0 {
             // Of faces that are all but back to back the sum is what rounding left of it, and the difference tells.
-            return self.edge_direction(half_edge).cross(self.basis.turn(left - right));
+            return self.edge_direction(half_edge).cross(self.forth(left - right));
         }
-        self.basis.turn(left + right)
+        self.forth(left + right)
     }
 
     /// The other shape's axes as this one sees them.
     #[inline]
     pub(super) fn axes_of(&self, other: &Self) -> [DVec3; 3] {
-        [other.basis.x, other.basis.y, other.basis.z].map(|axis| self.basis.turn_back(axis))
+        [other.basis.x, other.basis.y, other.basis.z].map(|axis| self.back(axis))
     }
 
     /// The vertex furthest along a direction of unit length; ties go to the lowest index. Cost: linear in the vertices.
@@ -138,7 +153,7 @@ impl<'a> Solid<'a> {
     /// 2026-11-21).
     #[inline]
     pub(crate) fn support(&self, direction: DVec3) -> Support {
-        let mut best = self.local_support(self.basis.turn_back(direction));
+        let mut best = self.local_support(self.back(direction));
         best.reach += direction.dot(self.position);
         best
     }
@@ -180,7 +195,7 @@ impl<'a> Solid<'a> {
     /// [`Solid::support`] by its definition.
     #[cfg(test)]
     pub(crate) fn support_one_by_one(&self, direction: DVec3) -> Support {
-        let local = self.basis.turn_back(direction);
+        let local = self.back(direction);
         let mut best = Support { vertex: 0, reach: f64::NEG_INFINITY };
         for (vertex, point) in self.vertices.iter().enumerate() {
             let reach = local.dot(point.as_dvec3());
@@ -195,25 +210,25 @@ impl<'a> Solid<'a> {
     /// A direction of the shape's own axes in the frame of the pair.
     #[inline]
     pub(super) fn turned(&self, direction: DVec3) -> DVec3 {
-        self.basis.turn(direction)
+        self.forth(direction)
     }
 
     /// A direction of the frame of the pair in the shape's own axes.
     #[inline]
     pub(super) fn turned_back(&self, direction: DVec3) -> DVec3 {
-        self.basis.turn_back(direction)
+        self.back(direction)
     }
 
     /// The centre in the frame of the pair.
     #[inline]
     pub(super) fn center(&self) -> DVec3 {
-        self.position + self.basis.turn(self.center)
+        self.position + self.forth(self.center)
     }
 
     /// A point of the frame in the shape's own axes.
     #[inline]
     pub(super) fn to_local(&self, point: DVec3) -> DVec3 {
-        self.basis.turn_back(point - self.position)
+        self.back(point - self.position)
     }
 
     /// How far the shape reaches along the outward normal of one of its faces, in the frame of the pair.
@@ -225,7 +240,7 @@ impl<'a> Solid<'a> {
     /// Least and greatest projection on an axis. Cost: linear in the vertices.
     #[cfg(test)]
     pub(crate) fn project(&self, axis: DVec3) -> (f64, f64) {
-        let local = self.basis.turn_back(axis);
+        let local = self.back(axis);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for point in self.vertices {
             let reach = local.dot(point.as_dvec3());
