@@ -217,6 +217,10 @@ impl Found {
     /// One face of A (0) or of B (1). Returns the other's vertex that is furthest against it.
     fn by_face(&mut self, [solid, other]: [&Solid; 2], which: usize, face: usize, search: &Search) -> usize {
         let outward = solid.normal(face);
+        let (rough, excess) = other.rough_support(-outward);
+        if excess - rough.reach - solid.face_reach(face, outward) < self.floor - search.keep() {
+            return rough.vertex;
+        }
         let support = other.support(-outward);
         let separation = -support.reach - solid.face_reach(face, outward);
         let (normal, of) = match which {

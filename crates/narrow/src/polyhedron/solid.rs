@@ -177,11 +177,45 @@ impl<'a> Solid<'a> {
         best
     }
 
+    /// A vertex that is the furthest along a direction of unit length up to a rounding of f32; a bound on how far any of them
+    /// reaches, and by how much that may exceed the truth. Half the cost of [`Solid::support`], and less where many are
+    /// equally far.
+    #[inline]
+    pub(crate) fn rough_support(&self, direction: DVec3) -> (Support, f64) {
+        let lanes = self.back(direction).as_vec3();
+        let (mut top, mut place) = ([f32::NEG_INFINITY; 8], [0_u32; 8]);
+        for (octet, number) in self.vertex_octets.iter().zip((0_u32..).step_by(8)) {
+            let reach = project(octet, lanes);
+            for i in 0..8 {
+                let is_higher = reach[i] > top[i];
+                top[i] = if is_higher { reach[i] } else { top[i] };
+                place[i] = if is_higher { number } else { place[i] };
+            }
+        }
+        let (mut best, mut vertex) = (top[0], place[0]);
+        for i in 1..8 {
+            let is_higher = top[i] > best;
+            best = if is_higher { top[i] } else { best };
+            vertex = if is_higher { place[i] + i as u32 } else { vertex };
+        }
+        let doubt = self.lane_doubt(lanes);
+        let reach = f64::from(best + doubt) + direction.dot(self.position);
+        // What fills up the last eight is the first vertex.
+        let vertex = if (vertex as usize) < self.vertices.len() { vertex as usize } else { 0 };
+        (Support { vertex, reach }, 2.0 * f64::from(doubt))
+    }
+
+    /// How far the lanes of two vertices may be off together, in the shape's own axes.
+    #[inline(always)]
+    fn lane_doubt(&self, direction: Vec3) -> f32 {
+        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides.
+        8.5 * (f32::EPSILON / 2.0) * self.extent * direction.abs().element_sum()
+    }
+
     /// What a vertex' lane comes to at least if the vertex may be the furthest, in the shape's own axes.
     #[inline(always)]
     pub(super) fn least_lane(&self, direction: Vec3) -> f32 {
-        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides.
-        let doubt = 8.5 * (f32::EPSILON / 2.0) * self.extent * direction.abs().element_sum();
+        let doubt = self.lane_doubt(direction);
         let mut top = [f32::NEG_INFINITY; 8];
         for octet in self.vertex_octets {
             let reach = project(octet, direction);
