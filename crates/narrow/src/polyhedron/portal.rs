@@ -73,7 +73,8 @@ impl Look<'_, '_> {
     fn along(&mut self, direction: DVec3) -> Option<DVec3> {
         self.direction = direction.try_normalize()?;
         self.left = self.left.checked_sub(1)?;
-        let (in_a, in_b) = (self.a.support(self.direction), self.b.support(-self.direction));
+        let ((in_a, _), (in_b, _)) =
+            (self.a.rough_support(self.direction), self.b.rough_support(-self.direction));
         self.separation = -in_b.reach - in_a.reach;
         (self.separation <= self.doubt).then(|| self.a.point(in_a.vertex) - self.b.point(in_b.vertex))
     }

@@ -155,7 +155,7 @@ impl Search<'_> {
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome {
     let mut sights = [Sight::new(a, b), Sight::new(b, a)];
     let seen = [ArrayVec::new(), ArrayVec::new()];
-    let mut found = Found { axes: Axes::NONE, floor: search.known, beyond: None, seen };
+    let mut found = Found { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, beyond: None, seen };
     let first = found.by_first_faces(&mut sights, search);
     if found.beyond.is_none() && !found.is_proved((a, b), &first, search) {
         found.by_faces(&mut sights, &first, search);
@@ -169,6 +169,8 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome 
 /// The test under way.
 struct Found {
     axes: Axes,
+    /// How far the best edges lie aside from where the shapes reach furthest.
+    aside: f64,
     /// A separation that the shapes have for certain.
     floor: f64,
     beyond: Option<Axis>,
@@ -218,6 +220,10 @@ impl Found {
     /// One face of A (0) or of B (1). Returns the other's vertex that is furthest against it.
     fn by_face(&mut self, [solid, other]: [&Solid; 2], which: usize, face: usize, search: &Search) -> usize {
         let outward = solid.normal(face);
+        let (rough, excess) = other.rough_support(-outward);
+        if excess - rough.reach - solid.face_reach(face, outward) < self.floor - search.keep() {
+            return rough.vertex;
+        }
         let support = other.support(-outward);
         let separation = -support.reach - solid.face_reach(face, outward);
         let (normal, of) = match which {
@@ -267,11 +273,20 @@ impl Found {
             return;
         }
         self.axes.raise(axis.separation, precision.of_edges(cross.squared_sine));
+        let aside = aside(a, b, &axis);
         if axis.separation > search.limit {
             self.beyond = Some(axis);
-        } else if axis.separation > self.axes.edges.separation && supports(a, b, &axis, search.slack) {
-            self.offer(axis, search);
+        } else if aside <= search.slack && self.is_better(&axis, aside, precision.projection()) {
+            (self.axes.edges, self.aside) = (axis, aside);
+            self.floor = self.floor.max(axis.separation);
         }
+    }
+
+    /// Whether an axis of edges beats the one so far: by what it shows, or, where that is the same up to rounding, as it is
+    /// for all edges of the same direction, because its edges are those that touch.
+    fn is_better(&self, axis: &Axis, aside: f64, rounding: f64) -> bool {
+        let more = axis.separation - self.axes.edges.separation;
+        more > rounding || more >= -rounding && aside < self.aside - rounding
     }
 
     /// Whether the axis of two edges is not the best, by these edges and by the vertices seen so far: all that they show
@@ -370,14 +385,14 @@ impl Cross {
     }
 }
 
-/// Whether an axis' edges lie where both shapes reach furthest along it.
+/// How far an axis' edges lie aside from where both shapes reach furthest along it, in metres along it.
 ///
 /// An arc that was kept because it was a close call need not: its axis is a true axis, but not that of its edges, and
 /// some other pair of the same direction is the one that touches.
-fn supports(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> bool {
-    let AxisOf::Edges(edge_a, edge_b) = axis.of else { return true };
+fn aside(a: &Solid, b: &Solid, axis: &Axis) -> f64 {
+    let AxisOf::Edges(edge_a, edge_b) = axis.of else { return 0.0 };
     let between = b.edge(edge_b).0 - a.edge(edge_a).0;
-    axis.normal.dot(between) - axis.separation <= slack
+    axis.normal.dot(between) - axis.separation
 }
 
 /// An axis that a hint names, evaluated.

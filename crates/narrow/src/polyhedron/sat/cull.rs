@@ -163,7 +163,7 @@ impl<'a, 'b> Sight<'a, 'b> {
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
                 let edge = 8 * place + i as u16;
                 let middle = self.solid.arcs[edge as usize].middle.as_dvec3().normalize_or_zero();
-                self.add(self.other.support(-self.solid.turned(middle)).vertex);
+                self.add(self.other.rough_support(-self.solid.turned(middle)).0.vertex);
                 let left = both(open, self.points[0].rises(octet, separation));
                 if left[i] != 0 {
                     edges[kept] = edge;

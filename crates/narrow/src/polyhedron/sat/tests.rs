@@ -109,7 +109,9 @@ fn pruned_and_exhaustive_agree_within_the_reported_error() {
             let faces = axes.face_a.separation.max(axes.face_b.separation);
             let exhaustive = faces.max(all_edge_pairs(a, b));
             let pruned = axes.best().separation;
-            assert!(pruned <= exhaustive, "case {case}");
+            // Both project all vertices, on axes that were rounded on different ways.
+            let rounding = pair.precision.projection();
+            assert!(pruned <= exhaustive + rounding, "case {case}: {pruned}, exhaustive {exhaustive}");
             // In a gap the greatest axis of all need not be one whose arcs cross; there the distance decides.
             if exhaustive <= 0.0 {
                 let error = f64::from(pair.precision.of_separation(pruned, axes.short()));
