@@ -7,6 +7,7 @@ use crate::least::Least;
 use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::placed::Posed;
+use crate::polyhedron::manifold::Touch;
 use crate::polyhedron::sat::hint_with;
 use crate::precision::rounded_down;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -264,9 +265,8 @@ impl<'a> Pair3<'a> {
             if is_touching || near.separation <= margin {
                 touch = Some(touch.unwrap_or(false) || is_touching);
                 if let Some(manifolds) = &mut manifolds
-                    && let Some((manifold, hint)) = parts.manifold(&near, reach, hint)
+                    && let Some(hint) = parts.add_manifold(&near, reach, hint, manifolds)
                 {
-                    manifolds.push(manifold);
                     next_hint = hint;
                 }
             }
@@ -442,24 +442,31 @@ fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'
 }
 
 impl Parts<'_> {
-    /// The contact points, and the hint that keeps them where they are in the next frame.
-    fn manifold(&self, near: &Near, margin: f64, hint: Hint) -> Option<(Manifold3, Hint)> {
-        let touch = self.convex.touch(near, margin, hint)?;
-        let points = touch.points.iter().map(|point| ContactPoint3 {
-            separation: point.separation as f32,
-            anchor_a: self.anchor_a(point.on_a),
-            anchor_b: self.anchor_b(point.on_b),
-            feature: point.feature,
-        });
-        let manifold = Manifold3 {
+    /// Appends the contact points; returns the hint that keeps them where they are in the next frame.
+    fn add_manifold(&self, near: &Near, margin: f64, hint: Hint, to: &mut Vec<Manifold3>) -> Option<Hint> {
+        let mut touch = Touch::NONE;
+        if !self.convex.touch(near, margin, hint, &mut touch) {
+            return None;
+        }
+        to.push(Manifold3 {
             part_a: self.indices[0],
             part_b: self.indices[1],
             normal: self.basis.turn(touch.normal).as_vec3(),
             separation: near.separation,
             error: near.error,
-            points: points.collect(),
-        };
-        Some((manifold, touch.of.map_or(near.hint, |of| hint_with(near.hint, of))))
+            ..Manifold3::BLANK
+        });
+        if let Some(manifold) = to.last_mut() {
+            for point in &touch.points {
+                manifold.points.push(ContactPoint3 {
+                    separation: point.separation as f32,
+                    anchor_a: self.anchor_a(point.on_a),
+                    anchor_b: self.anchor_b(point.on_b),
+                    feature: point.feature,
+                });
+            }
+        }
+        Some(touch.of.map_or(near.hint, |of| hint_with(near.hint, of)))
     }
 
     /// From the frame of the pair to a world vector from A's position.

@@ -196,30 +196,33 @@ impl<'a> Convex<'a> {
     }
 
     /// Contact points of shapes at most `margin` metres apart, on their surfaces, made where last frame's hint says they
-    /// were unless that is worse by two preferences. None for two half-spaces that overlap without end.
-    pub(crate) fn touch(&self, near: &Near, margin: f64, hint: Hint) -> Option<Touch> {
+    /// were unless that is worse by two preferences; filled in, since they are large. False for two half-spaces that
+    /// overlap without end, which have none.
+    pub(crate) fn touch(&self, near: &Near, margin: f64, hint: Hint, touch: &mut Touch) -> bool {
         let preference = self.preference();
         match &near.evidence {
             Evidence::Axes(axes, witness) => {
                 let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last: last_of(hint) };
-                let mut touch = Touch::NONE;
-                self.with_solids(|a, b| touch_into(a, b, &ask, &mut touch));
-                Some(touch)
+                self.with_solids(|a, b| touch_into(a, b, &ask, touch));
             }
             Evidence::Slender(nearest) => {
-                Some(self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference)))
+                *touch = self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference));
             }
             Evidence::HalfSpace(plane) => {
-                Some(self.with_solids(|a, b| plane.touch(if plane.is_b { a } else { b }, margin, preference)))
+                let core_is_a = plane.is_b;
+                *touch =
+                    self.with_solids(|a, b| plane.touch(if core_is_a { a } else { b }, margin, preference));
             }
             Evidence::HalfSpaces(a, b) => {
                 let [on_a, on_b] = a.points_with(b);
                 let separation = near.separation.into();
                 let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
-                let points = core::iter::once(Point { separation, on_a, on_b, feature }).collect();
-                (separation > f64::NEG_INFINITY).then_some(Touch { normal: a.axis(), points, of: None })
+                touch.normal = a.axis();
+                touch.points.push(Point { separation, on_a, on_b, feature });
+                return separation > f64::NEG_INFINITY;
             }
         }
+        true
     }
 
     /// Points of the cores moved out to the shapes' surfaces.

@@ -1,9 +1,11 @@
 //! The separating axis test for two convex polyhedra.
 //!
 //! ```text
-//! for each face of A, of B:          axis = its normal
-//! for each edge pair whose arcs on the Gauss map may cross, and that is not nearly parallel:
-//!                                    axis = the cross product
+//! for the most promising face of A, of B:   axis = its normal
+//! if the better one's facet is the nearest of A - B, and is known to be: done                            (facet)
+//! for each other face that spheres inside the other solid leave open: axis = its normal                   (cull)
+//! for each pair of edges that they leave open, and whose arcs on the Gauss map may cross:                 (arcs)
+//!                                           axis = the cross product, unless they are nearly parallel
 //! the separation along an axis = min over B - max over A, projecting *every* vertex
 //! one axis beyond the limit settles it; else the greatest separation wins
 //! ```
@@ -16,7 +18,26 @@
 //! An axis that is a little off its place shows a little less than it should, never more. How much that may be is kept
 //! beside the best separation ([`Axes::short`]): one edge pair at a small angle costs only its own pair's precision.
 //!
-//! Cost: faces times vertices, plus edge pairs, plus kept edge pairs times vertices.
+//! What makes it cheap, and what each bought on two hulls of 32 vertices (AMD EPYC, Zen 4, 2026-11-21; the plain test took
+//! 52 us on mixed pairs and 85 on deep ones, and takes 1.6 and 6.5):
+//!
+//! 1. *arcs eight at a time*, in f32, over data built with the hull: deep 85 -> 19 us;
+//! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 -> 7.8 us;
+//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound will do,
+//!    f32 alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
+//! 4. *vertices seen so far* bound an edge pair's axis before it is projected, without a root: prisms, whose edges are
+//!    parallel, deep 4.9 -> 4.0 us;
+//! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold, sliding
+//!    4.2 -> 1.0, tumbling 3.2 -> 1.7.
+//!
+//! Tried, and dropped: AVX2 for the whole test behind run-time detection (0 to 15 % slower, though the whole program
+//! compiled for it is 8 to 15 % faster: calls that are not inlined pay for the border); AVX2 for the support alone (no
+//! gain); one lane in place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow for 8
+//! vertices); masks in place of eight numbers (slower in portable Rust); the best
+//! direction of the search before as a first bound (no gain); the furthest vertex as a sum of indices
+//! without branches (20 % slower: branches are guessed, sums are waited for).
+//!
+//! Cost: linear in faces, edges and vertices; what the spheres leave, faces times vertices and edges times edges.
 
 mod arcs;
 mod cull;
@@ -449,7 +470,7 @@ impl Hinted {
                 if cross.is_noise() {
                     return None;
                 }
-                (cross.axis.normalize(), precision.of_edges(cross.squared_sine))
+                (cross.axis / cross.axis.length(), precision.of_edges(cross.squared_sine))
             }
             _ => return None,
         };
