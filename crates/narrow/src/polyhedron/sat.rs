@@ -278,22 +278,27 @@ impl Found {
             }
         }
         let [a, b] = sights.each_ref().map(|sight| sight.solid);
+        // One edge of A comes with many of B.
+        let (mut last, mut seen_from) = (usize::MAX, [DVec3::ZERO; 2]);
         for_edge_pairs((a, &edges[0]), (b, &edges[1]), |edge_a, edge_b| {
-            self.by_edge_pair(a, b, [edge_a, edge_b], search);
+            if edge_a != last {
+                (last, seen_from) = (edge_a, [a.edge_direction(edge_a), a.out_of_edge(edge_a)]);
+            }
+            let cross = Cross::outwards(seen_from, b, edge_b);
+            self.by_edge_pair((a, b), [edge_a, edge_b], &cross, search);
             self.beyond.is_some()
         });
     }
 
     /// One pair of edges, unless the vertices seen so far show that its axis is not the best.
-    fn by_edge_pair(&mut self, a: &Solid, b: &Solid, edges: [usize; 2], search: &Search) {
+    fn by_edge_pair(&mut self, (a, b): (&Solid, &Solid), edges: [usize; 2], cross: &Cross, search: &Search) {
         count_step();
         let precision = search.precision;
-        let cross = Cross::outwards(a, b, edges[0], edges[1]);
-        if cross.is_noise() && self.are_parallel(&cross, search) {
+        if cross.is_noise() && self.are_parallel(cross, search) {
             return;
         }
         let length = cross.axis.length();
-        if self.shows_too_little(a, b, edges, (&cross, length), search) {
+        if self.shows_too_little(a, b, edges, (cross, length), search) {
             return;
         }
         let normal = cross.axis / length;
@@ -421,15 +426,13 @@ impl Cross {
         Self { axis, squared_sine, lengths: 0.5 * (square_a + square_b) }
     }
 
-    /// Turned from A to B.
-    fn outwards(a: &Solid, b: &Solid, edge_a: usize, edge_b: usize) -> Self {
-        let cross = Self::new(a.edge_direction(edge_a), b.edge_direction(edge_b));
+    /// Turned from A to B; of A's edge, its direction and one that lies between the normals beside it.
+    #[inline]
+    fn outwards([along_a, out_of_a]: [DVec3; 2], b: &Solid, edge_b: usize) -> Self {
+        let cross = Self::new(along_a, b.edge_direction(edge_b));
         // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's
         // edge tells.
-        let outwards = match a.out_of_edge(edge_a) {
-            DVec3::ZERO => -b.out_of_edge(edge_b),
-            outwards => outwards,
-        };
+        let outwards = if out_of_a == DVec3::ZERO { -b.out_of_edge(edge_b) } else { out_of_a };
         if cross.axis.dot(outwards) < 0.0 { Self { axis: -cross.axis, ..cross } } else { cross }
     }
 

@@ -48,7 +48,7 @@ fn placed(random: &mut Random, shapes: [&Shape3; 2], case: u64) -> [Pose3; 2] {
     let posed =
         |at: DVec3| [(DVec3::ZERO, turns[0]), (at, turns[1])].map(|(at, turn)| Pose3::new(at, turn).unwrap());
     let towards = random.vector().normalize_or(Vec3::X).as_dvec3();
-    if case % 5 == 0 {
+    if case.is_multiple_of(5) {
         return posed(towards * 0.5);
     }
     // Of a convex difference only one place on the ray is as deep, from its deepest on.
