@@ -1,4 +1,4 @@
-//! What the largest hulls cost, counted and not timed: see [`crate::counted`].
+//! What the largest hulls cost, counted and not timed: see `crate::counted`.
 
 use super::*;
 use crate::Pair3;
@@ -15,13 +15,16 @@ fn regular(count: usize) -> Vec<DVec2> {
     (0..count).scan(DVec2::X, |at, _| Some(core::mem::replace(at, step.rotate(*at)))).collect()
 }
 
+/// How many kinds of hulls there are.
+const KINDS: usize = 7;
+
 /// Hulls of 256 vertices, or nearly, all different: round, symmetric, with large faces, thin, long.
 fn hull(random: &mut Random, kind: usize) -> Shape3 {
     let [wide, high] = [0.3 + 0.2 * random.number().abs(), 0.3 + 0.2 * random.number().abs()];
     let ring = |count: usize, wide: f32, z: f32| {
         regular(count).into_iter().map(move |at| (at.as_vec2() * wide).extend(z))
     };
-    let points: Vec<Vec3> = match kind % 7 {
+    let points: Vec<Vec3> = match kind % KINDS {
         0 => return random.round_hull(256),
         1 => ring(128, wide, -high).chain(ring(128, wide, high)).collect(),
         // Rings at the latitudes of a globe, and its poles.
@@ -82,32 +85,32 @@ fn twice_the_vertices_cost_less_than_three_times_as_much() {
                 (0..4).for_each(|i| sum[i] += one[i]);
             }
         }
-        eprintln!("{name}: {sums:?}");
+        assert!(sums[0].iter().any(|&few| few > 5000), "{name}: nothing was counted: {sums:?}");
         for (few, many) in sums[0].into_iter().zip(sums[1]) {
             assert!(many <= 3 * few, "{name}: {sums:?}");
         }
     }
 }
 
+/// Two milliseconds at 4 ns a step. Least favourable are two equal prisms in one place, whose 50,000 pairs of edges that may
+/// touch are all even.
+const MOST: usize = 550_000;
+
 #[test]
-fn no_pair_of_the_largest_hulls_takes_milliseconds() {
+fn no_pair_of_the_largest_hulls_takes_two_milliseconds() {
     let mut random = Random(0x9216_D5D9_8979_FB1B);
-    for kind in 0..7 {
+    let mut worst = 0;
+    for kind in 0..KINDS {
         for (number, name) in LIES.iter().enumerate() {
-            let mut most = [0; 4];
             for round in 0..8 {
                 let shape_a = hull(&mut random, kind);
                 let shape_b = if round < 6 { shape_a.clone() } else { hull(&mut random, kind + round) };
-                let poses = lie(&mut random, number);
-                let start = std::time::Instant::now();
-                let steps = steps([&shape_a, &shape_b], poses);
-                let t = start.elapsed().as_nanos() as f64 / steps.iter().sum::<usize>() as f64;
-                if round == 7 {
-                    eprint!("{t:.1} ns a step ");
-                }
-                (0..4).for_each(|i| most[i] = most[i].max(steps[i]));
+                let steps = steps([&shape_a, &shape_b], lie(&mut random, number));
+                let most = steps.into_iter().max().unwrap();
+                assert!(most <= MOST, "{steps:?} steps: kind {kind}, {name}, {shape_a:?}, {shape_b:?}");
+                worst = worst.max(most);
             }
-            eprintln!("{kind} {name}: {most:?}");
         }
     }
+    assert!(worst > MOST / 4, "the hard ones are among them: {worst}");
 }
