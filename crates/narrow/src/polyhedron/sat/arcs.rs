@@ -70,11 +70,11 @@ fn turned(v: &Eight, [x, y, z]: &[Vec3; 3]) -> Eight {
 }
 
 /// Visits those pairs of the given edges, by their numbers, whose arcs may cross, until the visitor says to stop; it gets
-/// their lower half-edges. Cost: their product, an eighth of it in steps.
+/// their lower half-edges, and the place of B's edge in the list. Cost: their product, an eighth of it in steps.
 pub(super) fn for_edge_pairs(
     (a, edges_a): (&Solid, &[u16]),
     (b, edges_b): (&Solid, &[u16]),
-    mut visit: impl FnMut(usize, usize) -> bool,
+    mut visit: impl FnMut([usize; 2], usize) -> bool,
 ) {
     let basis = a.axes_of(b).map(|axis| axis.as_vec3());
     let mut octets: ArrayVec<ArcOctet, { MAX_EDGES.div_ceil(8) }> = ArrayVec::new_const();
@@ -87,15 +87,15 @@ pub(super) fn for_edge_pairs(
     }
     for &edge_a in edges_a {
         let arc_a = &a.arcs[edge_a as usize];
-        for (octet, chunk) in octets.iter().zip(edges_b.chunks(8)) {
+        for (first, (octet, chunk)) in (0..).step_by(8).zip(octets.iter().zip(edges_b.chunks(8))) {
             let crossing = may_cross_eight(arc_a, octet);
             if crossing == [0; 8] {
                 continue;
             }
-            for (&edge_b, may_cross) in chunk.iter().zip(crossing) {
-                let half_edges =
-                    [(a, edge_a), (b, edge_b)].map(|(solid, edge)| solid.topology.edges()[edge as usize]);
-                if may_cross != 0 && visit(half_edges[0] as usize, half_edges[1] as usize) {
+            for (i, (&edge_b, may_cross)) in chunk.iter().zip(crossing).enumerate() {
+                let half_edges = [(a, edge_a), (b, edge_b)];
+                let half_edges = half_edges.map(|(solid, edge)| solid.topology.edges()[edge as usize].into());
+                if may_cross != 0 && visit(half_edges, first + i) {
                     return;
                 }
             }
@@ -206,7 +206,8 @@ mod tests {
                 };
                 let (edges_a, edges_b) = (some(a, case as usize % 2), some(b, case as usize % 4));
                 let mut kept = Vec::new();
-                for_edge_pairs((a, &edges_a), (b, &edges_b), |edge_a, edge_b| {
+                for_edge_pairs((a, &edges_a), (b, &edges_b), |[edge_a, edge_b], place_b| {
+                    assert_eq!(edge_b, b.topology.edges()[edges_b[place_b] as usize] as usize);
                     kept.push((edge_a, edge_b));
                     false
                 });

@@ -27,7 +27,8 @@ impl Hinted {
             AxisOf::FaceA(face) if a.has_face(face as u32) => (a.normal(face), precision.of_face()),
             AxisOf::FaceB(face) if b.has_face(face as u32) => (-b.normal(face), precision.of_face()),
             AxisOf::Edges(edge_a, edge_b) if a.has_edge(edge_a as u32) && b.has_edge(edge_b as u32) => {
-                let cross = Cross::outwards([a.edge_direction(edge_a), a.out_of_edge(edge_a)], b, edge_b);
+                let at_a = (a.edge_direction(edge_a), a.out_of_edge(edge_a));
+                let cross = Cross::outwards(at_a, b.edge_direction(edge_b), || b.out_of_edge(edge_b));
                 if cross.is_noise() {
                     return None;
                 }
