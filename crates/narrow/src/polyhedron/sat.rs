@@ -42,9 +42,9 @@
 mod arcs;
 mod cull;
 mod facet;
+mod hinted;
 
 use super::solid::Solid;
-use crate::feature::{Feature, FeatureId, Hint, OnFace};
 use crate::precision::Precision;
 use arcs::for_edge_pairs;
 use arrayvec::ArrayVec;
@@ -52,6 +52,7 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{MAX_HULL_VERTICES, PARALLEL_EDGES};
 use cull::Sight;
 use facet::is_nearest;
+pub(crate) use hinted::{Hinted, hint_of, hint_to, hint_with, last_of};
 
 /// Edges of a hull with the most vertices, by Euler's formula.
 const MAX_EDGES: usize = 3 * MAX_HULL_VERTICES - 6;
@@ -412,101 +413,6 @@ fn aside(a: &Solid, b: &Solid, axis: &Axis) -> f64 {
     let AxisOf::Edges(edge_a, edge_b) = axis.of else { return 0.0 };
     let between = b.edge(edge_b).0 - a.edge(edge_a).0;
     axis.normal.dot(between) - axis.separation
-}
-
-/// An axis that a hint names, evaluated.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Hinted {
-    pub(crate) axis: Axis,
-    /// The vertex of the other solid that is furthest against the face.
-    deepest: usize,
-    /// How much less than the truth the axis may show.
-    doubt: f64,
-}
-
-impl Hinted {
-    /// Nothing where the hint names no axis that this pair has.
-    pub(crate) fn new((a, b): (&Solid, &Solid), hint: Hint, precision: &Precision) -> Option<Self> {
-        let of = axis_in(hint)?;
-        let (normal, doubt) = match of {
-            AxisOf::FaceA(face) if a.has_face(face as u32) => (a.normal(face), precision.of_face()),
-            AxisOf::FaceB(face) if b.has_face(face as u32) => (-b.normal(face), precision.of_face()),
-            AxisOf::Edges(edge_a, edge_b) if a.has_edge(edge_a as u32) && b.has_edge(edge_b as u32) => {
-                let cross = Cross::outwards(a, b, edge_a, edge_b);
-                if cross.is_noise() {
-                    return None;
-                }
-                (cross.axis / cross.axis.length(), precision.of_edges(cross.squared_sine))
-            }
-            _ => return None,
-        };
-        let (reach, deepest) = match of {
-            AxisOf::FaceA(face) => (a.face_reach(face, normal), b.support(-normal)),
-            AxisOf::FaceB(face) => (b.face_reach(face, -normal), a.support(normal)),
-            AxisOf::Edges(..) => (a.support(normal).reach, b.support(-normal)),
-        };
-        let axis = Axis { separation: -deepest.reach - reach, normal, of };
-        Some(Self { axis, deepest: deepest.vertex, doubt })
-    }
-
-    /// The axes of solids that overlap, where this one is known to be the best.
-    pub(crate) fn proved(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Option<Axes> {
-        is_nearest((a, b), &self.axis, self.deepest, precision).then(|| {
-            let mut axes = Axes::NONE;
-            axes.offer(self.axis);
-            axes.raise(self.axis.separation, self.doubt);
-            axes
-        })
-    }
-}
-
-/// The hint that leads back to an axis.
-pub(crate) fn hint_of(axis: &Axis) -> Hint {
-    hint_to(axis.of)
-}
-
-/// The hint that leads back to what an axis is the axis of.
-#[inline]
-pub(crate) fn hint_to(of: AxisOf) -> Hint {
-    Hint::axis(match of {
-        AxisOf::FaceA(face) => FeatureId::new(Feature::Face(face as u32), Feature::Vertex(0)),
-        AxisOf::FaceB(face) => FeatureId::new(Feature::Vertex(0), Feature::Face(face as u32)),
-        AxisOf::Edges(a, b) => FeatureId::new(Feature::Edge(a as u32), Feature::Edge(b as u32)),
-    })
-}
-
-/// What a hint says that the last axis was the axis of: of these shapes or of others.
-#[inline]
-fn axis_in(hint: Hint) -> Option<AxisOf> {
-    let features = hint.features()?;
-    match (features.a(), features.b()) {
-        (Feature::Face(face), _) => Some(AxisOf::FaceA(face as usize)),
-        (_, Feature::Face(face)) => Some(AxisOf::FaceB(face as usize)),
-        (Feature::Edge(a), Feature::Edge(b)) => Some(AxisOf::Edges(a as usize, b as usize)),
-        _ => None,
-    }
-}
-
-/// What a hint says that the last contact points were made on: of these shapes or of others.
-#[inline]
-pub(crate) fn last_of(hint: Hint) -> Option<AxisOf> {
-    match hint.points_on() {
-        Some(OnFace::OfA(face)) => Some(AxisOf::FaceA(face as usize)),
-        Some(OnFace::OfB(face)) => Some(AxisOf::FaceB(face as usize)),
-        None => axis_in(hint),
-    }
-}
-
-/// The hint of an axis that contact points were not made on, but on another.
-pub(crate) fn hint_with(hint: Hint, points_on: AxisOf) -> Hint {
-    if axis_in(hint) == Some(points_on) {
-        return hint;
-    }
-    match points_on {
-        AxisOf::FaceA(face) => hint.with_points_on(Some(OnFace::OfA(face as u32))),
-        AxisOf::FaceB(face) => hint.with_points_on(Some(OnFace::OfB(face as u32))),
-        AxisOf::Edges(..) => hint_to(points_on),
-    }
 }
 
 #[cfg(test)]
