@@ -2,9 +2,9 @@
 
 use asunder::{Collider3, World3};
 use asunder_broad::Sweep;
-use asunder_narrow::{Answer, Batch3, Hint, Job3, Pair2, Pair3, collide3};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, Pair2, Pair3, collide3, separations3};
 use asunder_scenes::boxes::{BoxScene, MovingBoxes};
-use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, pairs2, pairs3};
+use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, frames3, pairs2, pairs3};
 use asunder_scenes::worlds::{Replay3, WorldScene};
 use core::hint::black_box;
 use core::time::Duration;
@@ -28,6 +28,10 @@ fn broad(criterion: &mut Criterion) {
     });
 }
 
+fn posed(p: &PosedPair3) -> Pair3<'_> {
+    Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)
+}
+
 /// One question about every pair of a set. The name is that of the row of `compare`; times are for the whole set.
 fn solids(
     criterion: &mut Criterion,
@@ -36,7 +40,7 @@ fn solids(
     ask: impl Fn(&Pair3) -> bool,
 ) {
     let pairs = pairs3(kind, set, PAIRS, 1);
-    let one = |p: &PosedPair3| ask(&Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b));
+    let one = |pair: &PosedPair3| ask(&posed(pair));
     criterion.bench_function(
         &format!("{}/{}/{operation}, {PAIRS} pairs", kind.name(), set.name()),
         |bencher| {
@@ -46,7 +50,7 @@ fn solids(
 }
 
 fn space(criterion: &mut Criterion) {
-    for kind in [SolidKind::Box, SolidKind::Hull32] {
+    for kind in [SolidKind::Box, SolidKind::Authored, SolidKind::Hull32, SolidKind::Hull128] {
         let mixed = (kind, PairSet::Mixed);
         solids(criterion, mixed, "boolean", |pair| pair.overlaps());
         solids(criterion, mixed, "separation", |pair| {
@@ -56,9 +60,16 @@ fn space(criterion: &mut Criterion) {
         solids(criterion, mixed, "manifold", |pair| black_box(pair.manifold(0.0)).is_some());
         solids(criterion, (kind, PairSet::Rest), "manifold", |pair| black_box(pair.manifold(0.0)).is_some());
     }
+    for kind in [SolidKind::Box, SolidKind::Hull32] {
+        solids(criterion, (kind, PairSet::Far), "boolean", |pair| pair.overlaps());
+        solids(criterion, (kind, PairSet::Deep), "separation", |pair| {
+            black_box(pair.separation(0.0));
+            true
+        });
+        cached(criterion, kind);
+        followed(criterion, kind);
+    }
     at_once(criterion);
-    cached(criterion, SolidKind::Box);
-    cached(criterion, SolidKind::Hull32);
 }
 
 fn job(pair: &PosedPair3, hint: Hint, sensor: bool) -> Job3<'_> {
@@ -69,6 +80,15 @@ fn job(pair: &PosedPair3, hint: Hint, sensor: bool) -> Job3<'_> {
 /// Boxes without hints, all in one call.
 fn at_once(criterion: &mut Criterion) {
     let pairs = pairs3(SolidKind::Box, PairSet::Mixed, PAIRS, 1);
+    let posed: Vec<Pair3<'_>> = pairs.iter().map(posed).collect();
+    let mut found = Vec::new();
+    criterion.bench_function(&format!("box8/mixed/separation, {PAIRS} pairs"), |bencher| {
+        bencher.iter(|| {
+            found.clear();
+            separations3(black_box(&posed), 0.0, &mut found);
+            found.len()
+        });
+    });
     let mut batch = Batch3::default();
     for (operation, sensor) in [("boolean", true), ("manifold", false)] {
         let jobs: Vec<Job3<'_>> = pairs.iter().map(|pair| job(pair, Hint::NONE, sensor)).collect();
@@ -88,10 +108,7 @@ fn cached(criterion: &mut Criterion, kind: SolidKind) {
     let mut batch = Batch3::default();
     let fresh: Vec<Job3<'_>> = pairs.iter().map(|pair| job(pair, Hint::NONE, false)).collect();
     collide3(&fresh, &mut batch);
-    let hints = batch.answers.iter().map(|answer| {
-        let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
-        *hint
-    });
+    let hints = batch.answers.iter().map(hint_of);
     let jobs: Vec<Job3<'_>> = pairs.iter().zip(hints).map(|(pair, hint)| job(pair, hint, false)).collect();
     criterion.bench_function(&format!("{}/rest/cached, {PAIRS} pairs", kind.name()), |bencher| {
         let mut batch = Batch3::default();
@@ -101,6 +118,40 @@ fn cached(criterion: &mut Criterion, kind: SolidKind) {
             batch.manifolds.len()
         });
     });
+}
+
+fn hint_of(answer: &Answer) -> Hint {
+    let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
+    *hint
+}
+
+/// Bodies that slide or tumble through all frames, each frame with the hints of the one before.
+fn followed(criterion: &mut Criterion, kind: SolidKind) {
+    for set in [PairSet::Slide, PairSet::Tumble] {
+        let frames = frames3(kind, set, PAIRS, 1);
+        let asked: usize = frames.iter().map(Vec::len).sum();
+        let (mut batch, mut hints) = (Batch3::default(), Vec::new());
+        criterion.bench_function(
+            &format!("{}/{}/cached, {asked} pairs", kind.name(), set.name()),
+            |bencher| {
+                bencher.iter(|| {
+                    hints.clear();
+                    hints.resize(frames[0].len(), Hint::NONE);
+                    for frame in black_box(&frames) {
+                        let jobs: Vec<Job3<'_>> =
+                            frame.iter().zip(&hints).map(|(pair, &hint)| job(pair, hint, false)).collect();
+                        batch.clear();
+                        collide3(&jobs, &mut batch);
+                        hints
+                            .iter_mut()
+                            .zip(&batch.answers)
+                            .for_each(|(kept, answer)| *kept = hint_of(answer));
+                    }
+                    batch.manifolds.len()
+                });
+            },
+        );
+    }
 }
 
 fn pair(p: &PosedPair2) -> Pair2<'_> {
@@ -117,6 +168,10 @@ fn plane(criterion: &mut Criterion) {
             bencher.iter(|| pairs.iter().filter(|p| pair(black_box(p)).manifold(0.0).is_some()).count());
         });
     }
+    let far = pairs2(PlaneKind::Poly4096, PairSet::Far, PAIRS, 1);
+    criterion.bench_function(&format!("poly4096/far/boolean, {PAIRS} pairs"), |bencher| {
+        bencher.iter(|| far.iter().filter(|p| pair(black_box(p)).overlaps()).count());
+    });
 }
 
 fn frame(criterion: &mut Criterion) {

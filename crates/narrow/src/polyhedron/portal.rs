@@ -49,8 +49,8 @@ pub(crate) fn search(a: &Solid, b: &Solid, beyond: f64, precision: &Precision) -
         Look { a, b, doubt: precision.projection(), direction, separation: 0.0, left: MAX_VERTICES };
     match look.through(inside, precision) {
         Some(true) => Found::Overlap,
-        None if look.separation > beyond => Found::Beyond(look.direction, look.separation),
-        _ => Found::Nothing(look.direction),
+        None if look.separation > beyond => Found::Beyond(look.unit(), look.separation),
+        _ => Found::Nothing(look.unit()),
     }
 }
 
@@ -60,22 +60,33 @@ struct Look<'a, 'b> {
     b: &'a Solid<'b>,
     /// A separation beyond this parts them.
     doubt: f64,
-    /// Of the last look, of unit length.
+    /// Of the last look, of any length.
     direction: DVec3,
-    /// What it showed.
+    /// What it showed, in metres; below zero in units of the direction's length.
     separation: f64,
     left: usize,
 }
 
 impl Look<'_, '_> {
-    /// The furthest vertex along a direction; nothing if that parts the solids, if there is no direction, or if there were
-    /// too many.
-    fn along(&mut self, direction: DVec3) -> Option<DVec3> {
-        self.direction = direction.try_normalize()?;
+    fn unit(&self) -> DVec3 {
+        self.direction.try_normalize().unwrap_or(DVec3::X)
+    }
+
+    /// The furthest vertex along a direction of any length; nothing if that parts the solids, if there is no direction, or if
+    /// there were too many. A root is taken only where the solids seem to be parted.
+    fn along(&mut self, mut direction: DVec3) -> Option<DVec3> {
+        let mut square = direction.length_squared();
+        // The lanes are f32: what is much shorter or longer would leave their range, and with it their bound.
+        if !(1e-40..1e40).contains(&square) {
+            (direction, square) = (direction.try_normalize()?, 1.0);
+        }
+        self.direction = direction;
         self.left = self.left.checked_sub(1)?;
-        let ((in_a, _), (in_b, _)) =
-            (self.a.rough_support(self.direction), self.b.rough_support(-self.direction));
+        let ((in_a, _), (in_b, _)) = (self.a.rough_support(direction), self.b.rough_support(-direction));
         self.separation = -in_b.reach - in_a.reach;
+        if self.separation > 0.0 {
+            self.separation /= square.sqrt();
+        }
         (self.separation <= self.doubt).then(|| self.a.point(in_a.vertex) - self.b.point(in_b.vertex))
     }
 

@@ -178,7 +178,7 @@ impl<'a> Solid<'a> {
         best
     }
 
-    /// A vertex that is the furthest along a direction of unit length up to a rounding of f32; a bound on how far any of them
+    /// A vertex that is the furthest along a direction of any length up to a rounding of f32; a bound on how far any of them
     /// reaches, and by how much that may exceed the truth. Half the cost of [`Solid::support`], and less where many are
     /// equally far.
     #[inline]

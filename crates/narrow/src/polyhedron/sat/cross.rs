@@ -7,7 +7,6 @@ use asunder_geometry::tolerance::PARALLEL_EDGES;
 /// An edge in the frame of the pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EdgeAt {
-   
     pub(super) half_edge: usize,
     /// Its direction, not normalised.
     pub(super) along: DVec3,

@@ -1,7 +1,4 @@
-//! Axes and hints: what one says of the other, and what last frame's is worth in this one.
-//!
-//! A hint names features, of these shapes or of others. It is evaluated like any other axis, and kept where [`is_nearest`]
-//! proves that no other is better.
+//! What the last frame learnt: the axis that was the best, tried first, and what contact points were made on.
 
 use super::super::solid::Solid;
 use super::facet::is_nearest;
