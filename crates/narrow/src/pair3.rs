@@ -240,7 +240,7 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    fn general_contact(
+    pub(crate) fn general_contact(
         &self,
         margin: f32,
         hint: Hint,

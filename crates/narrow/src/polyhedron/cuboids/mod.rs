@@ -195,3 +195,6 @@ fn edge_along(cuboid: &Solid, axis: usize, corner: usize) -> usize {
     // Corners that differ in one bit share an edge, and every such edge exists.
     cuboid.edge_between(corner & !(1 << axis), corner | 1 << axis).unwrap_or(0)
 }
+
+#[cfg(test)]
+mod tests;

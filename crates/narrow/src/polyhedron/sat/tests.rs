@@ -10,21 +10,21 @@ use asunder_geometry::glam::{Quat, Vec3};
 use asunder_geometry::{Capsule3, Hull, Pose3, Shape3, Triangle3};
 
 /// xorshift, for cases without a dependency.
-pub(super) struct Random(pub(super) u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub(super) fn number(&mut self) -> f32 {
+    pub(crate) fn number(&mut self) -> f32 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         (self.0 >> 40) as f32 / (1_u32 << 23) as f32 - 1.0
     }
 
-    pub(super) fn vector(&mut self) -> Vec3 {
+    pub(crate) fn vector(&mut self) -> Vec3 {
         Vec3::new(self.number(), self.number(), self.number())
     }
 
-    pub(super) fn turn(&mut self, kind: u64) -> Quat {
+    pub(crate) fn turn(&mut self, kind: u64) -> Quat {
         let any = Quat::from_xyzw(self.number(), self.number(), self.number(), self.number());
         match kind % 4 {
             0 => any,
@@ -36,13 +36,13 @@ impl Random {
     }
 
     /// Vertices on a sphere.
-    pub(super) fn round_hull(&mut self, vertices: usize) -> Shape3 {
+    pub(crate) fn round_hull(&mut self, vertices: usize) -> Shape3 {
         let points: Vec<Vec3> = (0..vertices).map(|_| self.vector().normalize_or(Vec3::X)).collect();
         Hull::from_points(&points).unwrap().into()
     }
 
     /// Random hulls, cubes, prisms, plates, and turned lattices, whose faces were merged.
-    pub(super) fn hull(&mut self, kind: u64) -> Shape3 {
+    pub(crate) fn hull(&mut self, kind: u64) -> Shape3 {
         let pose = Pose3::new(Vec3::ZERO, self.turn(0)).unwrap();
         let lattice = |i: i32| Vec3::new((i % 3) as f32, (i / 3 % 3) as f32, (i / 9) as f32) - Vec3::ONE;
         let points: Vec<Vec3> = match kind % 5 {

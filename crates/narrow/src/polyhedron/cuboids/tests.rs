@@ -1,0 +1,82 @@
+//! Contact points of two cuboids, made side by side, against those of the general clipper, made one by one.
+
+use super::super::sat::tests::Random;
+use crate::{ContactPoint3, FeatureId, Hint, Manifold3, Pair3};
+use asunder_geometry::glam::{Quat, Vec3};
+use asunder_geometry::{Cuboid, Pose3, Shape3};
+
+fn ids(manifold: &Manifold3) -> Vec<FeatureId> {
+    manifold.points.iter().map(|point| point.feature).collect()
+}
+
+/// Twice the area that points span as seen along a normal, in any order.
+fn area(points: &[ContactPoint3], normal: Vec3) -> f32 {
+    let at = |i: usize| points[i].anchor_a;
+    let across =
+        |i: usize, j: usize, k: usize, l: usize| (at(j) - at(i)).cross(at(l) - at(k)).dot(normal).abs();
+    match points.len() {
+        // The diagonals are the two that make the most.
+        4 => across(0, 1, 2, 3).max(across(0, 2, 1, 3)).max(across(0, 3, 1, 2)),
+        3 => across(0, 1, 0, 2),
+        _ => 0.0,
+    }
+}
+
+/// Two cuboids, face near face, turned a little, much or not at all against each other.
+fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
+    let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
+    let shapes = halves.map(|half| Shape3::from(Cuboid::from_half_extents(half).unwrap()));
+    let tilt = [0.0, 1e-4, 0.02, 1.0][round % 4];
+    let (x, y) = (tilt * random.number(), tilt * random.number());
+    let spin = Quat::from_xyzw(x, y, [random.number(), 0.0][round / 4 % 3 / 2], 1.0).normalize();
+    let aside = Vec3::new(random.number(), random.number(), 0.0) * 0.7;
+    let above = aside + Vec3::Z * (halves[0].z + halves[1].z - 0.05 * random.number().abs());
+    let turn = random.turn(0).normalize();
+    let at = random.vector();
+    let poses = [Pose3::new(at, turn), Pose3::new(at + turn * above, turn * spin)].map(Result::unwrap);
+    (shapes, poses, if round % 2 == 0 { 0.0 } else { 0.03 })
+}
+
+#[test]
+fn side_by_side_or_one_by_one_the_points_are_the_same() {
+    let mut random = Random(0x9E6D_62D0_6F6A_3B1F);
+    let (mut compared, mut reduced, mut same_four) = ([0; 5], 0, 0);
+    for round in 0..8000 {
+        let (shapes, poses, margin) = pair(&mut random, round);
+        let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
+        let mut plain = Vec::new();
+        pair.general_contact(margin, Hint::NONE, Some(&mut plain));
+        let (found, plain) = (pair.manifold(margin), plain.pop());
+        let (Some(found), Some(plain)) = (&found, &plain) else {
+            assert_eq!(found.is_some(), plain.is_some(), "round {round}");
+            continue;
+        };
+        let size = f64::from(pair.size());
+        // Faces and edges that are even but for rounding may be chosen otherwise.
+        if found.normal.dot(plain.normal) < 0.999_999 {
+            let even = f64::from(found.separation - plain.separation).abs();
+            assert!(even <= f64::from(found.error + plain.error), "round {round}: {found:?}, {plain:?}");
+            continue;
+        }
+        assert_eq!(found.points.len(), plain.points.len(), "round {round}: {found:?}, {plain:?}");
+        compared[found.points.len()] += 1;
+        if ids(found) == ids(plain) {
+            for (one, other) in found.points.iter().zip(&plain.points) {
+                // Both are rounded to f32 at last; the numbers before that agree to some 1e-13.
+                let near = |p: Vec3, q: Vec3| f64::from((p - q).length()) <= 2e-7 * size;
+                let is_near = near(one.anchor_a, other.anchor_a) && near(one.anchor_b, other.anchor_b);
+                assert!(is_near, "round {round}: {one:?}, {other:?}");
+                assert!(f64::from(one.separation - other.separation).abs() <= 1e-7 * size, "round {round}");
+            }
+            same_four += usize::from(found.points.len() == 4);
+        } else {
+            // Of more than four corners any may be kept that are worth as much, but for two parts in a thousand.
+            let areas = [found, plain].map(|manifold| area(&manifold.points, manifold.normal));
+            let is_reduced = found.points.len() == 4 && areas[0] >= 0.997 * areas[1];
+            assert!(is_reduced, "round {round}: {areas:?}, {found:?}, {plain:?}");
+            reduced += 1;
+        }
+    }
+    assert!(compared[1..].iter().all(|&count| count > 200), "{compared:?}");
+    assert!(same_four > 4000 && reduced * 50 < same_four, "{reduced} kept others, {same_four} the same");
+}
