@@ -34,7 +34,7 @@ fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     let turn = random.turn(0).normalize();
     let at = random.vector();
     let poses = [Pose3::new(at, turn), Pose3::new(at + turn * above, turn * spin)].map(Result::unwrap);
-    (shapes, poses, if round % 2 == 0 { 0.0 } else { 0.03 })
+    (shapes, poses, if round.is_multiple_of(2) { 0.0 } else { 0.03 })
 }
 
 #[test]
