@@ -9,10 +9,11 @@
 use crate::answer::Separation3;
 use crate::batch::Batch3;
 use crate::feature::Hint;
-use crate::pair3::{Pair3, in_place, limit_of, reach_of};
+use crate::pair3::{Pair3, limit_of, reach_of};
 use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::eight::{Eight, LANES};
 use crate::polyhedron::cuboids::placed::Posed;
+use crate::room::in_place;
 use asunder_geometry::{Pose3, Shape3};
 
 /// One question of a batch: are these within the margin of each other, and how do they touch?

@@ -58,6 +58,7 @@ mod pair3;
 mod polygon;
 mod polyhedron;
 mod precision;
+mod room;
 
 pub use answer::{
     Answer, Closest2, Closest3, ContactPoint2, ContactPoint3, Manifold2, Manifold3, Measured2, Measured3,

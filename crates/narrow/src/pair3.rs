@@ -10,6 +10,7 @@ use crate::polyhedron::cuboids::placed::Posed;
 use crate::polyhedron::manifold::Touch;
 use crate::polyhedron::sat::hint_with;
 use crate::precision::rounded_down;
+use crate::room::{Deepest, Room, in_place};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -190,8 +191,9 @@ impl<'a> Pair3<'a> {
                 Contact::Unclear => {}
             }
         }
-        let manifolds = self.manifolds(margin);
-        manifolds.into_iter().reduce(|best, next| if next.separation < best.separation { next } else { best })
+        let mut deepest = Deepest(None);
+        self.general_contact(margin, Hint::NONE, &mut deepest);
+        deepest.0
     }
 
     /// One manifold for each pair of convex parts at most `margin` metres apart, in order of the parts: at most one
@@ -226,7 +228,7 @@ impl<'a> Pair3<'a> {
         mut manifolds: Option<&mut Vec<Manifold3>>,
     ) -> (Hint, Option<bool>) {
         let Some(cuboids) = self.cuboids() else {
-            return self.general_contact(margin, hint, manifolds);
+            return self.general_contact(margin, hint, &mut manifolds);
         };
         let reach = reach_of(margin);
         let contact = match &mut manifolds {
@@ -236,7 +238,7 @@ impl<'a> Pair3<'a> {
         match contact {
             Contact::Apart(hint) => (hint, None),
             Contact::Touching(hint) => (hint, Some(true)),
-            Contact::Unclear => self.general_contact(margin, hint, manifolds),
+            Contact::Unclear => self.general_contact(margin, hint, &mut manifolds),
         }
     }
 
@@ -244,14 +246,14 @@ impl<'a> Pair3<'a> {
         &self,
         margin: f32,
         hint: Hint,
-        mut manifolds: Option<&mut Vec<Manifold3>>,
+        manifolds: &mut impl Room,
     ) -> (Hint, Option<bool>) {
         let (margin, reach) = (margin.max(0.0), reach_of(margin));
         if self.gap_of_spheres() > reach {
             return (hint, None);
         }
         let (mut next_hint, mut touch) = (Hint::NONE, None);
-        let wanted = if manifolds.is_some() { Wanted::Points } else { Wanted::Number };
+        let wanted = if manifolds.is_wanted() { Wanted::Points } else { Wanted::Number };
         self.any(reach, |parts| {
             let near = match parts.convex.probe(Asked { limit: reach, hint, wanted }) {
                 Probe::Beyond(_, hint) => {
@@ -264,7 +266,7 @@ impl<'a> Pair3<'a> {
             let is_touching = near.verdict.overlapping;
             if is_touching || near.separation <= margin {
                 touch = Some(touch.unwrap_or(false) || is_touching);
-                if let Some(manifolds) = &mut manifolds
+                if manifolds.is_wanted()
                     && let Some(hint) = parts.add_manifold(&near, reach, hint, manifolds)
                 {
                     next_hint = hint;
@@ -416,20 +418,6 @@ pub(crate) fn reach_of(margin: f32) -> f64 {
     margin.max(0.0).next_up().into()
 }
 
-/// Asks for a contact whose manifold is filled in where it will stay.
-#[inline(always)]
-pub(crate) fn in_place(
-    manifolds: &mut Vec<Manifold3>,
-    ask: impl FnOnce(Option<&mut Manifold3>) -> Contact,
-) -> Contact {
-    manifolds.push(Manifold3::BLANK);
-    let contact = ask(manifolds.last_mut());
-    if !matches!(contact, Contact::Touching(_)) {
-        manifolds.pop();
-    }
-    contact
-}
-
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
 fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
     let Shape3::Compound(compound) = shape else {
@@ -442,21 +430,16 @@ fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'
 }
 
 impl Parts<'_> {
-    /// Appends the contact points; returns the hint that keeps them where they are in the next frame.
-    fn add_manifold(&self, near: &Near, margin: f64, hint: Hint, to: &mut Vec<Manifold3>) -> Option<Hint> {
+    /// Adds the contact points; returns the hint that keeps them where they are in the next frame.
+    fn add_manifold(&self, near: &Near, margin: f64, hint: Hint, to: &mut impl Room) -> Option<Hint> {
         let mut touch = Touch::NONE;
         if !self.convex.touch(near, margin, hint, &mut touch) {
             return None;
         }
-        to.push(Manifold3 {
-            part_a: self.indices[0],
-            part_b: self.indices[1],
-            normal: self.basis.turn(touch.normal).as_vec3(),
-            separation: near.separation,
-            error: near.error,
-            ..Manifold3::BLANK
-        });
-        if let Some(manifold) = to.last_mut() {
+        if let Some(manifold) = to.room(near.separation) {
+            [manifold.part_a, manifold.part_b] = self.indices;
+            manifold.normal = self.basis.turn(touch.normal).as_vec3();
+            (manifold.separation, manifold.error) = (near.separation, near.error);
             for point in &touch.points {
                 manifold.points.push(ContactPoint3 {
                     separation: point.separation as f32,

@@ -9,7 +9,7 @@
 //! three:          shares from the 2 x 2 system of their edges; the other corner on the side away from the origin
 //! four:           the origin is on the same side of all four faces
 //! ```
-//! G is the Gram matrix, G[i][j] = p_i . p_j. At most fifteen candidates, all tried: exactly one set of independent
+//! G is the Gram matrix, `G[i][j] = p_i . p_j`. At most fifteen candidates, all tried: exactly one set of independent
 //! corners passes, whatever the rest is.
 
 use super::Corner;

@@ -150,7 +150,7 @@ impl<'a> Solid<'a> {
     /// The vertex furthest along a direction of unit length; ties go to the lowest index. Cost: linear in the vertices.
     ///
     /// f32 lanes leave out what is lower by more than they can be off; f64 chooses among the rest, so that the answer is
-    /// that of [`Solid::support_one_by_one`] to the last bit. 32 vertices: 35 ns one by one, 19 here (AMD EPYC, Zen 4,
+    /// that of `support_one_by_one` to the last bit. 32 vertices: 35 ns one by one, 19 here (AMD EPYC, Zen 4,
     /// 2026-11-21).
     #[inline]
     pub(crate) fn support(&self, direction: DVec3) -> Support {

@@ -9,7 +9,7 @@
 //! other's; a segment has its whole great circle, and zero for ends and middle.
 //!
 //! One arc of A at a time against eight of B, in f32: a pair that is kept needlessly costs a verified axis, and the slack
-//! covers what f32 rounds. [`may_cross`] is the definition; the lanes do the same operations in the same order.
+//! covers what f32 rounds. `may_cross` is the definition; the lanes do the same operations in the same order.
 
 use super::super::solid::Solid;
 use super::MAX_EDGES;
@@ -118,7 +118,7 @@ pub(super) fn may_cross(a: &EdgeArc, b: &EdgeArc) -> bool {
     !opposite(dot(meeting, a.middle), -dot(meeting, b.middle))
 }
 
-/// [`may_cross`] of one arc and eight: 1 where they may, else 0. Numbers and not bools, so that lanes stay lanes.
+/// `may_cross` of one arc and eight: 1 where they may, else 0. Numbers and not bools, so that lanes stay lanes.
 #[inline]
 fn may_cross_eight(a: &EdgeArc, b: &ArcOctet) -> [u32; 8] {
     let dot = |v: Vec3, w: &Eight, i: usize| v.x * w[0][i] + v.y * w[1][i] + v.z * w[2][i];

@@ -1,0 +1,53 @@
+//! Where the manifolds of a pair go, so that they are made where they stay.
+
+use crate::answer::Manifold3;
+use crate::polyhedron::cuboids::asked::Contact;
+
+/// Where manifolds go. They are large, and filled in where they stay.
+pub(crate) trait Room {
+    fn is_wanted(&self) -> bool;
+
+    /// A blank one for a manifold of this separation, unless that is not wanted.
+    fn room(&mut self, separation: f32) -> Option<&mut Manifold3>;
+}
+
+/// All of them, or none.
+impl Room for Option<&mut Vec<Manifold3>> {
+    fn is_wanted(&self) -> bool {
+        self.is_some()
+    }
+
+    fn room(&mut self, _: f32) -> Option<&mut Manifold3> {
+        let manifolds = self.as_mut()?;
+        manifolds.push(Manifold3::BLANK);
+        manifolds.last_mut()
+    }
+}
+
+/// The deepest; of equals, the first.
+pub(crate) struct Deepest(pub(crate) Option<Manifold3>);
+
+impl Room for Deepest {
+    fn is_wanted(&self) -> bool {
+        true
+    }
+
+    fn room(&mut self, separation: f32) -> Option<&mut Manifold3> {
+        let is_deeper = self.0.as_ref().is_none_or(|known| separation < known.separation);
+        is_deeper.then(|| self.0.insert(Manifold3::BLANK))
+    }
+}
+
+/// Asks for a contact whose manifold is filled in where it will stay.
+#[inline(always)]
+pub(crate) fn in_place(
+    manifolds: &mut Vec<Manifold3>,
+    ask: impl FnOnce(Option<&mut Manifold3>) -> Contact,
+) -> Contact {
+    manifolds.push(Manifold3::BLANK);
+    let contact = ask(manifolds.last_mut());
+    if !matches!(contact, Contact::Touching(_)) {
+        manifolds.pop();
+    }
+    contact
+}
