@@ -44,6 +44,10 @@ pub(crate) fn search(a: &Solid, b: &Solid, beyond: f64, precision: &Precision) -
     if apart + 2.0 * precision.projection() < a.inner_radius + b.inner_radius {
         return Found::Overlap;
     }
+    if apart == 0.0 {
+        // Slivers about the same centre, thinner than rounding: there is no ray.
+        return Found::Nothing(DVec3::X);
+    }
     let direction = -inside / apart;
     let mut look =
         Look { a, b, doubt: precision.projection(), direction, separation: 0.0, left: MAX_VERTICES };

@@ -209,8 +209,9 @@ impl<'a> Solid<'a> {
     /// How far the lanes of two vertices may be off together, in the shape's own axes.
     #[inline(always)]
     fn lane_doubt(&self, direction: Vec3) -> f32 {
-        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides.
-        8.5 * (f32::EPSILON / 2.0) * self.extent * direction.abs().element_sum()
+        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides; and one each where
+        // the doubt, and perhaps a slack, is taken off.
+        10.5 * (f32::EPSILON / 2.0) * self.extent * direction.abs().element_sum()
     }
 
     /// What a vertex' lane comes to at least if the vertex may be the furthest, in the shape's own axes.

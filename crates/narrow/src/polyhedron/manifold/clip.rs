@@ -135,8 +135,8 @@ impl<const N: usize> Polygon<N> {
     /// Where the corners begin that are not beyond a side, and how many they are, around the polygon; none if all are
     /// beyond.
     ///
-    /// A convex polygon goes beyond a line once. One that rounding has dented may do so twice; then only what is around
-    /// the furthest corner counts.
+    /// A convex polygon goes beyond a line once. One that is dented, by rounding or because slivers were merged into its
+    /// face, may do so twice; then only what is around the furthest corner counts, and other corners beyond are left out.
     fn run_within(&self, furthest: f64, slack: f64) -> Option<(usize, usize)> {
         let (beyond, count) = (self.beyond.as_slice(), self.beyond.len());
         if count <= 64 {
@@ -182,7 +182,10 @@ impl<const N: usize> Polygon<N> {
         let [one, other] = self.rings.each_mut();
         let (ring, spare) = if self.turn == 0 { (one, other) } else { (other, one) };
         for i in begin..begin + kept {
-            spare.push(ring[around(i)]);
+            // Of a dented polygon that goes beyond the line twice, corners beyond it may be left in the run.
+            if self.beyond[around(i)] <= slack {
+                spare.push(ring[around(i)]);
+            }
         }
         let leaving = self.corner(last).leaving;
         let along_side = Leaving::Side(side.half_edge);

@@ -233,8 +233,10 @@ impl Ball {
             // Greatest inside the arc only where it rises from both ends.
             let is_inside =
                 (other + slack > cosine * over) & (over + slack > cosine * other) & (higher > 0.0);
-            // 1 / cos(t / 2) squared is 2 / (1 + cos t). The sum may be rounding; then nothing is left out.
-            let does_rise = is_inside & (2.001 * higher * higher > square * (1.0 + cosine));
+            // 1 / cos(t / 2) squared is 2 / (1 + cos t). Of blades, whose faces are all but back to back, the sum is largely
+            // the cosine's rounding, half a unit: without that, what is left is too small and nothing is left out wrongly.
+            let opening = 1.0 + cosine - f32::EPSILON / 2.0;
+            let does_rise = is_inside & (2.001 * higher * higher > square * opening);
             *open = u32::from((higher > least) | does_rise);
         }
         open

@@ -39,9 +39,12 @@ pub(super) fn is_nearest(
         AxisOf::FaceA(face) => in_face(a, face, axis.normal, b.point(deepest)),
         AxisOf::FaceB(face) => in_face(b, face, -axis.normal, a.point(deepest)),
         AxisOf::Edges(edge_a, edge_b) => {
-            let edges = [a.edge(edge_a), b.edge(edge_b)];
-            // Edges that are named by a stale hint need not be where the solids reach furthest.
-            let is_facet = axis.normal.dot(edges[0].0 - edges[1].0) >= depth - doubt;
+            let edges @ [(from_a, to_a), (from_b, to_b)] = [a.edge(edge_a), b.edge(edge_b)];
+            let along = |point: DVec3| axis.normal.dot(point);
+            let lowest = along(from_a).min(along(to_a)) - along(from_b).max(along(to_b));
+            // Edges that are named by a stale hint need not be where the solids reach furthest; and the axis of edges at a
+            // small angle is beside its place by so much that not all four corners lie in one plane across it.
+            let is_facet = lowest >= depth - 0.5 * doubt;
             if is_facet { in_parallelogram(edges, axis.normal) } else { f64::NEG_INFINITY }
         }
     };
@@ -92,7 +95,8 @@ fn does_ball_cover(a: &Solid, b: &Solid, normal: DVec3, (depth, disc): (f64, f64
     if spare >= 0.0 && spare * spare >= square {
         return true;
     }
-    let across = (square - along * along).max(0.0).sqrt();
+    // Not from both squares: of a centre straight behind the facet, their difference is rounding, and its root is far more.
+    let across = (center - normal * along).length();
     // The angle up to which the disc reaches, by the tangent of its half.
     let tangent = disc / depth;
     let scale = 1.0 / (1.0 + tangent * tangent);
