@@ -171,7 +171,7 @@ fn half_circles_and_whole_circles_lose_no_axis_either() {
 #[test]
 fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
     let mut random = Random(0x2545_F491_4F6C_DD1D);
-    let mut ties = 0;
+    let (mut ties, mut rough_only) = (0, 0);
     for case in 0..3000_u64 {
         let (shape_a, shape_b) = (random.hull(case), random.hull(case / 7));
         let turns = [random.turn(case / 2), random.turn(case / 3)];
@@ -187,6 +187,18 @@ fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
                     let (lanes, definition) = (solid.support(direction), solid.support_one_by_one(direction));
                     assert_eq!(lanes.vertex, definition.vertex, "case {case}");
                     assert_eq!(lanes.reach.to_bits(), definition.reach.to_bits(), "case {case}");
+                    // In f32 alone: a bound that no vertex is beyond, and a vertex that is no further below it than told.
+                    for length in [1.0, 1e-18, 1e18] {
+                        let (rough, excess) = solid.rough_support(direction * length);
+                        let (truth, rounding) = (definition.reach * length, 1e-12 * length * 1e3);
+                        assert!(truth <= rough.reach + rounding, "case {case}: {truth} beyond {rough:?}");
+                        let place = direction.dot(solid.point(rough.vertex)) * length;
+                        assert!(
+                            rough.reach - excess <= place + rounding,
+                            "case {case}: {place} far below {rough:?}"
+                        );
+                        rough_only += usize::from(rough.vertex != definition.vertex);
+                    }
                     let local = definition.reach - 1e-7;
                     let near = (0..solid.vertices.len()).filter(|&v| direction.dot(solid.point(v)) > local);
                     ties += usize::from(near.count() > 1);
@@ -194,5 +206,5 @@ fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
             }
         });
     }
-    assert!(ties > 10_000, "{ties}");
+    assert!(ties > 10_000 && rough_only > 100, "{ties}, {rough_only}");
 }
