@@ -3,6 +3,7 @@
 mod blades;
 mod needles;
 mod peers;
+mod points;
 mod shapes;
 
 use asunder::{BodyKey3, Collider3, World3};

@@ -16,6 +16,10 @@
 
 use arrayvec::ArrayVec;
 
+/// So many slacks beyond the extent of the reference face nothing stays. At a right angle a corner is within a slack of
+/// both sides, each taken as up to a root of two, and so within two slacks of the extent.
+const TIP_SLACKS: f64 = 4.0;
+
 /// A polygon being clipped: clockwise, since it is a face seen from behind.
 ///
 /// Corners are made once and never moved: what changes from side to side is a list of their places. A corner that was
@@ -27,6 +31,8 @@ pub(super) struct Polygon<const N: usize> {
     turn: usize,
     /// For each corner of the ring, how far it lies beyond the side that is being cut at, times that side's length.
     beyond: ArrayVec<f64, N>,
+    /// Whether a corner stayed that lies beyond a side, by no more than the slack.
+    is_loose: bool,
 }
 
 /// A corner of the polygon being clipped.
@@ -79,12 +85,14 @@ impl<const N: usize> Polygon<N> {
             rings: [ArrayVec::new(), ArrayVec::new()],
             turn: 0,
             beyond: ArrayVec::new(),
+            is_loose: false,
         }
     }
 
     pub(super) fn clear(&mut self) {
         self.corners.clear();
         self.rings[self.turn].clear();
+        self.is_loose = false;
     }
 
     fn ring(&self) -> &[u16] {
@@ -129,6 +137,49 @@ impl<const N: usize> Polygon<N> {
                 self.keep(kept, side, slack);
             }
             self.turn = 1 - self.turn;
+        } else {
+            self.is_loose |= furthest > 0.0;
+        }
+    }
+
+    /// Takes away what stays beyond a corner of the reference face by more than a few slacks, where its sides meet at so
+    /// small an angle that all of it is within the slack of both. `places` are the face's corners, from half-edge `first`.
+    ///
+    /// A face narrower than the slack is a needle that would never end: its lines part by no more than the slack long past
+    /// its tip. Its extent ends it. What lies off a corner of a right angle or more does not come so far.
+    #[inline]
+    pub(super) fn cut_tips(&mut self, places: &[[f64; 2]], first: u16, slack: f64) {
+        if !self.is_loose {
+            return;
+        }
+        let slack = TIP_SLACKS * slack;
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for place in places {
+            for i in 0..2 {
+                low[i] = if place[i] < low[i] { place[i] } else { low[i] };
+                high[i] = if place[i] > high[i] { place[i] } else { high[i] };
+            }
+        }
+        let is_off = |corner: &Corner| {
+            let off = |i: usize| corner.at[i] > high[i] + slack || corner.at[i] < low[i] - slack;
+            off(0) || off(1)
+        };
+        if self.corners().any(is_off) {
+            self.cut_box([low, high], places, first, slack);
+        }
+    }
+
+    /// Cuts by the box around the reference face, whose sides are named by the corners that they touch.
+    #[cold]
+    fn cut_box(&mut self, [low, high]: [[f64; 2]; 2], places: &[[f64; 2]], first: u16, slack: f64) {
+        let around =
+            [(0, high, [0.0, 1.0]), (1, high, [-1.0, 0.0]), (0, low, [0.0, -1.0]), (1, low, [1.0, 0.0])];
+        for (axis, limit, along) in around {
+            let touches = places.iter().zip(first..).find(|(place, _)| place[axis] == limit[axis]);
+            if let Some((&from, half_edge)) = touches {
+                let to = [from[0] + along[0], from[1] + along[1]];
+                self.cut(&Side { from, to, half_edge, before: half_edge, after: half_edge }, slack);
+            }
         }
     }
 
@@ -174,6 +225,7 @@ impl<const N: usize> Polygon<N> {
         let count = self.ring().len();
         let around = |i: usize| if i >= count { i - count } else { i };
         let (outside, last, end) = (before(begin, count), around(begin + kept - 1), around(begin + kept));
+        self.is_loose |= self.beyond[begin] > 0.0 || self.beyond[last] > 0.0;
         // Coming in, the polygon follows its old edge; going out, it follows the side from there.
         if self.beyond[begin] < -slack {
             let leaving = self.corner(outside).leaving;

@@ -138,6 +138,7 @@ impl<'a> Faces<'a> {
             let to = places[if half_edge == last { 0 } else { i + 1 }];
             polygon.cut(&Side { from, to, half_edge, before, after }, slack);
         }
+        polygon.cut_tips(&places, first, slack);
     }
 
     /// At most four of the spots as contacts, in order of their ids.

@@ -4,15 +4,16 @@ use super::super::distance::Witness;
 use super::super::sat::{Axis, AxisOf};
 use super::super::solid::Solid;
 use super::Point;
+use super::over::point_over;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
-use asunder_geometry::glam::DVec3;
 
 /// The nearest points of two edges that cross, each held to its edge.
 ///
 /// Ericson, "Real-time collision detection" (2005), 5.1.9: where one place is held to an end, the other is the foot of
-/// that end.
-pub(super) fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), normal: DVec3) -> Point {
+/// that end. Edges that do not lie over each other are not those that touch: see [`point_over`].
+pub(super) fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), axis: &Axis, slack: f64) -> Point {
+    let normal = axis.normal;
     let ((a0, a1), (b0, b1)) = (a.edge(edges.0), b.edge(edges.1));
     let (along_a, along_b, between) = (a1 - a0, b1 - b0, b0 - a0);
     let cross = along_a.cross(along_b);
@@ -27,12 +28,24 @@ pub(super) fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), normal: DV
     let s = if held == t { s } else { foot_on_a().clamp(0.0, 1.0) };
     let (on_a, on_b) = (a0 + along_a * s, b0 + along_b * held);
     let feature = FeatureId::new(Feature::Edge(edges.0 as u32), Feature::Edge(edges.1 as u32));
-    Point { separation: normal.dot(on_b - on_a), on_a, on_b, feature }.on_surfaces(a, b, normal)
+    let separation = normal.dot(on_b - on_a);
+    let mut point = Point { separation, on_a, on_b, feature };
+    let aside_squared = (on_b - on_a - normal * separation).length_squared();
+    if aside_squared > slack * slack
+        && let Some((over, aside)) = point_over(a, b, axis, slack)
+        && aside * aside < aside_squared
+    {
+        point = over;
+    }
+    point.on_surfaces(a, b, normal)
 }
 
 /// The deepest vertex of one shape, and its foot on the other's supporting plane: what is left where a face looks past
-/// what touches it.
-pub(super) fn deepest_point(a: &Solid, b: &Solid, axis: &Axis) -> Point {
+/// what touches it. If other features that are as deep lie over each other, a point of those.
+pub(super) fn deepest_point(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> Point {
+    if let Some((over, _)) = point_over(a, b, axis, slack) {
+        return over.on_surfaces(a, b, axis.normal);
+    }
     let Axis { separation, normal, of } = *axis;
     let point = match of {
         AxisOf::FaceB(face) => {
@@ -74,7 +87,7 @@ pub(super) fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> Point {
 }
 
 /// The least feature that holds all of these vertices.
-fn feature_of(solid: &Solid, vertices: &[usize]) -> Feature {
+pub(super) fn feature_of(solid: &Solid, vertices: &[usize]) -> Feature {
     let vertex = Feature::Vertex(vertices.first().map_or(0, |&v| v as u32));
     let (&[first, ..], topology) = (vertices, solid.topology) else { return vertex };
     if let &[one, other] = vertices
