@@ -77,6 +77,9 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
         }
     };
     if let (Some(file), Some(picture)) = (&options.svg, picture) {
+        if let Some(folder) = file.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        }
         std::fs::write(file, picture).map_err(|error| format!("{}: {error}", file.display()))?;
         println!("picture        {}", file.display());
     }

@@ -84,7 +84,6 @@ struct Few<'a> {
     face_octets: Held<'a, FaceOctet, 1>,
     edge_octets: Held<'a, EdgeOctet, 2>,
     arcs: Held<'a, EdgeArc, 3>,
-    edge_numbers: &'a [u16],
     center: Vec3,
     inner_radius: f32,
     extent: f32,
@@ -128,20 +127,16 @@ impl<'a> Core2<'a> {
 /// What all cuboids share.
 struct Cube {
     arcs: Box<[EdgeArc]>,
-    edge_numbers: Box<[u16]>,
     octets: [EdgeOctet; 2],
 }
 
 static CUBE: LazyLock<Cube> = LazyLock::new(|| {
     let corner = |i: usize| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
     let corners: [Vec3; 8] = core::array::from_fn(corner);
-    let (arcs, edge_numbers) = EdgeArc::all(&corners, &Cuboid::NORMALS, Cuboid::topology());
+    let arcs = EdgeArc::all(&corners, &Cuboid::NORMALS, Cuboid::topology());
     let octets = EdgeOctet::all(&Cuboid::NORMALS, &[1.0; 6], Cuboid::topology());
-    Cube { arcs, edge_numbers, octets: [octets[0], octets[1]] }
+    Cube { arcs, octets: [octets[0], octets[1]] }
 });
-
-/// Of both loops around a triangle, one of which goes the other way.
-const TRIANGLE_EDGES: [u16; 6] = [0, 1, 2, 2, 1, 0];
 
 impl<'a> Core3<'a> {
     #[inline]
@@ -211,17 +206,8 @@ impl<'a> Core3<'a> {
     #[inline]
     pub fn arcs(&self) -> &[EdgeArc] {
         match &self.0 {
-            Kept::ByHull(hull) => hull.arcs().0,
+            Kept::ByHull(hull) => hull.arcs(),
             Kept::Here(few) => few.arcs.as_slice(),
-        }
-    }
-
-    /// For each half-edge, the number of its edge in that order.
-    #[inline]
-    pub fn edge_numbers(&self) -> &[u16] {
-        match &self.0 {
-            Kept::ByHull(hull) => hull.arcs().1,
-            Kept::Here(few) => few.edge_numbers,
         }
     }
 
@@ -291,7 +277,6 @@ impl<'a> Few<'a> {
                     face_octets: Held::Few([FaceOctet::of_cuboid(half)], 1),
                     edge_octets: Held::Few(EdgeOctet::of_cuboid(&CUBE.octets, half), 2),
                     arcs: Held::Many(&CUBE.arcs),
-                    edge_numbers: &CUBE.edge_numbers,
                     center: Vec3::ZERO,
                     inner_radius: half.min_element(),
                     extent: half.max_element(),
@@ -319,7 +304,6 @@ impl<'a> Few<'a> {
             face_octets: Held::Many(&[]),
             edge_octets: Held::Many(&[]),
             arcs: Held::Few([arc; 3], edges),
-            edge_numbers: &[0, 0],
             center: shape.center(),
             inner_radius: beside_center(shape),
             extent: octets::extent(vertices),
@@ -344,7 +328,6 @@ impl<'a> Few<'a> {
             // Flat: every edge is looked at.
             edge_octets: Held::Many(&[]),
             arcs: Held::Few([0, 1, 2].map(|edge| EdgeArc::of(&vertices, &normals, topology, edge)), 3),
-            edge_numbers: &TRIANGLE_EDGES,
             center: shape.center(),
             inner_radius: beside_center(shape),
             extent: octets::extent(&vertices[..3]),

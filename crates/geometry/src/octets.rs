@@ -72,9 +72,8 @@ pub struct EdgeOctet {
 /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
 /// let cuboid = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let core = cuboid.core();
-/// let edge = core.topology().edges()[0] as usize;
-/// assert_eq!(core.topology().ends(edge), (0, 4));
-/// assert_eq!((core.arcs()[0].along, core.edge_numbers()[edge]), (Vec3::Z, 0));
+/// assert_eq!(core.topology().ends(core.topology().edges()[0] as usize), (0, 4));
+/// assert_eq!(core.arcs()[0].along, Vec3::Z);
 /// # Ok::<(), asunder_geometry::ExtentError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,23 +109,10 @@ impl EdgeArc {
         }
     }
 
-    /// The arcs of all edges, in their order, and the number of each half-edge's edge in it.
-    pub(crate) fn all(
-        vertices: &[Vec3],
-        normals: &[DVec3],
-        topology: &Topology,
-    ) -> (Box<[Self]>, Box<[u16]>) {
-        let arcs = topology
-            .edges()
-            .iter()
-            .map(|&edge| Self::of(vertices, normals, topology, edge as usize))
-            .collect();
-        let mut numbers = vec![0; topology.half_edges().len()];
-        for (number, &edge) in (0..).zip(topology.edges()) {
-            numbers[edge as usize] = number;
-            numbers[topology.half_edges()[edge as usize].twin as usize] = number;
-        }
-        (arcs, numbers.into())
+    /// The arcs of all edges, in their order.
+    pub(crate) fn all(vertices: &[Vec3], normals: &[DVec3], topology: &Topology) -> Box<[Self]> {
+        let edges = topology.edges().iter();
+        edges.map(|&edge| Self::of(vertices, normals, topology, edge as usize)).collect()
     }
 }
 
@@ -233,8 +219,35 @@ pub(crate) fn extent(vertices: &[Vec3]) -> f32 {
 }
 
 /// How far vertices reach along each normal.
-pub(crate) fn heights(vertices: &[Vec3], normals: &[DVec3]) -> Box<[f64]> {
+fn heights(vertices: &[Vec3], normals: &[DVec3]) -> Box<[f64]> {
     let reach =
         |normal: &DVec3| vertices.iter().map(|v| normal.dot(v.as_dvec3())).fold(f64::NEG_INFINITY, f64::max);
     normals.iter().map(reach).collect()
+}
+
+/// What wide kernels load of a hull, made once with it.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Octets {
+    /// How far the vertices reach along each normal.
+    pub(crate) heights: Box<[f64]>,
+    pub(crate) vertices: Box<[VertexOctet]>,
+    pub(crate) faces: Box<[FaceOctet]>,
+    pub(crate) edges: Box<[EdgeOctet]>,
+    pub(crate) arcs: Box<[EdgeArc]>,
+    /// The greatest absolute value of any coordinate.
+    pub(crate) extent: f32,
+}
+
+impl Octets {
+    pub(crate) fn new(vertices: &[Vec3], normals: &[DVec3], topology: &Topology) -> Self {
+        let heights = heights(vertices, normals);
+        Self {
+            vertices: VertexOctet::all(vertices),
+            faces: FaceOctet::all(normals, &heights),
+            edges: EdgeOctet::all(normals, &heights, topology),
+            arcs: EdgeArc::all(vertices, normals, topology),
+            extent: extent(vertices),
+            heights,
+        }
+    }
 }

@@ -190,3 +190,15 @@ pub struct Manifold3 {
     /// Where they touch. Never empty.
     pub points: ArrayVec<ContactPoint3, 4>,
 }
+
+/// What a pair looks like within a limit; `N` is the plane's or the space's.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "it lives on the stack for one pair, and a frame allocates nothing"
+)]
+pub(crate) enum Probe<N> {
+    /// Further apart than the limit: by at least so much.
+    Beyond(f32, Hint),
+    /// The separation, and all that is needed to make contact points.
+    Near(N),
+}

@@ -135,7 +135,8 @@ impl<'a> Pair3<'a> {
         Verdict { overlapping, tier }
     }
 
-    /// What the first tier alone says of the overlap, right or wrong: the sign that its numbers have.
+    /// What the first tier alone says of the overlap, right or wrong: the sign that its numbers have. By the general
+    /// kernels, which those of cuboids have overtaken.
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
     pub fn guess(&self) -> bool {
@@ -146,8 +147,8 @@ impl<'a> Pair3<'a> {
     ///
     /// Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as no
     /// limit, and a negative limit as zero. Two half-spaces have separation -inf unless they look exactly away from
-    /// each other. Cost for two hulls: faces times vertices, plus edge pairs; fifteen axes for cuboids; in a gap
-    /// within the limit a few support searches more, for the Euclidean distance.
+    /// each other. Cost for two hulls: linear in faces, edges and vertices, plus what culling leaves of them, pair by
+    /// pair; fifteen axes for cuboids; in a gap a few support searches, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = limit_of(limit);
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
@@ -163,8 +164,8 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a
-    /// limit.
+    /// The closest points of shapes that do not overlap; nothing where they do. Cost: some support searches, each linear
+    /// in the vertices.
     pub fn distance(&self) -> Option<Closest3> {
         let (parts, near) = self.nearest(f64::INFINITY, Wanted::Closest).ok()?;
         let [on_a, on_b] = near.closest?;

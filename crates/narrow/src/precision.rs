@@ -71,6 +71,14 @@ impl Precision {
         self.rounded_up(gap.abs() + self.projection(), distance)
     }
 
+    /// The separation of cores whose distance has two bounds, less both radii; and how far the bounds are apart.
+    pub(crate) fn of_gap(&self, distance: f64, at_least: f64, radii: f64) -> (f64, f64) {
+        let gap = distance - at_least;
+        // Where both bounds meet up to rounding, the projection went through less of it.
+        let is_met = radii > 0.0 && gap <= self.projection();
+        (if is_met { at_least } else { distance } - radii, gap)
+    }
+
     fn rounded_up(&self, error: f64, value: f64) -> f32 {
         let half_ulp = value.abs() * f64::from(f32::EPSILON) / 2.0 + f64::from(f32::from_bits(1));
         ((error + half_ulp) as f32).next_up()

@@ -15,6 +15,7 @@ use super::merge::{Merged, merge_facets};
 use super::normal::{areas_and_normals, neighbours};
 use super::quick::{Growth, Measure, hull_facets};
 use super::{Hull, HullData, HullError};
+use crate::octets::Octets;
 use crate::outward::{round_down, round_up};
 use crate::tolerance::{COPLANAR, MAX_HULL_VERTICES, MIN_RADIUS, STANDS_OUT};
 use crate::topology::Topology;
@@ -260,13 +261,7 @@ fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullE
         vertices: vertices.into(),
         topology,
         normals,
-        heights: Box::new([]),
-        vertex_octets: Box::new([]),
-        face_octets: Box::new([]),
-        edge_octets: Box::new([]),
-        arcs: Box::new([]),
-        edge_numbers: Box::new([]),
-        extent: 0.0,
+        octets: Octets::default(),
         center,
         outer_radius,
         inner_radius,

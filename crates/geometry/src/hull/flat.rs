@@ -4,6 +4,7 @@ use super::cloud::Cloud;
 use super::normal::{area_vector, unit};
 use super::predicate::{is_collinear, planar_hull};
 use super::{Hull, HullData, HullError};
+use crate::octets::Octets;
 use crate::outward::round_up;
 use crate::tolerance::{MAX_HULL_VERTICES, MIN_RADIUS};
 use crate::topology::Topology;
@@ -101,13 +102,7 @@ impl Hull {
             vertices: vertices.into(),
             topology,
             normals: Box::new([]),
-            heights: Box::new([]),
-            vertex_octets: Box::new([]),
-            face_octets: Box::new([]),
-            edge_octets: Box::new([]),
-            arcs: Box::new([]),
-            edge_numbers: Box::new([]),
-            extent: 0.0,
+            octets: Octets::default(),
             center,
             outer_radius: outer_radius.max(MIN_RADIUS),
             inner_radius: 0.0,

@@ -18,7 +18,7 @@ pub use check::HullFault;
 pub use error::HullError;
 
 use crate::aabb::Aabb3;
-use crate::octets::{EdgeArc, EdgeOctet, FaceOctet, VertexOctet, extent, heights};
+use crate::octets::{EdgeArc, EdgeOctet, FaceOctet, Octets, VertexOctet};
 use crate::outward::{around3, round_down, round_up};
 use crate::pose3::Pose3;
 use crate::radius::{RadiusError, check_rounding, grown};
@@ -53,15 +53,7 @@ struct HullData {
     vertices: Box<[Vec3]>,
     topology: Topology,
     normals: Box<[DVec3]>,
-    /// How far the vertices reach along each normal.
-    heights: Box<[f64]>,
-    vertex_octets: Box<[VertexOctet]>,
-    face_octets: Box<[FaceOctet]>,
-    edge_octets: Box<[EdgeOctet]>,
-    arcs: Box<[EdgeArc]>,
-    edge_numbers: Box<[u16]>,
-    /// The greatest absolute value of any coordinate.
-    extent: f32,
+    octets: Octets,
     center: Vec3,
     outer_radius: f32,
     /// Below zero by the centre's distance where rounding put the centre beside a hull without volume.
@@ -101,37 +93,37 @@ impl Hull {
     /// How far the core reaches along each normal, in metres from its origin.
     #[inline]
     pub(crate) fn heights(&self) -> &[f64] {
-        &self.data.heights
+        &self.data.octets.heights
     }
 
     /// The core's vertices, eight by eight.
     #[inline]
     pub(crate) fn vertex_octets(&self) -> &[VertexOctet] {
-        &self.data.vertex_octets
+        &self.data.octets.vertices
     }
 
     /// The core's faces, eight by eight.
     #[inline]
     pub(crate) fn face_octets(&self) -> &[FaceOctet] {
-        &self.data.face_octets
+        &self.data.octets.faces
     }
 
     /// The core's edges, eight by eight.
     #[inline]
     pub(crate) fn edge_octets(&self) -> &[EdgeOctet] {
-        &self.data.edge_octets
+        &self.data.octets.edges
     }
 
-    /// The core's edges on the Gauss map, and the number among them of each half-edge.
+    /// The core's edges on the Gauss map.
     #[inline]
-    pub(crate) fn arcs(&self) -> (&[EdgeArc], &[u16]) {
-        (&self.data.arcs, &self.data.edge_numbers)
+    pub(crate) fn arcs(&self) -> &[EdgeArc] {
+        &self.data.octets.arcs
     }
 
     /// The greatest absolute value of any coordinate of the core.
     #[inline]
     pub(crate) fn extent(&self) -> f32 {
-        self.data.extent
+        self.data.octets.extent
     }
 
     /// Radius of a sphere about the centre that lies inside the core; below zero by the centre's distance from it.
@@ -208,12 +200,7 @@ impl Hull {
 impl HullData {
     /// The same with all that kernels load, once vertices and faces have their last order.
     fn finished(mut self) -> Self {
-        (self.arcs, self.edge_numbers) = EdgeArc::all(&self.vertices, &self.normals, &self.topology);
-        self.extent = extent(&self.vertices);
-        self.heights = heights(&self.vertices, &self.normals);
-        self.vertex_octets = VertexOctet::all(&self.vertices);
-        self.face_octets = FaceOctet::all(&self.normals, &self.heights);
-        self.edge_octets = EdgeOctet::all(&self.normals, &self.heights, &self.topology);
+        self.octets = Octets::new(&self.vertices, &self.normals, &self.topology);
         self
     }
 

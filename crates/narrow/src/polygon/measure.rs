@@ -24,16 +24,7 @@ pub(crate) struct Asked {
     pub(crate) points: bool,
 }
 
-#[allow(
-    clippy::large_enum_variant,
-    reason = "it lives on the stack for one pair, and a frame allocates nothing"
-)]
-pub(crate) enum Probe {
-    /// Further apart than the limit: by at least so much.
-    Beyond(f32, Hint),
-    /// The separation, and all that is needed to make contact points.
-    Near(Near),
-}
+pub(crate) type Probe = crate::answer::Probe<Near>;
 
 /// The separation of two shapes, and where they touch.
 pub(crate) struct Near {
@@ -207,10 +198,7 @@ impl Measure {
         (verdict, witness): (Verdict, &Witness),
     ) -> Probe {
         let precision = self.precision;
-        // Where both bounds meet up to rounding, the projection went through less of it.
-        let gap = witness.distance - witness.at_least;
-        let is_met = self.radii > 0.0 && gap <= precision.projection();
-        let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
+        let (separation, gap) = precision.of_gap(witness.distance, witness.at_least, self.radii);
         let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
         let best = axes.best();
         let has_axis = best.separation > f64::NEG_INFINITY;

@@ -5,8 +5,10 @@
 //! half-space and anything:          its plane's normal is the only axis        (half_space)
 //! points and segments:              closest points in closed form              (slender)
 //! two cuboids:                      fifteen axes                               (cuboids)
-//! everything else:                  faces and edge pairs                       (sat)
-//!                                   in a gap, the closest points as well       (distance)
+//! everything else:                  last frame's axis, proved to be the best   (sat)
+//!                                   a search for a direction, or a common point (portal)
+//!                                   in a gap, the closest points               (distance)
+//!                                   in overlap, faces and edge pairs           (sat)
 //! ```
 //! Whether they overlap is settled in three tiers, each asked only where the one before cannot tell:
 //!
@@ -53,17 +55,7 @@ pub(crate) struct Convex<'a> {
     radii: f64,
 }
 
-/// What a pair looks like within a limit.
-#[allow(
-    clippy::large_enum_variant,
-    reason = "it lives on the stack for one pair, and a frame allocates nothing"
-)]
-pub(crate) enum Probe {
-    /// Further apart than the limit: by at least so much.
-    Beyond(f32, Hint),
-    /// The separation, and all that is needed to make contact points.
-    Near(Near),
-}
+pub(crate) type Probe = crate::answer::Probe<Near>;
 
 /// The separation of two shapes, and where it was seen.
 pub(crate) struct Near {

@@ -7,7 +7,7 @@
 //! for each pair of edges that they leave open, and whose arcs on the Gauss map may cross:                 (arcs)
 //!                                           axis = the cross product, unless they are nearly parallel
 //! the separation along an axis = min over B - max over A, projecting *every* vertex
-//! one axis beyond the limit settles it; else the greatest separation wins
+//! the greatest separation wins
 //! ```
 //! An edge pair bounds the Minkowski difference exactly when the arc between the normals at A's edge crosses the arc
 //! between the (negated) normals at B's (Gregorius, "The separating axis test between convex polyhedra", GDC 2013).
@@ -153,17 +153,9 @@ impl Axes {
     }
 }
 
-/// Outcome of the test: one axis that parts the shapes by more than the limit, or the best of each kind.
-pub(crate) enum Outcome {
-    Beyond(Axis),
-    Within(Axes),
-}
-
 /// What is asked of the test.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search<'a> {
-    /// One axis that parts the shapes by more than this ends it.
-    pub(crate) limit: f64,
     /// A separation that the shapes have for certain: what is no better is left out.
     pub(crate) known: f64,
     /// How far edges may lie from the supporting planes of the axis that is theirs.
@@ -187,19 +179,17 @@ impl Search<'_> {
     }
 }
 
-/// Runs the test.
-pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Outcome {
+/// The best axis of each kind.
+pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     let mut sights = [Sight::new(a, b), Sight::new(b, a)];
     let seen = [ArrayVec::new(), ArrayVec::new()];
-    let mut found = Found { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, beyond: None, seen };
+    let mut found = Found { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, seen };
     let first = found.by_first_faces(&mut sights, search);
-    if found.beyond.is_none() && !found.is_proved((a, b), &first, search) {
+    if !found.is_proved((a, b), &first, search) {
         found.by_faces(&mut sights, &first, search);
-        if found.beyond.is_none() {
-            found.by_edges(&mut sights, search);
-        }
+        found.by_edges(&mut sights, search);
     }
-    found.beyond.map_or(Outcome::Within(found.axes), Outcome::Beyond)
+    found.axes
 }
 
 /// The test under way.
@@ -209,7 +199,6 @@ struct Found {
     aside: f64,
     /// A separation that the shapes have for certain.
     floor: f64,
-    beyond: Option<Axis>,
     /// Vertices of A, and of B, that were furthest along some axis. Along any other, the truth is no more than what they
     /// show.
     seen: [ArrayVec<(usize, DVec3), SEEN>; 2],
@@ -245,8 +234,7 @@ impl Found {
             let pair = [sight.solid, sight.other];
             let known = first[which].map(|[face, _]| face);
             sight.for_faces(self.floor - search.keep(), |face| {
-                let is_open = Some(face) != known && self.beyond.is_none();
-                let vertex = if is_open { self.by_face(pair, which, face, search) } else { 0 };
+                let vertex = if Some(face) != known { self.by_face(pair, which, face, search) } else { 0 };
                 (vertex, self.floor - search.keep())
             });
         }
@@ -269,7 +257,7 @@ impl Found {
         if separation > self.floor {
             self.see(1 - which, other, support.vertex);
         }
-        self.offer(Axis { separation, normal, of }, search);
+        self.offer(Axis { separation, normal, of });
         support.vertex
     }
 
@@ -295,7 +283,6 @@ impl Found {
             let at_b = EdgeAt::new(b, edge_b);
             let cross = Cross::outwards((at_a.along, out_of_a), at_b.along, || b.out_of_edge(edge_b));
             self.by_edge_pair((a, b), [&at_a, &at_b], &cross, search);
-            self.beyond.is_some()
         });
     }
 
@@ -317,7 +304,6 @@ impl Found {
             let at_b = &all_b[place_b];
             let cross = Cross::outwards((at_a.along, out_of_a), at_b.along, || b.out_of_edge(edge_b));
             self.by_edge_pair((a, b), [&at_a, at_b], &cross, search);
-            self.beyond.is_some()
         });
     }
 
@@ -351,9 +337,7 @@ impl Found {
         }
         self.axes.raise(axis.separation, precision.of_edges(cross.squared_sine));
         let aside = aside(a, b, &axis);
-        if axis.separation > search.limit {
-            self.beyond = Some(axis);
-        } else if aside <= search.slack && self.is_better(&axis, aside, precision.projection()) {
+        if aside <= search.slack && self.is_better(&axis, aside, precision.projection()) {
             (self.axes.edges, self.aside) = (axis, aside);
             self.floor = self.floor.max(axis.separation);
         }
@@ -410,12 +394,9 @@ impl Found {
         is_even
     }
 
-    fn offer(&mut self, axis: Axis, search: &Search) {
+    fn offer(&mut self, axis: Axis) {
         self.axes.offer(axis);
         self.floor = self.floor.max(axis.separation);
-        if axis.separation > search.limit {
-            self.beyond = Some(axis);
-        }
     }
 
     /// Keeps a vertex of A (0) or of B (1); of many, the latest.

@@ -14,10 +14,11 @@ use super::{Asked, Convex, Evidence, Near, Probe, Wanted};
 use crate::answer::{Tier, Verdict};
 use crate::exact::{self, Corner};
 use crate::feature::Hint;
+use crate::polyhedron::cuboids::{Cuboids, Outcome};
 use crate::polyhedron::distance::{Close, Reached, Until, Witness, distance};
 use crate::polyhedron::manifold::{Ask, touch};
 use crate::polyhedron::portal::{self, Found};
-use crate::polyhedron::sat::{Axes, Axis, Hinted, Outcome, Search, hint_of, separating_axes};
+use crate::polyhedron::sat::{Axes, Axis, Hinted, Search, hint_of, separating_axes};
 use crate::polyhedron::solid::Solid;
 use crate::precision::{at_least, signed};
 use asunder_geometry::glam::DVec3;
@@ -47,8 +48,8 @@ impl Convex<'_> {
         {
             return self.beyond(axis.separation, asked.hint);
         }
-        if self.cuboids().is_some() {
-            return self.probe_cuboids(a, b, beyond);
+        if let Some(cuboids) = self.cuboids() {
+            return self.probe_cuboids(&cuboids, a, b, beyond);
         }
         if let Some(axes) = hinted.and_then(|hinted| hinted.proved((a, b), &self.precision)) {
             return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
@@ -93,8 +94,8 @@ impl Convex<'_> {
         }
     }
 
-    fn probe_cuboids(&self, a: &Solid, b: &Solid, beyond: f64) -> Probe {
-        let axes = match self.axes(a, b, beyond, f64::NEG_INFINITY) {
+    fn probe_cuboids(&self, cuboids: &Cuboids, a: &Solid, b: &Solid, beyond: f64) -> Probe {
+        let axes = match cuboids.separating_axes(a, b, beyond, &self.precision) {
             Outcome::Beyond(axis) => return self.beyond(axis.separation, hint_of(&axis)),
             Outcome::Within(axes) => axes,
         };
@@ -171,10 +172,7 @@ impl Convex<'_> {
     /// Shapes with a gap between their cores, which their radii may close.
     fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness) -> Probe {
         let precision = self.precision;
-        // Where both bounds meet up to rounding, the projection went through less of it.
-        let gap = witness.distance - witness.at_least;
-        let is_met = self.radii > 0.0 && gap <= precision.projection();
-        let separation = if is_met { witness.at_least } else { witness.distance } - self.radii;
+        let (separation, gap) = precision.of_gap(witness.distance, witness.at_least, self.radii);
         let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
         let has_axes = axes.best().separation > f64::NEG_INFINITY;
         Probe::Near(Near {
@@ -307,22 +305,9 @@ impl Convex<'_> {
         })
     }
 
-    /// All axes that may be as good as one that shows `known`.
-    fn all_axes(&self, a: &Solid, b: &Solid, known: f64) -> Axes {
-        match self.axes(a, b, f64::INFINITY, known) {
-            Outcome::Within(axes) => axes,
-            // Nothing is beyond infinity.
-            Outcome::Beyond(_) => Axes::NONE,
-        }
-    }
-
-    /// The test of axes, for an axis beyond `limit`. What shows less than is `known` for certain may be left out.
-    pub(crate) fn axes(&self, a: &Solid, b: &Solid, limit: f64, known: f64) -> Outcome {
+    /// All axes that may be as good as one that shows `known` for certain, of solids that are no cuboids.
+    pub(crate) fn all_axes(&self, a: &Solid, b: &Solid, known: f64) -> Axes {
         let slack = self.preference() + 4.0 * self.precision.planarity;
-        let search = Search { limit, known, slack, precision: &self.precision };
-        match self.cuboids() {
-            Some(cuboids) => cuboids.separating_axes(a, b, &search),
-            None => separating_axes(a, b, &search),
-        }
+        separating_axes(a, b, &Search { known, slack, precision: &self.precision })
     }
 }

@@ -20,7 +20,7 @@ mod reduce;
 mod settled;
 mod wide;
 
-use super::sat::{Axes, Axis, AxisOf, Outcome, Search};
+use super::sat::{Axes, Axis, AxisOf};
 use super::solid::Solid;
 use crate::precision::Precision;
 use asunder_geometry::Basis3;
@@ -51,6 +51,12 @@ pub(crate) enum Sides {
 }
 
 const UNIT: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
+
+/// One axis that parts the cuboids by more than the limit, or the best of each kind.
+pub(crate) enum Outcome {
+    Beyond(Axis),
+    Within(Axes),
+}
 
 impl Cuboids {
     fn axis_b(&self, j: usize) -> DVec3 {
@@ -111,9 +117,8 @@ impl Cuboids {
         }
     }
 
-    /// All fifteen axes.
-    pub(crate) fn separating_axes(&self, a: &Solid, b: &Solid, search: &Search) -> Outcome {
-        let Search { limit, precision, .. } = *search;
+    /// All fifteen axes, until one parts the cuboids by more than `limit`.
+    pub(crate) fn separating_axes(&self, a: &Solid, b: &Solid, limit: f64, precision: &Precision) -> Outcome {
         let mut axes = Axes::NONE;
         for i in 0..3 {
             axes.offer(self.face_axis_a(i));
