@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-fn swept<B: Bounds>(boxes: &[B], admit: impl Fn(u32, u32) -> bool) -> Vec<(u32, u32)> {
+fn swept<B: Bounds>(boxes: &[B], admit: impl Fn(u32, u32) -> bool + Sync) -> Vec<(u32, u32)> {
     let mut pairs = vec![PairId { a: 7, b: 9 }];
     Sweep::new().pairs(boxes, admit, usize::MAX, &mut pairs).unwrap();
     pairs.iter().map(|pair| (pair.a, pair.b)).collect()

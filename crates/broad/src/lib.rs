@@ -16,8 +16,11 @@
 //! ```
 #![deny(missing_docs)]
 
+mod columns;
 mod pair;
+mod plain;
 mod sweep;
 
 pub use pair::{PairId, TooManyPairs};
+pub use plain::PlainSweep;
 pub use sweep::Sweep;

@@ -14,6 +14,7 @@ mod sealed {
 /// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};
 /// let bounds = Aabb3::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0));
 /// assert_eq!(bounds.interval(2), (0.0, 3.0));
+/// assert_eq!(bounds.corners(), ([0.0; 3], [1.0, 2.0, 3.0]));
 /// assert_eq!(Aabb3::AXES, 3);
 /// ```
 pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Sealed + 'static {
@@ -23,6 +24,8 @@ pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Se
     const NOTHING: Self;
     /// Least and greatest coordinate on an axis below [`Bounds::AXES`], in metres.
     fn interval(&self, axis: usize) -> (f32, f32);
+    /// Least and greatest corner in space, in metres; a box of the plane lies at height 0.
+    fn corners(&self) -> ([f32; 3], [f32; 3]);
     /// Whether the box is a set of points: no NaN, no minimum above its maximum.
     fn is_valid(&self) -> bool;
     /// The elimination test: whether the two closed boxes share a point. Invalid boxes share none.
@@ -134,6 +137,11 @@ impl Bounds for Aabb2 {
     }
 
     #[inline]
+    fn corners(&self) -> ([f32; 3], [f32; 3]) {
+        ([self.min.x, self.min.y, 0.0], [self.max.x, self.max.y, 0.0])
+    }
+
+    #[inline]
     fn is_valid(&self) -> bool {
         self.min.x <= self.max.x && self.min.y <= self.max.y
     }
@@ -156,6 +164,11 @@ impl Bounds for Aabb3 {
     #[inline]
     fn interval(&self, axis: usize) -> (f32, f32) {
         (self.min[axis], self.max[axis])
+    }
+
+    #[inline]
+    fn corners(&self) -> ([f32; 3], [f32; 3]) {
+        (self.min.to_array(), self.max.to_array())
     }
 
     #[inline]

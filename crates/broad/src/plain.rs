@@ -20,12 +20,12 @@ use core::ops::ControlFlow;
 /// It holds no history: the answer depends on the boxes alone.
 ///
 /// ```
-/// use asunder_broad::{PairId, Sweep};
+/// use asunder_broad::{PairId, PlainSweep};
 /// use asunder_geometry::{Aabb3, glam::Vec3};
 /// use core::ops::ControlFlow;
 ///
 /// let boxes = [Aabb3::new(Vec3::ZERO, Vec3::ONE); 3];
-/// let mut sweep = Sweep::new();
+/// let mut sweep = PlainSweep::new();
 /// let mut pairs = Vec::new();
 /// sweep.pairs(&boxes, |a, _| a != 0, usize::MAX, &mut pairs)?;
 /// assert_eq!(pairs, [PairId { a: 1, b: 2 }], "the filter dropped every pair of box 0");
@@ -39,12 +39,12 @@ use core::ops::ControlFlow;
 /// # Ok::<(), asunder_broad::TooManyPairs>(())
 /// ```
 #[derive(Clone, Debug, Default)]
-pub struct Sweep {
+pub struct PlainSweep {
     // (minimum on the sweep axis, box)
     order: Vec<(f32, u32)>,
 }
 
-impl Sweep {
+impl PlainSweep {
     /// A sweep without scratch memory yet.
     pub fn new() -> Self {
         Self::default()
@@ -148,7 +148,7 @@ mod tests {
         let unit = Aabb3::new(Vec3::ZERO, Vec3::ONE);
         let boxes = [Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY), unit, Aabb3::NOTHING, unit];
         let mut pairs = Vec::new();
-        Sweep::new().pairs(&boxes, |_, _| true, 10, &mut pairs).unwrap();
+        PlainSweep::new().pairs(&boxes, |_, _| true, 10, &mut pairs).unwrap();
         assert_eq!(pairs, [PairId::new(0, 1), PairId::new(0, 3), PairId::new(1, 3)]);
     }
 }

@@ -1,0 +1,208 @@
+//! Where columns go: a guess from a few boxes. Only speed depends on it.
+
+use super::codes::{Codes, Quantiser, rank};
+use asunder_geometry::Bounds;
+
+/// Columns over two axes, and the axis that is swept in each.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grid {
+    pub(crate) quantiser: Quantiser,
+    /// The axis along which boxes are smallest, measured by how far they spread.
+    pub(crate) sweep: usize,
+    /// Columns over the next axis and over the one after it.
+    pub(crate) columns: [u32; 2],
+    /// The sweep axis is cut into 2 to the power of this many bins.
+    pub(crate) bin_bits: u32,
+    /// Bins or columns on each axis, for least and greatest codes.
+    across: [u16; 6],
+    /// Candidates that the guess expects in the row of a box.
+    pub(crate) expected: f32,
+}
+
+/// The bin in which a box begins, and the columns that it reaches: first and last on both axes that they lie over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reach {
+    pub(crate) bin: u32,
+    pub(crate) y: (u32, u32),
+    pub(crate) z: (u32, u32),
+}
+
+/// Boxes that share a bin of the sweep axis, roughly.
+const BOXES_A_BIN: f64 = 4.0;
+
+/// Most columns on one axis.
+const MOST_ACROSS: f64 = 1024.0;
+
+/// Nanoseconds, by the stages of `compare -- broad` on one machine; only their ratios count, and the optimum is flat.
+const PER_ENTRY: f64 = 16.0;
+const PER_SIXTEEN: f64 = 3.0;
+const PER_COLUMN: f64 = 20.0;
+
+impl Grid {
+    /// Lays columns out for `count` boxes, of which `pick` gives the one at a place.
+    pub(crate) fn for_boxes<B: Bounds>(count: usize, pick: impl Fn(usize) -> B) -> Self {
+        let spread = Spread::of(count, pick);
+        let sweep = (0..3).min_by(|&a, &b| spread.fill(a).total_cmp(&spread.fill(b))).unwrap_or(0);
+        let (y, z) = ((sweep + 1) % 3, (sweep + 2) % 3);
+        let mut best = (f64::INFINITY, [1, 1], 0.0);
+        // Columns so and so many boxes wide.
+        let mut width = 0.75;
+        while width < 200.0 {
+            let across = |axis: usize| {
+                let most = (spread.extent(axis) / (width * spread.size[axis])).min(MOST_ACROSS);
+                // Not a number where there is no extent and no size: one column.
+                if most >= 1.0 { most.floor() } else { 1.0 }
+            };
+            let columns = [across(y), across(z)];
+            let (cost, expected) = spread.cost(count as f64, sweep, columns);
+            if cost < best.0 && columns[0] * columns[1] <= (count as f64).max(1.0) {
+                best = (cost, columns.map(|across| across as u32), expected);
+            }
+            width *= 1.25;
+        }
+        let each = count as f64 / f64::from(best.1[0] * best.1[1]);
+        let bin_bits = (0..12).take_while(|&bits| f64::from(1 << bits) * BOXES_A_BIN < each).count() as u32;
+        let grid = Self {
+            quantiser: Quantiser::over(spread.range),
+            sweep,
+            columns: best.1,
+            bin_bits,
+            across: [0; 6],
+            expected: best.2 as f32,
+        };
+        grid.with_columns(best.1)
+    }
+
+    /// Where a box is.
+    #[inline(always)]
+    pub(crate) fn reach(&self, codes: &Codes) -> Reach {
+        let mut steps = [0_u16; 6];
+        for (step, (&code, &across)) in steps.iter_mut().zip(codes.iter().zip(&self.across)) {
+            *step = ((rank(code) * u32::from(across)) >> 16) as u16;
+        }
+        let steps = steps.map(u32::from);
+        let [y, z] = [(self.sweep + 1) % 3, (self.sweep + 2) % 3];
+        Reach { bin: steps[self.sweep], y: (steps[y], steps[y + 3]), z: (steps[z], steps[z + 3]) }
+    }
+
+    /// The number of a bin of a column.
+    #[inline(always)]
+    pub(crate) const fn cell(&self, y: u32, z: u32, bin: u32) -> u32 {
+        ((y * self.columns[1] + z) << self.bin_bits) + bin
+    }
+
+    /// From a bin to the same in the next column, on both axes.
+    pub(crate) const fn steps(&self) -> (u32, u32) {
+        (self.columns[1] << self.bin_bits, 1 << self.bin_bits)
+    }
+
+    /// The bin of a code on the sweep axis.
+    #[inline(always)]
+    pub(crate) fn bin(&self, code: i16) -> usize {
+        (rank(code) >> (16 - self.bin_bits)) as usize
+    }
+
+    /// The number of columns.
+    pub(crate) const fn count(&self) -> usize {
+        (self.columns[0] * self.columns[1]) as usize
+    }
+
+    fn with_columns(self, columns: [u32; 2]) -> Self {
+        let mut across = [1 << self.bin_bits; 6];
+        for (offset, columns) in columns.into_iter().enumerate() {
+            let axis = (self.sweep + 1 + offset) % 3;
+            (across[axis], across[axis + 3]) = (columns as u16, columns as u16);
+        }
+        Self { columns, across, ..self }
+    }
+
+    /// The same with a quarter of the columns.
+    pub(crate) fn coarser(self) -> Self {
+        self.with_columns(self.columns.map(|across| across.div_ceil(2)))
+    }
+}
+
+/// How a sample of boxes is spread.
+struct Spread {
+    /// Where boxes are, on each axis: without the outermost, widened a little.
+    range: [(f32, f32); 3],
+    /// Mean size on each axis.
+    size: [f64; 3],
+    /// How many times likelier it is that two boxes share a place than if all were spread evenly.
+    crowding: f64,
+}
+
+/// The size that a box counts with is at most so many times the middle one: a giant must not coarsen the grid.
+const GIANT: f32 = 32.0;
+
+impl Spread {
+    fn of<B: Bounds>(count: usize, pick: impl Fn(usize) -> B) -> Self {
+        let wanted = (count / 16).clamp(32, 512);
+        let stride = (count / wanted).max(1);
+        let is_finite = |b: &([f32; 3], [f32; 3])| {
+            (0..3).all(|axis| b.0[axis] <= b.1[axis] && (b.1[axis] - b.0[axis]).is_finite())
+        };
+        let sample: Vec<_> =
+            (0..count).step_by(stride).map(|place| pick(place).corners()).filter(is_finite).collect();
+        let mut scratch = Vec::with_capacity(sample.len());
+        let mut quantile = |of: &dyn Fn(&([f32; 3], [f32; 3])) -> f32, percent: usize| -> f32 {
+            scratch.clear();
+            scratch.extend(sample.iter().map(of));
+            let place = scratch.len() * percent / 100;
+            let last = scratch.len().saturating_sub(1);
+            if scratch.is_empty() {
+                return 0.0;
+            }
+            *scratch.select_nth_unstable_by(place.min(last), f32::total_cmp).1
+        };
+        let range = [0, 1, 2].map(|axis| {
+            let (low, high) = (quantile(&|b| b.0[axis], 1), quantile(&|b| b.1[axis], 98));
+            let (low, high) = (low.min(high), high.max(low));
+            let more = (high - low) * 0.06;
+            (low - more, high + more)
+        });
+        let range = range.map(|(low, high)| (low.max(-1e38), high.min(1e38)));
+        let size = [0, 1, 2].map(|axis| {
+            let most = quantile(&|b| b.1[axis] - b.0[axis], 50) * GIANT;
+            let sum: f64 = sample.iter().map(|b| f64::from((b.1[axis] - b.0[axis]).min(most))).sum();
+            sum / sample.len().max(1) as f64
+        });
+        let crowding = crowding(&sample, &range);
+        Self { range, size, crowding }
+    }
+
+    fn extent(&self, axis: usize) -> f64 {
+        f64::from(self.range[axis].1) - f64::from(self.range[axis].0)
+    }
+
+    /// The part of an axis that one box fills.
+    fn fill(&self, axis: usize) -> f64 {
+        let fill = self.size[axis] / self.extent(axis);
+        if fill < 1.0 { fill } else { 1.0 }
+    }
+
+    /// What a sweep with so many columns is expected to cost, and candidates in a row.
+    fn cost(&self, count: f64, sweep: usize, columns: [f64; 2]) -> (f64, f64) {
+        let (y, z) = ((sweep + 1) % 3, (sweep + 2) % 3);
+        let entries = count * (1.0 + self.fill(y) * columns[0]) * (1.0 + self.fill(z) * columns[1]);
+        let all = columns[0] * columns[1];
+        let expected = entries / all * self.crowding * self.fill(sweep);
+        (entries * (PER_ENTRY + PER_SIXTEEN * (expected / 16.0 + 0.6)) + all * PER_COLUMN, expected)
+    }
+}
+
+/// Counts the sample in 8 x 8 x 8 cells.
+fn crowding(sample: &[([f32; 3], [f32; 3])], range: &[(f32, f32); 3]) -> f64 {
+    let cells = Quantiser::over(*range);
+    let mut counts = [0_u16; 512];
+    let mut met = 0_u32;
+    for (low, _) in sample {
+        let codes = cells.codes(*low, *low);
+        let cell = (0..3).fold(0, |cell, axis| cell * 8 + (rank(codes[axis]) >> 13));
+        let count = &mut counts[(cell & 511) as usize];
+        met += u32::from(*count);
+        *count += 1;
+    }
+    let pairs = sample.len() * sample.len().saturating_sub(1) / 2;
+    (512.0 * f64::from(met) / pairs.max(1) as f64).max(1.0)
+}

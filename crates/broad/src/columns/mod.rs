@@ -1,0 +1,186 @@
+//! Boxes sorted into columns, and in a column along the sweep axis, by counting.
+
+pub(crate) mod codes;
+pub(crate) mod grid;
+
+use asunder_geometry::Bounds;
+use codes::{Codes, Entry};
+use grid::{Grid, Reach};
+
+/// Entries of boxes, column by column, in each by the bin of the minimum on the sweep axis. A box has an entry in every column
+/// that it reaches.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Columns {
+    /// Every box once, in the order in which it came; in place of its place, where its entry in the first column it reaches goes.
+    records: Vec<Entry>,
+    /// Those that reach a second column on the first axis, on the second, and all others that reach more than one.
+    straddlers: [Vec<u32>; 3],
+    /// Where each bin of each column ends in the entries.
+    ends: Vec<u32>,
+    entries: Vec<Entry>,
+}
+
+/// With more entries a box than that, the grid is too fine for these boxes, whatever the sample said.
+const MOST_ENTRIES: usize = 4;
+
+impl Columns {
+    /// Sorts the boxes; returns the grid that they are sorted by, which may be coarser than the one asked for.
+    #[inline(always)]
+    pub(crate) fn fill<B: Bounds>(
+        &mut self,
+        grid: Grid,
+        boxes: impl ExactSizeIterator<Item = B> + Clone,
+    ) -> Grid {
+        let mut grid = grid;
+        let total = loop {
+            let total = self.count(&grid, boxes.clone());
+            if total <= MOST_ENTRIES * self.records.len() || grid.count() == 1 {
+                break total;
+            }
+            grid = grid.coarser();
+        };
+        self.scatter(&grid, total);
+        grid
+    }
+
+    /// The entries of a column, and where its bins end, counted from `start`.
+    #[inline(always)]
+    pub(crate) fn column(&self, grid: &Grid, index: usize) -> ColumnEntries<'_> {
+        let bins = 1 << grid.bin_bits;
+        let ends = &self.ends[index * bins..(index + 1) * bins];
+        let start = if index == 0 { 0 } else { self.ends[index * bins - 1] };
+        let end = ends.last().copied().unwrap_or(start);
+        ColumnEntries { start, ends, entries: &self.entries[start as usize..end as usize] }
+    }
+
+    /// Memory that is held, in bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        (self.records.capacity() + self.entries.capacity()) * size_of::<Entry>()
+            + (self.ends.capacity() + self.straddlers.iter().map(Vec::capacity).sum::<usize>()) * 4
+    }
+
+    /// Makes the record of every box and counts the entries in every bin; returns how many there are in all.
+    #[inline(always)]
+    fn count<B: Bounds>(&mut self, grid: &Grid, boxes: impl ExactSizeIterator<Item = B>) -> usize {
+        let cells = grid.count() << grid.bin_bits;
+        let no_box = cells as u32;
+        self.ends.clear();
+        // One more, for boxes that are none.
+        self.ends.resize(cells + 1, 0);
+        self.records.resize(boxes.len(), Entry::default());
+        let [over_y, over_z, over_more] = &mut self.straddlers;
+        for list in [&mut *over_y, &mut *over_z, &mut *over_more] {
+            list.resize(boxes.len(), 0);
+        }
+        let [mut count_y, mut count_z, mut count_more] = [0; 3];
+        for ((bounds, record), place) in boxes.zip(&mut self.records).zip(0..) {
+            let (low, high) = bounds.corners();
+            let is_box = (low[0] <= high[0]) & (low[1] <= high[1]) & (low[2] <= high[2]);
+            let codes = grid.quantiser.codes(low, high);
+            let reach = grid.reach(&codes);
+            let cell = if is_box { grid.cell(reach.y.0, reach.z.0, reach.bin) } else { no_box };
+            *record = Entry { codes, place: cell };
+            self.ends[cell as usize] += 1;
+            // An inverted box may end before it begins; it is no box, and does not count.
+            let (more_y, more_z) = (reach.y.1.wrapping_sub(reach.y.0), reach.z.1.wrapping_sub(reach.z.0));
+            let is_over_y = is_box & (more_y == 1) & (more_z == 0);
+            let is_over_z = is_box & (more_z == 1) & (more_y == 0);
+            over_y[count_y] = place;
+            count_y += usize::from(is_over_y);
+            over_z[count_z] = place;
+            count_z += usize::from(is_over_z);
+            over_more[count_more] = place;
+            count_more += usize::from(is_box & (more_y | more_z != 0) & !is_over_y & !is_over_z);
+        }
+        over_y.truncate(count_y);
+        over_z.truncate(count_z);
+        over_more.truncate(count_more);
+        let (step_y, step_z) = grid.steps();
+        let mut total = self.records.len() + count_y + count_z;
+        for (list, step) in [(&*over_y, step_y), (&*over_z, step_z)] {
+            for &place in list {
+                self.ends[(self.records[place as usize].place + step) as usize] += 1;
+            }
+        }
+        for &place in &*over_more {
+            let codes = self.records[place as usize].codes;
+            total += for_others(&codes, grid, |cell, _| self.ends[cell as usize] += 1);
+        }
+        total
+    }
+
+    #[inline(always)]
+    fn scatter(&mut self, grid: &Grid, total: usize) {
+        let mut sum = 0;
+        for end in &mut self.ends {
+            sum += core::mem::replace(end, sum);
+        }
+        if self.entries.len() < total {
+            self.entries.resize(total, Entry::default());
+        }
+        for (place, record) in self.records.iter().enumerate() {
+            let end = &mut self.ends[record.place as usize];
+            self.entries[*end as usize] =
+                Entry { codes: record.codes, place: place as u32 | HOME_Y | HOME_Z };
+            *end += 1;
+        }
+        let [over_y, over_z, over_more] = &self.straddlers;
+        let (step_y, step_z) = grid.steps();
+        for (list, step, home) in [(over_y, step_y, HOME_Z), (over_z, step_z, HOME_Y)] {
+            for &place in list {
+                let record = &self.records[place as usize];
+                let end = &mut self.ends[(record.place + step) as usize];
+                self.entries[*end as usize] = Entry { codes: record.codes, place: place | home };
+                *end += 1;
+            }
+        }
+        for &place in over_more {
+            let codes = self.records[place as usize].codes;
+            for_others(&codes, grid, |cell, home| {
+                let end = &mut self.ends[cell as usize];
+                self.entries[*end as usize] = Entry { codes, place: place | home };
+                *end += 1;
+            });
+        }
+    }
+}
+
+/// In the place of an entry: the box begins in this column, on the first axis that columns lie over, and on the second.
+const HOME_Y: u32 = 1 << 30;
+const HOME_Z: u32 = 1 << 31;
+
+/// Most boxes of one sweep: what is left of a place.
+pub(crate) const MOST_BOXES: usize = 1 << 30;
+
+/// The places of two boxes that overlap in a column, and whether the column owns the pair: it has the greater of their minima
+/// on both axes.
+#[inline(always)]
+pub(crate) const fn owned(one: u32, other: u32) -> (u32, u32, bool) {
+    const PLACE: u32 = HOME_Y - 1;
+    (one & PLACE, other & PLACE, (one | other) >> 30 == 3)
+}
+
+/// One column.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ColumnEntries<'a> {
+    pub(crate) start: u32,
+    pub(crate) ends: &'a [u32],
+    pub(crate) entries: &'a [Entry],
+}
+
+/// Hands over the cells of a box in all columns that it reaches but the first; returns how many.
+#[inline(always)]
+fn for_others(codes: &Codes, grid: &Grid, mut visit: impl FnMut(u32, u32)) -> usize {
+    let Reach { bin, y, z } = grid.reach(codes);
+    let mut count = 0;
+    for row in y.0..=y.1 {
+        for column in z.0..=z.1 {
+            if count > 0 {
+                let home = if row == y.0 { HOME_Y } else { 0 } | if column == z.0 { HOME_Z } else { 0 };
+                visit(grid.cell(row, column, bin), home);
+            }
+            count += 1;
+        }
+    }
+    count - 1
+}

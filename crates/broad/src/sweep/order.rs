@@ -1,0 +1,68 @@
+//! Pairs in order: a radix sort, least digit first, over no more bits than the numbers have.
+
+use crate::pair::PairId;
+
+/// Scratch memory of the sort.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Order {
+    keys: [Vec<u64>; 2],
+    counts: Vec<u32>,
+}
+
+/// Most bits of a digit: its counters fit the nearest cache.
+const DIGIT: u32 = 12;
+
+/// Fewer pairs than that are sorted by comparing.
+const FEW: usize = 64;
+
+impl Order {
+    /// Puts `pairs` in order. Numbers are below `count`.
+    pub(super) fn sort(&mut self, pairs: &mut [PairId], count: usize) {
+        if pairs.len() < FEW {
+            pairs.sort_unstable();
+            return;
+        }
+        let bits = usize::BITS - count.leading_zeros();
+        let passes = (2 * bits).div_ceil(DIGIT);
+        let digit = (2 * bits).div_ceil(passes);
+        let size = 1 << digit;
+        let mask = size as u64 - 1;
+        let [keys, others] = &mut self.keys;
+        keys.resize(pairs.len(), 0);
+        others.resize(pairs.len(), 0);
+        self.counts.clear();
+        self.counts.resize(size * passes as usize, 0);
+        for (key, pair) in keys.iter_mut().zip(pairs.iter()) {
+            *key = u64::from(pair.a) << bits | u64::from(pair.b);
+            for (pass, counts) in (0..).zip(self.counts.chunks_exact_mut(size)) {
+                counts[(*key >> (pass * digit) & mask) as usize] += 1;
+            }
+        }
+        for (pass, counts) in (0..).zip(self.counts.chunks_exact_mut(size)) {
+            let mut sum = 0;
+            for count in counts.iter_mut() {
+                sum += core::mem::replace(count, sum);
+            }
+            let place = |key: u64| (key >> (pass * digit) & mask) as usize;
+            if pass + 1 < passes {
+                for &key in keys.iter() {
+                    let to = &mut counts[place(key)];
+                    others[*to as usize] = key;
+                    *to += 1;
+                }
+                core::mem::swap(keys, others);
+            } else {
+                let low = (1 << bits) - 1;
+                for &key in keys.iter() {
+                    let to = &mut counts[place(key)];
+                    pairs[*to as usize] = PairId { a: (key >> bits) as u32, b: (key & low) as u32 };
+                    *to += 1;
+                }
+            }
+        }
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        self.keys.iter().map(|keys| keys.capacity() * 8).sum::<usize>() + self.counts.capacity() * 4
+    }
+}

@@ -1,0 +1,185 @@
+//! One column, swept sixteen boxes at a time.
+
+use crate::columns::ColumnEntries;
+use crate::columns::codes::{Codes, Entry};
+use crate::columns::grid::Grid;
+
+/// Boxes tested side by side.
+pub(super) const LANES: usize = 16;
+
+/// Boxes of one column, least first along the sweep axis, as rows of codes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Strips {
+    strips: [Vec<i16>; 6],
+}
+
+/// A box, and up to sixteen that it may overlap.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Hit {
+    pub(super) row: u32,
+    pub(super) first: u32,
+    /// What the codes say, as [`overlapping`] gives it.
+    lanes: u32,
+}
+
+impl Hit {
+    /// The next box that may overlap the row's, whether codes cannot tell, and the hit without it.
+    #[inline(always)]
+    pub(super) const fn next(self) -> (u32, bool, Self) {
+        let bit = (self.lanes & MAY).trailing_zeros();
+        let index = self.first + bit - (bit >> 4) * 8;
+        let is_close = (self.lanes >> 8) >> bit & 1 != 0;
+        // The bits of the upper bytes tell of the lower ones, and stay.
+        (index, is_close, Self { lanes: self.lanes & !(1 << bit), ..self })
+    }
+
+    /// Whether no box is left.
+    #[inline(always)]
+    pub(super) const fn is_done(self) -> bool {
+        self.lanes & MAY == 0
+    }
+}
+
+/// Hits that are gathered before they are looked at.
+pub(super) const HITS: usize = 128;
+
+/// How far a sweep of a column has come.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Progress {
+    row: usize,
+    /// The next box that the row is tested against; 0 at its start.
+    next: usize,
+}
+
+impl Strips {
+    pub(super) fn bytes(&self) -> usize {
+        self.strips.iter().map(|strip| strip.capacity() * 2).sum()
+    }
+
+    /// Turns entries into strips.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, entries: &[Entry]) {
+        let count = entries.len();
+        for (number, strip) in self.strips.iter_mut().enumerate() {
+            // Behind the last box stand boxes that overlap nothing: least codes above all, greatest below.
+            let never = if number < 3 { i16::MAX } else { i16::MIN };
+            strip.resize(count + LANES, never);
+            strip[count..].fill(never);
+        }
+        let [a, b, c, d, e, f] = &mut self.strips;
+        let (a, b, c, d, e, f) = (
+            &mut a[..count],
+            &mut b[..count],
+            &mut c[..count],
+            &mut d[..count],
+            &mut e[..count],
+            &mut f[..count],
+        );
+        for (to, entry) in entries.iter().enumerate() {
+            let codes = &entry.codes;
+            (a[to], b[to], c[to], d[to], e[to], f[to]) =
+                (codes[0], codes[1], codes[2], codes[3], codes[4], codes[5]);
+        }
+    }
+
+    /// Goes on until all rows are swept or `hits` is full; returns how many hits there are, or none at the end.
+    #[inline(always)]
+    pub(super) fn sweep<const WIDE: bool>(
+        &self,
+        column: &ColumnEntries,
+        grid: &Grid,
+        progress: &mut Progress,
+        hits: &mut [Hit; HITS],
+    ) -> usize {
+        let length = column.entries.len() + LANES;
+        let [a, b, c, d, e, f] = &self.strips;
+        let strips = [&a[..length], &b[..length], &c[..length], &d[..length], &e[..length], &f[..length]];
+        let mut found = 0;
+        while progress.row < column.entries.len() {
+            let row = progress.row;
+            let codes = column.entries[row].codes;
+            let end = (column.ends[grid.bin(codes[grid.sweep + 3])] - column.start) as usize;
+            let mut next = progress.next.max(row + 1);
+            while next < end {
+                if found == HITS {
+                    progress.next = next;
+                    return found;
+                }
+                let Some(strips) = lanes(strips, next) else { break };
+                let lanes = overlapping::<WIDE>(&codes, strips);
+                hits[found] = Hit { row: row as u32, first: next as u32, lanes };
+                found += usize::from(lanes & MAY != 0);
+                next += LANES;
+            }
+            *progress = Progress { row: row + 1, next: 0 };
+        }
+        found
+    }
+}
+
+#[inline(always)]
+fn lanes(strips: [&[i16]; 6], from: usize) -> Option<[&[i16; LANES]; 6]> {
+    let [a, b, c, d, e, f] = strips;
+    Some([
+        a.get(from..)?.first_chunk()?,
+        b.get(from..)?.first_chunk()?,
+        c.get(from..)?.first_chunk()?,
+        d.get(from..)?.first_chunk()?,
+        e.get(from..)?.first_chunk()?,
+        f.get(from..)?.first_chunk()?,
+    ])
+}
+
+/// Bits of the lanes that may overlap.
+const MAY: u32 = 0x00ff_00ff;
+
+const BITS: [i16; LANES] = {
+    let mut bits = [0; LANES];
+    let mut lane = 0;
+    while lane < LANES {
+        bits[lane] = (1_u16 << lane) as i16;
+        lane += 1;
+    }
+    bits
+};
+
+/// Which of sixteen boxes one overlaps, as far as codes can tell: in every 16 bits the lower byte has the lanes that may overlap, the
+/// upper byte those of them of which codes cannot tell.
+#[inline(always)]
+fn overlapping<const WIDE: bool>(one: &Codes, others: [&[i16; LANES]; 6]) -> u32 {
+    let mut gaps = [0; LANES];
+    for lane in 0..LANES {
+        let on = |axis: usize| {
+            let before = one[axis].saturating_sub(others[axis + 3][lane]);
+            before.max(others[axis][lane].saturating_sub(one[axis + 3]))
+        };
+        gaps[lane] = on(0).max(on(1)).max(on(2));
+    }
+    if WIDE {
+        #[cfg(target_arch = "x86_64")]
+        #[allow(unsafe_code)]
+        return unsafe { sides_of_zero(&gaps) };
+    }
+    let [mut may, mut close] = [0; 2];
+    for lane in 0..LANES {
+        let is_no_gap = gaps[lane].saturating_sub(1) >> 15;
+        may |= is_no_gap & BITS[lane];
+        close |= is_no_gap & !(gaps[lane] >> 15) & BITS[lane];
+    }
+    let spread = |bits: i16| u32::from(bits as u16 & 0xff) | u32::from(bits as u16 & 0xff00) << 8;
+    spread(may) | spread(close) << 8
+}
+
+/// The same in AVX2.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+#[inline]
+fn sides_of_zero(g: &[i16; LANES]) -> u32 {
+    use core::arch::x86_64::*;
+    let gaps = _mm256_set_epi16(
+        g[15], g[14], g[13], g[12], g[11], g[10], g[9], g[8], g[7], g[6], g[5], g[4], g[3], g[2], g[1], g[0],
+    );
+    let zero = _mm256_setzero_si256();
+    let bytes = _mm256_packs_epi16(_mm256_cmpgt_epi16(gaps, zero), _mm256_cmpeq_epi16(gaps, zero));
+    _mm256_movemask_epi8(bytes) as u32 ^ MAY
+}
