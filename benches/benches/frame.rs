@@ -1,32 +1,16 @@
-//! Criterion's view of the main rows: one broad phase, narrow phases in space and in the plane, one whole frame.
+//! Criterion's view of the main rows: narrow phases in space and in the plane, one whole frame. The broad
+//! phase has a file of its own.
 
 use asunder::{Collider3, World3};
-use asunder_broad::Sweep;
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Pair2, Pair3, collide3, separations3};
-use asunder_scenes::boxes::{BoxScene, MovingBoxes};
 use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, frames3, pairs2, pairs3};
 use asunder_scenes::worlds::{Replay3, WorldScene};
 use core::hint::black_box;
 use core::time::Duration;
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, criterion_group, criterion_main};
 
 /// Pairs in a set: one iteration asks them all.
 const PAIRS: usize = 200;
-
-fn broad(criterion: &mut Criterion) {
-    let mut moving = MovingBoxes::new(BoxScene::Gas, 10_000, 1);
-    let (mut sweep, mut pairs) = (Sweep::new(), Vec::new());
-    criterion.bench_function("broad/gas/10k", |bencher| {
-        bencher.iter_batched_ref(
-            || {
-                moving.step();
-                moving.boxes.clone()
-            },
-            |boxes| sweep.pairs(boxes, |_, _| true, usize::MAX, &mut pairs),
-            BatchSize::LargeInput,
-        );
-    });
-}
 
 fn posed(p: &PosedPair3) -> Pair3<'_> {
     Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)
@@ -199,6 +183,6 @@ fn frame(criterion: &mut Criterion) {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
-    targets = broad, space, plane, frame
+    targets = space, plane, frame
 }
 criterion_main!(benches);

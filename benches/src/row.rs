@@ -1,6 +1,7 @@
 //! One line of results, for people or for programs.
 
 use crate::accuracy::Accuracy;
+use crate::broad::figures::Figures;
 use serde::Serialize;
 
 /// The result of one case.
@@ -32,12 +33,6 @@ pub struct Row {
     pub n: usize,
     /// Frames or pairs that were measured before the time was up.
     pub done: usize,
-    /// Broad phase: our sweep alone, pairs in no order, in nanoseconds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sweep_ns: Option<f64>,
-    /// Broad phase: putting the pairs in order, in nanoseconds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub order_ns: Option<f64>,
     /// Narrow phase: our slowest single pair, in nanoseconds, where cost is watched as shapes grow.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worst_ns: Option<f64>,
@@ -47,6 +42,9 @@ pub struct Row {
     /// Narrow phase: both sides' answers held against the truth.
     #[serde(flatten)]
     pub accuracy: Option<Accuracy>,
+    /// Broad phase: its parts, and what they cost by box, by pair, and by memory.
+    #[serde(flatten)]
+    pub broad: Option<Figures>,
     /// What a reader should know: how far a row came, what was found.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub note: String,
@@ -83,14 +81,14 @@ impl Row {
     pub fn to_text(&self) -> String {
         let ratio = self.ratio.map_or(String::new(), |ratio| format!("{ratio:.2}"));
         let mut note = self.note.clone();
-        if let (Some(sweep), Some(order)) = (self.sweep_ns, self.order_ns) {
-            note = format!("sweep {} order {}; {note}", duration(Some(sweep)), duration(Some(order)));
-        }
         if let (Some(worst), Some(peer)) = (self.worst_ns, self.peer_worst_ns) {
             note = format!("slowest {}, peer's {}; {note}", duration(Some(worst)), duration(Some(peer)));
         }
         if let Some(accuracy) = &self.accuracy {
             note = format!("{}  {note}", accuracy.to_text());
+        }
+        if let Some(figures) = &self.broad {
+            note = format!("{}  {note}", figures.to_text());
         }
         let line = format!(
             "{:<28} {:>10} {:>10} {:>8}  {:>7} {:<26} {note}",
@@ -127,7 +125,18 @@ pub fn heading_with_accuracy() -> String {
     format!("{}{}  note", plain.trim_end_matches("note"), Accuracy::heading())
 }
 
-fn duration(ns: Option<f64>) -> String {
+/// The first line of a table of the broad phase.
+///
+/// ```
+/// assert!(asunder_benches::row::heading_with_figures().contains("ns/pair"));
+/// ```
+pub fn heading_with_figures() -> String {
+    let plain = heading();
+    format!("{}{}  note", plain.trim_end_matches("note"), Figures::heading())
+}
+
+/// A time in at most ten letters, or a dash.
+pub(crate) fn duration(ns: Option<f64>) -> String {
     match ns {
         None => "-".to_string(),
         Some(ns) if ns < 1e4 => format!("{ns:.0} ns"),

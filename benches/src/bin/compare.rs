@@ -1,8 +1,9 @@
 //! Prints our times beside parry3d's: `compare broad|narrow|world|certain [--json] [--quick]`.
 
+use asunder_benches::broad::queries;
 use asunder_benches::clock::Effort;
 use asunder_benches::judge::Judge;
-use asunder_benches::row::{Row, heading, heading_with_accuracy};
+use asunder_benches::row::{Row, heading, heading_with_accuracy, heading_with_figures};
 use asunder_benches::{broad, certain, flat, narrow, world};
 use clap::{Args, Parser, Subcommand};
 use std::error::Error;
@@ -18,7 +19,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Part {
     /// All overlapping pairs of moving boxes.
-    Broad(Options),
+    Broad(BroadOptions),
     /// One question about many pairs of shapes.
     Narrow(Options),
     /// Whole frames, from poses to contact points.
@@ -27,7 +28,19 @@ enum Part {
     Certain(Options),
 }
 
-#[derive(Args, Clone)]
+#[derive(Args)]
+struct BroadOptions {
+    #[command(flatten)]
+    all: Options,
+    /// Also a million boxes, in some scenes.
+    #[arg(long)]
+    large: bool,
+    /// Our own wall-clock time on so many threads beside one, in place of the peer.
+    #[arg(long, value_name = "COUNT")]
+    threads: Option<usize>,
+}
+
+#[derive(Args)]
 struct Options {
     /// One line of JSON a row instead of a table.
     #[arg(long)]
@@ -35,38 +48,71 @@ struct Options {
     /// Some tenths of a second a row and smaller sets: a look, no figure to quote.
     #[arg(long)]
     quick: bool,
-    /// Broad phase: also a million boxes.
-    #[arg(long)]
-    large: bool,
     /// Only rows whose name contains this.
     #[arg(long, value_name = "TEXT", default_value = "")]
     only: String,
 }
 
+impl Part {
+    const fn options(&self) -> &Options {
+        match self {
+            Self::Broad(broad) => &broad.all,
+            Self::Narrow(options) | Self::World(options) | Self::Certain(options) => options,
+        }
+    }
+
+    fn heading(&self) -> String {
+        match self {
+            Self::Certain(_) => certain::heading(),
+            Self::Narrow(_) => heading_with_accuracy(),
+            Self::Broad(_) => heading_with_figures(),
+            Self::World(_) => heading(),
+        }
+    }
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let cli = Cli::parse();
+    let part = Cli::parse().part;
+    let options = part.options();
+    if !options.json {
+        println!("{}", part.heading());
+    }
+    if let Part::Broad(BroadOptions { threads: Some(threads), large, .. }) = part {
+        return compare_threads(threads, large, options);
+    }
     // One thread, so that its CPU time is all the time there is.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    pool.install(|| compare(&cli.part)).map_err(|error| error.to_string().into())
+    pool.install(|| compare(&part)).map_err(|error| error.to_string().into())
+}
+
+/// Rows of the broad phase with several threads.
+fn compare_threads(threads: usize, large: bool, options: &Options) -> Result<(), Box<dyn Error>> {
+    for case in broad::cases(&options.effort(), large) {
+        if broad::name(&case).contains(&options.only) {
+            show(&broad::threads::measure(&case, threads, &options.effort())?, options);
+        }
+    }
+    Ok(())
+}
+
+impl Options {
+    const fn effort(&self) -> Effort {
+        if self.quick { Effort::quick() } else { Effort::full() }
+    }
 }
 
 fn compare(part: &Part) -> Result<(), asunder::MarginError> {
-    let (Part::Broad(options) | Part::Narrow(options) | Part::World(options) | Part::Certain(options)) = part;
-    let effort = if options.quick { Effort::quick() } else { Effort::full() };
+    let options = part.options();
+    let effort = options.effort();
     let wanted = |name: &str| name.contains(&options.only);
-    if !options.json {
-        let heading = match part {
-            Part::Certain(_) => certain::heading(),
-            Part::Narrow(_) => heading_with_accuracy(),
-            Part::Broad(_) | Part::World(_) => heading(),
-        };
-        println!("{heading}");
-    }
     match part {
-        Part::Broad(_) => {
-            let cases = broad::cases(&effort, options.large);
+        Part::Broad(BroadOptions { large, .. }) => {
+            let cases = broad::cases(&effort, *large);
             for case in cases.iter().filter(|case| wanted(&broad::name(case))) {
                 show(&broad::measure(case, &effort), options);
+            }
+            for case in queries::cases(&effort).iter().filter(|case| wanted(&queries::name(case))) {
+                show(&queries::measure(case, &effort), options);
             }
         }
         Part::Narrow(_) => {

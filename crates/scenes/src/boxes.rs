@@ -18,6 +18,9 @@ use glam::DVec3;
 /// How far a box moves in a frame, as a part of its size.
 const STRIDE: f64 = 0.05;
 
+/// Boxes that move in a scene that is otherwise still.
+const STILL_MOVERS: usize = 100;
+
 /// The named scenes of moving boxes. Cost of making one: some tens of nanoseconds a box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BoxScene {
@@ -41,11 +44,13 @@ pub enum BoxScene {
     Islands,
     /// Gas above one resting box that is larger than everything else together.
     Plane,
+    /// As gas, but only a hundred boxes move, always the same ones, however many rest.
+    Still,
 }
 
 impl BoxScene {
     /// Every scene, in the order in which results are listed.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Gas,
         Self::Static5,
         Self::Static1,
@@ -56,6 +61,7 @@ impl BoxScene {
         Self::Teleport,
         Self::Islands,
         Self::Plane,
+        Self::Still,
     ];
 
     /// The name used in result rows.
@@ -71,6 +77,7 @@ impl BoxScene {
             Self::Teleport => "teleport",
             Self::Islands => "islands",
             Self::Plane => "plane",
+            Self::Still => "still",
         }
     }
 
@@ -198,6 +205,10 @@ fn movers(scene: BoxScene, count: usize, random: &mut Random) -> Vec<u32> {
         BoxScene::Teleport => 0.1,
         _ => 1.0,
     };
+    if scene == BoxScene::Still {
+        let moving = count.min(STILL_MOVERS);
+        return (0..moving).map(|i| (i * count / moving) as u32).collect();
+    }
     let first = u32::from(scene == BoxScene::Plane);
     (first..count as u32).filter(|_| share == 1.0 || random.unit() < share).collect()
 }
@@ -310,6 +321,18 @@ mod tests {
                 (0..5000).filter(|&i| moving.boxes[i as usize] != before[i as usize]).collect();
             assert_eq!(changed, moving.moved());
             assert!((changed.len() as f64 / 5000.0 / share - 1.0).abs() < 0.3);
+        }
+    }
+
+    #[test]
+    fn a_hundred_boxes_move_in_a_still_world_however_large() {
+        for (count, moving) in [(0, 0), (7, 7), (150, 100), (5000, 100)] {
+            let mut still = MovingBoxes::new(BoxScene::Still, count, 1);
+            let before = still.boxes.clone();
+            still.step();
+            let changed: Vec<u32> =
+                (0..count as u32).filter(|&i| still.boxes[i as usize] != before[i as usize]).collect();
+            assert_eq!((changed.len(), changed.as_slice()), (moving, still.moved()));
         }
     }
 

@@ -1,0 +1,199 @@
+//! Our side of the broad phase.
+
+use super::coming::{Bytes, CoherentSweep};
+use super::figures::Figures;
+use super::{Frame, forget, memory, object};
+use crate::clock::{Samples, time};
+use crate::row::Row;
+use asunder_broad::{PairId, Sweep};
+use core::ops::ControlFlow;
+use std::time::Instant;
+
+/// What a frame is found with.
+pub(super) enum Engine {
+    /// From scratch each frame.
+    Sweep(Sweep),
+    /// Keeps what rests, and is told what moved.
+    Coherent(CoherentSweep),
+}
+
+impl Engine {
+    /// The engines worth trying.
+    pub(super) fn all(few_move: bool) -> Vec<Self> {
+        let mut all = vec![Self::Sweep(Sweep::new())];
+        if few_move {
+            all.push(Self::Coherent(CoherentSweep::new()));
+        }
+        all
+    }
+
+    pub(super) const fn name(&self) -> &'static str {
+        match self {
+            Self::Sweep(_) => "sweep",
+            Self::Coherent(_) => "coherent",
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        match self {
+            Self::Sweep(sweep) => sweep.bytes(),
+            Self::Coherent(sweep) => sweep.bytes(),
+        }
+    }
+
+    /// What a user calls: sweep, filter, order.
+    pub(super) fn list(&mut self, frame: &Frame, pairs: &mut Vec<PairId>) {
+        let admit = |a, b| frame.filter.admits(a, b);
+        // Without a limit there is nothing to fail.
+        let _ = match self {
+            Self::Sweep(sweep) => sweep.pairs(frame.boxes, admit, usize::MAX, pairs),
+            Self::Coherent(sweep) => sweep.update(frame.boxes, frame.moved, admit, usize::MAX, pairs),
+        };
+    }
+}
+
+/// One of our ways to a frame's list.
+pub(super) struct Variant {
+    pub(super) engine: Engine,
+    pub(super) pairs: Vec<PairId>,
+    pub(super) samples: Samples,
+    peak: usize,
+}
+
+impl Variant {
+    pub(super) fn new(engine: Engine) -> Self {
+        Self { engine, pairs: Vec::new(), samples: Samples::default(), peak: 0 }
+    }
+
+    fn frame(&mut self, frame: &Frame) {
+        let (ns, ()) = time(|| self.engine.list(frame, &mut self.pairs));
+        self.samples.push(ns, ns);
+        let held = self.engine.bytes() + self.pairs.capacity() * size_of::<PairId>();
+        self.peak = self.peak.max(held);
+    }
+}
+
+pub(super) struct Ours {
+    variants: Vec<Variant>,
+    /// The sweep from scratch, pairs in no order.
+    unordered: Unordered,
+}
+
+struct Unordered {
+    sweep: Sweep,
+    pairs: Vec<PairId>,
+    samples: Samples,
+    /// It took longer than a row may, and was broken off.
+    was_cut: bool,
+}
+
+impl Ours {
+    pub(super) fn new(few_move: bool) -> Self {
+        let unordered =
+            Unordered { sweep: Sweep::new(), pairs: Vec::new(), samples: Samples::default(), was_cut: false };
+        Self { variants: Engine::all(few_move).into_iter().map(Variant::new).collect(), unordered }
+    }
+
+    pub(super) fn is_done(&self, limit: f64) -> bool {
+        self.unordered.was_cut || self.variants.iter().all(|variant| variant.samples.spent() >= limit)
+    }
+
+    pub(super) fn forget_samples(&mut self, limit: f64) {
+        if !self.unordered.was_cut {
+            forget(&mut self.unordered.samples, limit);
+            self.variants.iter_mut().for_each(|variant| forget(&mut variant.samples, limit));
+        }
+    }
+
+    /// One frame of every variant that has time left, in turns as to which is first and finds cold caches.
+    pub(super) fn frame(&mut self, frame: &Frame, expected: Option<usize>, limit: f64, row: &mut Row) {
+        if self.is_done(limit) {
+            return;
+        }
+        let unordered_last = self.unordered.samples.len() % 2 == 1;
+        if !unordered_last {
+            self.unordered.frame(frame, expected, limit, row);
+        }
+        if self.unordered.was_cut {
+            return;
+        }
+        let mut known: Option<&[PairId]> = None;
+        for variant in self.variants.iter_mut().filter(|variant| variant.samples.spent() < limit) {
+            variant.frame(frame);
+            let name = variant.engine.name();
+            if expected.is_some_and(|expected| expected != variant.pairs.len()) {
+                object(row, &format!("PAIRS DIFFER: our {name} has {}", variant.pairs.len()));
+            }
+            if *known.get_or_insert(&variant.pairs) != variant.pairs {
+                object(row, &format!("LISTS DIFFER: that of our {name}"));
+            }
+        }
+        if unordered_last {
+            self.unordered.frame(frame, expected, limit, row);
+        }
+    }
+
+    pub(super) fn report(&self, row: &mut Row, figures: &mut Figures) {
+        if self.unordered.was_cut {
+            (row.ours_ns, row.done) = (self.unordered.samples.median(), 1);
+            figures.mode = "sweep";
+            figures.sweep_ns = row.ours_ns;
+            return;
+        }
+        let medians = self.variants.iter().filter_map(|one| Some((one.samples.median()?, one)));
+        let Some((ns, best)) = medians.min_by(|a, b| a.0.total_cmp(&b.0)) else { return };
+        (row.ours_ns, row.done) = (Some(ns), best.samples.len());
+        figures.mode = best.engine.name();
+        if matches!(best.engine, Engine::Sweep(_)) {
+            figures.sweep_ns = self.unordered.samples.median();
+            figures.order_ns = figures.sweep_ns.map(|sweep| (ns - sweep).max(0.0));
+        }
+        let pairs = best.pairs.len();
+        figures.hold(row.n, pairs, best.peak, ns);
+        figures.hold_against(memory::bandwidth(), row.n, pairs, ns);
+    }
+}
+
+impl Unordered {
+    fn frame(&mut self, frame: &Frame, expected: Option<usize>, limit: f64, row: &mut Row) {
+        if self.samples.spent() >= limit {
+            return;
+        }
+        let ns = self.visit(frame, limit);
+        if !self.was_cut {
+            self.samples.push(ns, ns);
+            return;
+        }
+        let done = self.pairs.len();
+        let all = expected.unwrap_or(done).max(1);
+        self.samples = Samples::default();
+        self.samples.push(ns * all as f64 / done.max(1) as f64, limit);
+        row.remark(&format!(
+            "stopped after {:.1} s at {:.0} % of {all} pairs: our time is extrapolated, without order",
+            ns * 1e-9,
+            100.0 * done as f64 / all as f64
+        ));
+    }
+
+    /// The sweep alone, into a list without order, broken off when its time is up. Returns its nanoseconds.
+    fn visit(&mut self, frame: &Frame, limit: f64) -> f64 {
+        let start = Instant::now();
+        let pairs = &mut self.pairs;
+        pairs.clear();
+        // Twice the time of a variant: so much more than that would not fit a second frame anyhow.
+        let limit = 2e-9 * limit;
+        let (ns, flow) = time(|| {
+            self.sweep.visit(
+                frame.boxes,
+                |a, b| frame.filter.admits(a, b),
+                |pair| {
+                    pairs.push(pair);
+                    let is_late = pairs.len().is_multiple_of(1024) && start.elapsed().as_secs_f64() > limit;
+                    if is_late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                },
+            )
+        });
+        self.was_cut = flow.is_break();
+        ns
+    }
+}
