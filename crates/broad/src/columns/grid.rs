@@ -15,8 +15,8 @@ pub(crate) struct Grid {
     pub(crate) bin_bits: u32,
     /// Bins or columns on each axis, for least and greatest codes.
     across: [u16; 6],
-    /// Candidates that the guess expects in the row of a box.
-    pub(crate) expected: f32,
+    /// Candidates that the guess expects for a box, in all its rows.
+    pub(crate) expected: f64,
 }
 
 /// The bin in which a box begins, and the columns that it reaches: first and last on both axes that they lie over.
@@ -29,6 +29,9 @@ pub(crate) struct Reach {
 
 /// Boxes that share a bin of the sweep axis, roughly.
 const BOXES_A_BIN: f64 = 4.0;
+
+/// Most entries that boxes may have on average.
+const MOST_ENTRIES: usize = 4;
 
 /// Most columns on one axis.
 const MOST_ACROSS: f64 = 1024.0;
@@ -68,7 +71,7 @@ impl Grid {
             columns: best.1,
             bin_bits,
             across: [0; 6],
-            expected: best.2 as f32,
+            expected: best.2,
         };
         grid.with_columns(best.1)
     }
@@ -114,6 +117,11 @@ impl Grid {
             (across[axis], across[axis + 3]) = (columns as u16, columns as u16);
         }
         Self { columns, across, ..self }
+    }
+
+    /// Whether so many entries are more than the boxes are worth, whatever the sample said.
+    pub(crate) const fn is_too_fine(&self, entries: usize, boxes: usize) -> bool {
+        entries > MOST_ENTRIES * boxes && self.count() > 1
     }
 
     /// The same with a quarter of the columns.
@@ -181,13 +189,16 @@ impl Spread {
         if fill < 1.0 { fill } else { 1.0 }
     }
 
-    /// What a sweep with so many columns is expected to cost, and candidates in a row.
+    /// What a sweep with so many columns is expected to cost, and candidates a box.
     fn cost(&self, count: f64, sweep: usize, columns: [f64; 2]) -> (f64, f64) {
         let (y, z) = ((sweep + 1) % 3, (sweep + 2) % 3);
         let entries = count * (1.0 + self.fill(y) * columns[0]) * (1.0 + self.fill(z) * columns[1]);
         let all = columns[0] * columns[1];
         let expected = entries / all * self.crowding * self.fill(sweep);
-        (entries * (PER_ENTRY + PER_SIXTEEN * (expected / 16.0 + 0.6)) + all * PER_COLUMN, expected)
+        (
+            entries * (PER_ENTRY + PER_SIXTEEN * (expected / 16.0 + 0.6)) + all * PER_COLUMN,
+            expected * entries / count,
+        )
     }
 }
 

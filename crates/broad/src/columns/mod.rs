@@ -5,6 +5,7 @@ pub(crate) mod grid;
 
 use asunder_geometry::Bounds;
 use codes::{Codes, Entry};
+use core::ops::Range;
 use grid::{Grid, Reach};
 
 /// Entries of boxes, column by column, in each by the bin of the minimum on the sweep axis. A box has an entry in every column
@@ -20,26 +21,20 @@ pub(crate) struct Columns {
     entries: Vec<Entry>,
 }
 
-/// With more entries a box than that, the grid is too fine for these boxes, whatever the sample said.
-const MOST_ENTRIES: usize = 4;
-
 impl Columns {
-    /// Sorts the boxes; returns the grid that they are sorted by, which may be coarser than the one asked for.
+    /// Sorts `count` boxes, of which `pick` gives the one at a place. Returns the grid that they are sorted by: coarser than the one asked for,
+    /// should that give every box too many entries.
     #[inline(always)]
-    pub(crate) fn fill<B: Bounds>(
-        &mut self,
-        grid: Grid,
-        boxes: impl ExactSizeIterator<Item = B> + Clone,
-    ) -> Grid {
+    pub(crate) fn fill<B: Bounds>(&mut self, grid: Grid, count: usize, pick: impl Fn(usize) -> B) -> Grid {
         let mut grid = grid;
         let total = loop {
-            let total = self.count(&grid, boxes.clone());
-            if total <= MOST_ENTRIES * self.records.len() || grid.count() == 1 {
+            let total = self.count(&grid, 0..count, &pick);
+            if !grid.is_too_fine(total, count) {
                 break total;
             }
             grid = grid.coarser();
         };
-        self.scatter(&grid, total);
+        self.scatter(&grid, total, 0);
         grid
     }
 
@@ -53,28 +48,58 @@ impl Columns {
         ColumnEntries { start, ends, entries: &self.entries[start as usize..end as usize] }
     }
 
+    /// Entries in all columns.
+    pub(crate) fn len(&self) -> usize {
+        // Boxes that are none stand behind the last column.
+        self.ends.len().checked_sub(2).map_or(0, |last| self.ends[last] as usize)
+    }
+
+    /// Puts the parts of one column together, in order of the bins.
+    pub(crate) fn gather(&mut self, parts: &[Self], grid: &Grid, index: usize) -> ColumnEntries<'_> {
+        let bins = 1 << grid.bin_bits;
+        self.entries.clear();
+        self.ends.clear();
+        for bin in index * bins..(index + 1) * bins {
+            for part in parts {
+                let start = if bin == 0 { 0 } else { part.ends[bin - 1] };
+                self.entries.extend_from_slice(&part.entries[start as usize..part.ends[bin] as usize]);
+            }
+            self.ends.push(self.entries.len() as u32);
+        }
+        ColumnEntries { start: 0, ends: &self.ends, entries: &self.entries }
+    }
+
     /// Memory that is held, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         (self.records.capacity() + self.entries.capacity()) * size_of::<Entry>()
             + (self.ends.capacity() + self.straddlers.iter().map(Vec::capacity).sum::<usize>()) * 4
     }
 
-    /// Makes the record of every box and counts the entries in every bin; returns how many there are in all.
+    /// The first half of sorting: makes the record of every box at `places`, and counts the entries in every bin. Returns
+    /// how many there are in all.
+    ///
+    /// Nothing here depends on where a box is but three lists and one addition: a branch on whether a box straddles would be guessed wrong
+    /// for every fifth box (1.5 ns a box, Zen 4, 2026-11-21).
     #[inline(always)]
-    fn count<B: Bounds>(&mut self, grid: &Grid, boxes: impl ExactSizeIterator<Item = B>) -> usize {
+    pub(crate) fn count<B: Bounds>(
+        &mut self,
+        grid: &Grid,
+        places: Range<usize>,
+        pick: impl Fn(usize) -> B,
+    ) -> usize {
         let cells = grid.count() << grid.bin_bits;
         let no_box = cells as u32;
         self.ends.clear();
         // One more, for boxes that are none.
         self.ends.resize(cells + 1, 0);
-        self.records.resize(boxes.len(), Entry::default());
+        self.records.resize(places.len(), Entry::default());
         let [over_y, over_z, over_more] = &mut self.straddlers;
         for list in [&mut *over_y, &mut *over_z, &mut *over_more] {
-            list.resize(boxes.len(), 0);
+            list.resize(places.len(), 0);
         }
         let [mut count_y, mut count_z, mut count_more] = [0; 3];
-        for ((bounds, record), place) in boxes.zip(&mut self.records).zip(0..) {
-            let (low, high) = bounds.corners();
+        for ((at, record), place) in places.zip(&mut self.records).zip(0..) {
+            let (low, high) = pick(at).corners();
             let is_box = (low[0] <= high[0]) & (low[1] <= high[1]) & (low[2] <= high[2]);
             let codes = grid.quantiser.codes(low, high);
             let reach = grid.reach(&codes);
@@ -109,8 +134,9 @@ impl Columns {
         total
     }
 
+    /// The second half: puts every entry into its bin. The places are counted from `first`.
     #[inline(always)]
-    fn scatter(&mut self, grid: &Grid, total: usize) {
+    pub(crate) fn scatter(&mut self, grid: &Grid, total: usize, first: u32) {
         let mut sum = 0;
         for end in &mut self.ends {
             sum += core::mem::replace(end, sum);
@@ -118,10 +144,9 @@ impl Columns {
         if self.entries.len() < total {
             self.entries.resize(total, Entry::default());
         }
-        for (place, record) in self.records.iter().enumerate() {
+        for (record, place) in self.records.iter().zip(first..) {
             let end = &mut self.ends[record.place as usize];
-            self.entries[*end as usize] =
-                Entry { codes: record.codes, place: place as u32 | HOME_Y | HOME_Z };
+            self.entries[*end as usize] = Entry { codes: record.codes, place: place | HOME_Y | HOME_Z };
             *end += 1;
         }
         let [over_y, over_z, over_more] = &self.straddlers;
@@ -130,7 +155,7 @@ impl Columns {
             for &place in list {
                 let record = &self.records[place as usize];
                 let end = &mut self.ends[(record.place + step) as usize];
-                self.entries[*end as usize] = Entry { codes: record.codes, place: place | home };
+                self.entries[*end as usize] = Entry { codes: record.codes, place: first + place | home };
                 *end += 1;
             }
         }
@@ -138,7 +163,7 @@ impl Columns {
             let codes = self.records[place as usize].codes;
             for_others(&codes, grid, |cell, home| {
                 let end = &mut self.ends[cell as usize];
-                self.entries[*end as usize] = Entry { codes, place: place | home };
+                self.entries[*end as usize] = Entry { codes, place: first + place | home };
                 *end += 1;
             });
         }
@@ -149,14 +174,16 @@ impl Columns {
 const HOME_Y: u32 = 1 << 30;
 const HOME_Z: u32 = 1 << 31;
 
-/// Most boxes of one sweep: what is left of a place.
-pub(crate) const MOST_BOXES: usize = 1 << 30;
+/// The rest of it: the place itself.
+pub(crate) const PLACE: u32 = HOME_Y - 1;
+
+/// Most boxes of one sweep: their entries, at most four each, can still be counted.
+pub(crate) const MOST_BOXES: usize = 1 << 29;
 
 /// The places of two boxes that overlap in a column, and whether the column owns the pair: it has the greater of their minima
 /// on both axes.
 #[inline(always)]
 pub(crate) const fn owned(one: u32, other: u32) -> (u32, u32, bool) {
-    const PLACE: u32 = HOME_Y - 1;
     (one & PLACE, other & PLACE, (one | other) >> 30 == 3)
 }
 
@@ -166,6 +193,20 @@ pub(crate) struct ColumnEntries<'a> {
     pub(crate) start: u32,
     pub(crate) ends: &'a [u32],
     pub(crate) entries: &'a [Entry],
+}
+
+impl ColumnEntries<'_> {
+    /// Where the row of a box ends: behind the last bin that it reaches.
+    #[inline(always)]
+    pub(crate) fn row_end(&self, codes: &Codes, grid: &Grid) -> usize {
+        (self.ends[grid.bin(codes[grid.sweep + 3])] - self.start) as usize
+    }
+
+    /// Candidates in all rows.
+    pub(crate) fn candidates(&self, grid: &Grid) -> usize {
+        let rows = (1..).zip(self.entries);
+        rows.map(|(next, entry)| self.row_end(&entry.codes, grid).saturating_sub(next)).sum()
+    }
 }
 
 /// Hands over the cells of a box in all columns that it reaches but the first; returns how many.

@@ -1,21 +1,25 @@
 //! Sweep and prune in columns.
 
+mod level;
 mod order;
 mod rows;
+mod settle;
+mod wide;
 
-use crate::columns::codes::Entry;
 use crate::columns::grid::Grid;
-use crate::columns::{Columns, owned};
+use crate::columns::{Columns, MOST_BOXES};
 use crate::pair::{PairId, TooManyPairs};
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
-use rows::{HITS, Hit, LANES, Progress, Strips};
+use level::{Level, Scratch};
+use settle::Question;
+use wide::Kernel;
 
 /// A sweep.
 #[derive(Clone, Debug, Default)]
 pub struct Sweep {
     columns: Columns,
-    strips: Strips,
+    scratch: Scratch,
     order: order::Order,
 }
 
@@ -68,99 +72,38 @@ impl Sweep {
         admit: &impl Fn(u32, u32) -> bool,
         sink: &mut impl FnMut(&[PairId]) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let grid = Grid::for_boxes(boxes.len(), |place| boxes[place]);
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("bmi1") {
-            #[allow(unsafe_code)]
-            // SAFETY: the features were asked for.
-            return unsafe { self.sweep_avx2(grid, boxes, admit, sink) };
-        }
-        self.sweep::<B, false>(grid, boxes, admit, sink)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,bmi1")]
-    fn sweep_avx2<B: Bounds>(
-        &mut self,
-        grid: Grid,
-        boxes: &[B],
-        admit: &impl Fn(u32, u32) -> bool,
-        sink: &mut impl FnMut(&[PairId]) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        self.sweep::<B, true>(grid, boxes, admit, sink)
-    }
-
-    #[inline(always)]
-    fn sweep<B: Bounds, const WIDE: bool>(
-        &mut self,
-        grid: Grid,
-        boxes: &[B],
-        admit: &impl Fn(u32, u32) -> bool,
-        sink: &mut impl FnMut(&[PairId]) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let grid = self.columns.fill(grid, boxes.iter().copied());
-        let mut hits = [Hit::default(); HITS];
-        let mut pairs = [PairId { a: 0, b: 0 }; HITS * LANES];
-        for index in 0..grid.count() {
-            let column = self.columns.column(&grid, index);
-            if column.entries.len() < 2 {
-                continue;
-            }
-            self.strips.fill(column.entries);
-            let mut progress = Progress::default();
-            loop {
-                let count = self.strips.sweep::<WIDE>(&column, &grid, &mut progress, &mut hits);
-                if count == 0 {
-                    break;
-                }
-                let count = settle(&mut hits[..count], column.entries, boxes, &mut pairs);
-                let mut admitted = 0;
-                for place in 0..count {
-                    let pair = pairs[place];
-                    pairs[admitted] = pair;
-                    admitted += usize::from(admit(pair.a, pair.b));
-                }
-                sink(&pairs[..admitted])?;
-            }
-        }
-        ControlFlow::Continue(())
+        let boxes = &boxes[..boxes.len().min(MOST_BOXES)];
+        let Self { columns, scratch, .. } = self;
+        let grid = wide::run(Sort { boxes, columns });
+        let level = Level {
+            parts: core::slice::from_ref(columns),
+            grid: &grid,
+            range: 0..grid.count(),
+            question: &mut Question { boxes, admit, sink },
+            scratch,
+        };
+        wide::run(level)
     }
 
     /// Memory that is held, in bytes.
     pub fn bytes(&self) -> usize {
-        self.columns.bytes() + self.strips.bytes() + self.order.bytes()
+        self.columns.bytes() + self.scratch.bytes() + self.order.bytes()
     }
 }
 
-/// Hits to pairs that this column owns; returns how many.
-///
-/// One box of every hit at a time, and the hits that have more once again: a loop over the boxes of each hit would end where the
-/// processor does not expect it.
-#[inline(always)]
-fn settle<B: Bounds>(
-    hits: &mut [Hit],
-    entries: &[Entry],
-    boxes: &[B],
-    pairs: &mut [PairId; HITS * LANES],
-) -> usize {
-    let (mut count, mut left) = (0, hits.len());
-    while left > 0 {
-        let mut more = 0;
-        for place in 0..left {
-            let hit = hits[place];
-            let (index, is_close, rest) = hit.next();
-            let (one, other, mut is_ours) =
-                owned(entries[hit.row as usize].place, entries[index as usize].place);
-            let pair = PairId::new(one, other);
-            if is_close {
-                is_ours &= boxes[pair.a as usize].overlaps(&boxes[pair.b as usize]);
-            }
-            pairs[count & (HITS * LANES - 1)] = pair;
-            count += usize::from(is_ours);
-            hits[more] = rest;
-            more += usize::from(!rest.is_done());
-        }
-        left = more;
+/// All boxes into columns.
+struct Sort<'a, B> {
+    boxes: &'a [B],
+    columns: &'a mut Columns,
+}
+
+impl<B: Bounds> Kernel for Sort<'_, B> {
+    type Output = Grid;
+
+    #[inline(always)]
+    fn run<const WIDE: bool>(self) -> Grid {
+        let Self { boxes, columns } = self;
+        let grid = Grid::for_boxes(boxes.len(), |place| boxes[place]);
+        columns.fill(grid, boxes.len(), |place| boxes[place])
     }
-    count
 }

@@ -98,7 +98,7 @@ impl Strips {
         while progress.row < column.entries.len() {
             let row = progress.row;
             let codes = column.entries[row].codes;
-            let end = (column.ends[grid.bin(codes[grid.sweep + 3])] - column.start) as usize;
+            let end = column.row_end(&codes, grid);
             let mut next = progress.next.max(row + 1);
             while next < end {
                 if found == HITS {

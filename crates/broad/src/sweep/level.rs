@@ -1,0 +1,189 @@
+//! The columns of a grid, one after the other; those that are too full, in columns of their own.
+
+use super::rows::{HITS, Hit, Progress, Strips};
+use super::settle::{NO_PAIRS, Names, Question};
+use super::wide::{self, Kernel};
+use crate::columns::codes::Entry;
+use crate::columns::grid::Grid;
+use crate::columns::{ColumnEntries, Columns, PLACE};
+use crate::pair::PairId;
+use asunder_geometry::Bounds;
+use core::ops::{ControlFlow, Range};
+
+/// Scratch memory of a thread.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    strips: Strips,
+    /// A column of several parts, put together.
+    gathered: Columns,
+    nested: Option<Box<Nested>>,
+}
+
+/// What a column that is too full is swept with.
+#[derive(Clone, Debug, Default)]
+struct Nested {
+    columns: Columns,
+    members: Vec<u32>,
+    scratch: Scratch,
+}
+
+/// A column is swept in columns of its own only if it has so many boxes,
+const MANY: usize = 96;
+/// so many times as many as columns have on average,
+const CROWDED: usize = 3;
+/// so many candidates a box,
+const FULL: usize = 32;
+/// and is expected to have so many times fewer then.
+const GAIN: f64 = 2.0;
+
+/// Columns within columns at most: clumps of clumps of clumps.
+const DEEPEST: usize = 4;
+
+impl Scratch {
+    pub(super) fn bytes(&self) -> usize {
+        let nested = self.nested.as_ref().map_or(0, |nested| {
+            nested.columns.bytes() + nested.members.capacity() * 4 + nested.scratch.bytes()
+        });
+        self.strips.bytes() + self.gathered.bytes() + nested
+    }
+}
+
+/// Some columns of boxes that were sorted in one or more parts.
+pub(super) struct Level<'a, 'q, B, A, S> {
+    pub(super) parts: &'a [Columns],
+    pub(super) grid: &'a Grid,
+    pub(super) range: Range<usize>,
+    pub(super) question: &'a mut Question<'q, B, A, S>,
+    pub(super) scratch: &'a mut Scratch,
+}
+
+impl<B, A, S> Kernel for Level<'_, '_, B, A, S>
+where
+    B: Bounds,
+    A: Fn(u32, u32) -> bool,
+    S: FnMut(&[PairId]) -> ControlFlow<()>,
+{
+    type Output = ControlFlow<()>;
+
+    #[inline(always)]
+    fn run<const WIDE: bool>(self) -> ControlFlow<()> {
+        self.sweep::<WIDE, false>(None, 0)
+    }
+}
+
+/// The columns of a column.
+struct Inner<'a, 'q, B, A, S> {
+    level: Level<'a, 'q, B, A, S>,
+    names: Names<'a>,
+    depth: usize,
+}
+
+impl<B, A, S> Kernel for Inner<'_, '_, B, A, S>
+where
+    B: Bounds,
+    A: Fn(u32, u32) -> bool,
+    S: FnMut(&[PairId]) -> ControlFlow<()>,
+{
+    type Output = ControlFlow<()>;
+
+    #[inline(always)]
+    fn run<const WIDE: bool>(self) -> ControlFlow<()> {
+        self.level.sweep::<WIDE, true>(Some(&self.names), self.depth)
+    }
+}
+
+impl<B, A, S> Level<'_, '_, B, A, S>
+where
+    B: Bounds,
+    A: Fn(u32, u32) -> bool,
+    S: FnMut(&[PairId]) -> ControlFlow<()>,
+{
+    #[inline(always)]
+    fn sweep<const WIDE: bool, const NESTED: bool>(
+        self,
+        names: Option<&Names<'_>>,
+        depth: usize,
+    ) -> ControlFlow<()> {
+        let Level { parts, grid, range, question, scratch } = self;
+        let Scratch { strips, gathered, nested } = scratch;
+        let many = MANY.max(CROWDED * parts.iter().map(Columns::len).sum::<usize>() / grid.count());
+        let mut hits = [Hit::default(); HITS];
+        let mut pairs = NO_PAIRS;
+        for index in range {
+            let column = match parts {
+                [one] => one.column(grid, index),
+                several => gathered.gather(several, grid, index),
+            };
+            if column.entries.len() < 2 {
+                continue;
+            }
+            if column.entries.len() > many && depth < DEEPEST {
+                let full = column.candidates(grid) / column.entries.len();
+                if full > FULL {
+                    let nested = nested.get_or_insert_default();
+                    let names = if NESTED { names } else { None };
+                    if let Some(flow) = nested.sweep(&column, full, question, (names, depth)) {
+                        flow?;
+                        continue;
+                    }
+                }
+            }
+            strips.fill(column.entries);
+            let mut progress = Progress::default();
+            loop {
+                let count = strips.sweep::<WIDE>(&column, grid, &mut progress, &mut hits);
+                if count == 0 {
+                    break;
+                }
+                question.answer::<NESTED>(&mut hits[..count], column.entries, names, &mut pairs)?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Nested {
+    /// Sweeps a column in columns, by fresh statistics; not if they promise too little.
+    fn sweep<B, A, S>(
+        &mut self,
+        column: &ColumnEntries<'_>,
+        full: usize,
+        question: &mut Question<'_, B, A, S>,
+        (outer, depth): (Option<&Names<'_>>, usize),
+    ) -> Option<ControlFlow<()>>
+    where
+        B: Bounds,
+        A: Fn(u32, u32) -> bool,
+        S: FnMut(&[PairId]) -> ControlFlow<()>,
+    {
+        let Self { columns, members, scratch } = self;
+        let boxes = question.boxes;
+        let pick = |entry: &Entry| boxes[outermost(entry.place & PLACE, outer) as usize];
+        let grid = Grid::for_boxes(column.entries.len(), |place| pick(&column.entries[place]));
+        if grid.count() == 1 && grid.expected * GAIN > full as f64 {
+            return None;
+        }
+        let grid = columns.fill(grid, column.entries.len(), |place| pick(&column.entries[place]));
+        members.clear();
+        members.extend(column.entries.iter().map(|entry| entry.place));
+        let level = Level {
+            parts: core::slice::from_ref(columns),
+            grid: &grid,
+            range: 0..grid.count(),
+            question,
+            scratch,
+        };
+        Some(wide::run(Inner { level, names: Names { members, outer }, depth: depth + 1 }))
+    }
+}
+
+/// The place of a box in what is swept, by its place in a column of columns.
+fn outermost(place: u32, names: Option<&Names<'_>>) -> u32 {
+    let mut place = place;
+    let mut around = names;
+    while let Some(&Names { members, outer }) = around {
+        place = members[place as usize] & PLACE;
+        around = outer;
+    }
+    place
+}
