@@ -1,7 +1,8 @@
 //! The broad phase against a double loop: random boxes, nasty boxes, filters, and limits.
 
-use asunder_broad::{PairId, Sweep, TooManyPairs};
+use asunder_broad::{PairId, PlainSweep, Sweep, TooManyPairs};
 use asunder_geometry::{Aabb2, Aabb3, Bounds};
+use asunder_scenes::boxes::{BoxScene, MovingBoxes};
 use asunder_tests::brute_pairs::{Sides, brute_pairs};
 use asunder_tests::cases::Random;
 use core::ops::ControlFlow;
@@ -27,6 +28,9 @@ fn check<B: Bounds + Sides>(boxes: &[B]) -> usize {
         admit(a, b)
     };
     assert_eq!(swept(boxes, asked), filtered);
+    let mut plain = Vec::new();
+    PlainSweep::new().pairs(boxes, admit, usize::MAX, &mut plain).unwrap();
+    assert!(plain.iter().map(|pair| (pair.a, pair.b)).eq(filtered.iter().copied()), "the definition");
     let mut visited = Vec::new();
     let outcome = Sweep::new().visit(boxes, admit, |pair| {
         visited.push((pair.a, pair.b));
@@ -190,6 +194,101 @@ fn a_sweep_remembers_nothing() {
         sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut pairs).unwrap();
         let found: Vec<_> = pairs.iter().map(|pair| (pair.a, pair.b)).collect();
         assert_eq!(found, brute_pairs(&boxes, |_, _| true));
+    }
+}
+
+/// Pairs by both sweeps; the double loop would take too long.
+fn same_as_plain<B: Bounds>(sweep: &mut Sweep, boxes: &[B], what: &str) -> usize {
+    let (mut pairs, mut plain) = (Vec::new(), Vec::new());
+    sweep.pairs(boxes, |a, b| (a ^ b) % 7 != 0, usize::MAX, &mut pairs).unwrap();
+    PlainSweep::new().pairs(boxes, |a, b| (a ^ b) % 7 != 0, usize::MAX, &mut plain).unwrap();
+    assert!(pairs == plain, "{what}: {} pairs, the plain sweep has {}", pairs.len(), plain.len());
+    pairs.len()
+}
+
+#[test]
+fn every_scene_has_the_pairs_of_the_plain_sweep_in_every_frame() {
+    let mut sweep = Sweep::new();
+    for scene in BoxScene::ALL {
+        for count in [300, 3000] {
+            let mut moving = MovingBoxes::new(scene, count, 5);
+            for frame in 0..4 {
+                moving.step();
+                let found =
+                    same_as_plain(&mut sweep, &moving.boxes, &format!("{} {count} {frame}", scene.name()));
+                assert!(found > 0 || scene == BoxScene::Still, "{}", scene.name());
+                let flat: Vec<Aabb2> =
+                    moving.boxes.iter().map(|b| Aabb2::new(b.min.truncate(), b.max.truncate())).collect();
+                same_as_plain(&mut sweep, &flat, scene.name());
+            }
+        }
+    }
+}
+
+/// Clumps of clumps of clumps, giants among crumbs, all on one spot, all at one height: what makes grids fall off a cliff.
+#[test]
+fn crowds_in_crowds_and_giants_have_the_pairs_of_the_plain_sweep() {
+    let mut random = Random::new(703);
+    let mut sweep = Sweep::new();
+    let mut clumps = Vec::new();
+    for i in 0..3000_u32 {
+        // Each level a thousand times smaller than the one around it.
+        let digit = |place: u32| (i / 5_u32.pow(place)) % 5;
+        let at = |place: u32, size: f32| {
+            Vec3::new((digit(place) * 7 % 5) as f32, digit(place) as f32, (digit(place) * 3 % 5) as f32)
+                * size
+        };
+        let corner = at(0, 1e3) + at(1, 1.0) + at(2, 1e-3) + random.vector().as_vec3() * 1e-4;
+        clumps.push(Aabb3::new(corner, corner + Vec3::splat(3e-5)));
+    }
+    assert!(same_as_plain(&mut sweep, &clumps, "clumps") > 1000);
+    let mut giants: Vec<Aabb3> =
+        (0..3000).map(|_| random_box3(&mut random, Vec3::splat(50.0), 0.3)).collect();
+    for i in 0..40 {
+        let height = Vec3::Y * (i as f32 - 20.0);
+        giants[i * 70] = Aabb3::new(Vec3::splat(-100.0) + height, Vec3::new(100.0, -99.0, 100.0) + height);
+        giants[i * 70 + 1] = random_box3(&mut random, Vec3::splat(50.0), 40.0);
+    }
+    giants[5] = Aabb3::new(Vec3::NEG_INFINITY, Vec3::new(f32::INFINITY, -3.0, f32::INFINITY));
+    assert!(same_as_plain(&mut sweep, &giants, "giants") > 3000);
+    let height = Vec3::new(500.0, 0.0, 500.0);
+    let crowd: Vec<Aabb3> = (0..3000).map(|_| random_box3(&mut random, height, 1.0)).collect();
+    same_as_plain(&mut sweep, &crowd, "at one height");
+    same_as_plain(&mut sweep, &[Aabb3::new(Vec3::ZERO, Vec3::ONE); 700], "all identical");
+    let needles: Vec<Aabb3> = (0..2000)
+        .map(|i| {
+            let mut half = Vec3::splat(0.01);
+            half[i % 3] = 30.0;
+            let center = random.vector().as_vec3() * 50.0;
+            Aabb3::new(center - half, center + half)
+        })
+        .collect();
+    assert!(same_as_plain(&mut sweep, &needles, "needles") > 50);
+}
+
+#[test]
+fn the_list_is_the_same_on_1_2_8_and_16_threads() {
+    for scene in [BoxScene::Pile, BoxScene::Islands, BoxScene::Sizes] {
+        let boxes = MovingBoxes::new(scene, 35_000, 6).boxes;
+        let on = |threads: usize, limit: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let mut sweep = Sweep::new();
+                let mut pairs = Vec::new();
+                let outcome = sweep.pairs(&boxes, |a, b| (a ^ b) % 5 != 0, limit, &mut pairs);
+                // Again, with the memory of the first time.
+                assert_eq!(sweep.pairs(&boxes, |a, b| (a ^ b) % 5 != 0, limit, &mut pairs), outcome);
+                (outcome, pairs)
+            })
+        };
+        let one = on(1, usize::MAX);
+        assert!(one.1.len() > 10_000 && one.1.is_sorted());
+        for threads in [2, 8, 16] {
+            assert!(on(threads, usize::MAX) == one, "{threads} threads, {}", scene.name());
+        }
+        let short = one.1.len() - 1;
+        assert_eq!(on(1, short), (Err(TooManyPairs { limit: short }), vec![]));
+        assert_eq!(on(8, short), on(1, short));
     }
 }
 

@@ -63,3 +63,55 @@ impl Quantiser {
 pub(crate) const fn rank(code: i16) -> u32 {
     (code as u16 ^ 0x8000) as u32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_monotone_and_infinity_is_at_the_ends() {
+        let mut numbers = vec![
+            f32::NEG_INFINITY,
+            f32::MIN,
+            -1e30,
+            -1e9,
+            -7.5,
+            -1.0,
+            -1e-40,
+            0.0,
+            f32::MIN_POSITIVE,
+            0.1,
+            1.0,
+            1.000_000_1,
+            7.5,
+            1e9,
+            f32::MAX,
+            f32::INFINITY,
+        ];
+        numbers.extend((0..200).map(|i| i as f32 * 0.013));
+        numbers.sort_unstable_by(f32::total_cmp);
+        for interval in [(-10.0, 10.0), (1.0, 1.0), (-1e38, 1e38), (0.0, 1e-40), (1e9, 1.1e9), (-1e38, -1e38)]
+        {
+            let quantiser = Quantiser::over([interval; 3]);
+            let codes: Vec<Codes> = numbers.iter().map(|&x| quantiser.codes([x; 3], [x; 3])).collect();
+            assert!(codes.is_sorted(), "{interval:?}: {codes:?}");
+            assert!(codes.iter().all(|codes| codes.iter().all(|&code| code == codes[0])));
+            assert_eq!((codes[0][0], codes[codes.len() - 1][0]), (-32_767, 32_767));
+        }
+    }
+
+    #[test]
+    fn an_interval_is_spread_over_all_codes() {
+        let quantiser = Quantiser::over([(2.0, 4.0), (0.0, 1.0), (-1.0, 0.0)]);
+        assert_eq!(
+            quantiser.codes([2.0, 0.0, -1.0], [4.0, 1.0, 0.0]),
+            [-32_767, -32_767, -32_767, 32_767, 32_767, 32_767]
+        );
+        assert_eq!(quantiser.codes([3.0, 0.5, -0.5], [3.0, 0.5, -0.5]), [0; 6]);
+    }
+
+    #[test]
+    fn ranks_are_codes_in_order() {
+        assert_eq!([i16::MIN, -1, 0, i16::MAX].map(rank), [0, 32_767, 32_768, 65_535]);
+    }
+}

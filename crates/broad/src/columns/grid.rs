@@ -143,17 +143,19 @@ struct Spread {
 /// The size that a box counts with is at most so many times the middle one: a giant must not coarsen the grid.
 const GIANT: f32 = 32.0;
 
+/// Least and greatest corner.
+type Corners = ([f32; 3], [f32; 3]);
+
 impl Spread {
     fn of<B: Bounds>(count: usize, pick: impl Fn(usize) -> B) -> Self {
         let wanted = (count / 16).clamp(32, 512);
         let stride = (count / wanted).max(1);
-        let is_finite = |b: &([f32; 3], [f32; 3])| {
-            (0..3).all(|axis| b.0[axis] <= b.1[axis] && (b.1[axis] - b.0[axis]).is_finite())
-        };
+        let is_finite =
+            |b: &Corners| (0..3).all(|axis| b.0[axis] <= b.1[axis] && (b.1[axis] - b.0[axis]).is_finite());
         let sample: Vec<_> =
             (0..count).step_by(stride).map(|place| pick(place).corners()).filter(is_finite).collect();
         let mut scratch = Vec::with_capacity(sample.len());
-        let mut quantile = |of: &dyn Fn(&([f32; 3], [f32; 3])) -> f32, percent: usize| -> f32 {
+        let mut quantile = |of: &dyn Fn(&Corners) -> f32, percent: usize| -> f32 {
             scratch.clear();
             scratch.extend(sample.iter().map(of));
             let place = scratch.len() * percent / 100;
@@ -203,7 +205,7 @@ impl Spread {
 }
 
 /// Counts the sample in 8 x 8 x 8 cells.
-fn crowding(sample: &[([f32; 3], [f32; 3])], range: &[(f32, f32); 3]) -> f64 {
+fn crowding(sample: &[Corners], range: &[(f32, f32); 3]) -> f64 {
     let cells = Quantiser::over(*range);
     let mut counts = [0_u16; 512];
     let mut met = 0_u32;

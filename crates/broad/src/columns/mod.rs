@@ -19,6 +19,8 @@ pub(crate) struct Columns {
     /// Where each bin of each column ends in the entries.
     ends: Vec<u32>,
     entries: Vec<Entry>,
+    /// Entries that were counted, boxes that are none among them.
+    counted: usize,
 }
 
 impl Columns {
@@ -27,14 +29,14 @@ impl Columns {
     #[inline(always)]
     pub(crate) fn fill<B: Bounds>(&mut self, grid: Grid, count: usize, pick: impl Fn(usize) -> B) -> Grid {
         let mut grid = grid;
-        let total = loop {
-            let total = self.count(&grid, 0..count, &pick);
-            if !grid.is_too_fine(total, count) {
-                break total;
+        loop {
+            self.count(&grid, 0..count, &pick);
+            if !grid.is_too_fine(self.counted, count) {
+                break;
             }
             grid = grid.coarser();
-        };
-        self.scatter(&grid, total, 0);
+        }
+        self.scatter(&grid, 0);
         grid
     }
 
@@ -46,6 +48,12 @@ impl Columns {
         let start = if index == 0 { 0 } else { self.ends[index * bins - 1] };
         let end = ends.last().copied().unwrap_or(start);
         ColumnEntries { start, ends, entries: &self.entries[start as usize..end as usize] }
+    }
+
+    /// Entries that were counted, before they are sorted.
+    #[cfg(feature = "parallel")]
+    pub(crate) const fn counted(&self) -> usize {
+        self.counted
     }
 
     /// Entries in all columns.
@@ -75,18 +83,12 @@ impl Columns {
             + (self.ends.capacity() + self.straddlers.iter().map(Vec::capacity).sum::<usize>()) * 4
     }
 
-    /// The first half of sorting: makes the record of every box at `places`, and counts the entries in every bin. Returns
-    /// how many there are in all.
+    /// The first half of sorting: makes the record of every box at `places`, and counts the entries in every bin.
     ///
     /// Nothing here depends on where a box is but three lists and one addition: a branch on whether a box straddles would be guessed wrong
     /// for every fifth box (1.5 ns a box, Zen 4, 2026-11-21).
     #[inline(always)]
-    pub(crate) fn count<B: Bounds>(
-        &mut self,
-        grid: &Grid,
-        places: Range<usize>,
-        pick: impl Fn(usize) -> B,
-    ) -> usize {
+    pub(crate) fn count<B: Bounds>(&mut self, grid: &Grid, places: Range<usize>, pick: impl Fn(usize) -> B) {
         let cells = grid.count() << grid.bin_bits;
         let no_box = cells as u32;
         self.ends.clear();
@@ -131,18 +133,18 @@ impl Columns {
             let codes = self.records[place as usize].codes;
             total += for_others(&codes, grid, |cell, _| self.ends[cell as usize] += 1);
         }
-        total
+        self.counted = total;
     }
 
     /// The second half: puts every entry into its bin. The places are counted from `first`.
     #[inline(always)]
-    pub(crate) fn scatter(&mut self, grid: &Grid, total: usize, first: u32) {
+    pub(crate) fn scatter(&mut self, grid: &Grid, first: u32) {
         let mut sum = 0;
         for end in &mut self.ends {
             sum += core::mem::replace(end, sum);
         }
-        if self.entries.len() < total {
-            self.entries.resize(total, Entry::default());
+        if self.entries.len() < self.counted {
+            self.entries.resize(self.counted, Entry::default());
         }
         for (record, place) in self.records.iter().zip(first..) {
             let end = &mut self.ends[record.place as usize];
@@ -155,7 +157,7 @@ impl Columns {
             for &place in list {
                 let record = &self.records[place as usize];
                 let end = &mut self.ends[(record.place + step) as usize];
-                self.entries[*end as usize] = Entry { codes: record.codes, place: first + place | home };
+                self.entries[*end as usize] = Entry { codes: record.codes, place: (first + place) | home };
                 *end += 1;
             }
         }
@@ -163,7 +165,7 @@ impl Columns {
             let codes = self.records[place as usize].codes;
             for_others(&codes, grid, |cell, home| {
                 let end = &mut self.ends[cell as usize];
-                self.entries[*end as usize] = Entry { codes, place: first + place | home };
+                self.entries[*end as usize] = Entry { codes, place: (first + place) | home };
                 *end += 1;
             });
         }

@@ -66,3 +66,30 @@ impl Order {
         self.keys.iter().map(|keys| keys.capacity() * 8).sum::<usize>() + self.counts.capacity() * 4
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_and_comparisons_give_the_same_order() {
+        let mut order = Order::default();
+        let mut state = 1_u64;
+        let mut random = |below: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) % below) as u32
+        };
+        for count in [2, 3, 63, 64, 65, 1000, 4096, 70_000, 1 << 29] {
+            for pairs in [0, 1, FEW - 1, FEW, 1000, 5000] {
+                let mut pairs: Vec<PairId> = (0..pairs)
+                    .map(|_| PairId { a: random(count), b: random(count) })
+                    .chain([PairId { a: count as u32 - 2, b: count as u32 - 1 }])
+                    .collect();
+                let mut sorted = pairs.clone();
+                sorted.sort_unstable();
+                order.sort(&mut pairs, count as usize);
+                assert_eq!(pairs, sorted, "{count} boxes");
+            }
+        }
+    }
+}

@@ -183,3 +183,73 @@ fn sides_of_zero(g: &[i16; LANES]) -> u32 {
     let bytes = _mm256_packs_epi16(_mm256_cmpgt_epi16(gaps, zero), _mm256_cmpeq_epi16(gaps, zero));
     _mm256_movemask_epi8(bytes) as u32 ^ MAY
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sixteen boxes whose codes are few and extreme, so that all kinds of meetings come up.
+    fn boxes(seed: &mut u32) -> ([Codes; LANES], [[i16; LANES]; 6]) {
+        const CODES: [i16; 8] = [i16::MIN, -32_767, -32_766, -1, 0, 1, 32_766, 32_767];
+        let mut code = || {
+            *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            CODES[(*seed >> 24) as usize % CODES.len()]
+        };
+        let mut boxes = [[0; 6]; LANES];
+        let mut strips = [[0; LANES]; 6];
+        for (lane, codes) in boxes.iter_mut().enumerate() {
+            for axis in 0..3 {
+                let (a, b) = (code(), code());
+                (codes[axis], codes[axis + 3]) = (a.min(b), a.max(b));
+            }
+            for (strip, code) in strips.iter_mut().zip(codes) {
+                strip[lane] = *code;
+            }
+        }
+        (boxes, strips)
+    }
+
+    /// What the lanes must say, from the definition, box by box.
+    fn expected(one: &Codes, others: &[Codes; LANES]) -> Vec<(u32, bool)> {
+        let verdict = |other: &Codes| {
+            let gap = |axis: usize| {
+                let before = i32::from(one[axis]) - i32::from(other[axis + 3]);
+                before.max(i32::from(other[axis]) - i32::from(one[axis + 3]))
+            };
+            gap(0).max(gap(1)).max(gap(2))
+        };
+        let all = others.iter().map(verdict).zip(0..);
+        all.filter(|&(gap, _)| gap <= 0).map(|(gap, lane)| (lane, gap == 0)).collect()
+    }
+
+    fn told(lanes: u32) -> Vec<(u32, bool)> {
+        let mut hit = Hit { row: 0, first: 0, lanes };
+        let mut told = Vec::new();
+        while !hit.is_done() {
+            let (index, is_close, rest) = hit.next();
+            told.push((index, is_close));
+            hit = rest;
+        }
+        told
+    }
+
+    #[test]
+    fn lanes_tell_what_codes_say_at_every_width() {
+        let mut seed = 7;
+        let (mut may, mut close) = (0, 0);
+        for _ in 0..3000 {
+            let (all, strips) = boxes(&mut seed);
+            let one = all[3];
+            let (others, strips) = (all, strips.each_ref());
+            let wanted = expected(&one, &others);
+            may += wanted.len();
+            close += wanted.iter().filter(|&&(_, is_close)| is_close).count();
+            assert_eq!(told(overlapping::<false>(&one, strips)), wanted);
+            #[cfg(target_arch = "x86_64")]
+            if std::arch::is_x86_feature_detected!("avx2") {
+                assert_eq!(overlapping::<true>(&one, strips), overlapping::<false>(&one, strips));
+            }
+        }
+        assert!(may > 10_000 && close > 1000, "{may} meetings, {close} of them close");
+    }
+}

@@ -1,0 +1,284 @@
+//! A sweep on many threads: the same list.
+//!
+//! ```text
+//! lay out the grid                                       one thread
+//! cut the boxes into parts; sort each into columns       a thread a part
+//! cut the columns into groups of equal weight;
+//!   sweep each, its columns put together from the parts  threads take groups
+//!   and throw its pairs into ranges of the first number
+//! put each range together from the groups and sort it    threads take ranges
+//! ```
+//! Which part, group or range a thread works at changes nothing: the ranges follow each other in the list, and each is sorted.
+
+use super::level::{Level, Scratch};
+use super::order::Order;
+use super::settle::Question;
+use super::wide::{self, Kernel};
+use crate::columns::Columns;
+use crate::columns::grid::Grid;
+use crate::pair::{PairId, TooManyPairs};
+use asunder_geometry::Bounds;
+use core::ops::{ControlFlow, Range};
+use core::sync::atomic::{AtomicUsize, Ordering};
+use rayon::prelude::*;
+
+/// With fewer boxes a second thread costs about what it saves.
+pub(super) const MANY_BOXES: usize = 30_000;
+
+/// Groups a thread, so that a crowded one does not hold up the rest.
+const GROUPS: usize = 4;
+
+/// Ranges of pairs, at most.
+const RANGES: usize = 64;
+
+/// Bins in which first numbers are counted before they are cut into ranges.
+const BINS: usize = 1024;
+
+/// What the threads keep between sweeps.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Team {
+    parts: Vec<Columns>,
+    groups: Vec<Group>,
+    orders: Vec<Order>,
+}
+
+/// Columns that one thread sweeps in one go.
+#[derive(Clone, Debug, Default)]
+struct Group {
+    columns: Range<usize>,
+    scratch: Scratch,
+    found: Vec<PairId>,
+    counts: Vec<u32>,
+    /// The pairs again, range by range, and where each range ends.
+    thrown: Vec<PairId>,
+    ends: Vec<usize>,
+}
+
+impl Team {
+    pub(super) fn bytes(&self) -> usize {
+        let groups = self.groups.iter().map(|group| {
+            group.scratch.bytes()
+                + (group.found.capacity() + group.thrown.capacity()) * size_of::<PairId>()
+                + group.counts.capacity() * 4
+                + group.ends.capacity() * 8
+        });
+        self.parts.iter().map(Columns::bytes).sum::<usize>()
+            + groups.sum::<usize>()
+            + self.orders.iter().map(Order::bytes).sum::<usize>()
+    }
+
+    /// All pairs, sorted, by `threads` threads of the current pool.
+    pub(super) fn pairs<B: Bounds>(
+        &mut self,
+        boxes: &[B],
+        admit: &(impl Fn(u32, u32) -> bool + Sync),
+        limit: usize,
+        pairs: &mut Vec<PairId>,
+    ) -> Result<(), TooManyPairs> {
+        let threads = rayon::current_num_threads();
+        self.parts.resize_with(threads, Columns::default);
+        self.groups.resize_with(threads * GROUPS, Group::default);
+        let grid = sort(&mut self.parts, boxes);
+        share_out(&mut self.groups, &self.parts, &grid);
+
+        let total = AtomicUsize::new(0);
+        let parts = &self.parts;
+        self.groups
+            .par_iter_mut()
+            .for_each(|group| group.sweep((parts, &grid), boxes, admit, (&total, limit)));
+        let total = total.into_inner();
+        pairs.clear();
+        if total > limit {
+            return Err(TooManyPairs { limit });
+        }
+
+        let ranges = (threads * GROUPS).min(RANGES);
+        let (range_of, sizes) = ranges_of_first(&self.groups, ranges, total);
+        self.groups.par_iter_mut().for_each(|group| group.throw(&range_of, ranges, boxes.len()));
+        pairs.resize(total, PairId { a: 0, b: 0 });
+        self.orders.resize_with(ranges, Order::default);
+        let ordering = Ordered { groups: &self.groups, sizes: &sizes[..ranges], count: boxes.len() };
+        ordering.write(0..ranges, pairs, &mut self.orders);
+        Ok(())
+    }
+}
+
+/// All boxes into columns, a part of them a thread.
+fn sort<B: Bounds>(parts: &mut [Columns], boxes: &[B]) -> Grid {
+    let each = boxes.len().div_ceil(parts.len().max(1));
+    let places = |part: usize| (part * each).min(boxes.len())..((part + 1) * each).min(boxes.len());
+    let mut grid = Grid::for_boxes(boxes.len(), |place| boxes[place]);
+    loop {
+        let count = |(index, part): (usize, &mut Columns)| {
+            wide::run(Count { part, grid: &grid, boxes, places: places(index) });
+        };
+        parts.par_iter_mut().enumerate().for_each(count);
+        let entries = parts.iter().map(Columns::counted).sum();
+        if !grid.is_too_fine(entries, boxes.len()) {
+            break;
+        }
+        grid = grid.coarser();
+    }
+    let scatter = |(index, part): (usize, &mut Columns)| {
+        wide::run(Scatter { part, grid: &grid, first: places(index).start as u32 });
+    };
+    parts.par_iter_mut().enumerate().for_each(scatter);
+    grid
+}
+
+/// The first half of sorting a part.
+struct Count<'a, B> {
+    part: &'a mut Columns,
+    grid: &'a Grid,
+    boxes: &'a [B],
+    places: Range<usize>,
+}
+
+impl<B: Bounds> Kernel for Count<'_, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const WIDE: bool>(self) {
+        self.part.count(self.grid, self.places, |place| self.boxes[place]);
+    }
+}
+
+/// The second half.
+struct Scatter<'a> {
+    part: &'a mut Columns,
+    grid: &'a Grid,
+    first: u32,
+}
+
+impl Kernel for Scatter<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const WIDE: bool>(self) {
+        self.part.scatter(self.grid, self.first);
+    }
+}
+
+/// Cuts the columns into groups with about as many entries each.
+fn share_out(groups: &mut [Group], parts: &[Columns], grid: &Grid) {
+    let entries: usize = parts.iter().map(Columns::len).sum();
+    let count = groups.len();
+    let (mut index, mut before) = (0, 0);
+    for (number, group) in (1..).zip(groups) {
+        let start = index;
+        while index < grid.count() && (number == count || before * count < entries * number) {
+            before += parts.iter().map(|part| part.column(grid, index).entries.len()).sum::<usize>();
+            index += 1;
+        }
+        group.columns = start..index;
+    }
+}
+
+impl Group {
+    fn sweep<B: Bounds>(
+        &mut self,
+        (parts, grid): (&[Columns], &Grid),
+        boxes: &[B],
+        admit: &impl Fn(u32, u32) -> bool,
+        (total, limit): (&AtomicUsize, usize),
+    ) {
+        let Self { columns, scratch, found, counts, .. } = self;
+        found.clear();
+        let mut sink = |pairs: &[PairId]| {
+            found.extend_from_slice(pairs);
+            let all = total.fetch_add(pairs.len(), Ordering::Relaxed) + pairs.len();
+            if all > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let range = columns.clone();
+        let question = &mut Question { boxes, admit, sink: &mut sink };
+        // Broken off only where there are too many pairs, which the total says.
+        let _ = wide::run(Level { parts, grid, range, question, scratch });
+        counts.clear();
+        counts.resize(BINS, 0);
+        for pair in found.iter() {
+            counts[bin_of(pair.a, boxes.len())] += 1;
+        }
+    }
+
+    /// Sorts the pairs by range.
+    fn throw(&mut self, range_of: &[u8; BINS], ranges: usize, boxes: usize) {
+        let Self { found, thrown, ends, counts, .. } = self;
+        ends.clear();
+        ends.resize(ranges, 0);
+        for (&count, &range) in counts.iter().zip(range_of) {
+            ends[usize::from(range)] += count as usize;
+        }
+        let mut sum = 0;
+        for end in ends.iter_mut() {
+            sum += core::mem::replace(end, sum);
+        }
+        thrown.resize(found.len(), PairId { a: 0, b: 0 });
+        for pair in found.iter() {
+            let end = &mut ends[usize::from(range_of[bin_of(pair.a, boxes)])];
+            thrown[*end] = *pair;
+            *end += 1;
+        }
+    }
+
+    fn range(&self, range: usize) -> &[PairId] {
+        let start = if range == 0 { 0 } else { self.ends[range - 1] };
+        &self.thrown[start..self.ends[range]]
+    }
+}
+
+fn bin_of(first: u32, boxes: usize) -> usize {
+    (u64::from(first) * BINS as u64 / boxes.max(1) as u64) as usize
+}
+
+/// Which range each bin of first numbers falls in, and the pairs in each range: about as many in all.
+fn ranges_of_first(groups: &[Group], ranges: usize, total: usize) -> ([u8; BINS], [usize; RANGES]) {
+    let (mut range_of, mut sizes) = ([0; BINS], [0; RANGES]);
+    let (mut range, mut before) = (0, 0);
+    for (bin, of) in range_of.iter_mut().enumerate() {
+        while range + 1 < ranges && before * ranges >= total * (range + 1) {
+            range += 1;
+        }
+        let count: usize = groups.iter().map(|group| group.counts[bin] as usize).sum();
+        *of = range as u8;
+        sizes[range] += count;
+        before += count;
+    }
+    (range_of, sizes)
+}
+
+/// Pairs of all groups, on their way into one list.
+struct Ordered<'a> {
+    groups: &'a [Group],
+    sizes: &'a [usize],
+    count: usize,
+}
+
+impl Ordered<'_> {
+    /// Writes some ranges: in halves, each on a thread.
+    fn write(&self, ranges: Range<usize>, pairs: &mut [PairId], orders: &mut [Order]) {
+        match orders {
+            [] => {}
+            [order] => {
+                let mut rest = &mut *pairs;
+                for group in self.groups {
+                    let piece = group.range(ranges.start);
+                    let (here, after) = rest.split_at_mut(piece.len());
+                    here.copy_from_slice(piece);
+                    rest = after;
+                }
+                order.sort(pairs, self.count);
+            }
+            several => {
+                let half = several.len() / 2;
+                let middle = ranges.start + half;
+                let size: usize = self.sizes[ranges.start..middle].iter().sum();
+                let (low, high) = pairs.split_at_mut(size);
+                let (orders_low, orders_high) = several.split_at_mut(half);
+                rayon::join(
+                    || self.write(ranges.start..middle, low, orders_low),
+                    || self.write(middle..ranges.end, high, orders_high),
+                );
+            }
+        }
+    }
+}
