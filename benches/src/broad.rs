@@ -6,7 +6,6 @@
 //!
 //! [`threads`] holds several threads against one, [`queries`] asks a structure of resting boxes.
 
-mod coming;
 pub mod figures;
 mod memory;
 mod ours;

@@ -1,6 +1,6 @@
 //! The broad phase against a double loop: random boxes, nasty boxes, filters, and limits.
 
-use asunder_broad::{PairId, PlainSweep, Sweep, TooManyPairs};
+use asunder_broad::{CoherentSweep, PairId, PlainSweep, Sweep, TooManyPairs};
 use asunder_geometry::{Aabb2, Aabb3, Bounds};
 use asunder_scenes::boxes::{BoxScene, MovingBoxes};
 use asunder_tests::brute_pairs::{Sides, brute_pairs};
@@ -264,6 +264,72 @@ fn crowds_in_crowds_and_giants_have_the_pairs_of_the_plain_sweep() {
         })
         .collect();
     assert!(same_as_plain(&mut sweep, &needles, "needles") > 50);
+}
+
+/// Boxes come, go, rest, wake and jump, few or many a frame, filters change, limits are hit: the list is always that of a sweep
+/// that knows nothing of before.
+#[test]
+fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
+    let mut random = Random::new(704);
+    let (mut kept_frames, mut refused) = (0, 0);
+    for round in 0..30 {
+        let room = Vec3::new(3.0, 0.5 + f32::from(round as u8), 3.0);
+        let mut boxes: Vec<Aabb3> = Vec::new();
+        let mut layers: Vec<u32> = Vec::new();
+        let mut coherent = CoherentSweep::new();
+        let (mut pairs, mut fresh) = (Vec::new(), Vec::new());
+        for frame in 0..60 {
+            let mut moved = Vec::new();
+            // Bursts, stretches of rest, and now and then everything.
+            let share = [0.0, 0.0, 0.02, 0.1, 0.5][random.below(5)] * f64::from(u8::from(frame % 20 < 15));
+            for place in 0..boxes.len() {
+                if random.between(0.0, 1.0) < share {
+                    boxes[place] = match random.below(6) {
+                        0 => Aabb3::NOTHING,
+                        1 => random_box3(&mut random, room, 3.0),
+                        _ => random_box3(&mut random, room, 0.2),
+                    };
+                    layers[place] = 1 + random.below(3) as u32;
+                    moved.push(place as u32);
+                    if random.below(4) == 0 {
+                        moved.push(place as u32);
+                    }
+                }
+            }
+            moved.reverse();
+            let new = if frame == 0 { 200 } else { [0, 0, 0, 1, 7][random.below(5)] };
+            for _ in 0..new {
+                boxes.push(random_box3(&mut random, room, 0.2));
+                layers.push(3);
+            }
+            if random.below(3) == 0 {
+                moved.push(boxes.len() as u32 - 1);
+            }
+            let admit = |a: u32, b: u32| layers[a as usize] & layers[b as usize] != 0;
+            Sweep::new().pairs(&boxes, admit, usize::MAX, &mut fresh).unwrap();
+            let limit = if random.below(8) == 0 { fresh.len().saturating_sub(1) } else { fresh.len() };
+            let outcome = coherent.update(&boxes, &moved, admit, limit, &mut pairs);
+            kept_frames += usize::from(moved.len() * 5 <= boxes.len());
+            if limit < fresh.len() {
+                assert_eq!((outcome, pairs.len()), (Err(TooManyPairs { limit }), 0));
+                refused += 1;
+            } else {
+                assert_eq!(outcome, Ok(()));
+                assert!(
+                    pairs == fresh,
+                    "round {round}, frame {frame}: {} pairs, not {}",
+                    pairs.len(),
+                    fresh.len()
+                );
+            }
+            if frame == 40 && round % 3 == 0 {
+                // Fewer boxes than before.
+                boxes.truncate(150);
+                layers.truncate(150);
+            }
+        }
+    }
+    assert!(kept_frames > 600 && refused > 100, "{kept_frames} frames with few movers, {refused} refused");
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! Our side of the broad phase.
 
-use super::coming::{Bytes, CoherentSweep};
 use super::figures::Figures;
 use super::{Frame, forget, memory, object};
 use crate::clock::{Samples, time};
 use crate::row::Row;
-use asunder_broad::{PairId, Sweep};
+use asunder_broad::{CoherentSweep, PairId, Sweep};
+use asunder_geometry::Aabb3;
 use core::ops::ControlFlow;
 use std::time::Instant;
 
@@ -14,7 +14,7 @@ pub(super) enum Engine {
     /// From scratch each frame.
     Sweep(Sweep),
     /// Keeps what rests, and is told what moved.
-    Coherent(CoherentSweep),
+    Coherent(CoherentSweep<Aabb3>),
 }
 
 impl Engine {

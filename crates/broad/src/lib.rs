@@ -16,11 +16,15 @@
 //! ```
 #![deny(missing_docs)]
 
+mod coherent;
 mod columns;
+mod index;
 mod pair;
 mod plain;
 mod sweep;
 
+pub use coherent::CoherentSweep;
+pub use index::Index;
 pub use pair::{PairId, TooManyPairs};
 pub use plain::PlainSweep;
 pub use sweep::Sweep;

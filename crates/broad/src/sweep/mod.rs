@@ -38,7 +38,7 @@
 //! sparse scenes, against 6); AVX-512 (0 to 2 %).
 
 mod level;
-mod order;
+pub(crate) mod order;
 mod rows;
 mod settle;
 #[cfg(feature = "parallel")]

@@ -4,7 +4,7 @@ use crate::pair::PairId;
 
 /// Scratch memory of the sort.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Order {
+pub(crate) struct Order {
     keys: [Vec<u64>; 2],
     counts: Vec<u32>,
 }
@@ -17,7 +17,7 @@ const FEW: usize = 64;
 
 impl Order {
     /// Puts `pairs` in order. Numbers are below `count`.
-    pub(super) fn sort(&mut self, pairs: &mut [PairId], count: usize) {
+    pub(crate) fn sort(&mut self, pairs: &mut [PairId], count: usize) {
         if pairs.len() < FEW {
             pairs.sort_unstable();
             return;
@@ -62,7 +62,7 @@ impl Order {
         }
     }
 
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.keys.iter().map(|keys| keys.capacity() * 8).sum::<usize>() + self.counts.capacity() * 4
     }
 }
