@@ -4,8 +4,9 @@
 //! for the most promising face of A, of B:   axis = its normal
 //! if the better one's facet is the nearest of A - B, and is known to be: done                            (facet)
 //! for each other face that spheres inside the other solid leave open: axis = its normal                   (cull)
-//! for each pair of edges that they leave open, and whose arcs on the Gauss map may cross:                 (arcs)
-//!                                           axis = the cross product, unless they are nearly parallel
+//! for each pair of edges that they leave open, and whose arcs on the Gauss map may cross:           (arcs, caps)
+//!                                           axis = the cross product, unless they are nearly parallel,
+//!                                           or themselves show less than the best axis so far
 //! the separation along an axis = min over B - max over A, projecting *every* vertex
 //! the greatest separation wins
 //! ```
@@ -25,21 +26,29 @@
 //! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 -> 7.8 us;
 //! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound will do,
 //!    f32 alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
-//! 4. *vertices seen so far* bound an edge pair's axis before it is projected, without a root: prisms, whose edges are
-//!    parallel, deep 4.9 -> 4.0 us;
+//! 4. *the edges themselves, and vertices seen so far*, bound an edge pair's axis before it is projected, without a
+//!    quotient: prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they do: 3.3 -> 3.1;
 //! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold, sliding
 //!    4.2 -> 1.0, tumbling 3.2 -> 1.7.
+//!
+//! And on two of 256 that are symmetric enough for nothing to be culled, as equal double cones in one place (1.9 ms):
+//!
+//! 6. *caps about eight arcs*, of edges sorted by where they look: 1.9 -> 0.9 ms, prisms 1.4 -> 1.1;
+//! 7. *the edges themselves* (4): prisms 1.1 -> 0.8, flat ones 0.8 -> 0.6;
+//! 8. *no closer look* where it settles nothing: cones 0.9 -> 0.7.
 //!
 //! Tried, and dropped: AVX2 for the whole test behind run-time detection (0 to 15 % slower, though the whole program
 //! compiled for it is 8 to 15 % faster: calls that are not inlined pay for the border); AVX2 for the support alone (no
 //! gain); one lane in place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow for 8
 //! vertices); masks in place of eight numbers (slower in portable Rust); the best
 //! direction of the search before as a first bound (no gain); the furthest vertex as a sum of indices
-//! without branches (20 % slower: branches are guessed, sums are waited for).
+//! without branches (20 % slower: branches are guessed, sums are waited for); arcs' eights given up between the two great
+//! circles and the meeting point (cones 15 % faster, all else 3 to 6 % slower).
 //!
 //! Cost: linear in faces, edges and vertices; what the spheres leave, faces times vertices and edges times edges.
 
 mod arcs;
+mod caps;
 mod cross;
 mod cull;
 mod facet;
@@ -48,7 +57,7 @@ mod hinted;
 use super::solid::Solid;
 use crate::counted::count_steps;
 use crate::precision::Precision;
-use arcs::for_edge_pairs;
+use arcs::{for_edge_pairs, for_many_edge_pairs};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
@@ -282,7 +291,9 @@ impl Found {
             }
             let at_b = EdgeAt::new(b, edge_b);
             let cross = Cross::outwards((at_a.along, out_of_a), at_b.along, || b.out_of_edge(edge_b));
-            self.by_edge_pair((a, b), [&at_a, &at_b], &cross, search);
+            if !self.is_settled([&at_a, &at_b], &cross, search) {
+                self.by_edge_pair((a, b), [&at_a, &at_b], &cross, search);
+            }
         });
     }
 
@@ -297,14 +308,49 @@ impl Found {
         let mut all_b = ArrayVec::<EdgeAt, MAX_EDGES>::new_const();
         all_b.extend(edges_b.iter().map(|&edge| EdgeAt::new(b, b.topology.edges()[edge as usize].into())));
         let (mut at_a, mut out_of_a) = (EdgeAt::NONE, DVec3::ZERO);
-        for_edge_pairs((a, edges_a), (b, edges_b), |[edge_a, edge_b], place_b| {
+        for_many_edge_pairs((a, edges_a), (b, edges_b), |[edge_a, edge_b], place_b| {
             if edge_a != at_a.half_edge {
                 (at_a, out_of_a) = (EdgeAt::new(a, edge_a), a.out_of_edge(edge_a));
             }
             let at_b = &all_b[place_b];
             let cross = Cross::outwards((at_a.along, out_of_a), at_b.along, || b.out_of_edge(edge_b));
-            self.by_edge_pair((a, b), [&at_a, at_b], &cross, search);
+            if !self.is_settled([&at_a, at_b], &cross, search) {
+                self.by_edge_pair((a, b), [&at_a, at_b], &cross, search);
+            }
         });
+    }
+
+    /// Whether the axis of two edges is not the best, or even with the best face, by no more than these edges: they show no
+    /// less than the truth. No root of a quotient: everything stays as long as the cross product.
+    #[inline(always)]
+    fn is_settled(&mut self, edges: [&EdgeAt; 2], cross: &Cross, search: &Search) -> bool {
+        // As long as two: it takes 6 ns.
+        count_steps(2);
+        if cross.is_noise() {
+            return false;
+        }
+        let length = cross.axis.length();
+        let shown = cross.axis.dot(edges[1].from - edges[0].from);
+        self.is_too_little(shown, (cross, length), search)
+    }
+
+    /// Whether what is shown along an axis across two edges, times the length of their cross product, is no more than the
+    /// best axis so far, or than is even with the best face.
+    #[inline(always)]
+    fn is_too_little(&mut self, shown: f64, (cross, length): (&Cross, f64), search: &Search) -> bool {
+        // Twice the rounding of an axis across two edges, which is a projection's over their sine: times the length of the
+        // cross product that is a projection's times both edges' lengths, of which half the sum of squares is no less.
+        let most = shown + search.precision.projection() * (2.0 * cross.lengths() + length);
+        if most <= self.axes.best().separation * length {
+            return true;
+        }
+        let of_faces = self.axes.face_a.separation.max(self.axes.face_b.separation);
+        let even = of_faces + search.even(of_faces);
+        let is_even = most <= even * length;
+        if is_even {
+            self.axes.raise(even, 0.0);
+        }
+        is_even
     }
 
     /// One pair of edges, unless the vertices seen so far show that its axis is not the best.
@@ -322,7 +368,7 @@ impl Found {
             return;
         }
         let length = cross.axis.length();
-        if self.shows_too_little(edges, (cross, length), search) {
+        if self.shows_too_little((cross, length), search) {
             return;
         }
         let normal = cross.axis / length;
@@ -332,10 +378,10 @@ impl Found {
         let of = AxisOf::Edges(edges[0].half_edge, edges[1].half_edge);
         let axis = Axis { separation: -in_b.reach - in_a.reach, normal, of };
         if cross.is_noise() {
-            self.axes.leave_out(axis.separation, cross.squared_sine, precision);
+            self.axes.leave_out(axis.separation, cross.squared_sine(), precision);
             return;
         }
-        self.axes.raise(axis.separation, precision.of_edges(cross.squared_sine));
+        self.axes.raise(axis.separation, precision.of_edges(cross.squared_sine()));
         let aside = aside(a, b, &axis);
         if aside <= search.slack && self.is_better(&axis, aside, precision.projection()) {
             (self.axes.edges, self.aside) = (axis, aside);
@@ -345,7 +391,7 @@ impl Found {
 
     /// Whether edges are so nearly parallel that what they may add to the best axis is nothing.
     fn are_parallel(&mut self, cross: &Cross, search: &Search) -> bool {
-        let by_angle = search.precision.of_parallel_edges(cross.squared_sine);
+        let by_angle = search.precision.of_parallel_edges(cross.squared_sine());
         let is_nothing = by_angle <= search.even(self.axes.best().separation);
         if is_nothing {
             self.axes.left_out = self.axes.left_out.max(by_angle);
@@ -360,38 +406,17 @@ impl Found {
         more > rounding || more >= -rounding && aside < self.aside - rounding
     }
 
-    /// Whether the axis of two edges is not the best, by these edges and by the vertices seen so far: all that they show
-    /// is more than the truth. No root and no quotient: everything stays as long as the cross product.
-    fn shows_too_little(
-        &mut self,
-        edges: [&EdgeAt; 2],
-        (cross, length): (&Cross, f64),
-        search: &Search,
-    ) -> bool {
-        let (axis, precision) = (cross.axis, search.precision);
-        let mut shown = axis.dot(edges[1].from - edges[0].from);
+    /// Whether the axis of two edges is not the best, or even with the best face, by the vertices seen so far: all that they
+    /// show is more than the truth.
+    fn shows_too_little(&mut self, (cross, length): (&Cross, f64), search: &Search) -> bool {
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         for (_, point) in &self.seen[1] {
-            lowest = lowest.min(axis.dot(*point));
+            lowest = lowest.min(cross.axis.dot(*point));
         }
         for (_, point) in &self.seen[0] {
-            highest = highest.max(axis.dot(*point));
+            highest = highest.max(cross.axis.dot(*point));
         }
-        shown = shown.min(lowest - highest);
-        // Twice the rounding of an axis across two edges, which is a projection's over their sine: times the length of the
-        // cross product that is a projection's times both edges' lengths, of which half the sum of squares is no less.
-        let doubt = precision.projection() * (2.0 * cross.lengths + length);
-        let best = self.axes.best().separation;
-        if shown + doubt <= best * length {
-            return true;
-        }
-        let of_faces = self.axes.face_a.separation.max(self.axes.face_b.separation);
-        let even = of_faces + search.even(of_faces);
-        let is_even = shown + doubt <= even * length;
-        if is_even {
-            self.axes.raise(even, 0.0);
-        }
-        is_even
+        self.is_too_little(lowest - highest, (cross, length), search)
     }
 
     fn offer(&mut self, axis: Axis) {

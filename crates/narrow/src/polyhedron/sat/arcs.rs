@@ -13,6 +13,7 @@
 
 use super::super::solid::Solid;
 use super::MAX_EDGES;
+use super::caps::{Cap, CapOctet};
 use crate::counted::count_step;
 use arrayvec::ArrayVec;
 use asunder_geometry::EdgeArc;
@@ -56,6 +57,15 @@ impl ArcOctet {
             middle: turn(&self.middle),
         }
     }
+
+    /// About all eight, or as many as are there.
+    fn cap(&self) -> Cap {
+        let vector = |v: &Eight, i: usize| Vec3::new(v[0][i], v[1][i], v[2][i]);
+        let is_there = |&i: &usize| vector(&self.along, i) != Vec3::ZERO;
+        let middles = (0..8).filter(is_there).map(|i| vector(&self.middle, i));
+        let ends = self.ends.iter().flat_map(|ends| (0..8).filter(is_there).map(move |i| vector(ends, i)));
+        Cap::of_arcs(middles, ends)
+    }
 }
 
 #[inline]
@@ -69,21 +79,15 @@ fn turned(v: &Eight, [x, y, z]: &[Vec3; 3]) -> Eight {
     turned
 }
 
-/// Visits those pairs of the given edges, by their numbers, whose arcs may cross; the visitor gets their lower half-edges, and the place of B's edge in the list. Cost: their product, an eighth of it in steps.
+/// Visits those pairs of the given edges, by their numbers, whose arcs may cross; the visitor gets their lower half-edges, and
+/// the place of B's edge in the list. Cost: their product, an eighth of it in steps.
 pub(super) fn for_edge_pairs(
     (a, edges_a): (&Solid, &[u16]),
     (b, edges_b): (&Solid, &[u16]),
     mut visit: impl FnMut([usize; 2], usize),
 ) {
-    let basis = a.axes_of(b).map(|axis| axis.as_vec3());
-    let mut octets: ArrayVec<ArcOctet, { MAX_EDGES.div_ceil(8) }> = ArrayVec::new_const();
-    for chunk in edges_b.chunks(8).take(octets.capacity()) {
-        let mut octet = ArcOctet::NONE;
-        for (i, &edge) in chunk.iter().enumerate() {
-            octet.set(i, &b.arcs[edge as usize]);
-        }
-        octets.push(octet.turned(&basis));
-    }
+    let mut octets = ArcOctets::new_const();
+    add_turned(a, (b, edges_b), &mut octets);
     for &edge_a in edges_a {
         let arc_a = &a.arcs[edge_a as usize];
         for (first, (octet, chunk)) in (0..).step_by(8).zip(octets.iter().zip(edges_b.chunks(8))) {
@@ -99,6 +103,55 @@ pub(super) fn for_edge_pairs(
                 }
             }
         }
+    }
+}
+
+/// The same of many edges of B, whose arcs are first told apart by the caps about eight of them.
+pub(super) fn for_many_edge_pairs(
+    (a, edges_a): (&Solid, &[u16]),
+    (b, edges_b): (&Solid, &[u16]),
+    mut visit: impl FnMut([usize; 2], usize),
+) {
+    let mut octets = ArcOctets::new_const();
+    add_turned(a, (b, edges_b), &mut octets);
+    let mut caps: ArrayVec<CapOctet, { MAX_EDGES.div_ceil(64) }> = ArrayVec::new_const();
+    caps.extend(octets.chunks(8).map(|eight| CapOctet::new(eight.iter().map(ArcOctet::cap))));
+    for &edge_a in edges_a {
+        let arc_a = &a.arcs[edge_a as usize];
+        let half_edge_a = a.topology.edges()[edge_a as usize].into();
+        let cap = Cap::of_arc(arc_a);
+        for (first, caps) in (0..).step_by(8).zip(&caps) {
+            let near = caps.may_meet_negative(&cap);
+            for (place, octet) in
+                (first..).zip(&octets[first..]).take(8).filter(|(place, _)| near[place % 8] != 0)
+            {
+                let crossing = may_cross_eight(arc_a, octet);
+                if crossing == [0; 8] {
+                    continue;
+                }
+                for (i, may_cross) in (8 * place..edges_b.len()).zip(crossing) {
+                    if may_cross != 0 {
+                        visit([half_edge_a, b.topology.edges()[edges_b[i] as usize].into()], i);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Those of all edges that are left of a solid: too much to be handed back by value.
+type ArcOctets = ArrayVec<ArcOctet, { MAX_EDGES.div_ceil(8) }>;
+
+/// The arcs of B's edges in A's axes.
+#[inline(always)]
+fn add_turned(a: &Solid, (b, edges_b): (&Solid, &[u16]), octets: &mut ArcOctets) {
+    let basis = a.axes_of(b).map(|axis| axis.as_vec3());
+    for chunk in edges_b.chunks(8).take(octets.capacity()) {
+        let mut octet = ArcOctet::NONE;
+        for (i, &edge) in chunk.iter().enumerate() {
+            octet.set(i, &b.arcs[edge as usize]);
+        }
+        octets.push(octet.turned(&basis));
     }
 }
 
@@ -147,8 +200,8 @@ fn opposite(one: f32, other: f32) -> bool {
 mod tests {
     use super::super::tests::{Random, convex};
     use super::*;
-    use asunder_geometry::Pose3;
-    use asunder_geometry::glam::DVec3;
+    use asunder_geometry::glam::{DVec2, DVec3};
+    use asunder_geometry::{Hull, Pose3, Shape3};
 
     #[test]
     fn lanes_say_what_the_definition_says() {
@@ -187,16 +240,31 @@ mod tests {
         parts(along_a, normals(b, edge_b)) && parts(along_b, normals(a, edge_a)) && sides[0] * sides[1] > 0.0
     }
 
+    /// Of so many sides, by powers of a rotation that has no order.
+    fn prism(sides: usize) -> Shape3 {
+        let corners = std::iter::successors(Some(DVec2::X), |at| Some(at.rotate(DVec2::new(0.6, 0.8))));
+        let corners = corners.take(sides).map(|at| at.as_vec2());
+        let points: Vec<Vec3> = corners.flat_map(|at| [at.extend(-1.0), at.extend(1.0)]).collect();
+        Hull::from_points(&points).unwrap().into()
+    }
+
     #[test]
     fn no_pair_of_edges_is_pruned_whose_arcs_cross_in_f64() {
         let mut random = Random(0x1D8E_4E27_C47D_124F);
-        let (mut crossing, mut visited, mut generic) = (0, 0, [0, 0]);
+        let (mut crossing, mut visited, mut generic, mut by_caps) = (0, 0, [0, 0], 0);
         for case in 0..1500_u64 {
             let (shape_a, shape_b) = (random.hull(case), random.hull(case / 5));
             let poses = [case / 2, case / 3].map(|kind| {
                 let turn = random.turn(kind);
                 Pose3::new(random.vector() * 100.0, turn).unwrap()
             });
+            // Many edges, sorted and not, very long and very short arcs, and bundles of parallels.
+            let shape_b = match case % 21 {
+                0 => random.round_hull(20 + case as usize % 60),
+                7 => prism(40),
+                _ => shape_b,
+            };
+            let shape_a = if case % 21 == 7 { prism(30) } else { shape_a };
             let pair = convex(&shape_a, poses[0], &shape_b, poses[1]);
             pair.with_solids(|a, b| {
                 // Any part of the edges, so that places and numbers differ.
@@ -209,16 +277,24 @@ mod tests {
                     assert_eq!(edge_b, b.topology.edges()[edges_b[place_b] as usize] as usize);
                     kept.push((edge_a, edge_b));
                 });
+                let mut kept_of_many = Vec::new();
+                for_many_edge_pairs((a, &edges_a), (b, &edges_b), |[edge_a, edge_b], place_b| {
+                    assert_eq!(edge_b, b.topology.edges()[edges_b[place_b] as usize] as usize);
+                    kept_of_many.push((edge_a, edge_b));
+                });
                 let half_edge = |solid: &Solid, edge: u16| solid.topology.edges()[edge as usize] as usize;
                 let mut expected = 0;
                 for &edge_a in &edges_a {
                     for &edge_b in &edges_b {
                         let (edge_a, edge_b) = (half_edge(a, edge_a), half_edge(b, edge_b));
                         let do_cross = do_cross(a, b, edge_a, edge_b);
+                        let is_kept = [&kept, &kept_of_many].map(|kept| kept.contains(&(edge_a, edge_b)));
                         assert!(
-                            !do_cross || kept.contains(&(edge_a, edge_b)),
-                            "case {case}: {edge_a}, {edge_b}"
+                            !do_cross || is_kept == [true; 2],
+                            "case {case}: {edge_a}, {edge_b}: {is_kept:?}"
                         );
+                        assert!(is_kept[0] || !is_kept[1], "caps only leave out");
+                        by_caps += usize::from(is_kept == [true, false]);
                         expected += usize::from(do_cross);
                     }
                 }
@@ -230,6 +306,7 @@ mod tests {
             });
         }
         assert!(crossing > 5000 && visited > crossing, "{crossing} of {visited}");
+        assert!(by_caps > 100, "{by_caps}: parallel edges whose arcs lie apart");
         assert!(generic[0] > 100 && generic[1] * 10 < generic[0] * 11, "{generic:?}: kept without need");
     }
 }

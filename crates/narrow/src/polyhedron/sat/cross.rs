@@ -28,18 +28,14 @@ impl EdgeAt {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cross {
     pub(super) axis: DVec3,
-    /// Of the sine between the edges.
-    pub(super) squared_sine: f64,
-    /// No less than the product of the edges' lengths.
-    pub(super) lengths: f64,
+    /// Squares of the edges' lengths.
+    squares: [f64; 2],
 }
 
 impl Cross {
+    #[inline]
     pub(super) fn new(along_a: DVec3, along_b: DVec3) -> Self {
-        let axis = along_a.cross(along_b);
-        let (square_a, square_b) = (along_a.length_squared(), along_b.length_squared());
-        let squared_sine = axis.length_squared() / (square_a * square_b);
-        Self { axis, squared_sine, lengths: 0.5 * (square_a + square_b) }
+        Self { axis: along_a.cross(along_b), squares: [along_a.length_squared(), along_b.length_squared()] }
     }
 
     /// Turned from A to B; of A's edge, its direction and one that lies between the normals beside it.
@@ -56,8 +52,22 @@ impl Cross {
         if cross.axis.dot(outwards) < 0.0 { Self { axis: -cross.axis, ..cross } } else { cross }
     }
 
+    /// Of the sine between the edges.
+    pub(super) fn squared_sine(&self) -> f64 {
+        self.axis.length_squared() / (self.squares[0] * self.squares[1])
+    }
+
+    /// No less than the product of the edges' lengths.
+    #[inline]
+    pub(super) fn lengths(&self) -> f64 {
+        0.5 * (self.squares[0] + self.squares[1])
+    }
+
     /// Whether the edges are so nearly parallel that the axis would be rounding. Edges of no length are.
+    #[inline]
     pub(super) fn is_noise(&self) -> bool {
-        self.squared_sine.is_nan() || self.squared_sine <= PARALLEL_EDGES * PARALLEL_EDGES
+        let least = PARALLEL_EDGES * PARALLEL_EDGES * (self.squares[0] * self.squares[1]);
+        let is_sure = self.axis.length_squared() > least;
+        !is_sure
     }
 }

@@ -14,6 +14,7 @@
 //!    edge, and its neighbours, to be deeper than the best, where the sphere, which lies in the middle, cannot. What is
 //!    left is looked at one by one, and brings such a point each time.
 //! 3. *Lanes*: eight faces or edges a step. One by one, with the same tests, took four times as long.
+//! 4. *Neighbours in one octet*, of hulls with many edges: one point tells all eight. 256 vertices deep and turned, 12 % less.
 //!
 //! f32 lanes with a bound on their rounding: nothing is left out wrongly.
 
@@ -126,7 +127,8 @@ impl<'a, 'b> Sight<'a, 'b> {
         }
     }
 
-    /// Edges with a normal along which the separation may come to `separation`, by their numbers.
+    /// Edges with a normal along which the separation may come to `separation`, by their numbers, in the order of their
+    /// octets.
     ///
     /// The middle of a half circle is told by none of its ends: flat solids keep all of their edges.
     pub(super) fn edges(&mut self, separation: f64, into: &mut ArrayVec<u16, MAX_EDGES>) {
@@ -134,6 +136,7 @@ impl<'a, 'b> Sight<'a, 'b> {
             into.extend((0..self.solid.arcs.len() as u16).take(MAX_EDGES));
             return;
         }
+        // Lanes, until it is known which are left.
         for (place, edges) in self.solid.edge_octets.iter().enumerate() {
             let mut open = self.sphere.rises(edges, separation);
             if open == NONE_OPEN {
@@ -145,35 +148,47 @@ impl<'a, 'b> Sight<'a, 'b> {
         if into.len() > FEW {
             self.look_closer(separation, into);
         }
+        // Of fewer, lanes are numbers.
+        if self.solid.arcs.len() >= EdgeOctet::SORTED_FROM {
+            for edge in into {
+                let lane = *edge as usize;
+                *edge = self.solid.edge_octets[lane / 8].numbers[lane % 8];
+            }
+        }
     }
 
     /// Asks for the vertex that is furthest against the middle of each edge's arc. It mostly settles that edge and some of
     /// its neighbours.
-    fn look_closer(&mut self, separation: f64, edges: &mut ArrayVec<u16, MAX_EDGES>) {
+    fn look_closer(&mut self, separation: f64, lanes: &mut ArrayVec<u16, MAX_EDGES>) {
         let (mut kept, mut at) = (0, 0);
-        while let Some(&first) = edges.get(at) {
+        let (mut asked, mut in_vain) = (0, 0);
+        while let Some(&first) = lanes.get(at) {
             let place = first / 8;
             let mut open = NONE_OPEN;
-            while let Some(&edge) = edges.get(at).filter(|&&edge| edge / 8 == place) {
-                open[edge as usize % 8] = 1;
+            while let Some(&lane) = lanes.get(at).filter(|&&lane| lane / 8 == place) {
+                open[lane as usize % 8] = 1;
                 at += 1;
             }
             let octet = &self.solid.edge_octets[place as usize];
             open = self.closed_by_points(open, |ball| ball.rises(octet, separation));
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
-                let edge = 8 * place + i as u16;
-                let middle = self.solid.arcs[edge as usize].middle.as_dvec3().normalize_or_zero();
-                self.add(self.other.rough_support(-self.solid.turned(middle)).0.vertex);
-                let left = both(open, self.points[0].rises(octet, separation));
-                if left[i] != 0 {
-                    edges[kept] = edge;
+                // Of shapes so symmetric that all are as good, none is settled.
+                if asked < FEW || 8 * in_vain < 7 * asked {
+                    let middle = self.solid.arcs[octet.numbers[i] as usize].middle;
+                    let middle = self.solid.turned(middle.as_dvec3().normalize_or_zero());
+                    self.add(self.other.rough_support(-middle).0.vertex);
+                    open = both(open, self.points[0].rises(octet, separation));
+                    asked += 1;
+                    in_vain += open[i] as usize;
+                }
+                if open[i] != 0 {
+                    lanes[kept] = 8 * place + i as u16;
                     kept += 1;
                 }
-                open = left;
                 open[i] = 0;
             }
         }
-        edges.truncate(kept);
+        lanes.truncate(kept);
     }
 
     /// What the points leave open. The one that closes the last comes first the next time.

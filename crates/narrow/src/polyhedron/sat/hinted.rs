@@ -29,7 +29,7 @@ impl Hinted {
                 if cross.is_noise() {
                     return None;
                 }
-                (cross.axis / cross.axis.length(), precision.of_edges(cross.squared_sine))
+                (cross.axis / cross.axis.length(), precision.of_edges(cross.squared_sine()))
             }
             _ => return None,
         };

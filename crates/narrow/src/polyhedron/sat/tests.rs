@@ -169,7 +169,8 @@ fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
     let mut random = Random(0x2545_F491_4F6C_DD1D);
     let (mut ties, mut rough_only) = (0, 0);
     for case in 0..3000_u64 {
-        let (shape_a, shape_b) = (random.hull(case), random.hull(case / 7));
+        let many = if case % 8 == 0 { random.round_hull(33 + case as usize % 97) } else { random.hull(case) };
+        let (shape_a, shape_b) = (many, random.hull(case / 7));
         let turns = [random.turn(case / 2), random.turn(case / 3)];
         let poses = turns.map(|turn| Pose3::new(random.vector() * 1e3, turn).unwrap());
         let pair = convex(&shape_a, poses[0], &shape_b, poses[1]);

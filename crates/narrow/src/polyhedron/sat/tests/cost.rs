@@ -92,12 +92,12 @@ fn twice_the_vertices_cost_less_than_three_times_as_much() {
     }
 }
 
-/// Two milliseconds at 4 ns a step. Least favourable are two equal prisms in one place, whose 50,000 pairs of edges that may
-/// touch are all even.
-const MOST: usize = 500_000;
+/// A millisecond at 4 ns a step. Least favourable are two equal prisms in one place, whose 50,000 pairs of edges that may
+/// touch are all even, and double cones, all of whose axes are as good.
+const MOST: usize = 250_000;
 
 #[test]
-fn no_pair_of_the_largest_hulls_takes_two_milliseconds() {
+fn no_pair_of_the_largest_hulls_takes_a_millisecond() {
     let mut random = Random(0x9216_D5D9_8979_FB1B);
     let mut worst = 0;
     for kind in 0..KINDS {
