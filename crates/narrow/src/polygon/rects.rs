@@ -90,18 +90,18 @@ impl Rects {
         }
     }
 
-    /// The axis that is normal to an edge, by shape and index.
+    /// The axis that is normal to an edge, by shape and index. Looked up: which edge it is cannot be foretold.
     #[inline]
     fn axis(&self, of: AxisOf, turns: [&Turn; 2]) -> Axis {
         // Edges look along -y, x, y and -x.
-        let (edge, turn, first, sign) = match of {
-            AxisOf::EdgeA(edge) => (edge, turns[0], 0, 1.0),
-            AxisOf::EdgeB(edge) => (edge, turns[1], 2, -1.0),
+        const SIGNS: [[f64; 4]; 2] = [[-1.0, 1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]];
+        let (edge, which) = match of {
+            AxisOf::EdgeA(edge) => (edge, 0),
+            AxisOf::EdgeB(edge) => (edge, 1),
         };
-        let sign = if edge == 1 || edge == 2 { sign } else { -sign };
-        let (axis, unit) = (usize::from(edge.is_multiple_of(2)), turn.unit());
-        let separation = sign * self.offsets[first + axis] - self.reaches[first + axis];
-        Axis { separation: separation * unit, normal: turn.axes()[axis] * (sign * unit), of }
+        let (sign, axis, unit) = (SIGNS[which][edge % 4], (edge + 1) % 2, turns[which].unit());
+        let separation = sign * self.offsets[2 * which + axis] - self.reaches[2 * which + axis];
+        Axis { separation: separation * unit, normal: turns[which].axes()[axis] * (sign * unit), of }
     }
 
     /// The best axis of one shape: the first is number `first`.
