@@ -129,13 +129,16 @@ impl Measure {
         asked: &Asked,
         outcome: &Outcome,
     ) -> Option<Probe> {
-        let axes = match outcome {
-            Outcome::Beyond(separation, hint) => {
-                return Some(self.beyond(*separation, *hint));
-            }
-            Outcome::Gap(..) => return None,
-            Outcome::Within(axes) => axes,
-        };
+        match outcome {
+            Outcome::Beyond(separation, hint) => Some(self.beyond(*separation, *hint)),
+            Outcome::Gap(..) => None,
+            Outcome::Within(axes) => self.within(placed, asked, axes),
+        }
+    }
+
+    /// The same, where no axis shows more than was asked for.
+    #[inline]
+    pub(super) fn within(&self, placed: [&impl Placed; 2], asked: &Asked, axes: &Axes) -> Option<Probe> {
         let (best, rounding) = (axes.best(), self.precision.projection());
         // Every edge normal was tried, or is known to be no better. Shapes without an inside may lie on one line, and have
         // no axis along it.

@@ -13,7 +13,7 @@ use super::few::{self, Few};
 use super::measure::{Asked, Measure, Probe};
 use super::outline::{FEW_VERTICES, Turn};
 use super::rects::{self, Corners, Rects};
-use super::sat::{Named, Outcome, named};
+use super::sat::{Named, hint_of, named};
 use crate::precision::{IN_PLANE, Precision, rounded_down};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Rect, Shape2, glam::Vec2};
@@ -126,13 +126,13 @@ fn of_rects([a, b]: [&Rect; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked
     let wanted = measure.wanted(asked, between);
     let halves = [a, b].map(|rect| rect.half_extents().as_dvec2());
     let kept = named([4, 4], asked.hint).and_then(Named::edge);
-    let outcome = rects::separating_axes(halves, turns, between, (kept, &wanted));
-    if let Outcome::Beyond(separation, hint) = outcome {
-        return Some(measure.beyond(separation, hint));
-    }
+    let axes = match rects::best_axes(halves, turns, between, (kept, &wanted)) {
+        Ok(axes) => axes,
+        Err((separation, of)) => return Some(measure.beyond(separation, hint_of(of))),
+    };
     let corners_a = Corners::new(halves[0], turns[0], DVec2::ZERO, f64::from(a.radius()));
     let corners_b = Corners::new(halves[1], turns[1], between, f64::from(b.radius()));
-    measure.at_once([&corners_a, &corners_b], asked, &outcome)
+    measure.within([&corners_a, &corners_b], asked, &axes)
 }
 
 /// The answer of other shapes: circles first, and then all axes of few edges.

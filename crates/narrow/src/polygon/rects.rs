@@ -17,7 +17,7 @@
 
 use super::outline::Turn;
 use super::placed::Placed;
-use super::sat::{Axes, Axis, AxisOf, Outcome, Wanted, hint_of};
+use super::sat::{Axes, Axis, AxisOf, Wanted};
 use asunder_geometry::glam::DVec2;
 
 /// How two rectangles lie along the local axes of A and of B, x and y.
@@ -104,40 +104,47 @@ impl Rects {
         Axis { separation: separation * unit, normal: turns[which].axes()[axis] * (sign * unit), of }
     }
 
-    /// The best axis of one shape: the first is number `first`.
+    /// The best axis of one shape, whose first is number `first`: the edge, and the separation along its stored direction.
     #[inline]
     fn best(&self, first: usize) -> (usize, f64) {
         let along = |axis: usize| self.offsets[axis].abs() - self.reaches[axis];
         let (x, y) = (along(first), along(first + 1));
         let (edge_x, edge_y) = (self.facing(first), self.facing(first + 1));
-        if x > y || x == y && edge_x < edge_y { (edge_x, x) } else { (edge_y, y) }
+        if (x > y) | ((x == y) & (edge_x < edge_y)) { (edge_x, x) } else { (edge_y, y) }
+    }
+
+    /// The best axis of either shape, and what the hint names where it is within the band; or that one shows more than the
+    /// limit: which is told before a normal is turned.
+    #[inline]
+    fn axes(&self, turns: [&Turn; 2], kept: Option<AxisOf>, wanted: &Wanted) -> Result<Axes, (f64, AxisOf)> {
+        let ((edge_a, in_a), (edge_b, in_b)) = (self.best(0), self.best(2));
+        let (of_a, of_b) = (AxisOf::EdgeA(edge_a), AxisOf::EdgeB(edge_b));
+        let (in_a, in_b) = (in_a * turns[0].unit(), in_b * turns[1].unit());
+        let best = if in_b > in_a { in_b } else { in_a };
+        if best > wanted.limit {
+            return Err((best, if in_b > in_a { of_b } else { of_a }));
+        }
+        let normal = |of: AxisOf| self.axis(of, turns).normal;
+        let kept = kept.map(|of| self.axis(of, turns)).filter(|kept| kept.separation >= best - wanted.band);
+        Ok(Axes {
+            edge_a: Axis { separation: in_a, normal: normal(of_a), of: of_a },
+            edge_b: Axis { separation: in_b, normal: normal(of_b), of: of_b },
+            kept,
+            short: wanted.precision.of_face(),
+        })
     }
 }
 
 /// Finds the best axes of two rectangles: half extents of both, how they are turned, and B's position less A's; what the hint
-/// names, and what is wanted.
+/// names, and what is wanted. An error is an axis that shows more than the limit.
 #[inline]
-pub(super) fn separating_axes(
+pub(super) fn best_axes(
     halves: [DVec2; 2],
     turns: [&Turn; 2],
     offset: DVec2,
     (kept, wanted): (Option<AxisOf>, &Wanted),
-) -> Outcome {
-    let rects = Rects::new(halves, turns, offset);
-    let (in_a, in_b) = (AxisOf::EdgeA(rects.best(0).0), AxisOf::EdgeB(rects.best(2).0));
-    let (edge_a, edge_b) = (rects.axis(in_a, turns), rects.axis(in_b, turns));
-    let mut axes = Axes { edge_a, edge_b, kept: None, short: wanted.precision.of_face() };
-    let best = axes.best();
-    if best.separation > wanted.limit {
-        return Outcome::Beyond(best.separation, hint_of(best.of));
-    }
-    if let Some(of) = kept {
-        let kept = rects.axis(of, turns);
-        if kept.separation >= best.separation - wanted.band {
-            axes.kept = Some(kept);
-        }
-    }
-    Outcome::Within(axes)
+) -> Result<Axes, (f64, AxisOf)> {
+    Rects::new(halves, turns, offset).axes(turns, kept, wanted)
 }
 
 /// A rectangle in the frame of the pair.
