@@ -78,8 +78,8 @@ pub(crate) fn touch(
     let depths = Depths { deep, within: margin.max(least) };
     let on_edge = |axis: &Axis| {
         let points = match axis.of {
-            AxisOf::EdgeA(edge) => edge_points(a, b, (edge, axis.normal), depths, false),
-            AxisOf::EdgeB(edge) => edge_points(b, a, (edge, -axis.normal), depths, true),
+            AxisOf::EdgeA(edge) => edge_points([a, b], edge, axis, depths, false),
+            AxisOf::EdgeB(edge) => edge_points([b, a], edge, axis, depths, true),
         };
         let is_deep = points.iter().any(|point| point.separation <= least);
         is_deep.then_some(Touch { normal: axis.normal, points, reference: Some(axis.of) })
@@ -269,12 +269,13 @@ fn facing_edge(incident: &impl Placed, deepest: usize, normal: DVec2) -> usize {
 /// Contact points of an edge of `outline` with this outward normal, and the incident shape.
 #[inline]
 fn edge_points(
-    outline: &impl Placed,
-    incident: &impl Placed,
-    (edge, normal): (usize, DVec2),
+    [outline, incident]: [&impl Placed; 2],
+    edge: usize,
+    axis: &Axis,
     depths: Depths,
     is_b: bool,
 ) -> ArrayVec<Point, 2> {
+    let normal = if is_b { -axis.normal } else { axis.normal };
     let reference = Reference::of(outline, edge, normal, is_b);
     let deepest = incident.furthest(-normal);
     if incident.edge_count() == 0 {

@@ -18,6 +18,7 @@
 use super::outline::Turn;
 use super::placed::Placed;
 use super::sat::{Axes, Axis, AxisOf, Wanted};
+use asunder_geometry::Rect;
 use asunder_geometry::glam::DVec2;
 
 /// How two rectangles lie along the local axes of A and of B, x and y.
@@ -90,18 +91,17 @@ impl Rects {
         }
     }
 
-    /// The axis that is normal to an edge, by shape and index. Looked up: which edge it is cannot be foretold.
+    /// The axis that is normal to an edge, by shape and index. Looked up, since which edge it is cannot be foretold; and
+    /// from constants: vectors that were just put into an array by halves would be waited for.
     #[inline]
     fn axis(&self, of: AxisOf, turns: [&Turn; 2]) -> Axis {
-        // Edges look along -y, x, y and -x.
-        const SIGNS: [[f64; 4]; 2] = [[-1.0, 1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]];
-        let (edge, which) = match of {
-            AxisOf::EdgeA(edge) => (edge, 0),
-            AxisOf::EdgeB(edge) => (edge, 1),
+        let (edge, which, sign) = match of {
+            AxisOf::EdgeA(edge) => (edge % 4, 0, 1.0),
+            AxisOf::EdgeB(edge) => (edge % 4, 1, -1.0),
         };
-        let (sign, axis, unit) = (SIGNS[which][edge % 4], (edge + 1) % 2, turns[which].unit());
-        let separation = sign * self.offsets[2 * which + axis] - self.reaches[2 * which + axis];
-        Axis { separation: separation * unit, normal: turns[which].axes()[axis] * (sign * unit), of }
+        let (turn, axis, outward) = (turns[which], 2 * which + (edge + 1) % 2, Rect::NORMALS[edge] * sign);
+        let separation = outward.element_sum() * self.offsets[axis] - self.reaches[axis];
+        Axis { separation: separation * turn.unit(), normal: turn.turn(outward * turn.unit()), of }
     }
 
     /// The best axis of one shape, whose first is number `first`: the edge, and the separation along its stored direction.
