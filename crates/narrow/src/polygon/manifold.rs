@@ -287,15 +287,32 @@ fn edge_points(
     let edges = [(edge, outline.after(edge)), (second, incident.after(second))];
     let ends = [incident.point(edges[1].0), incident.point(edges[1].1)];
     let mut points: ArrayVec<Point, 2> = ArrayVec::new();
-    for (point, features) in clip(&reference.ends, ends, edges).into_iter().flatten() {
-        let contact = reference.lowest(point, radius, features);
+    if let Some([one, other]) = clip(&reference.ends, ends, edges) {
+        let one = reference.lowest(one.0, radius, one.1);
+        let other = reference.lowest(other.0, radius, other.1);
         // How deep the cores are, seen from a contact made along the normal.
-        let core = contact.separation + outline.radius() + radius;
-        if contact.separation <= depths.within && (is_sharp || core <= depths.deep) {
-            points.push(contact);
+        let is_kept = |contact: &Point| {
+            let core = contact.separation + outline.radius() + radius;
+            contact.separation <= depths.within && (is_sharp || core <= depths.deep)
+        };
+        match (is_kept(&one), is_kept(&other)) {
+            (true, true) if other.feature < one.feature => {
+                points.push(other);
+                points.push(one);
+            }
+            (true, true) => {
+                points.push(one);
+                points.push(other);
+            }
+            (true, false) => points.push(one),
+            (false, true) => points.push(other),
+            (false, false) => {}
         }
     }
-    if points.len() < 2 && !is_sharp {
+    if is_sharp {
+        return points;
+    }
+    if points.len() < 2 {
         let outwards = incident.outward(second) * radius;
         let clipped = clip(&reference.ends, ends.map(|end| end + outwards), edges);
         add_tilted(&mut points, &reference, clipped, depths);
