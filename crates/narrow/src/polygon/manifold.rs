@@ -240,7 +240,7 @@ fn on_edge(
             return None;
         }
         // The edge there may be parallel, and beside the other all the same.
-        let second = facing_edge(incident, deepest, normal);
+        let second = incident.facing(deepest, normal);
         let vertices = [second, incident.after(second)];
         let ends = vertices.map(|vertex| incident.point(vertex));
         let clipped = clip(&reference.ends, ends, [(edge, next), (vertices[0], vertices[1])])?;
@@ -258,14 +258,6 @@ fn on_edge(
     Some((corners, if is_b { [point, foot] } else { [foot, point] }))
 }
 
-/// Of the two edges at a shape's deepest vertex, the one that looks most against a normal; ties go to the one before.
-#[inline]
-fn facing_edge(incident: &impl Placed, deepest: usize, normal: DVec2) -> usize {
-    let previous = incident.before(deepest);
-    let facing = |edge: usize| incident.outward(edge).dot(normal);
-    if facing(deepest) < facing(previous) { deepest } else { previous }
-}
-
 /// Contact points of an edge of `outline` with this outward normal, and the incident shape.
 #[inline]
 fn edge_points(
@@ -277,11 +269,11 @@ fn edge_points(
 ) -> ArrayVec<Point, 2> {
     let normal = if is_b { -axis.normal } else { axis.normal };
     let reference = Reference::of(outline, edge, normal, is_b);
-    let deepest = incident.furthest(-normal);
     if incident.edge_count() == 0 {
+        let deepest = incident.furthest(-normal);
         return vertex_point(&reference, (edge, deepest), incident, depths).into_iter().collect();
     }
-    let second = facing_edge(incident, deepest, normal);
+    let second = incident.facing_edge(normal);
     let radius = incident.radius();
     let is_sharp = outline.radius() + radius == 0.0;
     let edges = [(edge, outline.after(edge)), (second, incident.after(second))];

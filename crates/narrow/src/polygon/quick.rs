@@ -79,8 +79,7 @@ impl Bodies<'_> {
 
     /// The answer, where it is beyond doubt by circles or by axes of few edges: most pairs' answer.
     ///
-    /// The way between them goes on by value, in registers: two stores of eight bytes that one load of sixteen wants cost
-    /// 10 ns.
+    /// The way between them goes on by value, in registers: see `rects`.
     #[inline]
     pub(crate) fn answer(&self, asked: &Asked) -> Option<Probe> {
         if let [Shape2::Rect(a), Shape2::Rect(b)] = self.shapes {
