@@ -15,9 +15,9 @@
 //! | closed form in place of eight dot products an axis | 103 ns to 52 |
 //! | asked before a pair has been made ready for other kernels | 52 ns to 30 |
 //!
-//! What bought what for `rect/mixed/manifold` of `compare`, 127 ns to 88, AMD EPYC, Zen 4, 2026-11-21. Half of the time went
-//! into jumps that cannot be foretold (which edge, which sign), and into waiting: a load of 16 bytes that were stored as two
-//! times 8 is not forwarded, and takes 5 ns or more.
+//! `rect/mixed/manifold` of `compare` went from 130 ns to 97 (AMD EPYC, Zen 4, 2026-11-21; both beside other work). What was
+//! saved are jumps that cannot be foretold (which edge, which sign) and waiting: a load of 16 bytes that were stored as two
+//! times 8 is not forwarded, and takes 5 ns or more. What bought what, in a bare loop over the same pairs:
 //!
 //! | trick | gain |
 //! |---|---|
