@@ -152,6 +152,20 @@ fn plane(criterion: &mut Criterion) {
             bencher.iter(|| pairs.iter().filter(|p| pair(black_box(p)).manifold(0.0).is_some()).count());
         });
     }
+    for (kind, set) in [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly64]
+        .into_iter()
+        .flat_map(|kind| [(kind, PairSet::Touch), (kind, PairSet::Deep)])
+    {
+        let pairs = pairs2(kind, set, PAIRS, 1);
+        let name = format!("{}/{}/separation, {PAIRS} pairs", kind.name(), set.name());
+        criterion.bench_function(&name, |bencher| {
+            bencher.iter(|| {
+                for p in &pairs {
+                    black_box(pair(black_box(p)).separation(0.0));
+                }
+            });
+        });
+    }
     let far = pairs2(PlaneKind::Poly4096, PairSet::Far, PAIRS, 1);
     criterion.bench_function(&format!("poly4096/far/boolean, {PAIRS} pairs"), |bencher| {
         bencher.iter(|| far.iter().filter(|p| pair(black_box(p)).overlaps()).count());

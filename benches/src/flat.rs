@@ -1,6 +1,10 @@
 //! Narrow phase in the plane: the twin of [`narrow`](crate::narrow), without a peer.
+//!
+//! Our answers to a part of each set are held against true separations in double-double, as they are in space.
 
 mod grown;
+mod judged;
+mod round;
 
 pub use grown::Lie;
 
@@ -9,6 +13,7 @@ use crate::narrow::{Operation, block_size};
 use crate::row::Row;
 use asunder_narrow::{Answer, Batch2, Hint, Job2, Pair2, Separation2, collide2};
 use asunder_scenes::pairs::{FRAMES, PairSet, PlaneKind, PosedPair2, pairs2};
+use core::borrow::Borrow;
 use core::hint::black_box;
 
 /// One row.
@@ -16,20 +21,48 @@ use core::hint::black_box;
 pub enum Case {
     /// A family of shapes, a set of pairs, a question.
     Of(PlaneKind, PairSet, Operation),
+    /// Circles and capsules, a set of pairs, a question.
+    Round(PairSet, Operation),
     /// Ellipses of so many vertices, how they lie, and a question: how its cost grows.
     Grown(usize, Lie, Operation),
 }
 
+impl Case {
+    /// The set of pairs; growing polygons are in none.
+    const fn set(&self) -> Option<PairSet> {
+        match *self {
+            Self::Of(_, set, _) | Self::Round(set, _) => Some(set),
+            Self::Grown(..) => None,
+        }
+    }
+
+    /// The question.
+    const fn operation(&self) -> Operation {
+        match *self {
+            Self::Of(.., operation) | Self::Round(_, operation) | Self::Grown(.., operation) => operation,
+        }
+    }
+}
+
 /// The questions asked of each family.
-const QUESTIONS: [(PairSet, Operation); 7] = [
+const QUESTIONS: [(PairSet, Operation); 13] = [
     (PairSet::Mixed, Operation::Boolean),
     (PairSet::Mixed, Operation::Separation),
+    (PairSet::Mixed, Operation::Distance),
     (PairSet::Mixed, Operation::Manifold),
     (PairSet::Rest, Operation::Manifold),
     (PairSet::Slide, Operation::Cached),
     (PairSet::Far, Operation::Boolean),
+    (PairSet::Far, Operation::Distance),
+    (PairSet::Touch, Operation::Boolean),
+    (PairSet::Touch, Operation::Separation),
+    (PairSet::Touch, Operation::Manifold),
     (PairSet::Deep, Operation::Boolean),
+    (PairSet::Deep, Operation::Separation),
 ];
+
+/// The sets of circles and capsules, which have no edges to rest on.
+const ROUND: [PairSet; 4] = [PairSet::Mixed, PairSet::Far, PairSet::Touch, PairSet::Deep];
 
 /// Vertices of the polygons whose cost grows, and what is asked of them. Circles tell the yes or no of deep ones.
 const SIZES: [usize; 10] = [8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
@@ -48,6 +81,7 @@ const OF_GROWN: [(Lie, Operation); 6] = [
 /// use asunder_benches::flat;
 /// let names: Vec<String> = flat::cases().iter().map(flat::name).collect();
 /// assert!(names.contains(&"rect/mixed/boolean".into()) && names.contains(&"poly4096/far/boolean".into()));
+/// assert!(names.contains(&"poly8/touch/separation".into()) && names.contains(&"round/deep/separation".into()));
 /// assert!(names.contains(&"grown1024/light/boolean".into()));
 /// ```
 pub fn cases() -> Vec<Case> {
@@ -56,9 +90,11 @@ pub fn cases() -> Vec<Case> {
     let grown = OF_GROWN
         .into_iter()
         .flat_map(|(lie, operation)| SIZES.map(|vertices| Case::Grown(vertices, lie, operation)));
+    let of_round = QUESTIONS.into_iter().filter(|(set, _)| ROUND.contains(set));
+    let round = of_round.map(|(set, operation)| Case::Round(set, operation));
     // Choosing which of the mixed pairs of huge polygons are apart would take longer than the row.
     let is_slow = |case: &Case| matches!(case, Case::Of(PlaneKind::Poly4096, PairSet::Mixed, _));
-    of_kinds.filter(|case| !is_slow(case)).chain(grown).collect()
+    of_kinds.filter(|case| !is_slow(case)).chain(round).chain(grown).collect()
 }
 
 /// The name of a row, as `rect/mixed/manifold`.
@@ -71,13 +107,14 @@ pub fn cases() -> Vec<Case> {
 pub fn name(case: &Case) -> String {
     match case {
         Case::Of(kind, set, operation) => format!("{}/{}/{}", kind.name(), set.name(), operation.name()),
+        Case::Round(set, operation) => format!("round/{}/{}", set.name(), operation.name()),
         Case::Grown(vertices, lie, operation) => {
             format!("grown{vertices}/{}/{}", lie.name(), operation.name())
         }
     }
 }
 
-/// Measures one row. Cost: about a second, and making the pairs.
+/// Measures one row. Cost: about a second, and making and judging the pairs.
 ///
 /// ```
 /// use asunder_benches::{clock::Effort, flat, flat::Case, narrow::Operation};
@@ -85,25 +122,27 @@ pub fn name(case: &Case) -> String {
 /// let effort = Effort { pairs: 250, rounds: 1, ..Effort::quick() };
 /// let row = flat::measure(&Case::Of(PlaneKind::Poly8, PairSet::Mixed, Operation::Manifold), &effort);
 /// assert!(row.done == 250 && row.ours_ns.is_some() && row.peer.is_none());
+/// let accuracy = row.accuracy.ok_or("not judged")?;
+/// assert_eq!((accuracy.judged, accuracy.off, accuracy.missed, accuracy.peer_off), (250, 0, 0, None));
+/// # Ok::<(), &str>(())
 /// ```
 pub fn measure(case: &Case, effort: &Effort) -> Row {
-    let (pairs, operation) = match *case {
-        Case::Of(kind, set, operation) => {
+    let pairs = match *case {
+        Case::Of(kind, set, _) => {
             let most = if kind == PlaneKind::Poly4096 { 1000 } else { usize::MAX };
-            (pairs2(kind, set, effort.pairs.min(most), 1), operation)
+            pairs2(kind, set, effort.pairs.min(most), 1)
         }
-        Case::Grown(vertices, lie, operation) => {
-            (grown::pairs(vertices, lie, effort.pairs.min(1000)), operation)
-        }
+        Case::Round(set, _) => round::pairs(set, effort.pairs),
+        Case::Grown(vertices, lie, _) => grown::pairs(vertices, lie, effort.pairs.min(1000)),
     };
     let mut row = Row::new(name(case), "pair", pairs.len());
-    let samples = if operation == Operation::Cached {
-        cached(&pairs, effort, &mut row)
-    } else {
-        fresh(operation, &pairs, effort, &mut row)
+    let samples = match case.operation() {
+        Operation::Cached => cached(&pairs, effort, &mut row),
+        operation => fresh(operation, &pairs, effort, &mut row),
     };
     row.done = row.done.min(row.n);
     row.ours_ns = samples.median();
+    row.accuracy = Some(judged::judged(case, &pairs, effort));
     row.finish();
     row
 }
@@ -145,17 +184,9 @@ fn ask(operation: Operation, posed: &PosedPair2) -> f32 {
 fn cached(pairs: &[PosedPair2], effort: &Effort, row: &mut Row) -> Samples {
     let mut samples = Samples::default();
     let tracks = (pairs.len() / FRAMES).max(1);
-    let (mut hints, mut batch) = (vec![Hint::NONE; tracks], Batch2::default());
+    let mut memory = Memory::new(tracks);
     for (step, frame) in pairs.chunks(tracks).enumerate() {
-        let (ns, ()) = time(|| {
-            let jobs: Vec<Job2<'_>> = frame.iter().zip(&hints).map(|(pair, &hint)| job(pair, hint)).collect();
-            batch.clear();
-            collide2(&jobs, &mut batch);
-            for (kept, answer) in hints.iter_mut().zip(&batch.answers) {
-                let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
-                *kept = *hint;
-            }
-        });
+        let (ns, ()) = time(|| memory.ask(frame));
         if step > 0 {
             samples.push(ns / frame.len() as f64, ns);
         }
@@ -165,6 +196,29 @@ fn cached(pairs: &[PosedPair2], effort: &Effort, row: &mut Row) -> Samples {
         }
     }
     samples
+}
+
+/// What is remembered of a frame's pairs.
+struct Memory {
+    hints: Vec<Hint>,
+    batch: Batch2,
+}
+
+impl Memory {
+    fn new(tracks: usize) -> Self {
+        Self { hints: vec![Hint::NONE; tracks], batch: Batch2::default() }
+    }
+
+    fn ask<P: Borrow<PosedPair2>>(&mut self, frame: &[P]) {
+        let pairs = frame.iter().zip(&self.hints);
+        let jobs: Vec<Job2<'_>> = pairs.map(|(pair, &hint)| job(pair.borrow(), hint)).collect();
+        self.batch.clear();
+        collide2(&jobs, &mut self.batch);
+        for (kept, answer) in self.hints.iter_mut().zip(&self.batch.answers) {
+            let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
+            *kept = *hint;
+        }
+    }
 }
 
 fn job(pair: &PosedPair2, hint: Hint) -> Job2<'_> {
@@ -177,11 +231,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_row_gives_figures() {
+    fn every_row_gives_figures_and_is_right() {
         let effort = Effort { pairs: 120, rounds: 1, seconds: 0.2, is_quick: true };
         for case in cases() {
             let row = measure(&case, &effort);
             assert!(row.ours_ns.is_some() && row.peer_ns.is_none() && row.done > 0, "{row:?}");
+            let accuracy = row.accuracy.unwrap();
+            assert!(accuracy.judged > 0 && accuracy.off + accuracy.missed == 0, "{row:?}");
         }
     }
 }

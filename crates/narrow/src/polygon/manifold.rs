@@ -78,8 +78,8 @@ pub(crate) fn touch(
     let depths = Depths { deep, within: margin.max(least) };
     let on_edge = |axis: &Axis| {
         let points = match axis.of {
-            AxisOf::EdgeA(edge) => edge_points(a, b, (edge, axis.normal), depths, false),
-            AxisOf::EdgeB(edge) => edge_points(b, a, (edge, -axis.normal), depths, true),
+            AxisOf::EdgeA(edge) => edge_points([a, b], edge, axis, depths, false),
+            AxisOf::EdgeB(edge) => edge_points([b, a], edge, axis, depths, true),
         };
         let is_deep = points.iter().any(|point| point.separation <= least);
         is_deep.then_some(Touch { normal: axis.normal, points, reference: Some(axis.of) })
@@ -240,7 +240,7 @@ fn on_edge(
             return None;
         }
         // The edge there may be parallel, and beside the other all the same.
-        let second = facing_edge(incident, deepest, normal);
+        let second = incident.facing(deepest, normal);
         let vertices = [second, incident.after(second)];
         let ends = vertices.map(|vertex| incident.point(vertex));
         let clipped = clip(&reference.ends, ends, [(edge, next), (vertices[0], vertices[1])])?;
@@ -258,43 +258,53 @@ fn on_edge(
     Some((corners, if is_b { [point, foot] } else { [foot, point] }))
 }
 
-/// Of the two edges at a shape's deepest vertex, the one that looks most against a normal; ties go to the one before.
-#[inline]
-fn facing_edge(incident: &impl Placed, deepest: usize, normal: DVec2) -> usize {
-    let previous = incident.before(deepest);
-    let facing = |edge: usize| incident.outward(edge).dot(normal);
-    if facing(deepest) < facing(previous) { deepest } else { previous }
-}
-
 /// Contact points of an edge of `outline` with this outward normal, and the incident shape.
 #[inline]
 fn edge_points(
-    outline: &impl Placed,
-    incident: &impl Placed,
-    (edge, normal): (usize, DVec2),
+    [outline, incident]: [&impl Placed; 2],
+    edge: usize,
+    axis: &Axis,
     depths: Depths,
     is_b: bool,
 ) -> ArrayVec<Point, 2> {
+    let normal = if is_b { -axis.normal } else { axis.normal };
     let reference = Reference::of(outline, edge, normal, is_b);
-    let deepest = incident.furthest(-normal);
     if incident.edge_count() == 0 {
+        let deepest = incident.furthest(-normal);
         return vertex_point(&reference, (edge, deepest), incident, depths).into_iter().collect();
     }
-    let second = facing_edge(incident, deepest, normal);
+    let second = incident.facing_edge(normal);
     let radius = incident.radius();
     let is_sharp = outline.radius() + radius == 0.0;
     let edges = [(edge, outline.after(edge)), (second, incident.after(second))];
     let ends = [incident.point(edges[1].0), incident.point(edges[1].1)];
     let mut points: ArrayVec<Point, 2> = ArrayVec::new();
-    for (point, features) in clip(&reference.ends, ends, edges).into_iter().flatten() {
-        let contact = reference.lowest(point, radius, features);
+    if let Some([one, other]) = clip(&reference.ends, ends, edges) {
+        let one = reference.lowest(one.0, radius, one.1);
+        let other = reference.lowest(other.0, radius, other.1);
         // How deep the cores are, seen from a contact made along the normal.
-        let core = contact.separation + outline.radius() + radius;
-        if contact.separation <= depths.within && (is_sharp || core <= depths.deep) {
-            points.push(contact);
+        let is_kept = |contact: &Point| {
+            let core = contact.separation + outline.radius() + radius;
+            contact.separation <= depths.within && (is_sharp || core <= depths.deep)
+        };
+        match (is_kept(&one), is_kept(&other)) {
+            (true, true) if other.feature < one.feature => {
+                points.push(other);
+                points.push(one);
+            }
+            (true, true) => {
+                points.push(one);
+                points.push(other);
+            }
+            (true, false) => points.push(one),
+            (false, true) => points.push(other),
+            (false, false) => {}
         }
     }
-    if points.len() < 2 && !is_sharp {
+    if is_sharp {
+        return points;
+    }
+    if points.len() < 2 {
         let outwards = incident.outward(second) * radius;
         let clipped = clip(&reference.ends, ends.map(|end| end + outwards), edges);
         add_tilted(&mut points, &reference, clipped, depths);

@@ -9,9 +9,9 @@ use super::tiers::Cores;
 use crate::answer::{Tier, Verdict};
 use crate::feature::Hint;
 use crate::precision::{IN_PLANE, Precision, at_least, signed};
-use asunder_geometry::Shape2;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::{DISTANCE_GAP, FACE_PREFERENCE};
+use asunder_geometry::{Rect, Shape2};
 
 /// What is asked of two shapes.
 #[derive(Clone, Copy)]
@@ -58,20 +58,40 @@ impl Measure {
     /// where it is one of several: of parts.
     #[inline]
     pub(crate) fn new([a, b]: [&Shape2; 2], offset: DVec2, summed: Option<f64>) -> Self {
-        let (radius_a, radius_b) = (f64::from(a.radius()), f64::from(b.radius()));
-        let (outer_a, outer_b) = (a.outer_radius(), b.outer_radius());
+        let radii = [f64::from(a.radius()), f64::from(b.radius())];
+        // Sums of coordinates bound lengths, and need no root.
+        let length = |v: DVec2| v.abs().element_sum();
+        let off_center = length(a.center().as_dvec2()) + length(b.center().as_dvec2());
+        let further = off_center + length(offset) + summed.unwrap_or(0.0);
+        let searched = if is_searched(a) || is_searched(b) { OF_SEARCH } else { 0.0 };
+        let roundings = IN_PLANE[usize::from(summed.is_some())] + searched;
+        Self::of_radii([a.outer_radius(), b.outer_radius()], radii, further, roundings)
+    }
+
+    /// The same of two bodies that are rectangles.
+    #[inline]
+    pub(super) fn of_rects([a, b]: [&Rect; 2], offset: DVec2) -> Self {
+        let radii = [f64::from(a.radius()), f64::from(b.radius())];
+        let further = offset.abs().element_sum();
+        Self::of_radii([a.outer_radius(), b.outer_radius()], radii, further, IN_PLANE[0])
+    }
+
+    /// Of bounding radii, those of the roundings, the sum of what else a coordinate may be, and the roundings of a
+    /// projection.
+    #[inline]
+    fn of_radii(
+        [outer_a, outer_b]: [f32; 2],
+        [radius_a, radius_b]: [f64; 2],
+        further: f64,
+        roundings: f64,
+    ) -> Self {
         let radii = radius_a + radius_b;
         // What the distance iteration's steps are relative to: radii do not enter it. A half-plane has no size: only the
         // other shape's vertices enter its pairs.
         let core =
             |outer: f32, radius: f64| if outer < f32::INFINITY { f64::from(outer) - radius } else { 0.0 };
         let size = core(outer_a, radius_a) + core(outer_b, radius_b);
-        // Sums of coordinates bound lengths, and need no root.
-        let length = |v: DVec2| v.abs().element_sum();
-        let off_center = length(a.center().as_dvec2()) + length(b.center().as_dvec2());
-        let reach = size + radii + off_center + length(offset) + summed.unwrap_or(0.0);
-        let searched = if is_searched(a) || is_searched(b) { OF_SEARCH } else { 0.0 };
-        let roundings = IN_PLANE[usize::from(summed.is_some())] + searched;
+        let reach = size + radii + further;
         let precision = Precision { size, reach, planarity: 0.0, roundings };
         let smaller = f64::from(if outer_b < outer_a { outer_b } else { outer_a });
         let (preference, rounding) = (FACE_PREFERENCE * 2.0 * smaller, precision.projection());
@@ -95,6 +115,12 @@ impl Measure {
         }
     }
 
+    /// The answer for cores that an axis parts by more than was asked for.
+    #[inline]
+    pub(super) fn beyond(&self, separation: f64, hint: Hint) -> Probe {
+        Probe::Beyond(at_least(separation - self.radii, &self.precision), hint)
+    }
+
     /// The answer, where it is beyond doubt by the axes, or by the nearest points where those lie on the best axis' edge.
     #[inline]
     pub(super) fn at_once(
@@ -103,13 +129,16 @@ impl Measure {
         asked: &Asked,
         outcome: &Outcome,
     ) -> Option<Probe> {
-        let axes = match outcome {
-            Outcome::Beyond(separation, hint) => {
-                return Some(Probe::Beyond(at_least(separation - self.radii, &self.precision), *hint));
-            }
-            Outcome::Gap(..) => return None,
-            Outcome::Within(axes) => axes,
-        };
+        match outcome {
+            Outcome::Beyond(separation, hint) => Some(self.beyond(*separation, *hint)),
+            Outcome::Gap(..) => None,
+            Outcome::Within(axes) => self.within(placed, asked, axes),
+        }
+    }
+
+    /// The same, where no axis shows more than was asked for.
+    #[inline]
+    pub(super) fn within(&self, placed: [&impl Placed; 2], asked: &Asked, axes: &Axes) -> Option<Probe> {
         let (best, rounding) = (axes.best(), self.precision.projection());
         // Every edge normal was tried, or is known to be no better. Shapes without an inside may lie on one line, and have
         // no axis along it.

@@ -28,6 +28,20 @@ pub(crate) trait Placed {
 
     /// The vertex furthest along a direction.
     fn furthest(&self, direction: DVec2) -> usize;
+
+    /// Of the two edges at the deepest vertex, the one that looks most against a normal; ties go to the one before.
+    #[inline]
+    fn facing(&self, deepest: usize, normal: DVec2) -> usize {
+        let previous = self.before(deepest);
+        let facing = |edge: usize| self.outward(edge).dot(normal);
+        if facing(deepest) < facing(previous) { deepest } else { previous }
+    }
+
+    /// The same, of the vertex that is furthest against the normal.
+    #[inline]
+    fn facing_edge(&self, normal: DVec2) -> usize {
+        self.facing(self.furthest(-normal), normal)
+    }
 }
 
 impl Placed for Outline<'_> {

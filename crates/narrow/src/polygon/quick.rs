@@ -13,7 +13,7 @@ use super::few::{self, Few};
 use super::measure::{Asked, Measure, Probe};
 use super::outline::{FEW_VERTICES, Turn};
 use super::rects::{self, Corners, Rects};
-use super::sat::{Named, named};
+use super::sat::{Named, hint_of, named};
 use crate::precision::{IN_PLANE, Precision, rounded_down};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Rect, Shape2, glam::Vec2};
@@ -78,34 +78,14 @@ impl Bodies<'_> {
     }
 
     /// The answer, where it is beyond doubt by circles or by axes of few edges: most pairs' answer.
+    ///
+    /// The way between them goes on by value, in registers: see `rects`.
     #[inline]
     pub(crate) fn answer(&self, asked: &Asked) -> Option<Probe> {
         if let [Shape2::Rect(a), Shape2::Rect(b)] = self.shapes {
-            return self.rects([a, b], asked);
+            return of_rects([a, b], self.turns, self.between, asked);
         }
-        if let Some(gap) = self.beyond(asked.limit) {
-            return Some(Probe::Beyond(rounded_down(gap), asked.hint));
-        }
-        let (core_a, core_b) = (self.shapes[0].core(), self.shapes[1].core());
-        let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
-        let [a, b] = cores.map(|core| core.0.len());
-        // A circle has no edges, a half-plane and a compound have no vertices.
-        if a.min(b) == 0 || a + b == 2 || a.max(b) > FEW_VERTICES {
-            return None;
-        }
-        if a.max(b) <= 8 { self.few::<8>(cores, asked) } else { self.few::<FEW_VERTICES>(cores, asked) }
-    }
-
-    #[inline]
-    fn rects(&self, [a, b]: [&Rect; 2], asked: &Asked) -> Option<Probe> {
-        let measure = Measure::new(self.shapes, self.between, None);
-        let wanted = measure.wanted(asked, self.between);
-        let halves = [a, b].map(|rect| rect.half_extents().as_dvec2());
-        let kept = named([4, 4], asked.hint).and_then(Named::edge);
-        let outcome = rects::separating_axes(halves, self.turns, self.between, (kept, &wanted));
-        let corners_a = Corners::new(halves[0], self.turns[0], DVec2::ZERO, f64::from(a.radius()));
-        let corners_b = Corners::new(halves[1], self.turns[1], self.between, f64::from(b.radius()));
-        measure.at_once([&corners_a, &corners_b], asked, &outcome)
+        of_others(self.shapes, self.turns, self.between, asked)
     }
 
     fn few<const N: usize>(&self, cores: [(&[Vec2], &[DVec2]); 2], asked: &Asked) -> Option<Probe> {
@@ -137,4 +117,35 @@ impl Bodies<'_> {
         let lost = 16.0 * f64::EPSILON * (sum(self.between) + sum(a) + sum(b));
         (self.between + (self.turns[1].turn(b) - self.turns[0].turn(a)), lost)
     }
+}
+
+/// The answer of two rectangles, by their four axes.
+fn of_rects([a, b]: [&Rect; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked) -> Option<Probe> {
+    let measure = Measure::of_rects([a, b], between);
+    let wanted = measure.wanted(asked, between);
+    let halves = [a, b].map(|rect| rect.half_extents().as_dvec2());
+    let kept = named([4, 4], asked.hint).and_then(Named::edge);
+    let axes = match rects::best_axes(halves, turns, between, (kept, &wanted)) {
+        Ok(axes) => axes,
+        Err((separation, of)) => return Some(measure.beyond(separation, hint_of(of))),
+    };
+    let corners_a = Corners::new(halves[0], turns[0], DVec2::ZERO, f64::from(a.radius()));
+    let corners_b = Corners::new(halves[1], turns[1], between, f64::from(b.radius()));
+    measure.within([&corners_a, &corners_b], asked, &axes)
+}
+
+/// The answer of other shapes: circles first, and then all axes of few edges.
+fn of_others(shapes: [&Shape2; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked) -> Option<Probe> {
+    let bodies = Bodies { shapes, turns, between };
+    if let Some(gap) = bodies.beyond(asked.limit) {
+        return Some(Probe::Beyond(rounded_down(gap), asked.hint));
+    }
+    let (core_a, core_b) = (shapes[0].core(), shapes[1].core());
+    let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
+    let [a, b] = cores.map(|core| core.0.len());
+    // A circle has no edges, a half-plane and a compound have no vertices.
+    if a.min(b) == 0 || a + b == 2 || a.max(b) > FEW_VERTICES {
+        return None;
+    }
+    if a.max(b) <= 8 { bodies.few::<8>(cores, asked) } else { bodies.few::<FEW_VERTICES>(cores, asked) }
 }

@@ -101,12 +101,11 @@ pub(crate) fn separating_axes(a: &Outline, b: &Outline, wanted: &Wanted) -> Outc
     let kept = named([a.edge_count(), b.edge_count()], wanted.hint);
     let edge = kept.and_then(Named::edge);
     if let (Some(half_a), Some(half_b)) = (a.half, b.half) {
-        return rects::separating_axes(
-            [half_a, half_b],
-            [&a.turn, &b.turn],
-            b.position - a.position,
-            (edge, wanted),
-        );
+        let (offset, turns) = (b.position - a.position, [&a.turn, &b.turn]);
+        return match rects::best_axes([half_a, half_b], turns, offset, (edge, wanted)) {
+            Ok(axes) => Outcome::Within(axes),
+            Err((separation, of)) => Outcome::Beyond(separation, hint_of(of)),
+        };
     }
     match a.vertices.len().max(b.vertices.len()) {
         0..=8 => few::separating_axes([&a.few::<8>(), &b.few()], edge, wanted),

@@ -244,6 +244,22 @@ mod tests {
     }
 
     #[test]
+    fn touching_pairs_are_within_a_thousandth_on_either_side() {
+        for kind in [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly64] {
+            let share = |pair: &PosedPair2| {
+                let (normals, turn) = (pair.shape_a.core().normals().to_vec(), pair.pose_a.rotation());
+                let best = normals.iter().map(|n| gap(pair, turn.turn(*n))).fold(f64::NEG_INFINITY, f64::max);
+                best / f64::from(pair.shape_a.outer_radius() + pair.shape_b.outer_radius())
+            };
+            let shares: Vec<f64> = pairs2(kind, PairSet::Touch, 400, 1).iter().map(share).collect();
+            let apart = shares.iter().filter(|&&share| share > 0.0).count();
+            assert!((150..250).contains(&apart), "{}: {apart} of 400 apart", kind.name());
+            // A rotation in f32 tilts an edge by 1e-7.
+            assert!(shares.iter().all(|share| share.abs() < 1e-3 + 1e-6), "{}", kind.name());
+        }
+    }
+
+    #[test]
     fn the_other_sets_are_what_they_say() {
         for kind in [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly4096] {
             assert!(pairs2(kind, PairSet::Far, 20, 1).iter().all(is_apart));
