@@ -303,7 +303,8 @@ fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
                 layers.push(3);
             }
             if random.below(3) == 0 {
-                moved.push(boxes.len() as u32 - 1);
+                // Said to have moved, and did not; and a box that there is not.
+                moved.extend([boxes.len() as u32 - 1, boxes.len() as u32, u32::MAX]);
             }
             let admit = |a: u32, b: u32| layers[a as usize] & layers[b as usize] != 0;
             Sweep::new().pairs(&boxes, admit, usize::MAX, &mut fresh).unwrap();

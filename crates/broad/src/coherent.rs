@@ -1,23 +1,24 @@
 //! Temporal coherence: what rests is kept, what moves is swept.
 //!
 //! ```text
-//! where more than a fifth of the boxes moved: sweep all, keep nothing
-//! else, of the boxes that have moved since the index was built (the movers):
+//! where more than a fifth of the boxes moved: sweep all
+//! else, of the boxes that have moved since all were swept (the movers):
 //!   drop the kept pairs of those that were not among them before
 //!   sweep the movers among themselves
-//!   ask the index of resting boxes about each
+//!   look up each in the columns that the sweep of all left behind         rest
 //!   sort these pairs, and merge them with the kept ones
-//! build anew: when a fifth has moved by now, or when asking for movers that have come to rest has cost as much
+//! sweep all again: when a fifth has moved by now, or when looking up movers that have come to rest has cost as much
 //! ```
-//! A frame costs some 150 ns a mover and a copy of the kept pairs (0.2 ns each); boxes that rest cost nothing. The list is
+//! A frame costs some 100 ns a mover and a copy of the kept pairs (0.3 ns each); boxes that rest cost nothing. The list is
 //! that of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
 
-use crate::index::Index;
+mod rest;
+
 use crate::pair::{PairId, TooManyPairs};
 use crate::sweep::Sweep;
 use crate::sweep::order::Order;
 use asunder_geometry::Bounds;
-use core::ops::ControlFlow;
+use rest::Rest;
 
 /// All overlapping pairs of boxes of which few move from frame to frame.
 ///
@@ -39,29 +40,29 @@ use core::ops::ControlFlow;
 /// ```
 #[derive(Clone, Debug)]
 pub struct CoherentSweep<B> {
+    /// Of all boxes; its columns stay.
     sweep: Sweep,
-    /// The boxes that rested when it was built.
-    index: Index<B>,
-    is_built: bool,
-    /// Frames in a row in which few boxes moved.
-    quiet_frames: u32,
-    /// Boxes that have moved since, ascending, and the same as a flag a box.
+    rest: Rest<B>,
+    is_kept: bool,
+    /// Boxes at the last call.
+    known: usize,
+    /// Boxes that have moved since the sweep of all, ascending.
     movers: Vec<u32>,
-    is_mover: Vec<bool>,
     /// Pairs of two boxes that have not.
     kept: Vec<PairId>,
     /// Movers that did not move, a frame and mover.
     idle: usize,
+    sweep_of_movers: Sweep,
     moving: Vec<B>,
-    fresh: Vec<PairId>,
     among: Vec<PairId>,
+    fresh: Vec<PairId>,
     order: Order,
 }
 
-/// Where more than one box of so many moves, nothing is kept.
+/// Where more than one box of so many moves, all are swept.
 const FEW: usize = 5;
 
-/// Asking the index about one mover costs this part of building it anew, a box.
+/// Looking up so many movers costs about as much as sweeping one box of all.
 const IDLE_A_BOX: usize = 2;
 
 impl<B: Bounds> Default for CoherentSweep<B> {
@@ -75,25 +76,25 @@ impl<B: Bounds> CoherentSweep<B> {
     pub fn new() -> Self {
         Self {
             sweep: Sweep::new(),
-            index: Index::new(),
-            is_built: false,
-            quiet_frames: 0,
+            rest: Rest::new(),
+            is_kept: false,
+            known: 0,
             movers: Vec::new(),
-            is_mover: Vec::new(),
             kept: Vec::new(),
             idle: 0,
+            sweep_of_movers: Sweep::new(),
             moving: Vec::new(),
-            fresh: Vec::new(),
             among: Vec::new(),
+            fresh: Vec::new(),
             order: Order::default(),
         }
     }
 
     /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
     ///
-    /// `moved` names the boxes that differ from the last call in any way, their filters included; in any order, and again if need be. Boxes
-    /// behind those of the last call are new, and need not be named. What is not named is believed to be as it was. A box that is
-    /// taken away becomes an empty set. `admit` is asked as by [`Sweep::pairs`].
+    /// `moved` names the boxes that differ from the last call in any way, their filters included; in any order, and again if need be.
+    /// Boxes behind those of the last call are new, and need not be named. What is not named is believed to be as it was. A
+    /// box that is taken away becomes an empty set. `admit` is asked as by [`Sweep::pairs`].
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty, and the next call starts from here.
@@ -105,97 +106,74 @@ impl<B: Bounds> CoherentSweep<B> {
         limit: usize,
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
-        let new = self.is_mover.len()..boxes.len();
-        let is_quiet = (moved.len() + new.len()) * FEW <= boxes.len() && self.is_mover.len() <= boxes.len();
-        if !is_quiet {
-            self.forget(boxes.len());
-            return self.sweep.pairs(boxes, admit, limit, pairs);
-        }
-        self.quiet_frames = self.quiet_frames.saturating_add(1);
-        self.is_mover.resize(boxes.len(), false);
+        let new = boxes.len().saturating_sub(self.known);
+        let few = (moved.len() + new) * FEW <= boxes.len() && boxes.len() >= self.known;
         let were = self.movers.len();
-        for &place in moved.iter().chain(&new.map(|place| place as u32).collect::<Vec<u32>>()) {
-            if let Some(is_mover) = self.is_mover.get_mut(place as usize)
-                && !core::mem::replace(is_mover, true)
-            {
-                self.movers.push(place);
-            }
+        if few && self.is_kept {
+            self.note_movers(moved, boxes.len());
         }
-        if !self.is_built || self.movers.len() * FEW > boxes.len() || self.idle > boxes.len() / IDLE_A_BOX {
-            return self.rebuild(boxes, moved, admit, limit, pairs);
+        self.known = boxes.len();
+        let can_stay = self.movers.len() * FEW <= boxes.len() && self.idle * IDLE_A_BOX <= boxes.len();
+        if !(few && self.is_kept && can_stay) {
+            return self.sweep_all(boxes, few, admit, limit, pairs);
         }
         self.idle += self.movers.len().saturating_sub(moved.len());
         if self.movers.len() > were {
             self.movers.sort_unstable();
-            let is_mover = &self.is_mover;
-            self.kept.retain(|pair| !is_mover[pair.a as usize] && !is_mover[pair.b as usize]);
+            let rest = &self.rest;
+            self.kept.retain(|pair| rest.rests(pair.a) && rest.rests(pair.b));
         }
-        let outcome = self.pairs_of_movers(boxes, &admit, limit.saturating_sub(self.kept.len()));
         pairs.clear();
-        if outcome.is_err() || self.kept.len() > limit {
-            return Err(TooManyPairs { limit });
-        }
+        let room = limit.checked_sub(self.kept.len()).ok_or(TooManyPairs { limit })?;
+        self.pairs_of_movers(boxes, &admit, room).map_err(|_| TooManyPairs { limit })?;
         self.order.sort(&mut self.fresh, boxes.len());
         merge(&self.kept, &self.fresh, pairs);
         Ok(())
     }
 
-    /// Memory that is held for the next call, in bytes: some 150 a box.
+    /// Memory that is held for the next call, in bytes: some 80 a box and 16 a pair.
     ///
     /// ```
     /// assert_eq!(asunder_broad::CoherentSweep::<asunder_geometry::Aabb2>::new().bytes(), 0);
     /// ```
     pub fn bytes(&self) -> usize {
-        let pairs = self.kept.capacity() + self.fresh.capacity() + self.among.capacity();
+        let pairs = self.kept.capacity() + self.among.capacity() + self.fresh.capacity();
         self.sweep.bytes()
-            + self.index.bytes()
+            + self.sweep_of_movers.bytes()
+            + self.rest.bytes()
             + self.order.bytes()
             + self.movers.capacity() * 4
-            + self.is_mover.capacity()
             + self.moving.capacity() * size_of::<B>()
             + pairs * size_of::<PairId>()
     }
 
-    /// Keeps nothing of the boxes up to now.
-    fn forget(&mut self, count: usize) {
-        self.is_built = false;
-        self.quiet_frames = 0;
-        self.is_mover.clear();
-        self.is_mover.resize(count, false);
-        self.movers.clear();
+    fn note_movers(&mut self, moved: &[u32], count: usize) {
+        for place in moved.iter().copied().chain(self.known as u32..count as u32) {
+            if (place as usize) < count && self.rest.wakes(place) {
+                self.movers.push(place);
+            }
+        }
     }
 
-    /// Sweeps all, and keeps what does not move now; in the first quiet frame, which may stay alone, nothing.
-    fn rebuild(
+    /// Sweeps all; what follows a frame in which few moved is likely to be one of that kind, and finds everything kept.
+    fn sweep_all(
         &mut self,
         boxes: &[B],
-        moved: &[u32],
+        keep: bool,
         admit: impl Fn(u32, u32) -> bool + Sync,
         limit: usize,
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
-        let quiet_frames = self.quiet_frames;
-        self.forget(boxes.len());
-        self.quiet_frames = quiet_frames;
-        self.sweep.pairs(boxes, admit, limit, pairs)?;
-        if quiet_frames < 2 {
-            return Ok(());
-        }
-        for &place in moved {
-            if let Some(is_mover) = self.is_mover.get_mut(place as usize)
-                && !core::mem::replace(is_mover, true)
-            {
-                self.movers.push(place);
-            }
-        }
-        self.movers.sort_unstable();
-        let is_mover = &self.is_mover;
-        let rests = |place: u32| !is_mover[place as usize];
-        self.index.build_from(boxes, rests);
-        self.kept.clear();
-        self.kept.extend(pairs.iter().filter(|pair| rests(pair.a) && rests(pair.b)));
+        self.is_kept = false;
         self.idle = 0;
-        self.is_built = true;
+        self.movers.clear();
+        self.sweep.pairs(boxes, admit, limit, pairs)?;
+        if keep && let Some((grid, parts)) = self.sweep.sorted() {
+            self.rest.settle(boxes, grid, parts);
+            self.kept.clear();
+            self.kept.extend_from_slice(pairs);
+            self.is_kept = true;
+        }
         Ok(())
     }
 
@@ -206,29 +184,22 @@ impl<B: Bounds> CoherentSweep<B> {
         admit: &(impl Fn(u32, u32) -> bool + Sync),
         limit: usize,
     ) -> Result<(), TooManyPairs> {
-        let Self { sweep, index, movers, is_mover, moving, fresh, among, .. } = self;
+        let Self { movers, moving, among, fresh, .. } = self;
         moving.clear();
         moving.extend(movers.iter().map(|&place| boxes[place as usize]));
         let place = |mover: u32| movers[mover as usize];
-        sweep.pairs(moving, |a, b| admit(place(a), place(b)), limit, among)?;
+        self.sweep_of_movers.pairs(moving, |a, b| admit(place(a), place(b)), limit, among)?;
         fresh.clear();
         fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
-        for (&mover, bounds) in movers.iter().zip(moving) {
-            let flow = index.visit_overlapping(bounds, |resting| {
-                let pair = PairId::new(mover, resting);
-                if !is_mover[resting as usize] && admit(pair.a, pair.b) {
-                    if fresh.len() == limit {
-                        return ControlFlow::Break(());
-                    }
+        if let Some(sorted) = self.sweep.sorted() {
+            self.rest.meet(sorted, boxes, movers, |pair| {
+                if admit(pair.a, pair.b) {
                     fresh.push(pair);
                 }
-                ControlFlow::Continue(())
+                fresh.len() <= limit
             });
-            if flow.is_break() {
-                return Err(TooManyPairs { limit });
-            }
         }
-        Ok(())
+        if fresh.len() > limit { Err(TooManyPairs { limit }) } else { Ok(()) }
     }
 }
 

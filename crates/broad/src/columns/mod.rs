@@ -50,6 +50,32 @@ impl Columns {
         ColumnEntries { start, ends, entries: &self.entries[start as usize..end as usize] }
     }
 
+    /// Which entries a box may overlap: stretches of them, one a column that it reaches, by bins. `longest` is the number of bins that
+    /// any box but those left out reaches beyond its first.
+    #[inline(always)]
+    pub(crate) fn stretches(&self, grid: &Grid, codes: &Codes, longest: u32, mut visit: impl FnMut(Stretch)) {
+        let Reach { bin, y, z } = grid.reach(codes);
+        let last = grid.bin(codes[grid.sweep + 3]) as u32;
+        for row in y.0..=y.1 {
+            for column in z.0..=z.1 {
+                let first = grid.cell(row, column, bin.saturating_sub(longest)) as usize;
+                let start = if first == 0 { 0 } else { self.ends[first - 1] };
+                let end = self.ends[grid.cell(row, column, last) as usize];
+                visit(Stretch { start, end, home: home(row == y.0, column == z.0) });
+            }
+        }
+    }
+
+    /// All entries, in order of the columns.
+    pub(crate) fn entries(&self) -> &[Entry] {
+        &self.entries[..self.len()]
+    }
+
+    /// The codes of every box that was sorted, by place; those of boxes that are none mean nothing.
+    pub(crate) fn codes(&self) -> impl ExactSizeIterator<Item = &Codes> {
+        self.records.iter().map(|record| &record.codes)
+    }
+
     /// Entries that were counted, before they are sorted.
     #[cfg(feature = "parallel")]
     pub(crate) const fn counted(&self) -> usize {
@@ -176,6 +202,21 @@ impl Columns {
 const HOME_Y: u32 = 1 << 30;
 const HOME_Z: u32 = 1 << 31;
 
+/// What to write into a place.
+#[inline(always)]
+const fn home(on_y: bool, on_z: bool) -> u32 {
+    (if on_y { HOME_Y } else { 0 }) | (if on_z { HOME_Z } else { 0 })
+}
+
+/// Some entries of one column, for a box that may overlap them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Stretch {
+    pub(crate) start: u32,
+    pub(crate) end: u32,
+    /// Where the box begins, as a place has it.
+    pub(crate) home: u32,
+}
+
 /// The rest of it: the place itself.
 pub(crate) const PLACE: u32 = HOME_Y - 1;
 
@@ -219,8 +260,7 @@ fn for_others(codes: &Codes, grid: &Grid, mut visit: impl FnMut(u32, u32)) -> us
     for row in y.0..=y.1 {
         for column in z.0..=z.1 {
             if count > 0 {
-                let home = if row == y.0 { HOME_Y } else { 0 } | if column == z.0 { HOME_Z } else { 0 };
-                visit(grid.cell(row, column, bin), home);
+                visit(grid.cell(row, column, bin), home(row == y.0, column == z.0));
             }
             count += 1;
         }

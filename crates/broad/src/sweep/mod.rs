@@ -39,11 +39,11 @@
 
 mod level;
 pub(crate) mod order;
-mod rows;
+pub(crate) mod rows;
 mod settle;
 #[cfg(feature = "parallel")]
 mod threads;
-mod wide;
+pub(crate) mod wide;
 
 use crate::columns::grid::Grid;
 use crate::columns::{Columns, MOST_BOXES};
@@ -81,6 +81,8 @@ use wide::Kernel;
 #[derive(Clone, Debug, Default)]
 pub struct Sweep {
     columns: Columns,
+    /// How the last sweep sorted the boxes.
+    grid: Option<Grid>,
     scratch: Scratch,
     order: order::Order,
     #[cfg(feature = "parallel")]
@@ -146,8 +148,11 @@ impl Sweep {
         sink: &mut impl FnMut(&[PairId]) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let boxes = &boxes[..boxes.len().min(MOST_BOXES)];
+        #[cfg(feature = "parallel")]
+        self.team.forget();
         let Self { columns, scratch, .. } = self;
         let grid = wide::run(Sort { boxes, columns });
+        self.grid = Some(grid);
         let level = Level {
             parts: core::slice::from_ref(columns),
             grid: &grid,
@@ -156,6 +161,15 @@ impl Sweep {
             scratch,
         };
         wide::run(level)
+    }
+
+    /// The columns of the last sweep, in parts, each of the boxes that follow those of the part before it.
+    pub(crate) fn sorted(&self) -> Option<(&Grid, &[Columns])> {
+        #[cfg(feature = "parallel")]
+        if let Some(sorted) = self.team.sorted() {
+            return Some(sorted);
+        }
+        Some((self.grid.as_ref()?, core::slice::from_ref(&self.columns)))
     }
 
     /// Memory that is held for the next sweep, in bytes: some 70 a box.

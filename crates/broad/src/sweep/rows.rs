@@ -3,21 +3,22 @@
 use crate::columns::ColumnEntries;
 use crate::columns::codes::{Codes, Entry};
 use crate::columns::grid::Grid;
+use core::ops::Range;
 
 /// Boxes tested side by side.
-pub(super) const LANES: usize = 16;
+pub(crate) const LANES: usize = 16;
 
 /// Boxes of one column, least first along the sweep axis, as rows of codes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Strips {
+pub(crate) struct Strips {
     strips: [Vec<i16>; 6],
 }
 
 /// A box, and up to sixteen that it may overlap.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Hit {
-    pub(super) row: u32,
-    pub(super) first: u32,
+pub(crate) struct Hit {
+    pub(crate) row: u32,
+    pub(crate) first: u32,
     /// What the codes say, as [`overlapping`] gives it.
     lanes: u32,
 }
@@ -25,7 +26,7 @@ pub(super) struct Hit {
 impl Hit {
     /// The next box that may overlap the row's, whether codes cannot tell, and the hit without it.
     #[inline(always)]
-    pub(super) const fn next(self) -> (u32, bool, Self) {
+    pub(crate) const fn next(self) -> (u32, bool, Self) {
         let bit = (self.lanes & MAY).trailing_zeros();
         let index = self.first + bit - (bit >> 4) * 8;
         let is_close = (self.lanes >> 8) >> bit & 1 != 0;
@@ -35,30 +36,30 @@ impl Hit {
 
     /// Whether no box is left.
     #[inline(always)]
-    pub(super) const fn is_done(self) -> bool {
+    pub(crate) const fn is_done(self) -> bool {
         self.lanes & MAY == 0
     }
 }
 
 /// Hits that are gathered before they are looked at.
-pub(super) const HITS: usize = 128;
+pub(crate) const HITS: usize = 128;
 
 /// How far a sweep of a column has come.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Progress {
+pub(crate) struct Progress {
     row: usize,
     /// The next box that the row is tested against; 0 at its start.
     next: usize,
 }
 
 impl Strips {
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.strips.iter().map(|strip| strip.capacity() * 2).sum()
     }
 
     /// Turns entries into strips.
     #[inline(always)]
-    pub(super) fn fill(&mut self, entries: &[Entry]) {
+    pub(crate) fn fill(&mut self, entries: &[Entry]) {
         let count = entries.len();
         for (number, strip) in self.strips.iter_mut().enumerate() {
             // Behind the last box stand boxes that overlap nothing: least codes above all, greatest below.
@@ -84,7 +85,7 @@ impl Strips {
 
     /// Goes on until all rows are swept or `hits` is full; returns how many hits there are, or none at the end.
     #[inline(always)]
-    pub(super) fn sweep<const WIDE: bool>(
+    pub(crate) fn sweep<const WIDE: bool>(
         &self,
         column: &ColumnEntries,
         grid: &Grid,
@@ -114,6 +115,30 @@ impl Strips {
             *progress = Progress { row: row + 1, next: 0 };
         }
         found
+    }
+}
+
+impl Strips {
+    /// Hands over the boxes from `start` to `end` that codes do not part from a box, and whether codes cannot tell.
+    #[inline(always)]
+    pub(crate) fn meet<const WIDE: bool>(
+        &self,
+        codes: &Codes,
+        range: Range<usize>,
+        mut visit: impl FnMut(usize, bool),
+    ) {
+        let [a, b, c, d, e, f] = &self.strips;
+        for first in range.clone().step_by(LANES) {
+            let Some(strips) = lanes([a, b, c, d, e, f], first) else { break };
+            let mut hit = Hit { row: 0, first: first as u32, lanes: overlapping::<WIDE>(codes, strips) };
+            while !hit.is_done() {
+                let (index, is_close, rest) = hit.next();
+                if (index as usize) < range.end {
+                    visit(index as usize, is_close);
+                }
+                hit = rest;
+            }
+        }
     }
 }
 

@@ -37,6 +37,8 @@ const BINS: usize = 1024;
 /// What the threads keep between sweeps.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Team {
+    /// How the last sweep sorted the boxes, if it was a team's.
+    grid: Option<Grid>,
     parts: Vec<Columns>,
     groups: Vec<Group>,
     orders: Vec<Order>,
@@ -67,6 +69,15 @@ impl Team {
             + self.orders.iter().map(Order::bytes).sum::<usize>()
     }
 
+    pub(super) fn sorted(&self) -> Option<(&Grid, &[Columns])> {
+        Some((self.grid.as_ref()?, &self.parts))
+    }
+
+    /// The last sweep was another's.
+    pub(super) fn forget(&mut self) {
+        self.grid = None;
+    }
+
     /// All pairs, sorted, by `threads` threads of the current pool.
     pub(super) fn pairs<B: Bounds>(
         &mut self,
@@ -79,6 +90,7 @@ impl Team {
         self.parts.resize_with(threads, Columns::default);
         self.groups.resize_with(threads * GROUPS, Group::default);
         let grid = sort(&mut self.parts, boxes);
+        self.grid = Some(grid);
         share_out(&mut self.groups, &self.parts, &grid);
 
         let total = AtomicUsize::new(0);

@@ -3,7 +3,7 @@
 /// Code that is worth compiling twice: for any processor, and for wider vectors.
 ///
 /// Both give the same results in the same order. `run` must be inlined always, or it is compiled once only.
-pub(super) trait Kernel {
+pub(crate) trait Kernel {
     /// What it gives.
     type Output;
     /// Does the work. `WIDE` says that AVX2 is at hand.
@@ -12,7 +12,7 @@ pub(super) trait Kernel {
 
 /// Runs the kernel as wide as the processor can.
 #[inline]
-pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
+pub(crate) fn run<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("bmi1") {
         #[allow(unsafe_code)]

@@ -1,0 +1,184 @@
+//! Boxes at rest, in the columns of the sweep that met them first.
+
+use crate::columns::codes::Codes;
+use crate::columns::grid::Grid;
+use crate::columns::{Columns, Stretch, owned};
+use crate::index::Index;
+use crate::pair::PairId;
+use crate::sweep::rows::Strips;
+use crate::sweep::wide::{self, Kernel};
+use asunder_geometry::Bounds;
+use core::ops::ControlFlow;
+
+/// What may be known of a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    /// It is found in the columns.
+    Rests,
+    /// It rests, and reaches so far along the sweep axis that it is found in an index of its like.
+    Reaches,
+    /// It has moved.
+    Moves,
+}
+
+/// Boxes at rest.
+#[derive(Clone, Debug)]
+pub(super) struct Rest<B> {
+    states: Vec<State>,
+    /// Bins that any box but those that reach far reaches beyond its first.
+    longest: u32,
+    far: Index<B>,
+    /// The entries of each part as strips.
+    strips: Vec<Strips>,
+    asked: Vec<(u32, Codes, Stretch)>,
+}
+
+/// Bins that are counted one by one.
+const BINS: usize = 32;
+
+/// One box of so many may be kept out of the columns.
+const FAR: usize = 256;
+
+impl<B: Bounds> Rest<B> {
+    pub(super) fn new() -> Self {
+        Self { states: Vec::new(), longest: 0, far: Index::new(), strips: Vec::new(), asked: Vec::new() }
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        let strips: usize = self.strips.iter().map(Strips::bytes).sum();
+        self.states.capacity()
+            + self.far.bytes()
+            + strips
+            + self.asked.capacity() * size_of::<(u32, Codes, Stretch)>()
+    }
+
+    /// All boxes rest, as they were just swept.
+    pub(super) fn settle(&mut self, boxes: &[B], grid: &Grid, parts: &[Columns]) {
+        let length = |codes: &Codes| {
+            let [first, last] = [grid.sweep, grid.sweep + 3].map(|bound| grid.bin(codes[bound]));
+            last.saturating_sub(first)
+        };
+        let mut counts = [0; BINS];
+        let all = || parts.iter().flat_map(Columns::codes);
+        for codes in all() {
+            counts[length(codes).min(BINS - 1)] += 1;
+        }
+        // As few bins as leave only few boxes out.
+        let (mut longest, mut left_out) = (BINS - 1, counts[BINS - 1]);
+        while longest > 0 && left_out + counts[longest - 1] <= boxes.len() / FAR {
+            longest -= 1;
+            left_out += counts[longest];
+        }
+        // What is counted last is anything longer.
+        self.longest = longest.saturating_sub(1) as u32;
+        let state = |codes: &Codes| {
+            if length(codes) > self.longest as usize { State::Reaches } else { State::Rests }
+        };
+        self.states.clear();
+        self.states.extend(all().map(state));
+        self.states.resize(boxes.len(), State::Rests);
+        let states = &self.states;
+        self.strips.resize_with(parts.len(), Strips::default);
+        for (strips, part) in self.strips.iter_mut().zip(parts) {
+            strips.fill(part.entries());
+        }
+        self.far.build_from(boxes, |place| states[place as usize] == State::Reaches);
+    }
+
+    /// Whether the box has not moved.
+    #[inline]
+    pub(super) fn rests(&self, place: u32) -> bool {
+        self.states[place as usize] != State::Moves
+    }
+
+    /// Notes that a box moves, or has come; whether that is news.
+    pub(super) fn wakes(&mut self, place: u32) -> bool {
+        let place = place as usize;
+        if place >= self.states.len() {
+            // One that was not there when all were swept. Whoever comes between is new as well, and has its turn.
+            self.states.resize(place + 1, State::Rests);
+        }
+        core::mem::replace(&mut self.states[place], State::Moves) != State::Moves
+    }
+
+    /// Hands over each pair of a mover and a box at rest that overlap, until told to stop.
+    pub(super) fn meet(
+        &mut self,
+        (grid, parts): (&Grid, &[Columns]),
+        boxes: &[B],
+        movers: &[u32],
+        mut visit: impl FnMut(PairId) -> bool,
+    ) {
+        let Self { states, longest, far, strips, asked } = self;
+        for (part, strips) in parts.iter().zip(strips) {
+            let longest = *longest;
+            let asking =
+                Asking { grid, part, strips, boxes, movers, states, longest, asked, visit: &mut visit };
+            if !wide::run(asking) {
+                return;
+            }
+        }
+        if far.is_empty() {
+            return;
+        }
+        for &mover in movers {
+            let flow = far.visit_overlapping(&boxes[mover as usize], |place| {
+                let goes_on = states[place as usize] == State::Moves || visit(PairId::new(mover, place));
+                if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            });
+            if flow.is_break() {
+                return;
+            }
+        }
+    }
+}
+
+/// Looks movers up in the columns of one part.
+///
+/// First where to look, for all of them, then there: the memory that a mover needs is far from the last one's, and the processor can ask
+/// for that of several at once as long as none waits for another.
+struct Asking<'a, B, F> {
+    grid: &'a Grid,
+    part: &'a Columns,
+    strips: &'a Strips,
+    boxes: &'a [B],
+    movers: &'a [u32],
+    states: &'a [State],
+    longest: u32,
+    asked: &'a mut Vec<(u32, Codes, Stretch)>,
+    visit: &'a mut F,
+}
+
+impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<const WIDE: bool>(self) -> bool {
+        let Self { grid, part, strips, boxes, movers, states, longest, asked, visit } = self;
+        asked.clear();
+        for &mover in movers {
+            let bounds = &boxes[mover as usize];
+            if bounds.is_valid() {
+                let (low, high) = bounds.corners();
+                let codes = grid.quantiser.codes(low, high);
+                part.stretches(grid, &codes, longest, |stretch| asked.push((mover, codes, stretch)));
+            }
+        }
+        let mut goes_on = true;
+        for &(mover, codes, stretch) in &*asked {
+            let entries = part.entries();
+            let range = stretch.start as usize..stretch.end as usize;
+            strips.meet::<WIDE>(&codes, range, |index, is_close| {
+                let (place, _, is_ours) = owned(entries[index].place, stretch.home);
+                if is_ours && states[place as usize] == State::Rests && goes_on {
+                    let overlap = !is_close || boxes[mover as usize].overlaps(&boxes[place as usize]);
+                    goes_on = !overlap || visit(PairId::new(mover, place));
+                }
+            });
+            if !goes_on {
+                break;
+            }
+        }
+        goes_on
+    }
+}
