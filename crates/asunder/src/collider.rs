@@ -28,6 +28,29 @@ impl Layers {
     }
 }
 
+/// What decides whether two bodies may pair at all, wherever they are: small, and apart from all else, since the broad phase asks for every pair
+/// of boxes that overlap.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Tag {
+    layers: Layers,
+    owner: Option<u64>,
+    fixed: bool,
+}
+
+impl Tag {
+    pub(crate) fn of<S: Space>(body: &Collider<S>) -> Self {
+        Self { layers: body.layers, owner: body.owner, fixed: body.fixed }
+    }
+
+    /// Whether both sides agree. Two fixed bodies never meet, nor do two of one owner.
+    #[inline]
+    pub(crate) fn may_meet(&self, other: &Self) -> bool {
+        self.layers.meets(other.layers)
+            & !(self.fixed & other.fixed)
+            & (self.owner.is_none() || self.owner != other.owner)
+    }
+}
+
 impl Default for Layers {
     /// In every group, and meeting every group.
     fn default() -> Self {
@@ -248,12 +271,5 @@ impl<S: Space> Collider<S> {
     /// The margin, in metres.
     pub fn get_margin(&self) -> f32 {
         self.margin
-    }
-
-    /// Whether the two may pair at all, wherever they are.
-    pub(crate) fn may_meet(&self, other: &Self) -> bool {
-        !(self.fixed && other.fixed)
-            && self.layers.meets(other.layers)
-            && (self.owner.is_none() || self.owner != other.owner)
     }
 }

@@ -1,13 +1,13 @@
 //! The world: bodies, and what is known about them since the last update.
 
-use crate::collider::Collider;
+use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
 use crate::space::Space;
 use crate::stats::Stats;
-use asunder_broad::{PairId, Sweep};
+use asunder_broad::{CoherentSweep, PairId};
 use asunder_geometry::Bounds;
-use asunder_narrow::Batch;
+use asunder_narrow::{Batch, Hint};
 use slotmap::{Key, SlotMap};
 
 /// A key whose body is gone.
@@ -44,9 +44,14 @@ pub struct World<S: Space> {
     pub(crate) keys: Vec<S::Key>,
     /// Box of the body in each slot; a box that overlaps nothing where the slot is empty.
     pub(crate) boxes: Vec<S::Aabb>,
+    /// What the filter asks of the body in each slot.
+    pub(crate) tags: Vec<Tag>,
     /// Slots whose box is out of date, in the order in which they became so, and the same as a flag a slot.
     pub(crate) dirty: Vec<u32>,
     pub(crate) is_dirty: Vec<bool>,
+    /// Slots whose body moved, came or went since candidates were last collided, and the same as a flag a slot.
+    pub(crate) moved: Vec<u32>,
+    pub(crate) is_moved: Vec<bool>,
     pub(crate) max_pairs: usize,
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,
@@ -59,17 +64,25 @@ pub struct World<S: Space> {
     pub(crate) scratch: Scratch<S>,
 }
 
-/// Memory that a frame needs and that holds nothing between frames.
+/// Memory that a frame needs, and nothing that an output depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct Scratch<S: Space> {
-    pub(crate) sweep: Sweep,
+    pub(crate) sweep: CoherentSweep<S::Aabb>,
     pub(crate) pairs: Vec<PairId>,
+    /// For each pair, the candidate of last update that it carries on as it is, or [`ASKED`].
+    pub(crate) carried: Vec<u32>,
+    /// The other pairs, with the hint of last update.
+    pub(crate) asked: Vec<(PairId, Hint)>,
     pub(crate) refitted: Vec<S::Aabb>,
     pub(crate) batches: Vec<Batch<S::Manifold>>,
     pub(crate) last_candidates: Vec<Candidate<S::Key>>,
     pub(crate) last_records: Vec<Record<S::Key>>,
+    pub(crate) last_manifolds: Vec<S::Manifold>,
     pub(crate) ended: Vec<Record<S::Key>>,
 }
+
+/// The pair is asked about anew.
+pub(crate) const ASKED: u32 = u32::MAX;
 
 impl<S: Space> Default for World<S> {
     fn default() -> Self {
@@ -84,8 +97,11 @@ impl<S: Space> World<S> {
             bodies: SlotMap::with_key(),
             keys: Vec::new(),
             boxes: Vec::new(),
+            tags: Vec::new(),
             dirty: Vec::new(),
             is_dirty: Vec::new(),
+            moved: Vec::new(),
+            is_moved: Vec::new(),
             max_pairs: 1 << 24,
             candidates: Vec::new(),
             records: Vec::new(),
@@ -94,12 +110,15 @@ impl<S: Space> World<S> {
             by_second: Vec::new(),
             stats: Stats::default(),
             scratch: Scratch {
-                sweep: Sweep::new(),
+                sweep: CoherentSweep::new(),
                 pairs: Vec::new(),
+                carried: Vec::new(),
+                asked: Vec::new(),
                 refitted: Vec::new(),
                 batches: Vec::new(),
                 last_candidates: Vec::new(),
                 last_records: Vec::new(),
+                last_manifolds: Vec::new(),
                 ended: Vec::new(),
             },
         }
@@ -118,10 +137,11 @@ impl<S: Space> World<S> {
     /// Removes every body. Contacts that had begun end at the next update.
     pub fn clear(&mut self) {
         self.bodies.clear();
-        self.keys.fill(S::Key::null());
-        self.boxes.fill(S::Aabb::NOTHING);
-        self.dirty.clear();
-        self.is_dirty.fill(false);
+        for slot in 0..self.keys.len() {
+            if !core::mem::replace(&mut self.keys[slot], S::Key::null()).is_null() {
+                self.mark_dirty(slot as u32);
+            }
+        }
     }
 
     /// Sets how many candidate pairs an update may make; 2^24 at first. See [`Stats::overflow`].
@@ -150,24 +170,27 @@ impl<S: Space> World<S> {
     }
 
     pub(crate) fn insert_body(&mut self, collider: Collider<S>) -> S::Key {
+        let tag = Tag::of(&collider);
         let key = self.bodies.insert(collider);
         let slot = slot_of(key);
         let index = slot as usize;
         if index >= self.keys.len() {
             self.keys.resize(index + 1, S::Key::null());
             self.boxes.resize(index + 1, S::Aabb::NOTHING);
+            self.tags.resize(index + 1, Tag::default());
             self.is_dirty.resize(index + 1, false);
+            self.is_moved.resize(index + 1, false);
         }
         self.keys[index] = key;
+        self.tags[index] = tag;
         self.mark_dirty(slot);
         key
     }
 
     pub(crate) fn remove_body(&mut self, key: S::Key) -> Option<Collider<S>> {
         let collider = self.bodies.remove(key)?;
-        let index = slot_of(key) as usize;
-        self.keys[index] = S::Key::null();
-        self.boxes[index] = S::Aabb::NOTHING;
+        self.keys[slot_of(key) as usize] = S::Key::null();
+        self.mark_dirty(slot_of(key));
         Some(collider)
     }
 

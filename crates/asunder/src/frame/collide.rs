@@ -1,9 +1,17 @@
 //! Stage 3: candidate pairs to contacts.
+//!
+//! ```text
+//! walk the pairs beside last update's candidates:
+//!   neither body moved: the pair is carried on, with its hint, contact and manifolds
+//!   else: it is asked about, with the hint it has
+//! ask about batches of pairs, in parallel
+//! walk the pairs once more, and put what was carried and what was answered together
+//! ```
 
 use crate::collider::Collider;
 use crate::contact::{Candidate, Record};
 use crate::space::Space;
-use crate::world::World;
+use crate::world::{ASKED, Scratch, World};
 use asunder_broad::PairId;
 use asunder_narrow::{Answer, ArrayVec, Batch, Hint};
 use slotmap::SlotMap;
@@ -14,92 +22,145 @@ const BATCH: usize = 256;
 /// Jobs handed to the narrow phase at once: enough to fill wide kernels, few enough to stay on the stack.
 const SLICE: usize = 64;
 
-/// Asks the narrow phase about every candidate, with last update's hint, and keeps the answers in order.
+/// Brings candidates and contacts up to date.
 pub(super) fn collide<S: Space>(world: &mut World<S>) {
-    let World { bodies, keys, candidates, records, manifolds, stats, scratch, .. } = world;
-    if stats.overflow {
+    if world.stats.overflow {
         return;
     }
+    let World { candidates, records, manifolds, scratch, .. } = world;
     core::mem::swap(candidates, &mut scratch.last_candidates);
     core::mem::swap(records, &mut scratch.last_records);
-    candidates.clear();
-    records.clear();
-    manifolds.clear();
-
-    let batch_count = scratch.pairs.len().div_ceil(BATCH);
-    if scratch.batches.len() < batch_count {
-        scratch.batches.resize_with(batch_count, Batch::default);
+    core::mem::swap(manifolds, &mut scratch.last_manifolds);
+    choose(world);
+    ask(world);
+    gather(world);
+    for slot in world.moved.drain(..) {
+        world.is_moved[slot as usize] = false;
     }
-    let asker = Asker { bodies, keys, last: &scratch.last_candidates };
-    let (pairs, batches) = (&scratch.pairs, &mut scratch.batches[..batch_count]);
-    #[cfg(feature = "parallel")]
-    {
-        use rayon::prelude::*;
-        if batch_count > 1 {
-            pairs
-                .par_chunks(BATCH)
-                .zip(batches.par_iter_mut())
-                .for_each(|(pairs, batch)| asker.ask(pairs, batch));
-        } else {
-            pairs.chunks(BATCH).zip(batches.iter_mut()).for_each(|(pairs, batch)| asker.ask(pairs, batch));
+}
+
+/// Which pairs are carried on and which are asked about. Pairs are sorted, and so are last update's: one walk.
+fn choose<S: Space>(world: &mut World<S>) {
+    let World { keys, is_moved, scratch, .. } = world;
+    let Scratch { pairs, carried, asked, last_candidates, .. } = scratch;
+    carried.clear();
+    asked.clear();
+    let mut last = 0;
+    for &pair in &*pairs {
+        while last_candidates.get(last).is_some_and(|known| known.pair < pair) {
+            last += 1;
         }
-    }
-    #[cfg(not(feature = "parallel"))]
-    pairs.chunks(BATCH).zip(batches.iter_mut()).for_each(|(pairs, batch)| asker.ask(pairs, batch));
-
-    for (pairs, batch) in pairs.chunks(BATCH).zip(batches) {
-        let offset = manifolds.len() as u32;
-        for (&pair, answer) in pairs.iter().zip(&batch.answers) {
-            let keys = (keys[pair.a as usize], keys[pair.b as usize]);
-            let (hint, contact) = match answer {
-                Answer::Apart { hint } => (*hint, None),
-                Answer::Contact { hint, overlapping, manifolds } => (*hint, Some((*overlapping, manifolds))),
-            };
-            candidates.push(Candidate { pair, keys, hint });
-            if let (Some((overlapping, range)), Some(a), Some(b)) =
-                (contact, bodies.get(keys.0), bodies.get(keys.1))
-            {
-                records.push(Record {
-                    pair,
-                    keys,
-                    user_data: (a.user_data, b.user_data),
-                    manifolds: range.start + offset..range.end + offset,
-                    sensor: a.sensor || b.sensor,
-                    overlapping,
-                    begun: overlapping,
-                    is_new: false,
-                });
+        let (a, b) = (pair.a as usize, pair.b as usize);
+        // A reused slot is a new body.
+        let known =
+            last_candidates.get(last).filter(|known| known.pair == pair && known.keys == (keys[a], keys[b]));
+        match known {
+            Some(_) if !is_moved[a] && !is_moved[b] => carried.push(last as u32),
+            known => {
+                carried.push(ASKED);
+                asked.push((pair, known.map_or(Hint::NONE, |known| known.hint)));
             }
         }
-        manifolds.append(&mut batch.manifolds);
     }
+}
+
+/// Asks the narrow phase, in batches.
+fn ask<S: Space>(world: &mut World<S>) {
+    let World { bodies, keys, scratch, .. } = world;
+    let Scratch { asked, batches, .. } = scratch;
+    let batch_count = asked.len().div_ceil(BATCH);
+    if batches.len() < batch_count {
+        batches.resize_with(batch_count, Batch::default);
+    }
+    let asker = Asker { bodies, keys };
+    let batches = &mut batches[..batch_count];
+    #[cfg(feature = "parallel")]
+    if batch_count > 1 {
+        use rayon::prelude::*;
+        let both = asked.par_chunks(BATCH).zip(batches.par_iter_mut());
+        both.for_each(|(asked, batch)| asker.ask(asked, batch));
+        return;
+    }
+    asked.chunks(BATCH).zip(batches).for_each(|(asked, batch)| asker.ask(asked, batch));
 }
 
 /// What a batch needs to know, shared by all threads.
 struct Asker<'a, S: Space> {
     bodies: &'a SlotMap<S::Key, Collider<S>>,
     keys: &'a [S::Key],
-    last: &'a [Candidate<S::Key>],
 }
 
 impl<S: Space> Asker<'_, S> {
-    /// Answers the pairs of one batch. They are sorted, and so are last update's: one walk finds all hints.
-    fn ask(&self, pairs: &[PairId], batch: &mut Batch<S::Manifold>) {
+    /// Answers the pairs of one batch.
+    fn ask(&self, asked: &[(PairId, Hint)], batch: &mut Batch<S::Manifold>) {
         batch.clear();
-        let first = pairs.first().map_or(0, |first| self.last.partition_point(|known| known.pair < *first));
-        let mut last = self.last[first..].iter().peekable();
-        for slice in pairs.chunks(SLICE) {
+        for slice in asked.chunks(SLICE) {
             let mut jobs: ArrayVec<S::Job<'_>, SLICE> = ArrayVec::new();
-            for pair in slice {
-                let keys = (self.keys[pair.a as usize], self.keys[pair.b as usize]);
-                while last.next_if(|known| known.pair < *pair).is_some() {}
-                let known = last.next_if(|known| known.pair == *pair);
-                let hint = known.filter(|known| known.keys == keys).map_or(Hint::NONE, |known| known.hint);
-                if let Some((a, b)) = self.bodies.get(keys.0).zip(self.bodies.get(keys.1)) {
+            for &(pair, hint) in slice {
+                let [a, b] = [pair.a, pair.b].map(|slot| self.bodies.get(self.keys[slot as usize]));
+                if let Some((a, b)) = a.zip(b) {
                     jobs.push(S::job(a, b, a.margin + b.margin, hint));
                 }
             }
             S::collide(&jobs, batch);
+        }
+    }
+}
+
+/// Puts candidates, contacts and manifolds of this update together, in order of the pairs.
+fn gather<S: Space>(world: &mut World<S>) {
+    let World { bodies, keys, candidates, records, manifolds, scratch, .. } = world;
+    let Scratch { pairs, carried, asked, batches, last_candidates, last_records, last_manifolds, .. } =
+        scratch;
+    candidates.clear();
+    records.clear();
+    manifolds.clear();
+    let batch_count = asked.len().div_ceil(BATCH);
+    let mut answers = batches[..batch_count]
+        .iter()
+        .flat_map(|batch| batch.answers.iter().map(move |answer| (answer, &batch.manifolds)));
+    let mut last = 0;
+    for (&pair, &carried) in pairs.iter().zip(&*carried) {
+        let start = manifolds.len() as u32;
+        if let Some(known) = last_candidates.get(carried as usize) {
+            candidates.push(known.clone());
+            while last_records.get(last).is_some_and(|record| record.pair < pair) {
+                last += 1;
+            }
+            if let Some(record) = last_records.get(last).filter(|record| record.pair == pair) {
+                let range = record.manifolds.start as usize..record.manifolds.end as usize;
+                manifolds.extend_from_slice(&last_manifolds[range]);
+                let manifolds = start..manifolds.len() as u32;
+                records.push(Record {
+                    manifolds,
+                    begun: record.overlapping,
+                    is_new: false,
+                    ..record.clone()
+                });
+            }
+            continue;
+        }
+        let Some((answer, of_batch)) = answers.next() else { break };
+        let keys = (keys[pair.a as usize], keys[pair.b as usize]);
+        let (hint, contact) = match answer {
+            Answer::Apart { hint } => (*hint, None),
+            Answer::Contact { hint, overlapping, manifolds } => (*hint, Some((*overlapping, manifolds))),
+        };
+        candidates.push(Candidate { pair, keys, hint });
+        if let (Some((overlapping, range)), Some(a), Some(b)) =
+            (contact, bodies.get(keys.0), bodies.get(keys.1))
+        {
+            manifolds.extend_from_slice(&of_batch[range.start as usize..range.end as usize]);
+            records.push(Record {
+                pair,
+                keys,
+                user_data: (a.user_data, b.user_data),
+                manifolds: start..manifolds.len() as u32,
+                sensor: a.sensor || b.sensor,
+                overlapping,
+                begun: overlapping,
+                is_new: false,
+            });
         }
     }
 }

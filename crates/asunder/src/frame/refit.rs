@@ -8,16 +8,10 @@ use slotmap::Key;
 #[cfg(feature = "parallel")]
 const MIN_PARALLEL: usize = 4096;
 
-/// Makes the boxes of all bodies that moved, or came, since the last update.
+/// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went are empty sets.
 pub(super) fn refit<S: Space>(world: &mut World<S>) {
-    let World { bodies, keys, boxes, dirty, is_dirty, stats, scratch, .. } = world;
-    for &slot in dirty.iter() {
-        is_dirty[slot as usize] = false;
-    }
-    // A body that moved and was then removed has left its slot behind.
-    dirty.retain(|&slot| !keys[slot as usize].is_null());
-    stats.moved = dirty.len();
-
+    let World { bodies, keys, boxes, dirty, is_dirty, moved, is_moved, stats, scratch, .. } = world;
+    stats.moved = dirty.iter().filter(|&&slot| !keys[slot as usize].is_null()).count();
     let bounds = |&slot: &u32| {
         let body = bodies.get(keys[slot as usize]);
         body.map_or(asunder_geometry::Bounds::NOTHING, |body| S::bounds(&body.shape, &body.pose, body.margin))
@@ -32,7 +26,13 @@ pub(super) fn refit<S: Space>(world: &mut World<S>) {
         scratch.refitted.extend(dirty.iter().map(bounds));
     }
     for (&slot, &refitted) in dirty.iter().zip(&scratch.refitted) {
-        boxes[slot as usize] = refitted;
+        let index = slot as usize;
+        boxes[index] = refitted;
+        is_dirty[index] = false;
+        // After an update that overflowed it may stand there still.
+        if !core::mem::replace(&mut is_moved[index], true) {
+            moved.push(slot);
+        }
     }
     dirty.clear();
 }
