@@ -17,10 +17,12 @@
 #![deny(missing_docs)]
 
 mod columns;
+mod index;
 mod pair;
 mod plain;
 mod sweep;
 
+pub use index::Index;
 pub use pair::{PairId, TooManyPairs};
 pub use plain::PlainSweep;
 pub use sweep::Sweep;

@@ -1,0 +1,83 @@
+//! Eight boxes side by side, and what is asked of them.
+
+/// Least corner, then greatest.
+pub(super) type Sides = [f32; 6];
+
+/// Boxes in a node.
+pub(super) const WIDTH: usize = 8;
+
+/// A node: up to eight boxes, the first of them around further nodes. Four cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// A row for each side, so that eight boxes are tested by the same instructions.
+    sides: [[f32; WIDTH]; 6],
+    /// What is in each box: first nodes, then boxes of the caller's, by their numbers.
+    slots: [u32; WIDTH],
+    /// How many are nodes.
+    inner: u32,
+    /// How many there are.
+    used: u32,
+}
+
+impl Node {
+    pub(super) const EMPTY: Self =
+        Self { sides: [[f32::NAN; WIDTH]; 6], slots: [0; WIDTH], inner: 0, used: 0 };
+
+    /// Appends a box. Nodes come first.
+    pub(super) fn push(&mut self, sides: &Sides, slot: u32, is_node: bool) {
+        let at = self.used as usize % WIDTH;
+        for (row, &side) in self.sides.iter_mut().zip(sides) {
+            row[at] = side;
+        }
+        self.slots[at] = slot;
+        self.inner += u32::from(is_node);
+        self.used += 1;
+    }
+
+    /// The nodes and the numbers of boxes that the bits of a mask stand for.
+    #[inline(always)]
+    pub(super) fn parts(&self, mask: u32) -> (Slots<'_>, Slots<'_>) {
+        let nodes = mask & ((1 << self.inner) - 1);
+        (Slots { slots: &self.slots, mask: nodes }, Slots { slots: &self.slots, mask: mask ^ nodes })
+    }
+
+    /// Which of the eight boxes a box overlaps.
+    #[inline(always)]
+    pub(super) fn overlapping(&self, one: &Sides) -> u32 {
+        let mut mask = 0;
+        // An empty slot holds NaN, which compares with nothing.
+        for (lane, bit) in BITS.into_iter().enumerate() {
+            let mut meets = true;
+            for axis in 0..3 {
+                meets &=
+                    (self.sides[axis][lane] <= one[axis + 3]) & (one[axis] <= self.sides[axis + 3][lane]);
+            }
+            mask |= if meets { bit } else { 0 };
+        }
+        mask
+    }
+}
+
+const BITS: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];
+
+/// Some slots of a node, in their order.
+pub(super) struct Slots<'a> {
+    slots: &'a [u32; WIDTH],
+    mask: u32,
+}
+
+impl Iterator for Slots<'_> {
+    /// Which slot, and what is in it.
+    type Item = (usize, u32);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<(usize, u32)> {
+        if self.mask == 0 {
+            return None;
+        }
+        let lane = self.mask.trailing_zeros() as usize % WIDTH;
+        self.mask &= self.mask - 1;
+        Some((lane, self.slots[lane]))
+    }
+}
