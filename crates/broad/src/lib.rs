@@ -22,7 +22,7 @@ mod pair;
 mod plain;
 mod sweep;
 
-pub use index::Index;
+pub use index::{Cast, Found, Index, Queue};
 pub use pair::{PairId, TooManyPairs};
 pub use plain::PlainSweep;
 pub use sweep::Sweep;

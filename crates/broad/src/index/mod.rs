@@ -1,8 +1,15 @@
 //! An index of boxes that rest.
 
 mod build;
+mod cast;
 mod node;
 mod order;
+mod queue;
+mod reach;
+
+pub use cast::Cast;
+pub use queue::Queue;
+pub use reach::Found;
 
 use asunder_geometry::Bounds;
 use core::marker::PhantomData;
@@ -104,7 +111,7 @@ impl<B: Bounds> Index<B> {
         visitor: impl FnMut(u32) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("bmi1") {
+        if is_wide() {
             #[allow(unsafe_code)]
             // SAFETY: the features were asked for.
             return unsafe { self.overlapping_avx2(bounds, visitor) };
@@ -156,4 +163,10 @@ impl<B: Bounds> Default for Index<B> {
 fn sides(bounds: &impl Bounds) -> Sides {
     let ([a, b, c], [d, e, f]) = bounds.corners();
     [a, b, c, d, e, f]
+}
+
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn is_wide() -> bool {
+    std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("bmi1")
 }

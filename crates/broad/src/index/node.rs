@@ -1,5 +1,7 @@
 //! Eight boxes side by side, and what is asked of them.
 
+use super::cast::Cast;
+
 /// Least corner, then greatest.
 pub(super) type Sides = [f32; 6];
 
@@ -56,6 +58,64 @@ impl Node {
             mask |= if meets { bit } else { 0 };
         }
         mask
+    }
+}
+
+/// Which of eight boxes a question is about, and how far each of these is.
+pub(super) struct Far {
+    pub(super) mask: u32,
+    pub(super) distances: [f32; WIDTH],
+}
+
+impl Node {
+    /// Which of the eight boxes are met before the limit, and where.
+    ///
+    /// A NaN comes from a side that is touched all the way, or from two infinite ones, and bounds nothing: comparisons drop it.
+    #[inline(always)]
+    pub(super) fn crossed(&self, cast: &Cast, limit: f32) -> Far {
+        let [mut enter, mut leave] = [[0.0; WIDTH], [limit; WIDTH]];
+        for axis in 0..3 {
+            let (near, far) = (&self.sides[cast.near[axis]], &self.sides[cast.far[axis]]);
+            for lane in 0..WIDTH {
+                let first = (near[lane] - cast.from_near[axis]) * cast.per_near[axis];
+                let last = (far[lane] - cast.from_far[axis]) * cast.per_far[axis];
+                enter[lane] = if first > enter[lane] { first } else { enter[lane] };
+                leave[lane] = if last < leave[lane] { last } else { leave[lane] };
+            }
+        }
+        let mut mask = 0;
+        for lane in 0..WIDTH {
+            mask |= if enter[lane] <= leave[lane] { BITS[lane] } else { 0 };
+        }
+        Far { mask: mask & self.present(), distances: enter }
+    }
+
+    /// Which of the eight boxes are no further than the limit, and the squares of their distances.
+    #[inline(always)]
+    pub(super) fn near(&self, one: &Sides, limit: f32) -> Far {
+        let mut squares = [0.0; WIDTH];
+        for axis in 0..3 {
+            for lane in 0..WIDTH {
+                let (above, below) =
+                    (self.sides[axis][lane] - one[axis + 3], one[axis] - self.sides[axis + 3][lane]);
+                // A NaN comes from two infinite sides, which touch.
+                let gap = if above > 0.0 { above } else { 0.0 };
+                let gap = if below > gap { below } else { gap };
+                squares[lane] += gap * gap;
+            }
+        }
+        let mut mask = 0;
+        for lane in 0..WIDTH {
+            // Denormal squares have lost too much to say who is nearer; infinite ones are limits of what can be told.
+            let square = if squares[lane] >= f32::MIN_POSITIVE { squares[lane] } else { 0.0 };
+            squares[lane] = if square < f32::MAX { square } else { f32::MAX };
+            mask |= if squares[lane] <= limit { BITS[lane] } else { 0 };
+        }
+        Far { mask: mask & self.present(), distances: squares }
+    }
+
+    const fn present(&self) -> u32 {
+        (1 << self.used) - 1
     }
 }
 
