@@ -6,6 +6,8 @@ mod node;
 mod order;
 mod queue;
 mod reach;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 
 pub use cast::Cast;
 pub use queue::Queue;
@@ -116,17 +118,17 @@ impl<B: Bounds> Index<B> {
             // SAFETY: the features were asked for.
             return unsafe { self.overlapping_avx2(bounds, visitor) };
         }
-        self.overlapping_any(bounds, visitor)
+        self.overlapping_any::<false>(bounds, visitor)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,bmi1")]
     fn overlapping_avx2(&self, bounds: &B, visitor: impl FnMut(u32) -> ControlFlow<()>) -> ControlFlow<()> {
-        self.overlapping_any(bounds, visitor)
+        self.overlapping_any::<true>(bounds, visitor)
     }
 
     #[inline(always)]
-    fn overlapping_any(
+    fn overlapping_any<const WIDE: bool>(
         &self,
         bounds: &B,
         mut visitor: impl FnMut(u32) -> ControlFlow<()>,
@@ -140,7 +142,7 @@ impl<B: Bounds> Index<B> {
         while waiting > 0 {
             waiting -= 1;
             let node = &self.nodes[stack[waiting] as usize];
-            let (nodes, boxes) = node.parts(node.overlapping(&sides));
+            let (nodes, boxes) = node.parts(node::overlapping::<WIDE>(node, &sides));
             for (_, number) in boxes {
                 visitor(number)?;
             }

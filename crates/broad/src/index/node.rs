@@ -1,6 +1,8 @@
 //! Eight boxes side by side, and what is asked of them.
 
 use super::cast::Cast;
+#[cfg(target_arch = "x86_64")]
+use super::wide;
 
 /// Least corner, then greatest.
 pub(super) type Sides = [f32; 6];
@@ -13,7 +15,7 @@ pub(super) const WIDTH: usize = 8;
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// A row for each side, so that eight boxes are tested by the same instructions.
-    sides: [[f32; WIDTH]; 6],
+    pub(super) sides: [[f32; WIDTH]; 6],
     /// What is in each box: first nodes, then boxes of the caller's, by their numbers.
     slots: [u32; WIDTH],
     /// How many are nodes.
@@ -47,18 +49,24 @@ impl Node {
     /// Which of the eight boxes a box overlaps.
     #[inline(always)]
     pub(super) fn overlapping(&self, one: &Sides) -> u32 {
-        let mut mask = 0;
         // An empty slot holds NaN, which compares with nothing.
-        for (lane, bit) in BITS.into_iter().enumerate() {
-            let mut meets = true;
-            for axis in 0..3 {
-                meets &=
-                    (self.sides[axis][lane] <= one[axis + 3]) & (one[axis] <= self.sides[axis + 3][lane]);
+        let mut bits = BITS;
+        for axis in 0..3 {
+            let (low, high) = (&self.sides[axis], &self.sides[axis + 3]);
+            for lane in 0..WIDTH {
+                let meets = (low[lane] <= one[axis + 3]) & (one[axis] <= high[lane]);
+                bits[lane] = if meets { bits[lane] } else { 0 };
             }
-            mask |= if meets { bit } else { 0 };
         }
-        mask
+        any(&bits)
     }
+}
+
+/// All bits together, half against half, as lanes are.
+#[inline(always)]
+const fn any(bits: &[u32; WIDTH]) -> u32 {
+    let [a, b, c, d, e, f, g, h] = *bits;
+    ((a | e) | (b | f)) | ((c | g) | (d | h))
 }
 
 /// Which of eight boxes a question is about, and how far each of these is.
@@ -83,11 +91,11 @@ impl Node {
                 leave[lane] = if last < leave[lane] { last } else { leave[lane] };
             }
         }
-        let mut mask = 0;
+        let mut bits = BITS;
         for lane in 0..WIDTH {
-            mask |= if enter[lane] <= leave[lane] { BITS[lane] } else { 0 };
+            bits[lane] = if enter[lane] <= leave[lane] { bits[lane] } else { 0 };
         }
-        Far { mask: mask & self.present(), distances: enter }
+        Far { mask: any(&bits) & self.present(), distances: enter }
     }
 
     /// Which of the eight boxes are no further than the limit, and the squares of their distances.
@@ -104,19 +112,57 @@ impl Node {
                 squares[lane] += gap * gap;
             }
         }
-        let mut mask = 0;
+        let mut bits = BITS;
         for lane in 0..WIDTH {
             // Denormal squares have lost too much to say who is nearer; infinite ones are limits of what can be told.
             let square = if squares[lane] >= f32::MIN_POSITIVE { squares[lane] } else { 0.0 };
             squares[lane] = if square < f32::MAX { square } else { f32::MAX };
-            mask |= if squares[lane] <= limit { BITS[lane] } else { 0 };
+            bits[lane] = if squares[lane] <= limit { bits[lane] } else { 0 };
         }
-        Far { mask: mask & self.present(), distances: squares }
+        Far { mask: any(&bits) & self.present(), distances: squares }
     }
 
-    const fn present(&self) -> u32 {
+    /// A bit for each slot that is used.
+    #[inline(always)]
+    pub(super) const fn present(&self) -> u32 {
         (1 << self.used) - 1
     }
+}
+
+/// [`Node::overlapping`], in AVX2 if `WIDE`; only what was compiled for AVX2 may say so. The same holds for the next two.
+#[inline(always)]
+pub(super) fn overlapping<const WIDE: bool>(node: &Node, one: &Sides) -> u32 {
+    #[cfg(target_arch = "x86_64")]
+    if WIDE {
+        #[allow(unsafe_code)]
+        // SAFETY: we are in code for AVX2.
+        return unsafe { wide::overlapping(node, one) };
+    }
+    node.overlapping(one)
+}
+
+/// [`Node::crossed`].
+#[inline(always)]
+pub(super) fn crossed<const WIDE: bool>(node: &Node, cast: &Cast, limit: f32) -> Far {
+    #[cfg(target_arch = "x86_64")]
+    if WIDE {
+        #[allow(unsafe_code)]
+        // SAFETY: we are in code for AVX2.
+        return unsafe { wide::crossed(node, cast, limit) };
+    }
+    node.crossed(cast, limit)
+}
+
+/// [`Node::near`].
+#[inline(always)]
+pub(super) fn near<const WIDE: bool>(node: &Node, one: &Sides, limit: f32) -> Far {
+    #[cfg(target_arch = "x86_64")]
+    if WIDE {
+        #[allow(unsafe_code)]
+        // SAFETY: we are in code for AVX2.
+        return unsafe { wide::near(node, one, limit) };
+    }
+    node.near(one, limit)
 }
 
 const BITS: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];

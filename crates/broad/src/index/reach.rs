@@ -1,7 +1,7 @@
 //! What is crossed, and what is near: boxes at a distance.
 
 use super::cast::Cast;
-use super::node::{Far, Node, Sides};
+use super::node::{self, Far, Node, Sides};
 use super::queue::{Next, Queue};
 use super::{Index, STACK, sides};
 use asunder_geometry::Bounds;
@@ -26,15 +26,15 @@ pub struct Found {
 
 /// A question about distances: one rule for nodes and boxes, which is monotone, so that no box is nearer than the node around it.
 trait Ask: Copy {
-    fn ask(&self, node: &Node, limit: f32) -> Far;
+    fn ask<const WIDE: bool>(&self, node: &Node, limit: f32) -> Far;
     fn told(&self, within: f32) -> f64;
     fn within(&self, limit: f64) -> f32;
 }
 
 impl Ask for &Cast {
     #[inline(always)]
-    fn ask(&self, node: &Node, limit: f32) -> Far {
-        node.crossed(self, limit)
+    fn ask<const WIDE: bool>(&self, node: &Node, limit: f32) -> Far {
+        node::crossed::<WIDE>(node, self, limit)
     }
 
     #[inline(always)]
@@ -57,8 +57,8 @@ const LOST: f64 = 1.0 / 4_194_304.0;
 
 impl Ask for To {
     #[inline(always)]
-    fn ask(&self, node: &Node, limit: f32) -> Far {
-        node.near(&self.0, limit)
+    fn ask<const WIDE: bool>(&self, node: &Node, limit: f32) -> Far {
+        node::near::<WIDE>(node, &self.0, limit)
     }
 
     #[inline(always)]
@@ -100,7 +100,7 @@ impl<B: Bounds> Index<B> {
             // SAFETY: the features were asked for.
             return unsafe { self.visit_avx2(cast, limit, visitor) };
         }
-        self.visit(cast, limit, visitor)
+        self.visit::<false>(cast, limit, visitor)
     }
 
     /// Hands boxes that are crossed to `visitor` in order of distance, then of number. What it returns is the limit from then on:
@@ -132,9 +132,9 @@ impl<B: Bounds> Index<B> {
         if super::is_wide() {
             #[allow(unsafe_code)]
             // SAFETY: the features were asked for.
-            return unsafe { self.in_order_avx2(cast, limit, queue, visitor) };
+            return unsafe { self.in_order_avx2(cast, (limit, false), queue, visitor) };
         }
-        self.in_order(cast, limit, queue, visitor);
+        self.in_order::<false>(cast, (limit, false), queue, visitor);
     }
 
     /// Replaces `into` by the boxes nearest to a box, at most `count`, in order of distance, then of number. A point is a flat box.
@@ -156,7 +156,7 @@ impl<B: Bounds> Index<B> {
         if count == 0 {
             return;
         }
-        self.nearest_in_order(to, f64::INFINITY, queue, |found| {
+        self.nearest_of(to, (f64::INFINITY, count == 1), queue, |found| {
             into.push(found);
             if into.len() < count { f64::INFINITY } else { -1.0 }
         });
@@ -180,6 +180,17 @@ impl<B: Bounds> Index<B> {
     /// assert_eq!(seen, [1, 2]);
     /// ```
     pub fn nearest_in_order(&self, to: &B, limit: f64, queue: &mut Queue, visitor: impl FnMut(Found) -> f64) {
+        self.nearest_of(to, (limit, false), queue, visitor);
+    }
+
+    #[inline]
+    fn nearest_of(
+        &self,
+        to: &B,
+        limit: (f64, bool),
+        queue: &mut Queue,
+        visitor: impl FnMut(Found) -> f64,
+    ) {
         if !to.is_valid() {
             return;
         }
@@ -190,7 +201,7 @@ impl<B: Bounds> Index<B> {
             // SAFETY: the features were asked for.
             return unsafe { self.in_order_avx2(to, limit, queue, visitor) };
         }
-        self.in_order(to, limit, queue, visitor);
+        self.in_order::<false>(to, limit, queue, visitor);
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -201,7 +212,7 @@ impl<B: Bounds> Index<B> {
         limit: f64,
         visitor: impl FnMut(Found) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        self.visit(asked, limit, visitor)
+        self.visit::<true>(asked, limit, visitor)
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -209,15 +220,15 @@ impl<B: Bounds> Index<B> {
     fn in_order_avx2(
         &self,
         asked: impl Ask,
-        limit: f64,
+        limit: (f64, bool),
         queue: &mut Queue,
         visitor: impl FnMut(Found) -> f64,
     ) {
-        self.in_order(asked, limit, queue, visitor);
+        self.in_order::<true>(asked, limit, queue, visitor);
     }
 
     #[inline(always)]
-    fn visit(
+    fn visit<const WIDE: bool>(
         &self,
         asked: impl Ask,
         limit: f64,
@@ -232,7 +243,7 @@ impl<B: Bounds> Index<B> {
         while waiting > 0 {
             waiting -= 1;
             let node = &self.nodes[stack[waiting] as usize];
-            let Far { mask, distances } = asked.ask(node, limit);
+            let Far { mask, distances } = asked.ask::<WIDE>(node, limit);
             let (nodes, boxes) = node.parts(mask);
             for (lane, number) in boxes {
                 visitor(Found { distance: asked.told(distances[lane]), number })?;
@@ -247,39 +258,59 @@ impl<B: Bounds> Index<B> {
 
     /// Best first: whatever is nearest is next, be it a node to look into or a box to hand over (Hjaltason and Samet, "Distance
     /// browsing in spatial databases", 1999). At equal distances nodes come first, as they may hold a box with a lesser number.
+    ///
+    /// Two shortcuts: the nearest part of a node, if nothing that waits is nearer, is next without having waited; and where one box
+    /// is wanted, nothing waits that is further than a box that was seen.
     #[inline(always)]
-    fn in_order(
+    fn in_order<const WIDE: bool>(
         &self,
         asked: impl Ask,
-        limit: f64,
+        (limit, is_one_wanted): (f64, bool),
         queue: &mut Queue,
         mut visitor: impl FnMut(Found) -> f64,
     ) {
         let mut limit = asked.within(limit);
         queue.clear();
-        if self.nodes.is_empty() || limit < 0.0 {
-            return;
-        }
-        queue.push(0.0, 0, false);
-        while let Some(next) = queue.pop(limit) {
-            match next {
-                Next::Node(number) => {
-                    let node = &self.nodes[number as usize];
-                    let Far { mask, distances } = asked.ask(node, limit);
-                    let (nodes, boxes) = node.parts(mask);
-                    for (lane, child) in nodes {
-                        queue.push(distances[lane], child, false);
-                    }
-                    for (lane, number) in boxes {
-                        queue.push(distances[lane], number, true);
-                    }
+        let mut next = if self.nodes.is_empty() { None } else { Some(Next::node(0.0, 0)) };
+        while let Some(one) = next.filter(|next| next.distance() <= limit) {
+            if let Some(number) = one.boxed() {
+                // A limit that grows would find what was dropped before only in part.
+                let found = Found { distance: asked.told(one.distance()), number };
+                let wanted = asked.within(visitor(found));
+                limit = if wanted < limit { wanted } else { limit };
+                next = queue.pop();
+                continue;
+            }
+            let node = &self.nodes[one.number() as usize];
+            let Far { mask, distances } = asked.ask::<WIDE>(node, limit);
+            let (nodes, boxes) = node.parts(mask);
+            let mut nearest = None;
+            let mut see = |seen: Next| match &mut nearest {
+                None => nearest = Some(seen),
+                Some(nearest) => {
+                    queue.push(seen.max(*nearest));
+                    *nearest = seen.min(*nearest);
                 }
-                Next::Box(number, distance) => {
-                    // A limit that grows would find what was dropped before only in part.
-                    let wanted = asked.within(visitor(Found { distance: asked.told(distance), number }));
-                    limit = if wanted < limit { wanted } else { limit };
+            };
+            for (lane, number) in boxes {
+                see(Next::boxed_at(distances[lane], number));
+                if is_one_wanted && distances[lane] < limit {
+                    limit = distances[lane];
                 }
             }
+            for (lane, child) in nodes {
+                if distances[lane] <= limit {
+                    see(Next::node(distances[lane], child));
+                }
+            }
+            next = match (nearest, queue.peek()) {
+                (Some(nearest), Some(waiting)) if waiting < nearest => {
+                    queue.push(nearest);
+                    queue.pop()
+                }
+                (None, _) => queue.pop(),
+                (nearest, _) => nearest,
+            };
         }
     }
 }
