@@ -184,13 +184,7 @@ impl<B: Bounds> Index<B> {
     }
 
     #[inline]
-    fn nearest_of(
-        &self,
-        to: &B,
-        limit: (f64, bool),
-        queue: &mut Queue,
-        visitor: impl FnMut(Found) -> f64,
-    ) {
+    fn nearest_of(&self, to: &B, limit: (f64, bool), queue: &mut Queue, visitor: impl FnMut(Found) -> f64) {
         if !to.is_valid() {
             return;
         }

@@ -74,8 +74,20 @@ mod tests {
     use super::*;
     use asunder_geometry::{Aabb3, Ray3, glam::Vec3};
 
-    const SIDES: [f32; 12] =
-        [f32::NEG_INFINITY, f32::MIN, -7.5, -1.0, -1e-40, -0.0, 0.0, 1e-30, 1.0, 1.000_000_1, f32::MAX, f32::INFINITY];
+    const SIDES: [f32; 12] = [
+        f32::NEG_INFINITY,
+        f32::MIN,
+        -7.5,
+        -1.0,
+        -1e-40,
+        -0.0,
+        0.0,
+        1e-30,
+        1.0,
+        1.000_000_1,
+        f32::MAX,
+        f32::INFINITY,
+    ];
 
     /// Boxes from a simple generator, some inverted, some empty slots.
     fn nodes() -> Vec<Node> {
@@ -104,11 +116,19 @@ mod tests {
             assert_eq!(one.mask, other.mask);
             assert_eq!(one.distances.map(f32::to_bits), other.distances.map(f32::to_bits));
         };
-        let directions = [Vec3::X, -Vec3::Y, Vec3::ZERO, Vec3::new(1.0, -1e-30, 3.0), Vec3::new(-1e-38, 0.0, 1e-40)];
+        let directions =
+            [Vec3::X, -Vec3::Y, Vec3::ZERO, Vec3::new(1.0, -1e-30, 3.0), Vec3::new(-1e-38, 0.0, 1e-40)];
         let mut met = [0; 3];
         for (index, node) in nodes().iter().enumerate() {
             let pick = |by: usize| SIDES[(index / by) % SIDES.len()];
-            let sides = [pick(1), pick(2), pick(3), pick(1).max(pick(5)), pick(2).max(pick(7)), pick(3).max(pick(11))];
+            let sides = [
+                pick(1),
+                pick(2),
+                pick(3),
+                pick(1).max(pick(5)),
+                pick(2).max(pick(7)),
+                pick(3).max(pick(11)),
+            ];
             let direction = directions[index % directions.len()];
             let bounds = Aabb3::new(Vec3::from_slice(&sides[..3]), Vec3::from_slice(&sides[3..]));
             let ray = Ray3::new([f64::from(pick(1)).clamp(-9.0, 9.0), 0.1, 0.0], Vec3::ONE - direction);
