@@ -1,4 +1,31 @@
-//! An index of boxes that rest.
+//! An index of boxes that rest: a tree of eight boxes a node along a Z-order curve.
+//!
+//! ```text
+//! build    sort boxes by the Z-order code of their centres, giants among them apart (order)
+//!          a node: split its part of the order at the highest bit that differs, the largest piece first,
+//!          until there are eight pieces or none has more than eight boxes; pieces become nodes, or lie in this one if they fit
+//!          boxes that no code tells apart are sorted again by codes of their own; if that fails, split by count
+//! overlap  test the eight boxes of a node at once; hand over boxes; put nodes on a stack
+//! order    test the eight boxes of a node at once; whatever is nearest is next: a node is looked into, a box is handed over
+//! ```
+//! Lauterbach et al., "Fast BVH construction on GPUs" (2009), for the order; Wald, Benthin and Boulos, "Getting rid of packets"
+//! (2008), for wide nodes; Ize, "Robust BVH ray traversal" (2013), for bounds that lose no box.
+//!
+//! What each part buys (AMD EPYC Zen 4, 2026-11-21; a box asked of 100,000 in `gas`, unless said otherwise):
+//! 1. Eight boxes a node in rows: one instruction tests eight. A node is four cache lines, and it is their misses that take the time.
+//! 2. AVX2 by hand (wide): 1.2 to 1.4 times. The compiler makes four lanes and four single ones of the loops.
+//! 3. A sort instead of splits by cost: built in 42 ns a box, where parry3d's binned build takes 450 to 500, and faster to ask.
+//! 4. Giants apart: a floor, and half-spaces, cost a question one node, instead of widening the nodes of their neighbours.
+//! 5. Small pieces lie in their parent: fewer nodes, and none that holds a single box.
+//! 6. One rule for nodes and boxes, monotone under rounding: no box is lost between levels, and no margin is needed for that.
+//! 7. The nearest piece goes on without waiting, and for one nearest box nothing waits that is further than a box seen: what is
+//!    nearest took 930 ns with a plain queue, and takes 570.
+//!
+//! Tried: the columns of the sweep (`crate::columns`) as the index. In their best case, a grid of boxes with one size for all, which
+//! knows the greatest, a box of the scene's own size takes 172 ns in `gas`, 136 among a million, 80 in `city`; the tree takes 148, 149
+//! and 67. In `pile`, `sizes` and `islands` such a grid takes 835, 487 and 6207 ns, the tree 304, 165 and 333; and it has no order of
+//! distance. So there is a second index. Tried: many questions at once, sorted along a curve: 1.1 to 1.3 times, which is what their
+//! sort costs. Who has questions in such an order anyway should ask them in it.
 
 mod build;
 mod cast;
@@ -51,7 +78,7 @@ impl<B: Bounds> Index<B> {
 
     /// Forgets all boxes, and takes these instead. Boxes that are empty sets are never found.
     ///
-    /// At most 2^31 boxes. Cost: about 40 ns a box; 70 bytes a box, of which 16 are scratch memory.
+    /// Only the first 2^31 boxes are looked at. Cost: about 45 ns a box, and 80 bytes a box, of which 16 are scratch memory.
     pub fn build(&mut self, boxes: &[B]) {
         self.build_from(boxes, |_| true);
     }
@@ -70,9 +97,11 @@ impl<B: Bounds> Index<B> {
     /// ```
     pub fn build_from(&mut self, boxes: &[B], mut keep: impl FnMut(u32) -> bool) {
         self.items.clear();
-        let numbers = (0_u32..).zip(boxes).filter(|(number, one)| one.is_valid() && keep(*number));
+        let numbers = (0_u32..1 << 31).zip(boxes).filter(|(number, one)| one.is_valid() && keep(*number));
         self.items.extend(numbers.map(|(number, _)| u64::from(number)));
         self.nodes.clear();
+        // There are 0.23 nodes a box, more or less, in all scenes; twice the memory if the vector had to find out.
+        self.nodes.reserve(self.items.len() / 4 + 1);
         let sides = |number: u32| sides(&boxes[number as usize]);
         let (items, scratch, nodes) = (&mut self.items, &mut self.scratch, &mut self.nodes);
         build::Builder { sides, items, scratch, nodes }.build();

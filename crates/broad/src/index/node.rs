@@ -103,13 +103,13 @@ impl Node {
     pub(super) fn near(&self, one: &Sides, limit: f32) -> Far {
         let mut squares = [0.0; WIDTH];
         for axis in 0..3 {
-            for lane in 0..WIDTH {
-                let (above, below) =
-                    (self.sides[axis][lane] - one[axis + 3], one[axis] - self.sides[axis + 3][lane]);
+            let (low, high) = (&self.sides[axis], &self.sides[axis + 3]);
+            for (lane, square) in squares.iter_mut().enumerate() {
+                let (above, below) = (low[lane] - one[axis + 3], one[axis] - high[lane]);
                 // A NaN comes from two infinite sides, which touch.
                 let gap = if above > 0.0 { above } else { 0.0 };
                 let gap = if below > gap { below } else { gap };
-                squares[lane] += gap * gap;
+                *square += gap * gap;
             }
         }
         let mut bits = BITS;

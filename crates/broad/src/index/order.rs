@@ -24,8 +24,16 @@ const GIANT: f64 = 4.0;
 /// Boxes of which none is a giant: too few for it to matter.
 const FEW: usize = 64;
 
+/// So few boxes are sorted along one axis: to lay a curve through them costs some microseconds. A long row of boxes, of which
+/// only so many have a key of their own, makes many such handfuls.
+const HANDFUL: usize = 24;
+
 /// Sorts the boxes along the curve, giants behind all others in no useful order; returns how many are none.
 pub(super) fn sort(items: &mut [Item], scratch: &mut Scratch, sides: impl Fn(u32) -> Sides) -> usize {
+    if items.len() <= HANDFUL {
+        line(items, &sides);
+        return items.len();
+    }
     let curve = Curve::through(items, &sides);
     scratch.others.clear();
     let (mut ordinary, most) = (0, if items.len() > FEW { curve.giant } else { f32::INFINITY });
@@ -54,6 +62,37 @@ pub(super) fn sort(items: &mut [Item], scratch: &mut Scratch, sides: impl Fn(u32
     ordinary
 }
 
+/// Sorts boxes by their centres on the axis on which these lie furthest apart.
+fn line(items: &mut [Item], sides: &impl Fn(u32) -> Sides) {
+    let (low, high) = centers(items, sides);
+    let width = |axis: usize| f64::from(high[axis]) - f64::from(low[axis]);
+    let axis = (0..3).max_by(|&a, &b| width(a).total_cmp(&width(b))).unwrap_or(0);
+    for item in &mut *items {
+        let number = *item as u32;
+        let bits = center(&sides(number), axis).to_bits();
+        // In the order of numbers: below 0, all bits are turned; above, the sign.
+        let key = bits ^ if bits >> 31 == 0 { 1 << 31 } else { u32::MAX };
+        *item = u64::from(key) << 32 | u64::from(number);
+    }
+    items.sort_unstable();
+}
+
+/// Least and greatest centres on each axis, of boxes that have one.
+fn centers(items: &[Item], sides: &impl Fn(u32) -> Sides) -> ([f32; 3], [f32; 3]) {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for &item in items {
+        let one = sides(item as u32);
+        for axis in 0..3 {
+            let center = center(&one, axis);
+            if center.abs() <= f32::MAX {
+                low[axis] = if center < low[axis] { center } else { low[axis] };
+                high[axis] = if center > high[axis] { center } else { high[axis] };
+            }
+        }
+    }
+    (low, high)
+}
+
 /// Centre of a box on an axis; NaN or infinite if the box has none.
 #[inline(always)]
 fn center(sides: &Sides, axis: usize) -> f32 {
@@ -72,17 +111,7 @@ struct Curve {
 
 impl Curve {
     fn through(items: &[Item], sides: &impl Fn(u32) -> Sides) -> Self {
-        let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-        for &item in items {
-            let one = sides(item as u32);
-            for axis in 0..3 {
-                let center = center(&one, axis);
-                if center.abs() <= f32::MAX {
-                    low[axis] = if center < low[axis] { center } else { low[axis] };
-                    high[axis] = if center > high[axis] { center } else { high[axis] };
-                }
-            }
-        }
+        let (low, high) = centers(items, sides);
         let mut curve = Self { low, scale: [0.0; 3], bits: 0, giant: 0.0, spread: [[[0; 256]; 2]; 3] };
         let mut cell = [0.0; 3];
         for axis in 0..3 {
@@ -102,7 +131,7 @@ impl Curve {
         let (mut taken, mut halved) = ([0; 3], [0_u8; MOST_BITS]);
         let most = (nodes as usize + 9).min(MOST_BITS);
         let longest = |cell: &[f64; 3]| (0..3).max_by(|&a, &b| cell[a].total_cmp(&cell[b])).unwrap_or(0);
-        for bit in 0..most {
+        for (bit, halved) in halved.iter_mut().take(most).enumerate() {
             let axis = longest(&cell);
             if bit == nodes as usize {
                 self.giant = (cell[axis] * GIANT) as f32;
@@ -110,7 +139,7 @@ impl Curve {
             if cell[axis] == 0.0 {
                 break;
             }
-            halved[bit] = axis as u8;
+            *halved = axis as u8;
             taken[axis] += 1;
             cell[axis] = if taken[axis] < COORDINATE { cell[axis] * 0.5 } else { 0.0 };
             self.bits += 1;
