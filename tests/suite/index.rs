@@ -169,6 +169,18 @@ fn overlaps_in_clusters_in_clusters() {
     assert!(found > 100_000, "{found} overlaps");
 }
 
+/// Nine boxes at each power of two, on both sides of zero: whoever halves the room takes off one power at a time, and goes deep.
+#[test]
+fn overlaps_of_boxes_that_halve_the_way() {
+    let powers = (1..255).map(|exponent| f32::from_bits(exponent << 23)).flat_map(|power| [power, -power]);
+    let boxes: Vec<Aabb3> =
+        powers.flat_map(|power| [Aabb3::new(Vec3::splat(power), Vec3::splat(power)); 9]).collect();
+    let all = Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
+    let asked: Vec<Aabb3> = boxes.iter().step_by(9).copied().chain([all]).collect();
+    // Nine of nine and six of nine at every place, and all of both.
+    assert_eq!(check_all(&boxes, &asked), 508 * (9 + 6) * 2);
+}
+
 #[test]
 fn an_index_remembers_nothing() {
     let mut random = Random::new(813);
