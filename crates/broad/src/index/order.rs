@@ -119,7 +119,7 @@ impl Curve {
             // No box has a centre here, or all have the same.
             if width > 0.0 {
                 cell[axis] = width;
-                curve.scale[axis] = (65_536.0 / width).min(1e30) as f32;
+                curve.scale[axis] = (65_536.0 / width).min(f64::from(f32::MAX)) as f32;
             }
         }
         curve.halve(cell, items.len());
