@@ -13,6 +13,7 @@
 //!
 //! Broad phase
 //! - [`broad`]: exactly the pairs of a double loop, each once, in order, for any boxes whatever
+//! - [`index`]: exactly the boxes of a loop, near enough, crossed or overlapped, in order of distance
 //!
 //! Narrow phase
 //! - [`separation`]: every separation and distance is right within its own error; closest points lie on the shapes
@@ -54,6 +55,7 @@ mod fuzzed;
 mod hard;
 mod hints;
 mod hulls;
+mod index;
 mod invariance;
 mod manifolds;
 mod mass;

@@ -24,7 +24,7 @@ mod plain;
 mod sweep;
 
 pub use coherent::CoherentSweep;
-pub use index::Index;
+pub use index::{Cast, Found, Index, Queue};
 pub use pair::{PairId, TooManyPairs};
 pub use plain::PlainSweep;
 pub use sweep::Sweep;

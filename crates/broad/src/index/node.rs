@@ -1,0 +1,189 @@
+//! Eight boxes side by side, and what is asked of them.
+
+use super::cast::Cast;
+#[cfg(target_arch = "x86_64")]
+use super::wide;
+
+/// Least corner, then greatest.
+pub(super) type Sides = [f32; 6];
+
+/// Boxes in a node.
+pub(super) const WIDTH: usize = 8;
+
+/// A node: up to eight boxes, the first of them around further nodes. Four cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// A row for each side, so that eight boxes are tested by the same instructions.
+    pub(super) sides: [[f32; WIDTH]; 6],
+    /// What is in each box: first nodes, then boxes of the caller's, by their numbers.
+    slots: [u32; WIDTH],
+    /// How many are nodes.
+    inner: u32,
+    /// How many there are.
+    used: u32,
+}
+
+impl Node {
+    pub(super) const EMPTY: Self =
+        Self { sides: [[f32::NAN; WIDTH]; 6], slots: [0; WIDTH], inner: 0, used: 0 };
+
+    /// Appends a box. Nodes come first.
+    pub(super) fn push(&mut self, sides: &Sides, slot: u32, is_node: bool) {
+        let at = self.used as usize % WIDTH;
+        for (row, &side) in self.sides.iter_mut().zip(sides) {
+            row[at] = side;
+        }
+        self.slots[at] = slot;
+        self.inner += u32::from(is_node);
+        self.used += 1;
+    }
+
+    /// The nodes and the numbers of boxes that the bits of a mask stand for.
+    #[inline(always)]
+    pub(super) fn parts(&self, mask: u32) -> (Slots<'_>, Slots<'_>) {
+        let nodes = mask & ((1 << self.inner) - 1);
+        (Slots { slots: &self.slots, mask: nodes }, Slots { slots: &self.slots, mask: mask ^ nodes })
+    }
+
+    /// Which of the eight boxes a box overlaps.
+    #[inline(always)]
+    pub(super) fn overlapping(&self, one: &Sides) -> u32 {
+        // An empty slot holds NaN, which compares with nothing.
+        let mut bits = BITS;
+        for axis in 0..3 {
+            let (low, high) = (&self.sides[axis], &self.sides[axis + 3]);
+            for lane in 0..WIDTH {
+                let meets = (low[lane] <= one[axis + 3]) & (one[axis] <= high[lane]);
+                bits[lane] = if meets { bits[lane] } else { 0 };
+            }
+        }
+        any(&bits)
+    }
+}
+
+/// All bits together, half against half, as lanes are.
+#[inline(always)]
+const fn any(bits: &[u32; WIDTH]) -> u32 {
+    let [a, b, c, d, e, f, g, h] = *bits;
+    ((a | e) | (b | f)) | ((c | g) | (d | h))
+}
+
+/// Which of eight boxes a question is about, and how far each of these is.
+pub(super) struct Far {
+    pub(super) mask: u32,
+    pub(super) distances: [f32; WIDTH],
+}
+
+impl Node {
+    /// Which of the eight boxes are met before the limit, and where.
+    ///
+    /// A NaN comes from a side that is touched all the way, or from two infinite ones, and bounds nothing: comparisons drop it.
+    #[inline(always)]
+    pub(super) fn crossed(&self, cast: &Cast, limit: f32) -> Far {
+        let [mut enter, mut leave] = [[0.0; WIDTH], [limit; WIDTH]];
+        for axis in 0..3 {
+            let (near, far) = (&self.sides[cast.near[axis]], &self.sides[cast.far[axis]]);
+            for lane in 0..WIDTH {
+                let first = (near[lane] - cast.from_near[axis]) * cast.per_near[axis];
+                let last = (far[lane] - cast.from_far[axis]) * cast.per_far[axis];
+                enter[lane] = if first > enter[lane] { first } else { enter[lane] };
+                leave[lane] = if last < leave[lane] { last } else { leave[lane] };
+            }
+        }
+        let mut bits = BITS;
+        for lane in 0..WIDTH {
+            bits[lane] = if enter[lane] <= leave[lane] { bits[lane] } else { 0 };
+        }
+        Far { mask: any(&bits) & self.present(), distances: enter }
+    }
+
+    /// Which of the eight boxes are no further than the limit, and the squares of their distances.
+    #[inline(always)]
+    pub(super) fn near(&self, one: &Sides, limit: f32) -> Far {
+        let mut squares = [0.0; WIDTH];
+        for axis in 0..3 {
+            let (low, high) = (&self.sides[axis], &self.sides[axis + 3]);
+            for (lane, square) in squares.iter_mut().enumerate() {
+                let (above, below) = (low[lane] - one[axis + 3], one[axis] - high[lane]);
+                // A NaN comes from two infinite sides, which touch.
+                let gap = if above > 0.0 { above } else { 0.0 };
+                let gap = if below > gap { below } else { gap };
+                *square += gap * gap;
+            }
+        }
+        let mut bits = BITS;
+        for lane in 0..WIDTH {
+            // Denormal squares have lost too much to say who is nearer; infinite ones are limits of what can be told.
+            let square = if squares[lane] >= f32::MIN_POSITIVE { squares[lane] } else { 0.0 };
+            squares[lane] = if square < f32::MAX { square } else { f32::MAX };
+            bits[lane] = if squares[lane] <= limit { bits[lane] } else { 0 };
+        }
+        Far { mask: any(&bits) & self.present(), distances: squares }
+    }
+
+    /// A bit for each slot that is used.
+    #[inline(always)]
+    pub(super) const fn present(&self) -> u32 {
+        (1 << self.used) - 1
+    }
+}
+
+/// [`Node::overlapping`], in AVX2 if `WIDE`; only what was compiled for AVX2 may say so. The same holds for the next two.
+#[inline(always)]
+pub(super) fn overlapping<const WIDE: bool>(node: &Node, one: &Sides) -> u32 {
+    #[cfg(target_arch = "x86_64")]
+    if WIDE {
+        #[allow(unsafe_code)]
+        // SAFETY: we are in code for AVX2.
+        return unsafe { wide::overlapping(node, one) };
+    }
+    node.overlapping(one)
+}
+
+/// [`Node::crossed`].
+#[inline(always)]
+pub(super) fn crossed<const WIDE: bool>(node: &Node, cast: &Cast, limit: f32) -> Far {
+    #[cfg(target_arch = "x86_64")]
+    if WIDE {
+        #[allow(unsafe_code)]
+        // SAFETY: we are in code for AVX2.
+        return unsafe { wide::crossed(node, cast, limit) };
+    }
+    node.crossed(cast, limit)
+}
+
+/// [`Node::near`].
+#[inline(always)]
+pub(super) fn near<const WIDE: bool>(node: &Node, one: &Sides, limit: f32) -> Far {
+    #[cfg(target_arch = "x86_64")]
+    if WIDE {
+        #[allow(unsafe_code)]
+        // SAFETY: we are in code for AVX2.
+        return unsafe { wide::near(node, one, limit) };
+    }
+    node.near(one, limit)
+}
+
+const BITS: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];
+
+/// Some slots of a node, in their order.
+pub(super) struct Slots<'a> {
+    slots: &'a [u32; WIDTH],
+    mask: u32,
+}
+
+impl Iterator for Slots<'_> {
+    /// Which slot, and what is in it.
+    type Item = (usize, u32);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<(usize, u32)> {
+        if self.mask == 0 {
+            return None;
+        }
+        let lane = self.mask.trailing_zeros() as usize % WIDTH;
+        self.mask &= self.mask - 1;
+        Some((lane, self.slots[lane]))
+    }
+}
