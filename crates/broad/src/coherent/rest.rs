@@ -6,7 +6,7 @@ use crate::columns::{Columns, Stretch, owned};
 use crate::index::Index;
 use crate::pair::PairId;
 use crate::sweep::rows::Strips;
-use crate::sweep::wide::{self, Kernel};
+use crate::sweep::wide::{self, Kernel, Width};
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 
@@ -153,7 +153,7 @@ impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
     type Output = bool;
 
     #[inline(always)]
-    fn run<const WIDE: bool>(self) -> bool {
+    fn run<W: Width>(self, width: W) -> bool {
         let Self { grid, part, strips, boxes, movers, states, longest, asked, visit } = self;
         asked.clear();
         for &mover in movers {
@@ -168,7 +168,7 @@ impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
         for &(mover, codes, stretch) in &*asked {
             let entries = part.entries();
             let range = stretch.start as usize..stretch.end as usize;
-            strips.meet::<WIDE>(&codes, range, |index, is_close| {
+            strips.meet(width, &codes, range, |index, is_close| {
                 let (place, _, is_ours) = owned(entries[index].place, stretch.home);
                 if is_ours && states[place as usize] == State::Rests && goes_on {
                     let overlap = !is_close || boxes[mover as usize].overlaps(&boxes[place as usize]);

@@ -2,7 +2,7 @@
 
 use super::rows::{HITS, Hit, Progress, Strips};
 use super::settle::{NO_PAIRS, Names, Question};
-use super::wide::{self, Kernel};
+use super::wide::{self, Kernel, Width};
 use crate::columns::codes::Entry;
 use crate::columns::grid::Grid;
 use crate::columns::{ColumnEntries, Columns, PLACE};
@@ -66,8 +66,8 @@ where
     type Output = ControlFlow<()>;
 
     #[inline(always)]
-    fn run<const WIDE: bool>(self) -> ControlFlow<()> {
-        self.sweep::<WIDE, false>(None, 0)
+    fn run<W: Width>(self, width: W) -> ControlFlow<()> {
+        self.sweep::<W, false>(width, (None, 0))
     }
 }
 
@@ -87,8 +87,8 @@ where
     type Output = ControlFlow<()>;
 
     #[inline(always)]
-    fn run<const WIDE: bool>(self) -> ControlFlow<()> {
-        self.level.sweep::<WIDE, true>(Some(&self.names), self.depth)
+    fn run<W: Width>(self, width: W) -> ControlFlow<()> {
+        self.level.sweep::<W, true>(width, (Some(&self.names), self.depth))
     }
 }
 
@@ -99,10 +99,10 @@ where
     S: FnMut(&[PairId]) -> ControlFlow<()>,
 {
     #[inline(always)]
-    fn sweep<const WIDE: bool, const NESTED: bool>(
+    fn sweep<W: Width, const NESTED: bool>(
         self,
-        names: Option<&Names<'_>>,
-        depth: usize,
+        width: W,
+        (names, depth): (Option<&Names<'_>>, usize),
     ) -> ControlFlow<()> {
         let Level { parts, grid, range, question, scratch } = self;
         let Scratch { strips, gathered, nested } = scratch;
@@ -131,7 +131,7 @@ where
             strips.fill(column.entries);
             let mut progress = Progress::default();
             loop {
-                let count = strips.sweep::<WIDE>(&column, grid, &mut progress, &mut hits);
+                let count = strips.sweep(width, (&column, grid), &mut progress, &mut hits);
                 if count == 0 {
                     break;
                 }

@@ -52,7 +52,7 @@ use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 use level::{Level, Scratch};
 use settle::Question;
-use wide::Kernel;
+use wide::{Kernel, Width};
 
 /// All overlapping pairs of boxes. Keep one between frames so that a steady scene allocates nothing.
 ///
@@ -195,7 +195,7 @@ impl<B: Bounds> Kernel for Sort<'_, B> {
     type Output = Grid;
 
     #[inline(always)]
-    fn run<const WIDE: bool>(self) -> Grid {
+    fn run<W: Width>(self, _: W) -> Grid {
         let Self { boxes, columns } = self;
         let grid = Grid::for_boxes(boxes.len(), |place| boxes[place]);
         columns.fill(grid, boxes.len(), |place| boxes[place])

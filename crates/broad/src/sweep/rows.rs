@@ -1,5 +1,6 @@
 //! One column, swept sixteen boxes at a time.
 
+use super::wide::Width;
 use crate::columns::ColumnEntries;
 use crate::columns::codes::{Codes, Entry};
 use crate::columns::grid::Grid;
@@ -85,10 +86,10 @@ impl Strips {
 
     /// Goes on until all rows are swept or `hits` is full; returns how many hits there are, or none at the end.
     #[inline(always)]
-    pub(crate) fn sweep<const WIDE: bool>(
+    pub(crate) fn sweep<W: Width>(
         &self,
-        column: &ColumnEntries,
-        grid: &Grid,
+        width: W,
+        (column, grid): (&ColumnEntries, &Grid),
         progress: &mut Progress,
         hits: &mut [Hit; HITS],
     ) -> usize {
@@ -107,7 +108,7 @@ impl Strips {
                     return found;
                 }
                 let Some(strips) = lanes(strips, next) else { break };
-                let lanes = overlapping::<WIDE>(&codes, strips);
+                let lanes = overlapping(width, &codes, strips);
                 hits[found] = Hit { row: row as u32, first: next as u32, lanes };
                 found += usize::from(lanes & MAY != 0);
                 next += LANES;
@@ -121,8 +122,9 @@ impl Strips {
 impl Strips {
     /// Hands over the boxes from `start` to `end` that codes do not part from a box, and whether codes cannot tell.
     #[inline(always)]
-    pub(crate) fn meet<const WIDE: bool>(
+    pub(crate) fn meet<W: Width>(
         &self,
+        width: W,
         codes: &Codes,
         range: Range<usize>,
         mut visit: impl FnMut(usize, bool),
@@ -130,7 +132,7 @@ impl Strips {
         let [a, b, c, d, e, f] = &self.strips;
         for first in range.clone().step_by(LANES) {
             let Some(strips) = lanes([a, b, c, d, e, f], first) else { break };
-            let mut hit = Hit { row: 0, first: first as u32, lanes: overlapping::<WIDE>(codes, strips) };
+            let mut hit = Hit { row: 0, first: first as u32, lanes: overlapping(width, codes, strips) };
             while !hit.is_done() {
                 let (index, is_close, rest) = hit.next();
                 if (index as usize) < range.end {
@@ -171,7 +173,7 @@ const BITS: [i16; LANES] = {
 /// Which of sixteen boxes one overlaps, as far as codes can tell: in every 16 bits the lower byte has the lanes that may overlap, the
 /// upper byte those of them of which codes cannot tell.
 #[inline(always)]
-fn overlapping<const WIDE: bool>(one: &Codes, others: [&[i16; LANES]; 6]) -> u32 {
+fn overlapping<W: Width>(width: W, one: &Codes, others: [&[i16; LANES]; 6]) -> u32 {
     let mut gaps = [0; LANES];
     for lane in 0..LANES {
         let on = |axis: usize| {
@@ -180,11 +182,12 @@ fn overlapping<const WIDE: bool>(one: &Codes, others: [&[i16; LANES]; 6]) -> u32
         };
         gaps[lane] = on(0).max(on(1)).max(on(2));
     }
-    if WIDE {
-        #[cfg(target_arch = "x86_64")]
-        #[allow(unsafe_code)]
-        return unsafe { sides_of_zero(&gaps) };
-    }
+    width.mask(&gaps)
+}
+
+/// The mask of a hit from gaps between codes: below zero two boxes overlap, above zero they do not, and at zero codes cannot tell.
+#[inline(always)]
+pub(super) fn gaps_to_mask(gaps: &[i16; LANES]) -> u32 {
     let [mut may, mut close] = [0; 2];
     for lane in 0..LANES {
         let is_no_gap = gaps[lane].saturating_sub(1) >> 15;
@@ -195,22 +198,9 @@ fn overlapping<const WIDE: bool>(one: &Codes, others: [&[i16; LANES]; 6]) -> u32
     spread(may) | spread(close) << 8
 }
 
-/// The same in AVX2.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-#[inline]
-fn sides_of_zero(g: &[i16; LANES]) -> u32 {
-    use core::arch::x86_64::*;
-    let gaps = _mm256_set_epi16(
-        g[15], g[14], g[13], g[12], g[11], g[10], g[9], g[8], g[7], g[6], g[5], g[4], g[3], g[2], g[1], g[0],
-    );
-    let zero = _mm256_setzero_si256();
-    let bytes = _mm256_packs_epi16(_mm256_cmpgt_epi16(gaps, zero), _mm256_cmpeq_epi16(gaps, zero));
-    _mm256_movemask_epi8(bytes) as u32 ^ MAY
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::wide::Portable;
     use super::*;
 
     /// Sixteen boxes whose codes are few and extreme, so that all kinds of meetings come up.
@@ -259,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_tell_what_codes_say_at_every_width() {
+    fn lanes_tell_what_codes_say() {
         let mut seed = 7;
         let (mut may, mut close) = (0, 0);
         for _ in 0..3000 {
@@ -269,11 +259,7 @@ mod tests {
             let wanted = expected(&one, &others);
             may += wanted.len();
             close += wanted.iter().filter(|&&(_, is_close)| is_close).count();
-            assert_eq!(told(overlapping::<false>(&one, strips)), wanted);
-            #[cfg(target_arch = "x86_64")]
-            if std::arch::is_x86_feature_detected!("avx2") {
-                assert_eq!(overlapping::<true>(&one, strips), overlapping::<false>(&one, strips));
-            }
+            assert_eq!(told(overlapping(Portable, &one, strips)), wanted);
         }
         assert!(may > 10_000 && close > 1000, "{may} meetings, {close} of them close");
     }

@@ -13,7 +13,7 @@
 use super::level::{Level, Scratch};
 use super::order::Order;
 use super::settle::Question;
-use super::wide::{self, Kernel};
+use super::wide::{self, Kernel, Width};
 use crate::columns::Columns;
 use crate::columns::grid::Grid;
 use crate::pair::{PairId, TooManyPairs};
@@ -150,7 +150,7 @@ impl<B: Bounds> Kernel for Count<'_, B> {
     type Output = ();
 
     #[inline(always)]
-    fn run<const WIDE: bool>(self) {
+    fn run<W: Width>(self, _: W) {
         self.part.count(self.grid, self.places, |place| self.boxes[place]);
     }
 }
@@ -166,7 +166,7 @@ impl Kernel for Scatter<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<const WIDE: bool>(self) {
+    fn run<W: Width>(self, _: W) {
         self.part.scatter(self.grid, self.first);
     }
 }
