@@ -50,7 +50,7 @@ impl Grid {
         let mut best = (f64::INFINITY, [1, 1], 0.0);
         // Columns so and so many boxes wide.
         let mut width = 0.75;
-        while width < 200.0 {
+        while width < 300.0 {
             let across = |axis: usize| {
                 let most = (spread.extent(axis) / (width * spread.size[axis])).min(MOST_ACROSS);
                 // Not a number where there is no extent and no size: one column.
@@ -61,7 +61,7 @@ impl Grid {
             if cost < best.0 && columns[0] * columns[1] <= (count as f64).max(1.0) {
                 best = (cost, columns.map(|across| across as u32), expected);
             }
-            width *= 1.25;
+            width *= 1.5;
         }
         let each = count as f64 / f64::from(best.1[0] * best.1[1]);
         let bin_bits = (0..12).take_while(|&bits| f64::from(1 << bits) * BOXES_A_BIN < each).count() as u32;
@@ -140,6 +140,9 @@ struct Spread {
     crowding: f64,
 }
 
+/// 2^32 over the golden ratio: its multiples are spread evenly, and in step with nothing.
+const GOLDEN: u32 = 0x9e37_79b9;
+
 /// The size that a box counts with is at most so many times the middle one: a giant must not coarsen the grid.
 const GIANT: f32 = 32.0;
 
@@ -149,11 +152,14 @@ type Corners = ([f32; 3], [f32; 3]);
 impl Spread {
     fn of<B: Bounds>(count: usize, pick: impl Fn(usize) -> B) -> Self {
         let wanted = (count / 16).clamp(32, 512);
-        let stride = (count / wanted).max(1);
+        // Not at a stride: who makes boxes in turns, one here and one there, would be seen in one place only.
+        let place = |number: u32| (u64::from(number.wrapping_mul(GOLDEN)) * count as u64 >> 32) as usize;
         let is_finite =
             |b: &Corners| (0..3).all(|axis| b.0[axis] <= b.1[axis] && (b.1[axis] - b.0[axis]).is_finite());
-        let sample: Vec<_> =
-            (0..count).step_by(stride).map(|place| pick(place).corners()).filter(is_finite).collect();
+        let sample: Vec<_> = (0..wanted.min(count) as u32)
+            .map(|number| pick(place(number)).corners())
+            .filter(is_finite)
+            .collect();
         let mut scratch = Vec::with_capacity(sample.len());
         let mut quantile = |of: &dyn Fn(&Corners) -> f32, percent: usize| -> f32 {
             scratch.clear();

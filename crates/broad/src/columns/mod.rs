@@ -245,6 +245,16 @@ impl ColumnEntries<'_> {
         (self.ends[grid.bin(codes[grid.sweep + 3])] - self.start) as usize
     }
 
+    /// Boxes in the fullest bin.
+    #[inline(always)]
+    pub(crate) fn fullest_bin(&self) -> usize {
+        let mut fullest = self.ends[0] - self.start;
+        for pair in self.ends.windows(2) {
+            fullest = fullest.max(pair[1] - pair[0]);
+        }
+        fullest as usize
+    }
+
     /// Candidates in all rows.
     pub(crate) fn candidates(&self, grid: &Grid) -> usize {
         let rows = (1..).zip(self.entries);

@@ -31,6 +31,8 @@ struct Nested {
 const MANY: usize = 96;
 /// so many times as many as columns have on average,
 const CROWDED: usize = 3;
+/// or so many in one bin, as all that lies outside of the grid has,
+const HEAP: usize = 48;
 /// so many candidates a box,
 const FULL: usize = 32;
 /// and is expected to have so many times fewer then.
@@ -106,7 +108,7 @@ where
     ) -> ControlFlow<()> {
         let Level { parts, grid, range, question, scratch } = self;
         let Scratch { strips, gathered, nested } = scratch;
-        let many = MANY.max(CROWDED * parts.iter().map(Columns::len).sum::<usize>() / grid.count());
+        let crowd = CROWDED * parts.iter().map(Columns::len).sum::<usize>() / grid.count();
         let mut hits = [Hit::default(); HITS];
         let mut pairs = NO_PAIRS;
         for index in range {
@@ -117,8 +119,9 @@ where
             if column.entries.len() < 2 {
                 continue;
             }
-            if column.entries.len() > many && depth < DEEPEST {
-                let full = column.candidates(grid) / column.entries.len();
+            let count = column.entries.len();
+            if count > MANY && depth < DEEPEST && (count > crowd || column.fullest_bin() > HEAP) {
+                let full = column.candidates(grid) / count;
                 if full > FULL {
                     let nested = nested.get_or_insert_default();
                     let names = if NESTED { names } else { None };
