@@ -61,7 +61,7 @@ impl Grid {
             if cost < best.0 && columns[0] * columns[1] <= (count as f64).max(1.0) {
                 best = (cost, columns.map(|across| across as u32), expected);
             }
-            width *= 1.5;
+            width *= 1.33;
         }
         let each = count as f64 / f64::from(best.1[0] * best.1[1]);
         let bin_bits = (0..12).take_while(|&bits| f64::from(1 << bits) * BOXES_A_BIN < each).count() as u32;
