@@ -359,6 +359,24 @@ fn the_list_is_the_same_on_1_2_8_and_16_threads() {
     }
 }
 
+#[test]
+fn what_a_team_has_swept_is_kept_as_well() {
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut moving = MovingBoxes::new(BoxScene::Static1, 35_000, 8);
+            let (mut coherent, mut fresh) = (CoherentSweep::new(), Sweep::new());
+            let (mut pairs, mut expected) = (Vec::new(), Vec::new());
+            for frame in 0..6 {
+                moving.step();
+                coherent.update(&moving.boxes, moving.moved(), |_, _| true, usize::MAX, &mut pairs).unwrap();
+                fresh.pairs(&moving.boxes, |_, _| true, usize::MAX, &mut expected).unwrap();
+                assert!(pairs == expected, "{threads} threads, frame {frame}");
+            }
+        });
+    }
+}
+
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![
         6 => (-8_i8..8).prop_map(|step| f32::from(step) * 0.25),
