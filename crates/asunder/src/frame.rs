@@ -3,9 +3,9 @@
 //! # The determinism contract, stage by stage
 //! Equal operations give bit-equal outputs: at any thread count, in debug and in release.
 //! 1. **refit**: a box is a function of one body alone.
-//! 2. **sweep**: the pair list is a function of the boxes alone, sorted by pair; the filter is asked of the bodies.
+//! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between updates.
 //! 3. **collide**: an answer is a function of one job; batches are cut by count, never by thread, and are put together
-//!    in order. A hint can save work and cannot change an answer.
+//!    in order. A hint can save work and cannot change an answer. Where neither body moved, the answer is last update's.
 //! 4. **merge**: two lists sorted by pair, walked side by side.
 //! 5. **report**: events in pair order.
 //!
@@ -26,8 +26,8 @@ use core::time::Duration;
 impl<S: Space> World<S> {
     /// Brings contacts, candidates and events up to date with the poses. Cannot fail.
     ///
-    /// Cost: linear in what moved for the boxes; n log n plus the pairs that overlap on one axis for the sweep; and
-    /// the narrow phase of every candidate.
+    /// Cost: linear in the bodies that moved, and in the candidates: of those in which neither body moved, only a copy. Where more
+    /// than a fifth of all bodies moved, linear in the bodies.
     pub fn update(&mut self) {
         self.stats = Stats { bodies: self.bodies.len(), ..Stats::default() };
         self.stats.refit = self.timed(refit::refit);
