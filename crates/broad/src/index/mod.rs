@@ -15,7 +15,8 @@
 //! 1. Eight boxes a node in rows: one instruction tests eight. A node is four cache lines, and it is their misses that take the time.
 //! 2. AVX2 by hand (wide): 1.2 to 1.4 times. The compiler makes four lanes and four single ones of the loops.
 //! 3. A sort instead of splits by cost: built in 42 ns a box, where parry3d's binned build takes 450 to 500, and faster to ask.
-//! 4. Giants apart: a floor, and half-spaces, cost a question one node, instead of widening the nodes of their neighbours.
+//! 4. Giants apart: 300 walls of 60 m among 100,000 boxes of 1 m make a box's overlaps 1.4 times as dear as without walls, not 2 times;
+//!    rays 1.3 times, not 1.8.
 //! 5. Small pieces lie in their parent: fewer nodes, and none that holds a single box.
 //! 6. One rule for nodes and boxes, monotone under rounding: no box is lost between levels, and no margin is needed for that.
 //! 7. The nearest piece goes on without waiting, and for one nearest box nothing waits that is further than a box seen: what is
@@ -25,7 +26,8 @@
 //! knows the greatest, a box of the scene's own size takes 172 ns in `gas`, 136 among a million, 80 in `city`; the tree takes 148, 149
 //! and 67. In `pile`, `sizes` and `islands` such a grid takes 835, 487 and 6207 ns, the tree 304, 165 and 333; and it has no order of
 //! distance. So there is a second index. Tried: many questions at once, sorted along a curve: 1.1 to 1.3 times, which is what their
-//! sort costs. Who has questions in such an order anyway should ask them in it.
+//! sort costs. Who has questions in such an order anyway should ask them in it. Tried: nodes put on the stack without a branch, eight
+//! stores and a count: 25 % slower.
 
 mod build;
 mod cast;
