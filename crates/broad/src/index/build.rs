@@ -78,16 +78,15 @@ impl<F: Fn(u32) -> Sides> Builder<'_, F> {
     /// Splits the largest part until there are eight, or all are small.
     fn split(&mut self, part: Part, depth: usize, parts: &mut Parts) {
         let Part { start, mut end, mut order } = part;
-        if order == Order::None {
+        if depth >= DEEP {
+            order = Order::Any;
+        } else if order == Order::None {
             let ordinary = start + sort(&mut self.items[start..end], self.scratch, &self.sides);
             if ordinary < end {
                 parts.push(Part { start: ordinary, end, order: Order::None });
             }
             end = ordinary;
             order = if self.is_uniform(start, end) { Order::Any } else { Order::Keys };
-        }
-        if depth >= DEEP {
-            order = Order::Any;
         }
         parts.parts[0] = Part { start, end, order };
         while let Some(place) = parts.largest() {
@@ -166,4 +165,30 @@ fn union(one: &Sides, other: &Sides) -> Sides {
         sides[axis + 3] = one[axis + 3].max(other[axis + 3]);
     }
     sides
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn depth(nodes: &[Node], number: u32) -> usize {
+        let node = &nodes[number as usize];
+        let (inner, _) = node.parts(node.present());
+        1 + inner.map(|(_, child)| depth(nodes, child)).max().unwrap_or(0)
+    }
+
+    /// Boxes at powers of two, below zero: each halving takes off one power.
+    #[test]
+    fn no_tree_is_deeper_than_the_stack_of_a_question() {
+        for copies in [1, 9, 100] {
+            let power = |number: u32| -f32::from_bits((1 + number / copies % 254) << 23);
+            let mut items: Vec<Item> = (0..254 * u64::from(copies)).collect();
+            let (mut scratch, mut nodes) = (Scratch::default(), Vec::new());
+            let sides = |number: u32| [power(number); 6];
+            Builder { sides, items: &mut items, scratch: &mut scratch, nodes: &mut nodes }.build();
+            let depth = depth(&nodes, 0);
+            assert!(depth <= MOST_DEPTH, "{depth} with {copies} copies");
+            assert!(copies == 1 || depth > DEEP, "only {depth} with {copies} copies: a test of nothing");
+        }
+    }
 }
