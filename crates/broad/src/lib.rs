@@ -22,6 +22,7 @@ mod index;
 mod pair;
 mod plain;
 mod sweep;
+mod width;
 
 pub use coherent::CoherentSweep;
 pub use index::{Cast, Found, Index, Queue};

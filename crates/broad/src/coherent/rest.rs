@@ -6,7 +6,7 @@ use crate::columns::{Columns, Stretch, owned};
 use crate::index::Index;
 use crate::pair::PairId;
 use crate::sweep::rows::Strips;
-use crate::sweep::wide::{self, Kernel, Width};
+use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 
@@ -114,7 +114,7 @@ impl<B: Bounds> Rest<B> {
             let longest = *longest;
             let asking =
                 Asking { grid, part, strips, boxes, movers, states, longest, asked, visit: &mut visit };
-            if !wide::run(asking) {
+            if !widest(asking) {
                 return;
             }
         }

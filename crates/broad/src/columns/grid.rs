@@ -153,7 +153,7 @@ impl Spread {
     fn of<B: Bounds>(count: usize, pick: impl Fn(usize) -> B) -> Self {
         let wanted = (count / 16).clamp(32, 512);
         // Not at a stride: who makes boxes in turns, one here and one there, would be seen in one place only.
-        let place = |number: u32| (u64::from(number.wrapping_mul(GOLDEN)) * count as u64 >> 32) as usize;
+        let place = |number: u32| ((u64::from(number.wrapping_mul(GOLDEN)) * count as u64) >> 32) as usize;
         let is_finite =
             |b: &Corners| (0..3).all(|axis| b.0[axis] <= b.1[axis] && (b.1[axis] - b.0[axis]).is_finite());
         let sample: Vec<_> = (0..wanted.min(count) as u32)

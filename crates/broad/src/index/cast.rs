@@ -29,14 +29,14 @@ use asunder_geometry::{
 #[derive(Clone, Copy, Debug)]
 pub struct Cast {
     /// On each axis, which side of a box is met first and last, as rows of a node.
-    pub(super) near: [usize; 3],
-    pub(super) far: [usize; 3],
+    pub(crate) near: [usize; 3],
+    pub(crate) far: [usize; 3],
     /// From where that is measured.
-    pub(super) from_near: [f32; 3],
-    pub(super) from_far: [f32; 3],
+    pub(crate) from_near: [f32; 3],
+    pub(crate) from_far: [f32; 3],
     /// Distances a metre; rounded down and up by more than all that follows can lose.
-    pub(super) per_near: [f32; 3],
-    pub(super) per_far: [f32; 3],
+    pub(crate) per_near: [f32; 3],
+    pub(crate) per_far: [f32; 3],
     /// Lengths of the direction in one of the distances within, a power of two.
     unit: f64,
 }
@@ -101,13 +101,13 @@ impl Cast {
 
     /// A distance as it is told.
     #[inline(always)]
-    pub(super) fn told(&self, within: f32) -> f64 {
+    pub(crate) fn told(&self, within: f32) -> f64 {
         f64::from(within) * self.unit
     }
 
     /// The greatest distance that is within a limit; below 0 if there is none.
     #[inline(always)]
-    pub(super) fn within(&self, limit: f64) -> f32 {
+    pub(crate) fn within(&self, limit: f64) -> f32 {
         let limit = limit / self.unit * (1.0 + LOST);
         if limit >= 0.0 { (limit as f32).min(f32::MAX) } else { -1.0 }
     }

@@ -39,13 +39,13 @@ mod node;
 mod order;
 mod queue;
 mod reach;
-#[cfg(target_arch = "x86_64")]
-mod wide;
+pub(crate) mod wide;
 
 pub use cast::Cast;
 pub use queue::Queue;
 pub use reach::Found;
 
+use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
@@ -147,41 +147,36 @@ impl<B: Bounds> Index<B> {
         bounds: &B,
         visitor: impl FnMut(u32) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        #[cfg(target_arch = "x86_64")]
-        if is_wide() {
-            #[allow(unsafe_code)]
-            // SAFETY: the features were asked for.
-            return unsafe { self.overlapping_avx2(bounds, visitor) };
-        }
-        self.overlapping_any::<false>(bounds, visitor)
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,bmi1")]
-    fn overlapping_avx2(&self, bounds: &B, visitor: impl FnMut(u32) -> ControlFlow<()>) -> ControlFlow<()> {
-        self.overlapping_any::<true>(bounds, visitor)
-    }
-
-    #[inline(always)]
-    fn overlapping_any<const WIDE: bool>(
-        &self,
-        bounds: &B,
-        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
         if self.nodes.is_empty() || !bounds.is_valid() {
             return ControlFlow::Continue(());
         }
-        let sides = sides(bounds);
+        widest(Overlap { nodes: &self.nodes, sides: sides(bounds), visitor })
+    }
+}
+
+/// Which boxes overlap one.
+struct Overlap<'a, F> {
+    nodes: &'a [Node],
+    sides: Sides,
+    visitor: F,
+}
+
+impl<F: FnMut(u32) -> ControlFlow<()>> Kernel for Overlap<'_, F> {
+    type Output = ControlFlow<()>;
+
+    #[inline(always)]
+    fn run<W: Width>(self, width: W) -> ControlFlow<()> {
+        let Self { nodes, sides, mut visitor } = self;
         let mut stack = [0_u32; STACK];
         let mut waiting = 1;
         while waiting > 0 {
             waiting -= 1;
-            let node = &self.nodes[stack[waiting] as usize];
-            let (nodes, boxes) = node.parts(node::overlapping::<WIDE>(node, &sides));
+            let node = &nodes[stack[waiting] as usize];
+            let (inner, boxes) = node.parts(width.overlapping(node, &sides));
             for (_, number) in boxes {
                 visitor(number)?;
             }
-            for (_, child) in nodes {
+            for (_, child) in inner {
                 stack[waiting] = child;
                 waiting += 1;
             }
@@ -200,10 +195,4 @@ impl<B: Bounds> Default for Index<B> {
 fn sides(bounds: &impl Bounds) -> Sides {
     let ([a, b, c], [d, e, f]) = bounds.corners();
     [a, b, c, d, e, f]
-}
-
-#[cfg(target_arch = "x86_64")]
-#[inline(always)]
-fn is_wide() -> bool {
-    std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("bmi1")
 }

@@ -1,21 +1,19 @@
 //! Eight boxes side by side, and what is asked of them.
 
 use super::cast::Cast;
-#[cfg(target_arch = "x86_64")]
-use super::wide;
 
 /// Least corner, then greatest.
-pub(super) type Sides = [f32; 6];
+pub(crate) type Sides = [f32; 6];
 
 /// Boxes in a node.
-pub(super) const WIDTH: usize = 8;
+pub(crate) const WIDTH: usize = 8;
 
 /// A node: up to eight boxes, the first of them around further nodes. Four cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// A row for each side, so that eight boxes are tested by the same instructions.
-    pub(super) sides: [[f32; WIDTH]; 6],
+    pub(crate) sides: [[f32; WIDTH]; 6],
     /// What is in each box: first nodes, then boxes of the caller's, by their numbers.
     slots: [u32; WIDTH],
     /// How many are nodes.
@@ -25,11 +23,11 @@ pub(super) struct Node {
 }
 
 impl Node {
-    pub(super) const EMPTY: Self =
+    pub(crate) const EMPTY: Self =
         Self { sides: [[f32::NAN; WIDTH]; 6], slots: [0; WIDTH], inner: 0, used: 0 };
 
     /// Appends a box. Nodes come first.
-    pub(super) fn push(&mut self, sides: &Sides, slot: u32, is_node: bool) {
+    pub(crate) fn push(&mut self, sides: &Sides, slot: u32, is_node: bool) {
         let at = self.used as usize % WIDTH;
         for (row, &side) in self.sides.iter_mut().zip(sides) {
             row[at] = side;
@@ -41,14 +39,14 @@ impl Node {
 
     /// The nodes and the numbers of boxes that the bits of a mask stand for.
     #[inline(always)]
-    pub(super) fn parts(&self, mask: u32) -> (Slots<'_>, Slots<'_>) {
+    pub(crate) fn parts(&self, mask: u32) -> (Slots<'_>, Slots<'_>) {
         let nodes = mask & ((1 << self.inner) - 1);
         (Slots { slots: &self.slots, mask: nodes }, Slots { slots: &self.slots, mask: mask ^ nodes })
     }
 
     /// Which of the eight boxes a box overlaps.
     #[inline(always)]
-    pub(super) fn overlapping(&self, one: &Sides) -> u32 {
+    pub(crate) fn overlapping(&self, one: &Sides) -> u32 {
         // An empty slot holds NaN, which compares with nothing.
         let mut bits = BITS;
         for axis in 0..3 {
@@ -70,9 +68,9 @@ const fn any(bits: &[u32; WIDTH]) -> u32 {
 }
 
 /// Which of eight boxes a question is about, and how far each of these is.
-pub(super) struct Far {
-    pub(super) mask: u32,
-    pub(super) distances: [f32; WIDTH],
+pub(crate) struct Far {
+    pub(crate) mask: u32,
+    pub(crate) distances: [f32; WIDTH],
 }
 
 impl Node {
@@ -80,7 +78,7 @@ impl Node {
     ///
     /// A NaN comes from a side that is touched all the way, or from two infinite ones, and bounds nothing: comparisons drop it.
     #[inline(always)]
-    pub(super) fn crossed(&self, cast: &Cast, limit: f32) -> Far {
+    pub(crate) fn crossed(&self, cast: &Cast, limit: f32) -> Far {
         let [mut enter, mut leave] = [[0.0; WIDTH], [limit; WIDTH]];
         for axis in 0..3 {
             let (near, far) = (&self.sides[cast.near[axis]], &self.sides[cast.far[axis]]);
@@ -100,7 +98,7 @@ impl Node {
 
     /// Which of the eight boxes are no further than the limit, and the squares of their distances.
     #[inline(always)]
-    pub(super) fn near(&self, one: &Sides, limit: f32) -> Far {
+    pub(crate) fn near(&self, one: &Sides, limit: f32) -> Far {
         let mut squares = [0.0; WIDTH];
         for axis in 0..3 {
             let (low, high) = (&self.sides[axis], &self.sides[axis + 3]);
@@ -124,51 +122,15 @@ impl Node {
 
     /// A bit for each slot that is used.
     #[inline(always)]
-    pub(super) const fn present(&self) -> u32 {
+    pub(crate) const fn present(&self) -> u32 {
         (1 << self.used) - 1
     }
-}
-
-/// [`Node::overlapping`], in AVX2 if `WIDE`; only what was compiled for AVX2 may say so. The same holds for the next two.
-#[inline(always)]
-pub(super) fn overlapping<const WIDE: bool>(node: &Node, one: &Sides) -> u32 {
-    #[cfg(target_arch = "x86_64")]
-    if WIDE {
-        #[allow(unsafe_code)]
-        // SAFETY: we are in code for AVX2.
-        return unsafe { wide::overlapping(node, one) };
-    }
-    node.overlapping(one)
-}
-
-/// [`Node::crossed`].
-#[inline(always)]
-pub(super) fn crossed<const WIDE: bool>(node: &Node, cast: &Cast, limit: f32) -> Far {
-    #[cfg(target_arch = "x86_64")]
-    if WIDE {
-        #[allow(unsafe_code)]
-        // SAFETY: we are in code for AVX2.
-        return unsafe { wide::crossed(node, cast, limit) };
-    }
-    node.crossed(cast, limit)
-}
-
-/// [`Node::near`].
-#[inline(always)]
-pub(super) fn near<const WIDE: bool>(node: &Node, one: &Sides, limit: f32) -> Far {
-    #[cfg(target_arch = "x86_64")]
-    if WIDE {
-        #[allow(unsafe_code)]
-        // SAFETY: we are in code for AVX2.
-        return unsafe { wide::near(node, one, limit) };
-    }
-    node.near(one, limit)
 }
 
 const BITS: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];
 
 /// Some slots of a node, in their order.
-pub(super) struct Slots<'a> {
+pub(crate) struct Slots<'a> {
     slots: &'a [u32; WIDTH],
     mask: u32,
 }

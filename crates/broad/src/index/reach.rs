@@ -1,9 +1,10 @@
 //! What is crossed, and what is near: boxes at a distance.
 
 use super::cast::Cast;
-use super::node::{self, Far, Node, Sides};
+use super::node::{Far, Node, Sides};
 use super::queue::{Next, Queue};
 use super::{Index, STACK, sides};
+use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 
@@ -26,15 +27,15 @@ pub struct Found {
 
 /// A question about distances: one rule for nodes and boxes, which is monotone, so that no box is nearer than the node around it.
 trait Ask: Copy {
-    fn ask<const WIDE: bool>(&self, node: &Node, limit: f32) -> Far;
+    fn ask<W: Width>(&self, width: W, node: &Node, limit: f32) -> Far;
     fn told(&self, within: f32) -> f64;
     fn within(&self, limit: f64) -> f32;
 }
 
 impl Ask for &Cast {
     #[inline(always)]
-    fn ask<const WIDE: bool>(&self, node: &Node, limit: f32) -> Far {
-        node::crossed::<WIDE>(node, self, limit)
+    fn ask<W: Width>(&self, width: W, node: &Node, limit: f32) -> Far {
+        width.crossed(node, self, limit)
     }
 
     #[inline(always)]
@@ -57,8 +58,8 @@ const LOST: f64 = 1.0 / 4_194_304.0;
 
 impl Ask for To {
     #[inline(always)]
-    fn ask<const WIDE: bool>(&self, node: &Node, limit: f32) -> Far {
-        node::near::<WIDE>(node, &self.0, limit)
+    fn ask<W: Width>(&self, width: W, node: &Node, limit: f32) -> Far {
+        width.near(node, &self.0, limit)
     }
 
     #[inline(always)]
@@ -94,13 +95,11 @@ impl<B: Bounds> Index<B> {
         limit: f64,
         visitor: impl FnMut(Found) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        #[cfg(target_arch = "x86_64")]
-        if super::is_wide() {
-            #[allow(unsafe_code)]
-            // SAFETY: the features were asked for.
-            return unsafe { self.visit_avx2(cast, limit, visitor) };
+        let limit = cast.within(limit);
+        if self.nodes.is_empty() || limit < 0.0 {
+            return ControlFlow::Continue(());
         }
-        self.visit::<false>(cast, limit, visitor)
+        widest(Visit { nodes: &self.nodes, asked: cast, limit, visitor })
     }
 
     /// Hands boxes that are crossed to `visitor` in order of distance, then of number. What it returns is the limit from then on:
@@ -128,13 +127,8 @@ impl<B: Bounds> Index<B> {
         queue: &mut Queue,
         visitor: impl FnMut(Found) -> f64,
     ) {
-        #[cfg(target_arch = "x86_64")]
-        if super::is_wide() {
-            #[allow(unsafe_code)]
-            // SAFETY: the features were asked for.
-            return unsafe { self.in_order_avx2(cast, (limit, false), queue, visitor) };
-        }
-        self.in_order::<false>(cast, (limit, false), queue, visitor);
+        let nodes = &self.nodes;
+        widest(InOrder { nodes, asked: cast, limit: (limit, false), queue, visitor });
     }
 
     /// Replaces `into` by the boxes nearest to a box, at most `count`, in order of distance, then of number. A point is a flat box.
@@ -188,84 +182,66 @@ impl<B: Bounds> Index<B> {
         if !to.is_valid() {
             return;
         }
-        let to = To(sides(to));
-        #[cfg(target_arch = "x86_64")]
-        if super::is_wide() {
-            #[allow(unsafe_code)]
-            // SAFETY: the features were asked for.
-            return unsafe { self.in_order_avx2(to, limit, queue, visitor) };
-        }
-        self.in_order::<false>(to, limit, queue, visitor);
+        widest(InOrder { nodes: &self.nodes, asked: To(sides(to)), limit, queue, visitor });
     }
+}
 
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,bmi1")]
-    fn visit_avx2(
-        &self,
-        asked: impl Ask,
-        limit: f64,
-        visitor: impl FnMut(Found) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        self.visit::<true>(asked, limit, visitor)
-    }
+/// What a question is about, in no order.
+struct Visit<'a, A, F> {
+    nodes: &'a [Node],
+    asked: A,
+    limit: f32,
+    visitor: F,
+}
 
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,bmi1")]
-    fn in_order_avx2(
-        &self,
-        asked: impl Ask,
-        limit: (f64, bool),
-        queue: &mut Queue,
-        visitor: impl FnMut(Found) -> f64,
-    ) {
-        self.in_order::<true>(asked, limit, queue, visitor);
-    }
+impl<A: Ask, F: FnMut(Found) -> ControlFlow<()>> Kernel for Visit<'_, A, F> {
+    type Output = ControlFlow<()>;
 
     #[inline(always)]
-    fn visit<const WIDE: bool>(
-        &self,
-        asked: impl Ask,
-        limit: f64,
-        mut visitor: impl FnMut(Found) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let limit = asked.within(limit);
-        if self.nodes.is_empty() || limit < 0.0 {
-            return ControlFlow::Continue(());
-        }
+    fn run<W: Width>(self, width: W) -> ControlFlow<()> {
+        let Self { nodes, asked, limit, mut visitor } = self;
         let mut stack = [0_u32; STACK];
         let mut waiting = 1;
         while waiting > 0 {
             waiting -= 1;
-            let node = &self.nodes[stack[waiting] as usize];
-            let Far { mask, distances } = asked.ask::<WIDE>(node, limit);
-            let (nodes, boxes) = node.parts(mask);
+            let node = &nodes[stack[waiting] as usize];
+            let Far { mask, distances } = asked.ask(width, node, limit);
+            let (inner, boxes) = node.parts(mask);
             for (lane, number) in boxes {
                 visitor(Found { distance: asked.told(distances[lane]), number })?;
             }
-            for (_, child) in nodes {
+            for (_, child) in inner {
                 stack[waiting] = child;
                 waiting += 1;
             }
         }
         ControlFlow::Continue(())
     }
+}
 
-    /// Best first: whatever is nearest is next, be it a node to look into or a box to hand over (Hjaltason and Samet, "Distance
-    /// browsing in spatial databases", 1999). At equal distances nodes come first, as they may hold a box with a lesser number.
-    ///
-    /// Two shortcuts: the nearest part of a node, if nothing that waits is nearer, is next without having waited; and where one box
-    /// is wanted, nothing waits that is further than a box that was seen.
+/// The same, best first: whatever is nearest is next, be it a node to look into or a box to hand over (Hjaltason and Samet,
+/// "Distance browsing in spatial databases", 1999). At equal distances nodes come first, as they may hold a box with a lesser number.
+///
+/// Two shortcuts: the nearest part of a node, if nothing that waits is nearer, is next without having waited; and where one box
+/// is wanted, nothing waits that is further than a box that was seen.
+struct InOrder<'a, A, F> {
+    nodes: &'a [Node],
+    asked: A,
+    /// How far to look, and whether one box is all that is wanted.
+    limit: (f64, bool),
+    queue: &'a mut Queue,
+    visitor: F,
+}
+
+impl<A: Ask, F: FnMut(Found) -> f64> Kernel for InOrder<'_, A, F> {
+    type Output = ();
+
     #[inline(always)]
-    fn in_order<const WIDE: bool>(
-        &self,
-        asked: impl Ask,
-        (limit, is_one_wanted): (f64, bool),
-        queue: &mut Queue,
-        mut visitor: impl FnMut(Found) -> f64,
-    ) {
+    fn run<W: Width>(self, width: W) {
+        let Self { nodes, asked, limit: (limit, is_one_wanted), queue, mut visitor } = self;
         let mut limit = asked.within(limit);
         queue.clear();
-        let mut next = if self.nodes.is_empty() { None } else { Some(Next::node(0.0, 0)) };
+        let mut next = if nodes.is_empty() { None } else { Some(Next::node(0.0, 0)) };
         while let Some(one) = next.filter(|next| next.distance() <= limit) {
             if let Some(number) = one.boxed() {
                 // A limit that grows would find what was dropped before only in part.
@@ -275,9 +251,9 @@ impl<B: Bounds> Index<B> {
                 next = queue.pop();
                 continue;
             }
-            let node = &self.nodes[one.number() as usize];
-            let Far { mask, distances } = asked.ask::<WIDE>(node, limit);
-            let (nodes, boxes) = node.parts(mask);
+            let node = &nodes[one.number() as usize];
+            let Far { mask, distances } = asked.ask(width, node, limit);
+            let (inner, boxes) = node.parts(mask);
             let mut nearest = None;
             let mut see = |seen: Next| match &mut nearest {
                 None => nearest = Some(seen),
@@ -292,7 +268,7 @@ impl<B: Bounds> Index<B> {
                     limit = distances[lane];
                 }
             }
-            for (lane, child) in nodes {
+            for (lane, child) in inner {
                 if distances[lane] <= limit {
                     see(Next::node(distances[lane], child));
                 }

@@ -2,11 +2,11 @@
 
 use super::rows::{HITS, Hit, Progress, Strips};
 use super::settle::{NO_PAIRS, Names, Question};
-use super::wide::{self, Kernel, Width};
 use crate::columns::codes::Entry;
 use crate::columns::grid::Grid;
 use crate::columns::{ColumnEntries, Columns, PLACE};
 use crate::pair::PairId;
+use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::{ControlFlow, Range};
 
@@ -176,7 +176,7 @@ impl Nested {
             question,
             scratch,
         };
-        Some(wide::run(Inner { level, names: Names { members, outer }, depth: depth + 1 }))
+        Some(widest(Inner { level, names: Names { members, outer }, depth: depth + 1 }))
     }
 }
 

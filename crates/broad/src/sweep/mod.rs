@@ -48,11 +48,11 @@ pub(crate) mod wide;
 use crate::columns::grid::Grid;
 use crate::columns::{Columns, MOST_BOXES};
 use crate::pair::{PairId, TooManyPairs};
+use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 use level::{Level, Scratch};
 use settle::Question;
-use wide::{Kernel, Width};
 
 /// All overlapping pairs of boxes. Keep one between frames so that a steady scene allocates nothing.
 ///
@@ -151,7 +151,7 @@ impl Sweep {
         #[cfg(feature = "parallel")]
         self.team.forget();
         let Self { columns, scratch, .. } = self;
-        let grid = wide::run(Sort { boxes, columns });
+        let grid = widest(Sort { boxes, columns });
         self.grid = Some(grid);
         let level = Level {
             parts: core::slice::from_ref(columns),
@@ -160,7 +160,7 @@ impl Sweep {
             question: &mut Question { boxes, admit, sink },
             scratch,
         };
-        wide::run(level)
+        widest(level)
     }
 
     /// The columns of the last sweep, in parts, each of the boxes that follow those of the part before it.

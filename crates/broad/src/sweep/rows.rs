@@ -1,9 +1,9 @@
 //! One column, swept sixteen boxes at a time.
 
-use super::wide::Width;
 use crate::columns::ColumnEntries;
 use crate::columns::codes::{Codes, Entry};
 use crate::columns::grid::Grid;
+use crate::width::Width;
 use core::ops::Range;
 
 /// Boxes tested side by side.
@@ -200,8 +200,8 @@ pub(super) fn gaps_to_mask(gaps: &[i16; LANES]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::wide::Portable;
     use super::*;
+    use crate::width::Portable;
 
     /// Sixteen boxes whose codes are few and extreme, so that all kinds of meetings come up.
     fn boxes(seed: &mut u32) -> ([Codes; LANES], [[i16; LANES]; 6]) {

@@ -13,10 +13,10 @@
 use super::level::{Level, Scratch};
 use super::order::Order;
 use super::settle::Question;
-use super::wide::{self, Kernel, Width};
 use crate::columns::Columns;
 use crate::columns::grid::Grid;
 use crate::pair::{PairId, TooManyPairs};
+use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicUsize, Ordering};
@@ -122,7 +122,7 @@ fn sort<B: Bounds>(parts: &mut [Columns], boxes: &[B]) -> Grid {
     let mut grid = Grid::for_boxes(boxes.len(), |place| boxes[place]);
     loop {
         let count = |(index, part): (usize, &mut Columns)| {
-            wide::run(Count { part, grid: &grid, boxes, places: places(index) });
+            widest(Count { part, grid: &grid, boxes, places: places(index) });
         };
         parts.par_iter_mut().enumerate().for_each(count);
         let entries = parts.iter().map(Columns::counted).sum();
@@ -132,7 +132,7 @@ fn sort<B: Bounds>(parts: &mut [Columns], boxes: &[B]) -> Grid {
         grid = grid.coarser();
     }
     let scatter = |(index, part): (usize, &mut Columns)| {
-        wide::run(Scatter { part, grid: &grid, first: places(index).start as u32 });
+        widest(Scatter { part, grid: &grid, first: places(index).start as u32 });
     };
     parts.par_iter_mut().enumerate().for_each(scatter);
     grid
@@ -204,7 +204,7 @@ impl Group {
         let range = columns.clone();
         let question = &mut Question { boxes, admit, sink: &mut sink };
         // Broken off only where there are too many pairs, which the total says.
-        let _ = wide::run(Level { parts, grid, range, question, scratch });
+        let _ = widest(Level { parts, grid, range, question, scratch });
         counts.clear();
         counts.resize(BINS, 0);
         for pair in found.iter() {

@@ -1,73 +1,29 @@
-//! One kernel, compiled for any processor and once more for wider vectors.
+//! What the sweep asks of lanes.
 
 use super::rows::{LANES, gaps_to_mask};
+use crate::width::Portable;
 
-/// How wide vectors are. A value is the proof that the processor has them.
-pub(crate) trait Width: Copy {
-    /// Of sixteen gaps between boxes, which are none, and which are zero: see [`gaps_to_mask`].
+/// Sixteen gaps between boxes.
+pub(crate) trait SixteenGaps {
+    /// Which of them are none, and which are zero: see [`gaps_to_mask`], which is the definition.
     fn mask(self, gaps: &[i16; LANES]) -> u32;
 }
 
-/// What every processor has.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Portable;
-
-impl Width for Portable {
+impl SixteenGaps for Portable {
     #[inline(always)]
     fn mask(self, gaps: &[i16; LANES]) -> u32 {
         gaps_to_mask(gaps)
     }
 }
 
-/// Code that is worth compiling twice. Both give the same results in the same order.
-pub(crate) trait Kernel {
-    /// What it gives.
-    type Output;
-    /// Does the work. To be inlined always, or it is compiled once only.
-    fn run<W: Width>(self, width: W) -> Self::Output;
-}
-
-/// Runs the kernel as wide as the processor can.
-#[inline]
-pub(crate) fn run<K: Kernel>(kernel: K) -> K::Output {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(wide) = avx2::Avx2::detect() {
-        return wide.run(kernel);
-    }
-    kernel.run(Portable)
-}
-
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code)]
 mod avx2 {
-    use super::{Kernel, LANES, Width};
+    use super::{LANES, SixteenGaps};
+    use crate::width::Avx2;
     use core::arch::x86_64::*;
 
-    /// The processor has AVX2 and BMI1.
-    #[derive(Clone, Copy, Debug)]
-    pub(super) struct Avx2(());
-
-    impl Avx2 {
-        /// The only way to one.
-        #[inline]
-        pub(super) fn detect() -> Option<Self> {
-            use std::arch::is_x86_feature_detected as has;
-            (has!("avx2") && has!("bmi1")).then_some(Self(()))
-        }
-
-        #[inline]
-        pub(super) fn run<K: Kernel>(self, kernel: K) -> K::Output {
-            // SAFETY: this value says that the processor has both features, and they are all that `run_wide` needs.
-            unsafe { run_wide(kernel, self) }
-        }
-    }
-
-    #[target_feature(enable = "avx2,bmi1")]
-    fn run_wide<K: Kernel>(kernel: K, width: Avx2) -> K::Output {
-        kernel.run(width)
-    }
-
-    impl Width for Avx2 {
+    impl SixteenGaps for Avx2 {
         #[inline(always)]
         fn mask(self, gaps: &[i16; LANES]) -> u32 {
             // SAFETY: this value says that the processor has AVX2.
@@ -88,7 +44,7 @@ mod avx2 {
 
     #[cfg(test)]
     mod tests {
-        use super::super::{Portable, Width};
+        use super::super::{Portable, SixteenGaps};
         use super::*;
 
         #[test]
