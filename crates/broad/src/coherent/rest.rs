@@ -5,6 +5,7 @@ use crate::columns::grid::Grid;
 use crate::columns::{Columns, Stretch, owned};
 use crate::index::Index;
 use crate::pair::PairId;
+use crate::sweep::order::Order;
 use crate::sweep::rows::Strips;
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
@@ -31,6 +32,9 @@ pub(super) struct Rest<B> {
     /// The entries of each part as strips.
     strips: Vec<Strips>,
     asked: Vec<(u32, Codes, Stretch)>,
+    /// Where each of them starts, and which it is.
+    starts: Vec<PairId>,
+    order: Order,
 }
 
 /// Bins that are counted one by one.
@@ -41,7 +45,15 @@ const FAR: usize = 256;
 
 impl<B: Bounds> Rest<B> {
     pub(super) fn new() -> Self {
-        Self { states: Vec::new(), longest: 0, far: Index::new(), strips: Vec::new(), asked: Vec::new() }
+        Self {
+            states: Vec::new(),
+            longest: 0,
+            far: Index::new(),
+            strips: Vec::new(),
+            asked: Vec::new(),
+            starts: Vec::new(),
+            order: Order::default(),
+        }
     }
 
     pub(super) fn bytes(&self) -> usize {
@@ -109,11 +121,22 @@ impl<B: Bounds> Rest<B> {
         movers: &[u32],
         mut visit: impl FnMut(PairId) -> bool,
     ) {
-        let Self { states, longest, far, strips, asked } = self;
+        let Self { states, longest, far, strips, asked, starts, order } = self;
         for (part, strips) in parts.iter().zip(strips) {
             let longest = *longest;
-            let asking =
-                Asking { grid, part, strips, boxes, movers, states, longest, asked, visit: &mut visit };
+            let asking = Asking {
+                grid,
+                part,
+                strips,
+                boxes,
+                movers,
+                states,
+                longest,
+                asked,
+                starts,
+                order,
+                visit: &mut visit,
+            };
             if !widest(asking) {
                 return;
             }
@@ -135,8 +158,8 @@ impl<B: Bounds> Rest<B> {
 
 /// Looks movers up in the columns of one part.
 ///
-/// First where to look, for all of them, then there: the memory that a mover needs is far from the last one's, and the processor can ask
-/// for that of several at once as long as none waits for another.
+/// First where to look, for all of them; then there, in the order of the columns: what one mover has brought from far memory, the next one
+/// finds at hand.
 struct Asking<'a, B, F> {
     grid: &'a Grid,
     part: &'a Columns,
@@ -146,6 +169,8 @@ struct Asking<'a, B, F> {
     states: &'a [State],
     longest: u32,
     asked: &'a mut Vec<(u32, Codes, Stretch)>,
+    starts: &'a mut Vec<PairId>,
+    order: &'a mut Order,
     visit: &'a mut F,
 }
 
@@ -154,7 +179,7 @@ impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
 
     #[inline(always)]
     fn run<W: Width>(self, width: W) -> bool {
-        let Self { grid, part, strips, boxes, movers, states, longest, asked, visit } = self;
+        let Self { grid, part, strips, boxes, movers, states, longest, asked, starts, order, visit } = self;
         asked.clear();
         for &mover in movers {
             let bounds = &boxes[mover as usize];
@@ -164,8 +189,13 @@ impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
                 part.stretches(grid, &codes, longest, |stretch| asked.push((mover, codes, stretch)));
             }
         }
+        starts.clear();
+        starts.extend((0..).zip(&*asked).map(|(which, (.., stretch))| PairId { a: stretch.start, b: which }));
+        let most = part.entries().len().max(starts.len());
+        order.sort(starts, most + 1);
         let mut goes_on = true;
-        for &(mover, codes, stretch) in &*asked {
+        for start in &*starts {
+            let (mover, codes, stretch) = asked[start.b as usize];
             let entries = part.entries();
             let range = stretch.start as usize..stretch.end as usize;
             strips.meet(width, &codes, range, |index, is_close| {
