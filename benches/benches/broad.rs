@@ -1,6 +1,7 @@
 //! Criterion's view of the broad phase: the main rows of `compare -- broad`, our side alone.
 
-use asunder_broad::Sweep;
+use asunder_broad::{CoherentSweep, Index, Sweep};
+use asunder_geometry::{Aabb3, glam::Vec3};
 use asunder_scenes::boxes::{BoxScene, MovingBoxes};
 use core::time::Duration;
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
@@ -25,9 +26,46 @@ fn scratch(criterion: &mut Criterion) {
     }
 }
 
+/// Few move, and what rests is kept.
+fn coherent(criterion: &mut Criterion) {
+    for (scene, count) in
+        [(BoxScene::Static1, 10_000), (BoxScene::Static5, 10_000), (BoxScene::Still, 100_000)]
+    {
+        let mut moving = MovingBoxes::new(scene, count, 1);
+        let (mut sweep, mut pairs) = (CoherentSweep::new(), Vec::new());
+        criterion.bench_function(&format!("broad/{}/{count}", scene.name()), |bencher| {
+            bencher.iter(|| {
+                moving.step();
+                sweep.update(&moving.boxes, moving.moved(), |_, _| true, usize::MAX, &mut pairs)
+            });
+        });
+    }
+}
+
+/// What overlaps a box of the scene's own size, among boxes that rest.
+fn asked(criterion: &mut Criterion) {
+    let boxes = MovingBoxes::new(BoxScene::Gas, 100_000, 1).boxes;
+    let mut index = Index::new();
+    index.build(&boxes);
+    let questions: Vec<Aabb3> =
+        boxes.iter().step_by(101).map(|one| Aabb3::new(one.min + Vec3::splat(0.3), one.max)).collect();
+    let mut met = Vec::new();
+    criterion.bench_function("query/gas/100000/overlap x 991", |bencher| {
+        bencher.iter(|| {
+            questions
+                .iter()
+                .map(|question| {
+                    index.overlapping(question, &mut met);
+                    met.len()
+                })
+                .sum::<usize>()
+        });
+    });
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
-    targets = scratch
+    targets = scratch, coherent, asked
 }
 criterion_main!(benches);
