@@ -36,7 +36,7 @@ struct BroadOptions {
     #[arg(long)]
     large: bool,
     /// Our own wall-clock time on so many threads beside one, in place of the peer.
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_parser = at_least_one, value_name = "COUNT")]
     threads: Option<usize>,
 }
 
@@ -83,6 +83,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     // One thread, so that its CPU time is all the time there is.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     pool.install(|| compare(&part)).map_err(|error| error.to_string().into())
+}
+
+/// A number of threads, of which there must be one.
+fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("there is no work without a thread: give 1 or more".to_string()),
+        other => other.map_err(|error| error.to_string()),
+    }
 }
 
 /// Rows of the broad phase with several threads.

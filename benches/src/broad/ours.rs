@@ -12,17 +12,17 @@ use std::time::Instant;
 /// What a frame is found with.
 pub(super) enum Engine {
     /// From scratch each frame.
-    Sweep(Sweep),
+    Sweep(Box<Sweep>),
     /// Keeps what rests, and is told what moved.
-    Coherent(CoherentSweep<Aabb3>),
+    Coherent(Box<CoherentSweep<Aabb3>>),
 }
 
 impl Engine {
     /// The engines worth trying.
     pub(super) fn all(few_move: bool) -> Vec<Self> {
-        let mut all = vec![Self::Sweep(Sweep::new())];
+        let mut all = vec![Self::Sweep(Box::default())];
         if few_move {
-            all.push(Self::Coherent(CoherentSweep::new()));
+            all.push(Self::Coherent(Box::default()));
         }
         all
     }
