@@ -87,9 +87,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// A number of threads, of which there must be one.
 fn at_least_one(text: &str) -> Result<usize, String> {
-    match text.parse() {
+    match text.parse::<usize>() {
         Ok(0) => Err("there is no work without a thread: give 1 or more".to_string()),
-        other => other.map_err(|error| error.to_string()),
+        other => other.map_err(|error: core::num::ParseIntError| error.to_string()),
     }
 }
 
