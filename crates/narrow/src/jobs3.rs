@@ -204,7 +204,12 @@ impl<'a> Job3<'a> {
         match contact {
             Contact::Apart(hint) => batch.push(hint, None, first),
             Contact::Touching(hint) => batch.push(hint, Some(true), first),
-            Contact::Unclear => self.answer(batch),
+            Contact::Near(hint) => batch.push(hint, Some(false), first),
+            Contact::Unclear(hint) => {
+                let mut wanted = (!self.sensor).then_some(&mut batch.manifolds);
+                let (hint, overlapping) = self.pair().general_contact(self.margin, hint, &mut wanted);
+                batch.push(hint, overlapping, first);
+            }
         }
     }
 }

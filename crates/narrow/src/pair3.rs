@@ -184,16 +184,17 @@ impl<'a> Pair3<'a> {
     /// them all. Nothing for two half-spaces that overlap without end. Cost: as the separation, plus clipping two
     /// faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
+        let mut hint = Hint::NONE;
         if let Some(cuboids) = self.cuboids() {
             let mut manifold = Manifold3::BLANK;
             match cuboids.contact(reach_of(margin), Hint::NONE, Some(&mut manifold)) {
                 Contact::Apart(_) => return None,
-                Contact::Touching(_) => return Some(manifold),
-                Contact::Unclear => {}
+                Contact::Touching(_) | Contact::Near(_) => return Some(manifold),
+                Contact::Unclear(better) => hint = better,
             }
         }
         let mut deepest = Deepest(None);
-        self.general_contact(margin, Hint::NONE, &mut deepest);
+        self.general_contact(margin, hint, &mut deepest);
         deepest.0
     }
 
@@ -239,7 +240,8 @@ impl<'a> Pair3<'a> {
         match contact {
             Contact::Apart(hint) => (hint, None),
             Contact::Touching(hint) => (hint, Some(true)),
-            Contact::Unclear => self.general_contact(margin, hint, &mut manifolds),
+            Contact::Near(hint) => (hint, Some(false)),
+            Contact::Unclear(hint) => self.general_contact(margin, hint, &mut manifolds),
         }
     }
 
@@ -256,21 +258,19 @@ impl<'a> Pair3<'a> {
         let (mut next_hint, mut touch) = (Hint::NONE, None);
         let wanted = if manifolds.is_wanted() { Wanted::Points } else { Wanted::Number };
         self.any(reach, |parts| {
-            let near = match parts.convex.probe(Asked { limit: reach, hint, wanted }) {
-                Probe::Beyond(_, hint) => {
-                    next_hint = hint;
-                    return false;
-                }
-                Probe::Near(near) => near,
-            };
-            next_hint = near.hint;
-            let is_touching = near.verdict.overlapping;
-            if is_touching || near.separation <= margin {
-                touch = Some(touch.unwrap_or(false) || is_touching);
-                if manifolds.is_wanted()
-                    && let Some(hint) = parts.add_manifold(&near, reach, hint, manifolds)
-                {
-                    next_hint = hint;
+            let mut found = Touch::NONE;
+            let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
+            let accept = |near: &Near| wanted == Wanted::Points && is_near(near);
+            match parts.convex.contact(Asked { limit: reach, hint, wanted }, accept, &mut found) {
+                (Probe::Beyond(_, hint), _) => next_hint = hint,
+                (Probe::Near(near), has_points) => {
+                    next_hint = near.hint;
+                    if is_near(&near) {
+                        touch = Some(touch.unwrap_or(false) || near.verdict.overlapping);
+                    }
+                    if has_points {
+                        next_hint = parts.add_manifold(&near, &found, manifolds);
+                    }
                 }
             }
             false
@@ -432,11 +432,7 @@ fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'
 
 impl Parts<'_> {
     /// Adds the contact points; returns the hint that keeps them where they are in the next frame.
-    fn add_manifold(&self, near: &Near, margin: f64, hint: Hint, to: &mut impl Room) -> Option<Hint> {
-        let mut touch = Touch::NONE;
-        if !self.convex.touch(near, margin, hint, &mut touch) {
-            return None;
-        }
+    fn add_manifold(&self, near: &Near, touch: &Touch, to: &mut impl Room) -> Hint {
         if let Some(manifold) = to.room(near.separation) {
             [manifold.part_a, manifold.part_b] = self.indices;
             manifold.normal = self.basis.turn(touch.normal).as_vec3();
@@ -450,7 +446,7 @@ impl Parts<'_> {
                 });
             }
         }
-        Some(touch.of.map_or(near.hint, |of| hint_with(near.hint, of)))
+        touch.of.map_or(near.hint, |of| hint_with(near.hint, of))
     }
 
     /// From the frame of the pair to a world vector from A's position.

@@ -132,13 +132,44 @@ impl<'a> Convex<'a> {
         match self.planes() {
             [Some(a), Some(b)] => self.told(self.told_half_spaces(a, b), limit),
             [Some(plane), None] | [None, Some(plane)] => self.told(self.told_half_space(plane), limit),
-            [None, None] => self.with_solids(|a, b| {
-                if a.is_slender() && b.is_slender() {
-                    self.told(self.told_slender(a, b), limit)
-                } else {
-                    self.probe_solids(a, b, asked)
+            [None, None] => self.with_solids(|a, b| self.probe_any_solids(a, b, asked)),
+        }
+    }
+
+    /// [`Convex::probe`], and where the answer is accepted [`Convex::touch`]; whether points were made. Both at once, since
+    /// it costs something to look at a cuboid as a solid.
+    pub(crate) fn contact(
+        &self,
+        asked: Asked,
+        accept: impl FnOnce(&Near) -> bool,
+        touch: &mut Touch,
+    ) -> (Probe, bool) {
+        let [None, None] = self.planes() else {
+            let probe = self.probe(asked);
+            let is_made = match &probe {
+                Probe::Near(near) if accept(near) => self.touch(near, asked, touch),
+                _ => false,
+            };
+            return (probe, is_made);
+        };
+        self.with_solids(|a, b| {
+            let probe = self.probe_any_solids(a, b, asked);
+            let is_made = match &probe {
+                Probe::Near(near) if accept(near) => {
+                    self.touch_solids((a, b), near, asked, touch);
+                    true
                 }
-            }),
+                _ => false,
+            };
+            (probe, is_made)
+        })
+    }
+
+    fn probe_any_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
+        if a.is_slender() && b.is_slender() {
+            self.told(self.told_slender(a, b), asked.limit)
+        } else {
+            self.probe_solids(a, b, asked)
         }
     }
 
@@ -187,34 +218,37 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// Contact points of shapes at most `margin` metres apart, on their surfaces, made where last frame's hint says they
-    /// were unless that is worse by two preferences; filled in, since they are large. False for two half-spaces that
-    /// overlap without end, which have none.
-    pub(crate) fn touch(&self, near: &Near, margin: f64, hint: Hint, touch: &mut Touch) -> bool {
-        let preference = self.preference();
+    /// Contact points of shapes within the limit, on their surfaces, made where last frame's hint says they were unless
+    /// that is worse by two preferences; filled in, since they are large. False for two half-spaces that overlap without
+    /// end, which have none.
+    fn touch(&self, near: &Near, asked: Asked, touch: &mut Touch) -> bool {
+        let Evidence::HalfSpaces(a, b) = &near.evidence else {
+            self.with_solids(|a, b| self.touch_solids((a, b), near, asked, touch));
+            return true;
+        };
+        let [on_a, on_b] = a.points_with(b);
+        let separation = near.separation.into();
+        let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
+        touch.normal = a.axis();
+        touch.points.push(Point { separation, on_a, on_b, feature });
+        separation > f64::NEG_INFINITY
+    }
+
+    /// The same for anything but two half-spaces.
+    fn touch_solids(&self, (a, b): (&Solid, &Solid), near: &Near, asked: Asked, touch: &mut Touch) {
+        let (margin, preference) = (asked.limit, self.preference());
         match &near.evidence {
             Evidence::Axes(axes, witness) => {
-                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last: last_of(hint) };
-                self.with_solids(|a, b| touch_into(a, b, &ask, touch));
+                let last = last_of(asked.hint);
+                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last };
+                touch_into(a, b, &ask, touch);
             }
-            Evidence::Slender(nearest) => {
-                *touch = self.with_solids(|a, b| slender::touch(a, b, nearest, margin, preference));
-            }
+            Evidence::Slender(nearest) => *touch = slender::touch(a, b, nearest, margin, preference),
             Evidence::HalfSpace(plane) => {
-                let core_is_a = plane.is_b;
-                *touch =
-                    self.with_solids(|a, b| plane.touch(if core_is_a { a } else { b }, margin, preference));
+                *touch = plane.touch(if plane.is_b { a } else { b }, margin, preference);
             }
-            Evidence::HalfSpaces(a, b) => {
-                let [on_a, on_b] = a.points_with(b);
-                let separation = near.separation.into();
-                let feature = FeatureId::new(Feature::Face(0), Feature::Face(0));
-                touch.normal = a.axis();
-                touch.points.push(Point { separation, on_a, on_b, feature });
-                return separation > f64::NEG_INFINITY;
-            }
+            Evidence::HalfSpaces(..) => {}
         }
-        true
     }
 
     /// Points of the cores moved out to the shapes' surfaces.

@@ -8,7 +8,10 @@ use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::ALIGNED_FACES;
+use asunder_geometry::tolerance::{ALIGNED_FACES, MAX_HULL_VERTICES};
+
+/// Half-edges of a hull with the most vertices: so many edges, each seen from both of its ends.
+const MAX_EDGES: usize = 2 * (3 * MAX_HULL_VERTICES - 6);
 
 /// Share of a rod's length by which a place on it may be past its end, and count as the end.
 const SHARE: f64 = 1e-9;
@@ -52,9 +55,14 @@ pub(super) fn side_by_side(
     preference: f64,
 ) -> Option<ArrayVec<Point, 4>> {
     let least = distance - a.radius - b.radius + preference;
-    for edge_a in edges_across(a, normal, preference) {
-        for edge_b in edges_across(b, -normal, preference) {
-            let (rod_a, rod_b) = (Rod::of_edge(a, edge_a), Rod::of_edge(b, edge_b));
+    let edges_a = edges_across(a, normal, preference);
+    if edges_a.is_empty() {
+        return None;
+    }
+    let edges_b = edges_across(b, -normal, preference);
+    for &edge_a in &edges_a {
+        for &edge_b in &edges_b {
+            let (rod_a, rod_b) = (Rod::of_edge(a, edge_a.into()), Rod::of_edge(b, edge_b.into()));
             let mut points: ArrayVec<Point, 4> =
                 shared_stretch(&rod_a, &rod_b, normal, distance, preference).into_iter().collect();
             points.retain(|point| point.separation <= within);
@@ -67,16 +75,31 @@ pub(super) fn side_by_side(
     None
 }
 
-/// The edges at a core's furthest vertex that run nearly across a direction.
-fn edges_across<'a>(solid: &'a Solid, direction: DVec3, slack: f64) -> impl Iterator<Item = usize> + 'a {
-    let furthest = solid.support(direction).reach;
-    solid.topology.edges().iter().map(|&edge| usize::from(edge)).filter(move |&edge| {
-        let (from, to) = solid.edge(edge);
-        let reach = direction.dot(from).max(direction.dot(to));
-        let (along, lean) = (to - from, direction.dot(to - from));
-        let most = (1.0 - ALIGNED_FACES * ALIGNED_FACES) * along.length_squared();
-        reach >= furthest - slack && lean * lean <= most
-    })
+/// The edges at a core's furthest vertex that run nearly across a direction, in order: looked for around the vertices that
+/// are as far, which are few.
+fn edges_across(solid: &Solid, direction: DVec3, slack: f64) -> ArrayVec<u16, MAX_EDGES> {
+    let local = solid.turned_back(direction);
+    let least = solid.local_support(local).reach - slack;
+    let mut edges = ArrayVec::new();
+    for (vertex, place) in solid.vertices.iter().enumerate() {
+        if local.dot(place.as_dvec3()) < least {
+            continue;
+        }
+        for &half_edge in solid.topology.leaving(vertex) {
+            let (from, to) = solid.topology.ends(half_edge.into());
+            let along = solid.vertices[to].as_dvec3() - solid.vertices[from].as_dvec3();
+            let (lean, most) =
+                (local.dot(along), (1.0 - ALIGNED_FACES * ALIGNED_FACES) * along.length_squared());
+            if lean * lean <= most {
+                let _ = edges.try_push(solid.topology.edge_of(half_edge.into()) as u16);
+            }
+        }
+    }
+    // An edge between two vertices that are as far is there twice.
+    edges.sort_unstable();
+    let mut last = None;
+    edges.retain(|edge| last.replace(*edge) != Some(*edge));
+    edges
 }
 
 /// Points on both ends of the stretch along which two nearly parallel rods lie one above the other as seen along the

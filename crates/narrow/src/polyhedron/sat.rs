@@ -47,6 +47,7 @@
 //!
 //! Cost: linear in faces, edges and vertices; what the spheres leave, faces times vertices and edges times edges.
 
+mod across;
 mod arcs;
 mod caps;
 mod cross;
@@ -57,6 +58,7 @@ mod hinted;
 use super::solid::Solid;
 use crate::counted::count_steps;
 use crate::precision::Precision;
+pub(crate) use across::across_edges;
 use arcs::{for_edge_pairs, for_many_edge_pairs};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
@@ -191,13 +193,21 @@ impl Search<'_> {
 /// The best axis of each kind.
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     let mut sights = [Sight::new(a, b), Sight::new(b, a)];
-    let seen = [ArrayVec::new(), ArrayVec::new()];
-    let mut found = Found { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, seen };
+    let mut found = Found::new(search);
     let first = found.by_first_faces(&mut sights, search);
     if !found.is_proved((a, b), &first, search) {
         found.by_faces(&mut sights, &first, search);
         found.by_edges(&mut sights, search);
     }
+    found.axes
+}
+
+/// The same of faces alone, for solids that a gap parts.
+pub(crate) fn face_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
+    let mut sights = [Sight::new(a, b), Sight::new(b, a)];
+    let mut found = Found::new(search);
+    let first = found.by_first_faces(&mut sights, search);
+    found.by_faces(&mut sights, &first, search);
     found.axes
 }
 
@@ -214,6 +224,11 @@ struct Found {
 }
 
 impl Found {
+    fn new(search: &Search) -> Self {
+        let seen = [ArrayVec::new(), ArrayVec::new()];
+        Self { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, seen }
+    }
+
     /// The most promising face of each solid first, since the better the best axis is, the more is culled by it. Returns
     /// those faces, and the other's vertices that are furthest against them.
     fn by_first_faces(&mut self, sights: &mut [Sight; 2], search: &Search) -> [Option<[usize; 2]>; 2] {

@@ -16,9 +16,11 @@ use crate::exact::{self, Corner};
 use crate::feature::Hint;
 use crate::polyhedron::cuboids::{Cuboids, Outcome};
 use crate::polyhedron::distance::{Close, Reached, Until, Witness, distance};
-use crate::polyhedron::manifold::{Ask, touch};
+use crate::polyhedron::manifold::{Ask, nearest_edges, touch};
 use crate::polyhedron::portal::{self, Found};
-use crate::polyhedron::sat::{Axes, Axis, Hinted, Search, hint_of, separating_axes};
+use crate::polyhedron::sat::{
+    Axes, Axis, Hinted, Search, across_edges, face_axes, hint_of, hint_to, separating_axes,
+};
 use crate::polyhedron::solid::Solid;
 use crate::precision::{at_least, signed};
 use asunder_geometry::glam::DVec3;
@@ -32,6 +34,8 @@ enum Cores {
     /// Two bounds on their distance, with witness points.
     Between(Witness),
 }
+
+const OVERLAPPING: Verdict = Verdict { overlapping: true, tier: Tier::Bound };
 
 impl Convex<'_> {
     pub(super) fn probe_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
@@ -48,18 +52,23 @@ impl Convex<'_> {
         {
             return self.beyond(axis.separation, asked.hint);
         }
+        if asked.wanted == Wanted::Points
+            && let Some((axes, witness)) = self.told_by((a, b), asked.hint, hinted.as_ref())
+        {
+            return self.told_gap((a, b), axes, witness, asked.hint);
+        }
         if let Some(cuboids) = self.cuboids() {
-            return self.probe_cuboids(&cuboids, a, b, beyond);
+            return self.probe_cuboids(&cuboids, (a, b), beyond, asked.wanted);
         }
         if let Some(axes) = hinted.and_then(|hinted| hinted.proved((a, b), &self.precision)) {
-            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
+            return self.overlap_of_cores(axes, OVERLAPPING, 0.0);
         }
         let reached = match portal::search(a, b, beyond, &self.precision) {
             Found::Beyond(direction, separation) => return self.beyond(separation, Hint::towards(direction)),
             Found::Overlap if asked.wanted == Wanted::Closest => return self.just_overlapping(),
             Found::Overlap => {
                 let axes = self.all_axes(a, b, f64::NEG_INFINITY);
-                return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
+                return self.overlap_of_cores(axes, OVERLAPPING, 0.0);
             }
             Found::Nothing(direction) => {
                 let until = Until { beyond, ..Until::met(&self.precision) };
@@ -75,42 +84,47 @@ impl Convex<'_> {
             }
             Reached::Between(witness) if self.is_plain(&witness) => {
                 let (verdict, cores) = self.conclude(Reached::Between(witness));
-                let Cores::Between(witness) = cores else {
-                    let axes = self.all_axes(a, b, f64::NEG_INFINITY);
-                    return self.probe_close(a, b, axes, (verdict, cores));
+                let axes = match &cores {
+                    Cores::Within(_) => self.all_axes(a, b, f64::NEG_INFINITY),
+                    // Where points are wanted, the axes say which faces look at each other.
+                    Cores::Between(witness) if asked.wanted == Wanted::Points => {
+                        self.face_axes(a, b, witness.at_least)
+                    }
+                    Cores::Between(_) => Axes::NONE,
                 };
-                // Where points are wanted, the axes say which faces look at each other.
-                let axes = match asked.wanted {
-                    Wanted::Number | Wanted::Closest => Axes::NONE,
-                    Wanted::Points => self.all_axes(a, b, witness.at_least),
-                };
-                self.gap_of_cores(axes, verdict, witness)
+                self.probe_close((a, b), axes, (verdict, cores), asked.wanted)
             }
             reached => {
                 let axes = self.all_axes(a, b, f64::NEG_INFINITY);
                 let closer = self.closer(reached, Some(axes.best()));
-                self.probe_close(a, b, axes, closer)
+                self.probe_close((a, b), axes, closer, asked.wanted)
             }
         }
     }
 
-    fn probe_cuboids(&self, cuboids: &Cuboids, a: &Solid, b: &Solid, beyond: f64) -> Probe {
+    fn probe_cuboids(
+        &self,
+        cuboids: &Cuboids,
+        (a, b): (&Solid, &Solid),
+        beyond: f64,
+        wanted: Wanted,
+    ) -> Probe {
         let axes = match cuboids.separating_axes(a, b, beyond, &self.precision) {
             Outcome::Beyond(axis) => return self.beyond(axis.separation, hint_of(&axis)),
             Outcome::Within(axes) => axes,
         };
         // Axes of faces that were derived or merged are no proof; those of cuboids are.
         if axes.best().separation + axes.short() < -2.0 * self.precision.projection() {
-            return self.overlap_of_cores(axes, Verdict { overlapping: true, tier: Tier::Bound }, 0.0);
+            return self.overlap_of_cores(axes, OVERLAPPING, 0.0);
         }
         let closer = self.look_closer(a, b, Some(axes.best()));
-        self.probe_close(a, b, axes, closer)
+        self.probe_close((a, b), axes, closer, wanted)
     }
 
     /// Cores that overlap, of which nothing else was asked: they have no closest points.
     fn just_overlapping(&self) -> Probe {
         Probe::Near(Near {
-            verdict: Verdict { overlapping: true, tier: Tier::Bound },
+            verdict: OVERLAPPING,
             separation: 0.0,
             error: f32::INFINITY,
             normal: DVec3::X,
@@ -131,17 +145,59 @@ impl Convex<'_> {
     }
 
     /// All axes are known, and how the cores lie.
-    fn probe_close(&self, a: &Solid, b: &Solid, axes: Axes, closer: (Verdict, Cores)) -> Probe {
+    fn probe_close(
+        &self,
+        (a, b): (&Solid, &Solid),
+        axes: Axes,
+        closer: (Verdict, Cores),
+        wanted: Wanted,
+    ) -> Probe {
         match closer {
             // A search that proved no gap, where all axes show an overlap.
             (verdict, Cores::Between(witness))
-                if verdict.overlapping && axes.best().separation + axes.short() < 0.0 =>
+                if verdict.overlapping
+                    && axes.best().separation > f64::NEG_INFINITY
+                    && axes.best().separation + axes.short() < 0.0 =>
             {
                 self.overlap_of_cores(axes, verdict, witness.distance)
             }
-            (verdict, Cores::Between(witness)) => self.gap_of_cores(axes, verdict, witness),
+            (verdict, Cores::Between(witness)) => {
+                let hint = self.hint_across((a, b), &axes, &witness, wanted);
+                // What that hint will tell in the next frame is told now: an answer does not depend on its own hint.
+                if wanted == Wanted::Points {
+                    let hinted = Hinted::new((a, b), hint, &self.precision);
+                    if let Some((axes, witness)) = self.told_by((a, b), hint, hinted.as_ref()) {
+                        return self.told_gap((a, b), axes, witness, hint);
+                    }
+                }
+                self.gap_of_cores(axes, verdict, witness, hint)
+            }
             (verdict, Cores::Within(gap)) if verdict.overlapping => self.overlap_of_cores(axes, verdict, gap),
             (verdict, Cores::Within(gap)) => self.all_but_touching(a, b, axes, (verdict, gap)),
+        }
+    }
+
+    /// What a hint tells of a gap by itself, and its axis.
+    fn told_by(
+        &self,
+        (a, b): (&Solid, &Solid),
+        hint: Hint,
+        hinted: Option<&Hinted>,
+    ) -> Option<(Axes, Witness)> {
+        match hint.direction() {
+            Some(direction) => across_edges((a, b), direction, &self.precision),
+            None => hinted?.across((a, b), &self.precision),
+        }
+    }
+
+    /// A gap that a hint has told, which stays as it is: the next answer is told by the same.
+    fn told_gap(&self, (a, b): (&Solid, &Solid), axes: Axes, witness: Witness, hint: Hint) -> Probe {
+        match self.conclude(Reached::Between(witness)) {
+            (verdict, Cores::Between(witness)) => self.gap_of_cores(axes, verdict, witness, hint),
+            // Not reached: a gap of the cores that is told is wider than rounding.
+            (verdict, Cores::Within(gap)) => {
+                self.overlap_of_cores(self.all_axes(a, b, f64::NEG_INFINITY), verdict, gap)
+            }
         }
     }
 
@@ -170,20 +226,30 @@ impl Convex<'_> {
     }
 
     /// Shapes with a gap between their cores, which their radii may close.
-    fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness) -> Probe {
+    fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness, hint: Hint) -> Probe {
         let precision = self.precision;
         let (separation, gap) = precision.of_gap(witness.distance, witness.at_least, self.radii);
         let closest = self.on_surfaces([witness.point_a, witness.point_b], witness.across);
-        let has_axes = axes.best().separation > f64::NEG_INFINITY;
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
             error: precision.of_distance(separation, gap),
             normal: witness.normal,
             closest: (!verdict.overlapping).then_some(closest),
-            hint: if has_axes { hint_of(axes.best()) } else { Hint::towards(witness.normal) },
+            hint,
             evidence: Evidence::Axes(axes, Some(witness)),
         })
+    }
+
+    /// What to begin with in the next frame: the best axis, where that is the axis of the distance; else edges that are
+    /// nearest; else the direction. Edges are looked for only where contact points are wanted.
+    fn hint_across(&self, (a, b): (&Solid, &Solid), axes: &Axes, witness: &Witness, wanted: Wanted) -> Hint {
+        let best = axes.best();
+        if best.separation >= witness.at_least - 2.0 * self.preference() {
+            return hint_of(best);
+        }
+        let edges = if wanted == Wanted::Points { nearest_edges(a, b, witness) } else { None };
+        edges.map_or(Hint::towards(witness.normal), hint_to)
     }
 
     /// Yes or no for solids, cuboids apart.
@@ -307,7 +373,16 @@ impl Convex<'_> {
 
     /// All axes that may be as good as one that shows `known` for certain, of solids that are no cuboids.
     pub(crate) fn all_axes(&self, a: &Solid, b: &Solid, known: f64) -> Axes {
+        separating_axes(a, b, &self.search(known))
+    }
+
+    /// Those of faces alone: no contact is built on edges that a gap parts.
+    fn face_axes(&self, a: &Solid, b: &Solid, known: f64) -> Axes {
+        face_axes(a, b, &self.search(known))
+    }
+
+    fn search(&self, known: f64) -> Search<'_> {
         let slack = self.preference() + 4.0 * self.precision.planarity;
-        separating_axes(a, b, &Search { known, slack, precision: &self.precision })
+        Search { known, slack, precision: &self.precision }
     }
 }

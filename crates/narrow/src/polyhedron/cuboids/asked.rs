@@ -18,8 +18,10 @@ pub(crate) enum Contact {
     Apart(Hint),
     /// Overlapping.
     Touching(Hint),
-    /// That takes more than the axes.
-    Unclear,
+    /// Not overlapping, and no further apart than the margin.
+    Near(Hint),
+    /// That takes more than the axes: the general path, with what is known to begin with.
+    Unclear(Hint),
 }
 
 impl Posed<'_> {
@@ -110,17 +112,22 @@ impl Posed<'_> {
         manifold: Option<&mut Manifold3>,
     ) -> Contact {
         match placed.settle(margin) {
-            Settled::Unclear => Contact::Unclear,
+            Settled::Unclear => Contact::Unclear(hint),
             Settled::Beyond(axis) => Contact::Apart(hint_of(&axis)),
+            Settled::Parted(best) => {
+                Touching { posed: self, placed, best: &best, margin, last: last_of(hint) }
+                    .across(hint, manifold)
+            }
             Settled::Overlapping(best) => {
-                let of = match manifold {
-                    None => Some(best.axis_of(placed)),
-                    Some(manifold) => {
-                        let last = last_of(hint);
-                        Touching { posed: self, placed, best: &best, margin, last }.fill(manifold)
-                    }
+                let Some(manifold) = manifold else {
+                    return Contact::Touching(hint_to(best.axis_of(placed)));
                 };
-                of.map_or(Contact::Unclear, |of| Contact::Touching(hint_to(of)))
+                let touching = Touching { posed: self, placed, best: &best, margin, last: last_of(hint) };
+                let of = touching.measured_from();
+                match touching.fill(of, manifold) {
+                    Some(()) => Contact::Touching(hint_to(of)),
+                    None => Contact::Unclear(hint),
+                }
             }
         }
     }
@@ -130,7 +137,7 @@ impl Posed<'_> {
 #[inline(always)]
 fn separation_of(placed: &Placed, limit: f64) -> Option<Separation3> {
     match placed.settle(limit) {
-        Settled::Unclear => None,
+        Settled::Unclear | Settled::Parted(_) => None,
         Settled::Beyond(axis) => {
             Some(Separation3::AtLeast(at_least(axis.separation - placed.radii, &placed.precision)))
         }

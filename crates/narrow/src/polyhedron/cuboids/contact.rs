@@ -1,4 +1,4 @@
-//! How two cuboids that overlap touch: the rules of `super::super::manifold`, for sharp cuboids.
+//! How two cuboids touch, and where they nearly do (`super::gap`): the rules of `super::super::manifold`, for sharp cuboids.
 
 use super::super::sat::AxisOf;
 use super::names::{self, Names};
@@ -27,7 +27,7 @@ impl Manifold3 {
     };
 }
 
-/// Two cuboids that overlap, and what their points are measured by.
+/// Two cuboids that overlap or nearly do, and what their points are measured by.
 pub(super) struct Touching<'a> {
     pub(super) posed: &'a Posed<'a>,
     pub(super) placed: &'a Placed,
@@ -39,23 +39,28 @@ pub(super) struct Touching<'a> {
 }
 
 impl Touching<'_> {
-    /// Fills in a manifold, and says what it is measured from; nothing where the general path must be asked.
+    /// What the points are measured from.
     #[inline(always)]
-    pub(super) fn fill(&self, manifold: &mut Manifold3) -> Option<AxisOf> {
+    pub(super) fn measured_from(&self) -> AxisOf {
+        self.kept().unwrap_or_else(|| self.preferred())
+    }
+
+    /// Fills in a manifold measured from there; nothing where the general path must be asked.
+    #[inline(always)]
+    pub(super) fn fill(&self, of: AxisOf, manifold: &mut Manifold3) -> Option<()> {
         let Self { placed, best, .. } = *self;
         if placed.radii > 0.0 {
             return None;
         }
         let separation = best.separation();
-        let of = self.kept().unwrap_or_else(|| self.preferred());
         match of {
-            AxisOf::FaceA(face) => self.over_face(face, false, manifold)?,
-            AxisOf::FaceB(face) => self.over_face(face, true, manifold)?,
+            AxisOf::FaceA(face) => self.fill_over(&self.over_face(face, false)?, manifold)?,
+            AxisOf::FaceB(face) => self.fill_over(&self.over_face(face, true)?, manifold)?,
             AxisOf::Edges(edge_a, edge_b) => self.over_edges(edge_a, edge_b, manifold)?,
         }
         manifold.separation = signed(separation, true);
         manifold.error = placed.precision.of_separation(separation, best.short);
-        Some(of)
+        Some(())
     }
 
     /// What the last frame's points were measured from, until another axis beats it by more than two preferences.
@@ -98,12 +103,13 @@ impl Touching<'_> {
         self.best.separation() + self.placed.preference
     }
 
+    /// What a face shares with the face that looks at it.
     #[inline(always)]
-    fn over_face(&self, face: usize, is_b: bool, manifold: &mut Manifold3) -> Option<()> {
+    pub(super) fn over_face(&self, face: usize, is_b: bool) -> Option<Patch> {
         let (slack, deep) = (self.placed.preference, self.deep());
         let within = if deep > self.margin { deep } else { self.margin };
         let (reference, faces) = self.placed.faces(is_b, face, slack)?;
-        self.points(&faces.patch(reference, within, slack), &reference, deep, manifold)
+        Some(faces.patch(reference, within, slack))
     }
 
     /// The point where two edges cross, unless the faces beside them nearly look at each other.
@@ -123,13 +129,7 @@ impl Touching<'_> {
 
     /// At most four corners of a patch as contacts; nothing where none is as deep as the axis says.
     #[inline(always)]
-    fn points(
-        &self,
-        patch: &Patch,
-        reference: &Reference,
-        deep: f64,
-        manifold: &mut Manifold3,
-    ) -> Option<()> {
+    pub(super) fn fill_over(&self, patch: &Patch, manifold: &mut Manifold3) -> Option<()> {
         let count = patch.held.count_ones() as usize;
         if !patch.is_clear || count > 8 {
             return None;
@@ -149,11 +149,11 @@ impl Touching<'_> {
             *place = patch.names(slot).0 << 4 | slot as u32;
             deepest = deepest.min(patch.height[slot % SLOTS]);
         }
-        if deepest > deep {
+        if deepest > self.deep() {
             return None;
         }
         sort(&mut order);
-        Over::new(self, reference).write(patch, &order[..count], manifold);
+        Over::new(self, &patch.reference).write(patch, &order[..count], manifold);
         Some(())
     }
 

@@ -12,6 +12,7 @@ pub(crate) mod asked;
 mod contact;
 pub(crate) mod eight;
 mod fifteen;
+mod gap;
 mod graded;
 mod names;
 mod patch;

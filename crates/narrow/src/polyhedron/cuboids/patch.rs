@@ -212,7 +212,7 @@ impl Faces {
             held |= u32::from((inside.0[k] > 0.0) & (corners[2].0[k] <= within)) << (place % 32);
         }
         let off = slab_u.off.least(slab_v.off).least(off_edges).0;
-        let near = 4.0 * slack;
+        let near = CLEAR * slack;
         let join = |c: usize| {
             let ([a, b, c, d], [e, f, g, h], [i, j, k, l]) = (starts[c].0, ends[c].0, corners[c].0);
             [a, b, c, d, e, f, g, h, i, j, k, l, 0.0, 0.0, 0.0, 0.0]
@@ -278,6 +278,10 @@ const fn sides() -> [[u8; 16]; 2] {
     }
     sides
 }
+
+/// How many slacks a corner keeps from every line of an edge where nothing but the corner names it. The clipper takes its
+/// slack by the sum of coordinates, which is up to a root of two of a distance; and what it joins is nearer than one.
+const CLEAR: f64 = 1.5;
 
 /// No place in the order of corners.
 const NONE: usize = 32;

@@ -26,11 +26,13 @@ pub(super) enum Settled {
     Beyond(Axis),
     /// They overlap for certain.
     Overlapping(Best),
+    /// A face parts the cores of sharp cuboids for certain, but not by more than the limit. Edges were not looked at.
+    Parted(Best),
     /// Neither is certain.
     Unclear,
 }
 
-/// The best axes of two cores that overlap.
+/// The best axes of two cores; in a gap, faces alone.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Best {
     pub(super) face_a: Face,
@@ -133,6 +135,9 @@ impl Placed {
         let separation = best.of_faces();
         if separation > limit {
             return Settled::Beyond(best.axis(self));
+        }
+        if separation > 2.0 * rounding && self.radii == 0.0 {
+            return Settled::Parted(best);
         }
         let slack = separation.abs() * SLACK;
         best.short = if slack > rounding { slack } else { rounding };

@@ -35,6 +35,7 @@ mod single;
 
 pub(super) use frame::Frame;
 pub(super) use incident::opposed_face;
+pub(super) use single::{are_side_by_side, nearest_edges};
 
 use super::distance::Witness;
 use super::rods::side_by_side;
@@ -203,7 +204,8 @@ impl Ask<'_> {
     /// asked for again.
     fn axis_of(&self, a: &Solid, b: &Solid, of: AxisOf) -> Option<Axis> {
         let known = [&self.axes.face_a, &self.axes.face_b, &self.axes.edges];
-        if let Some(axis) = known.into_iter().find(|axis| axis.of == of) {
+        let is_known = |axis: &&Axis| axis.of == of && axis.separation > f64::NEG_INFINITY;
+        if let Some(axis) = known.into_iter().find(is_known) {
             return Some(*axis);
         }
         match of {

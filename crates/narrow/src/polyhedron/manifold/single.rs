@@ -7,6 +7,7 @@ use super::Point;
 use super::over::point_over;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
+use asunder_geometry::tolerance::ALIGNED_FACES;
 
 /// The nearest points of two edges that cross, each held to its edge.
 ///
@@ -70,20 +71,40 @@ pub(super) fn deepest_point(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> Po
 
 /// The witness points of a gap, named by the features that carry them.
 pub(super) fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> Point {
-    let carrier = |solid: &Solid, which: usize| {
+    let [of_a, of_b] = carriers(a, b, witness);
+    let point = Point {
+        separation: witness.distance,
+        on_a: witness.point_a,
+        on_b: witness.point_b,
+        feature: FeatureId::new(of_a, of_b),
+    };
+    point.on_surfaces(a, b, witness.across)
+}
+
+/// The edges that the witness points of a gap lie on, if both lie on one, and not side by side: then they have no axis.
+pub(in super::super) fn nearest_edges(a: &Solid, b: &Solid, witness: &Witness) -> Option<AxisOf> {
+    let [Feature::Edge(edge_a), Feature::Edge(edge_b)] = carriers(a, b, witness) else { return None };
+    let (edge_a, edge_b) = (edge_a as usize, edge_b as usize);
+    let do_cross = !are_side_by_side((a, edge_a), (b, edge_b));
+    do_cross.then_some(AxisOf::Edges(edge_a, edge_b))
+}
+
+/// Whether two edges run so nearly alike that no axis of theirs is worth a name.
+pub(in super::super) fn are_side_by_side((a, edge_a): (&Solid, usize), (b, edge_b): (&Solid, usize)) -> bool {
+    let (along_a, along_b) = (a.edge_direction(edge_a), b.edge_direction(edge_b));
+    let (cosine, squares) = (along_a.dot(along_b), along_a.length_squared() * along_b.length_squared());
+    cosine * cosine >= ALIGNED_FACES * ALIGNED_FACES * squares
+}
+
+/// The least features that hold the witness points.
+fn carriers(a: &Solid, b: &Solid, witness: &Witness) -> [Feature; 2] {
+    [(a, 0), (b, 1)].map(|(solid, which)| {
         let mut vertices: ArrayVec<usize, 4> = witness.corners.iter().map(|corner| corner[which]).collect();
         vertices.sort_unstable();
         let mut last = None;
         vertices.retain(|vertex| last.replace(*vertex) != Some(*vertex));
         feature_of(solid, &vertices)
-    };
-    let point = Point {
-        separation: witness.distance,
-        on_a: witness.point_a,
-        on_b: witness.point_b,
-        feature: FeatureId::new(carrier(a, 0), carrier(b, 1)),
-    };
-    point.on_surfaces(a, b, witness.across)
+    })
 }
 
 /// The least feature that holds all of these vertices.

@@ -52,7 +52,7 @@ pub(super) fn is_nearest(
 }
 
 /// How far a point is inside a face, as seen along its outward normal; below zero where it is not.
-fn in_face(solid: &Solid, face: usize, outward: DVec3, point: DVec3) -> f64 {
+pub(super) fn in_face(solid: &Solid, face: usize, outward: DVec3, point: DVec3) -> f64 {
     let mut least = f64::INFINITY;
     let mut corners = solid.topology.face_vertices(face).map(|vertex| solid.point(vertex));
     let Some(first) = corners.next() else { return f64::NEG_INFINITY };

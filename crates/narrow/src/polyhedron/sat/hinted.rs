@@ -11,7 +11,7 @@ use crate::precision::Precision;
 pub(crate) struct Hinted {
     pub(crate) axis: Axis,
     /// The vertex of the other solid that is furthest against the face.
-    deepest: usize,
+    pub(super) deepest: usize,
     /// How much less than the truth the axis may show.
     pub(super) doubt: f64,
 }

@@ -1,5 +1,6 @@
 //! Pruning by arcs must not lose the axis that decides.
 
+mod across;
 mod cost;
 mod proofs;
 

@@ -1,0 +1,98 @@
+//! What last frame's axis says of a gap is what an iteration says, whatever a hint named.
+
+use super::super::super::distance::{Reached, Until, Witness, distance};
+use super::*;
+
+/// Hulls, boxes and what stands on corners, face on face, edge on edge, and anyhow, a little apart.
+fn placed(random: &mut Random, case: u64) -> ([Shape3; 2], [Pose3; 2]) {
+    let mut shape = |kind: u64| match kind % 3 {
+        0 => random.round_hull(24),
+        1 => asunder_geometry::Cuboid::from_half_extents(random.vector().abs() + 0.2).unwrap().into(),
+        _ => random.hull(kind / 3),
+    };
+    let shapes = [shape(case), shape(case / 3)];
+    let turns = [random.turn(case / 2), random.turn(case / 5)];
+    let towards = random.vector().normalize_or(Vec3::X).as_dvec3();
+    let posed =
+        |at: f64| [(0.0, turns[0]), (at, turns[1])].map(|(at, turn)| Pose3::new(towards * at, turn).unwrap());
+    let gap = [1e-7, 1e-4, 0.02, 0.5][case as usize % 4];
+    let (mut near, mut far) = (0.0, 20.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (near + far);
+        let poses = posed(middle);
+        let pair = crate::Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
+        let is_wider = pair.distance().is_some_and(|found| f64::from(found.distance) > gap);
+        if is_wider { far = middle } else { near = middle }
+    }
+    (shapes, posed(far))
+}
+
+/// What the iteration says.
+fn iterated(pair: &Convex, a: &Solid, b: &Solid) -> Option<Witness> {
+    match distance(a, b, DVec3::X, &Until::met(&pair.precision)) {
+        Reached::Between(witness) => Some(witness),
+        Reached::Origin(_) => None,
+    }
+}
+
+#[test]
+fn a_gap_is_as_wide_as_the_iteration_says_or_it_is_not_told() {
+    let mut random = Random(0x8EBC_6AF0_9C88_C6E3);
+    let (mut by_face, mut by_edges, mut by_direction, mut untold, mut never) = (0, 0, 0, 0, 0);
+    for case in 0..300_u64 {
+        let ([shape_a, shape_b], [pose_a, pose_b]) = placed(&mut random, case);
+        let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
+        pair.with_solids(|a, b| {
+            let Some(truth) = iterated(&pair, a, b) else { return };
+            let rounding = 8.0 * pair.precision.projection() + 2e-12 * pair.precision.size;
+            let check = |witness: &Witness| {
+                let (low, high) = (truth.at_least - rounding, truth.distance + rounding);
+                assert!(
+                    witness.at_least <= high && witness.distance >= low,
+                    "{case}: {witness:?}, {truth:?}"
+                );
+                // Of a merged face the lowest corner may be told, which no more than rounding parts from its plane.
+                assert!(witness.distance - witness.at_least <= rounding, "{case}: {witness:?}");
+                let apart = (witness.point_b - witness.point_a).length();
+                assert!((apart - witness.distance).abs() <= rounding, "{case}: {witness:?}");
+                // The points are the solids' own: none of them lies further out than its solid reaches.
+                for normal in [witness.normal, DVec3::X, DVec3::Y, DVec3::Z] {
+                    for normal in [normal, -normal] {
+                        assert!(normal.dot(witness.point_a) <= a.support(normal).reach + rounding, "{case}");
+                        assert!(normal.dot(witness.point_b) <= b.support(normal).reach + rounding, "{case}");
+                    }
+                }
+            };
+            let mut is_told = false;
+            let edges = |solid: &Solid| solid.topology.edges().to_vec();
+            let pairs = edges(a).into_iter().flat_map(|edge_a| {
+                edges(b).into_iter().map(move |edge_b| AxisOf::Edges(edge_a.into(), edge_b.into()))
+            });
+            let faces = (0..a.face_count()).map(AxisOf::FaceA).chain((0..b.face_count()).map(AxisOf::FaceB));
+            for of in faces.chain(pairs) {
+                let Some(hinted) = Hinted::new((a, b), hint_to(of), &pair.precision) else { continue };
+                let Some((_, witness)) = hinted.across((a, b), &pair.precision) else {
+                    untold += 1;
+                    continue;
+                };
+                check(&witness);
+                is_told = true;
+                if matches!(of, AxisOf::Edges(..)) { by_edges += 1 } else { by_face += 1 }
+            }
+            // From the right direction, and from those of anything else.
+            for direction in [truth.normal, DVec3::X, random.vector().normalize_or(Vec3::X).as_dvec3()] {
+                if let Some((_, witness)) = across_edges((a, b), direction, &pair.precision) {
+                    check(&witness);
+                    is_told = true;
+                    by_direction += 1;
+                }
+            }
+            never += usize::from(!is_told);
+        });
+    }
+    let counts = [by_face, by_edges, by_direction, untold, never];
+    assert!(
+        by_face > 40 && by_edges > 40 && by_direction > 100 && untold > 50_000 && never < 30,
+        "{counts:?}"
+    );
+}
