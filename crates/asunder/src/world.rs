@@ -79,6 +79,8 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) last_records: Vec<Record<S::Key>>,
     pub(crate) last_manifolds: Vec<S::Manifold>,
     pub(crate) ended: Vec<Record<S::Key>>,
+    /// Where each slot's records end, in order of their second body.
+    pub(crate) ends: Vec<u32>,
 }
 
 /// The pair is asked about anew.
@@ -120,6 +122,7 @@ impl<S: Space> World<S> {
                 last_records: Vec::new(),
                 last_manifolds: Vec::new(),
                 ended: Vec::new(),
+                ends: Vec::new(),
             },
         }
     }
