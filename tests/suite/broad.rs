@@ -266,6 +266,32 @@ fn crowds_in_crowds_and_giants_have_the_pairs_of_the_plain_sweep() {
     assert!(same_as_plain(&mut sweep, &needles, "needles") > 50);
 }
 
+/// Boxes far outside of where most are, clusters in clusters, and boxes of three sizes on one spot: what leaves most boxes in one column.
+#[test]
+fn what_leaves_most_boxes_in_one_column_has_the_pairs_of_the_plain_sweep() {
+    let mut random = Random::new(704);
+    let mut sweep = Sweep::new();
+    for every in [50, 25, 6, 3] {
+        let outside = |(i, b): (usize, Aabb3)| {
+            if i % every == 0 { Aabb3::new(b.min * 1e5, b.min * 1e5 + Vec3::splat(0.1)) } else { b }
+        };
+        let room: Vec<Aabb3> = (0..3000).map(|_| random_box3(&mut random, Vec3::ONE, 0.1)).collect();
+        let boxes: Vec<Aabb3> = room.into_iter().enumerate().map(outside).collect();
+        assert!(same_as_plain(&mut sweep, &boxes, "far outside") > 1000);
+    }
+    let clusters: Vec<Aabb3> = (0..3000)
+        .map(|i| {
+            let scale = 0.25_f32.powi(i % 40);
+            let b = random_box3(&mut random, Vec3::ONE, 0.1);
+            Aabb3::new(b.min * scale, b.max * scale)
+        })
+        .collect();
+    assert!(same_as_plain(&mut sweep, &clusters, "clusters in clusters") > 100);
+    let spot = |i: usize| Aabb3::new(Vec3::splat(-((i % 3) as f32)), Vec3::splat((i % 3) as f32));
+    let spots: Vec<Aabb3> = (0..1500).map(spot).collect();
+    assert!(same_as_plain(&mut sweep, &spots, "one spot") > 500_000);
+}
+
 /// Boxes come, go, rest, wake and jump, few or many a frame, filters change, limits are hit: the list is always that of a sweep
 /// that knows nothing of before.
 #[test]

@@ -26,8 +26,8 @@ use core::time::Duration;
 impl<S: Space> World<S> {
     /// Brings contacts, candidates and events up to date with the poses. Cannot fail.
     ///
-    /// Cost: linear in the bodies that moved, and in the candidates: of those in which neither body moved, only a copy. Where more
-    /// than a fifth of all bodies moved, linear in the bodies.
+    /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where few bodies move, else in all
+    /// bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow phase of every candidate of which one body moved.
     pub fn update(&mut self) {
         self.stats = Stats { bodies: self.bodies.len(), ..Stats::default() };
         self.stats.refit = self.timed(refit::refit);

@@ -43,6 +43,11 @@ impl Quantiser {
         Self { middle, scale }
     }
 
+    /// Codes a metre on an axis.
+    pub(crate) fn per_metre(&self, axis: usize) -> f64 {
+        f64::from(self.scale[axis])
+    }
+
     /// The codes of a box without NaN; for any other, some.
     #[inline(always)]
     pub(crate) fn codes(&self, low: [f32; 3], high: [f32; 3]) -> Codes {

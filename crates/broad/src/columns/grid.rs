@@ -27,11 +27,27 @@ pub(crate) struct Reach {
     pub(crate) z: (u32, u32),
 }
 
+/// What columns are laid over; all that lies outside goes into the outermost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Over {
+    /// All boxes but a few.
+    All,
+    /// Where the middle half of the boxes is, and as much again: the same, if they are spread evenly; else not much further than most of
+    /// them, however far away a quarter is.
+    Bulk,
+}
+
 /// Boxes that share a bin of the sweep axis, roughly.
 const BOXES_A_BIN: f64 = 4.0;
 
 /// Most entries that boxes may have on average.
 const MOST_ENTRIES: usize = 4;
+
+/// Columns are at least so many boxes wide,
+const NARROWEST: f64 = 0.75;
+
+/// and at most so many times the narrowest.
+const WIDEST: f64 = 400.0;
 
 /// Most columns on one axis.
 const MOST_ACROSS: f64 = 1024.0;
@@ -43,17 +59,18 @@ const PER_COLUMN: f64 = 20.0;
 
 impl Grid {
     /// Lays columns out for `count` boxes, of which `pick` gives the one at a place.
-    pub(crate) fn for_boxes<B: Bounds>(count: usize, pick: impl Fn(usize) -> B) -> Self {
-        let spread = Spread::of(count, pick);
+    pub(crate) fn for_boxes<B: Bounds>(count: usize, over: Over, pick: impl Fn(usize) -> B) -> Self {
+        let spread = Spread::of(count, over, pick);
         let sweep = (0..3).min_by(|&a, &b| spread.fill(a).total_cmp(&spread.fill(b))).unwrap_or(0);
         let (y, z) = ((sweep + 1) % 3, (sweep + 2) % 3);
         let mut best = (f64::INFINITY, [1, 1], 0.0);
-        // Columns so and so many boxes wide.
-        let mut width = 0.75;
-        while width < 300.0 {
+        // Columns so and so many boxes wide; not so narrow that there are more of them than boxes, however far these lie apart.
+        let narrowest =
+            NARROWEST.max((spread.boxes_across(y) * spread.boxes_across(z) / count.max(1) as f64).sqrt());
+        let mut width = narrowest;
+        while width < narrowest * WIDEST {
             let across = |axis: usize| {
-                let most = (spread.extent(axis) / (width * spread.size[axis])).min(MOST_ACROSS);
-                // Not a number where there is no extent and no size: one column.
+                let most = (spread.boxes_across(axis) / width).min(MOST_ACROSS);
                 if most >= 1.0 { most.floor() } else { 1.0 }
             };
             let columns = [across(y), across(z)];
@@ -110,6 +127,16 @@ impl Grid {
         (self.columns[0] * self.columns[1]) as usize
     }
 
+    /// Whether cells are about as large as another grid's, on all axes.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        let cells = |grid: &Self, axis: usize| {
+            let across = if axis == grid.sweep { 1.0 } else { f64::from(grid.across[axis]) };
+            across * grid.quantiser.per_metre(axis)
+        };
+        let is_close = |axis: usize| (0.8..1.25).contains(&(cells(self, axis) / cells(other, axis)));
+        self.sweep == other.sweep && (0..3).all(is_close)
+    }
+
     fn with_columns(self, columns: [u32; 2]) -> Self {
         let mut across = [1 << self.bin_bits; 6];
         for (offset, columns) in columns.into_iter().enumerate() {
@@ -150,7 +177,7 @@ const GIANT: f32 = 32.0;
 type Corners = ([f32; 3], [f32; 3]);
 
 impl Spread {
-    fn of<B: Bounds>(count: usize, pick: impl Fn(usize) -> B) -> Self {
+    fn of<B: Bounds>(count: usize, over: Over, pick: impl Fn(usize) -> B) -> Self {
         let wanted = (count / 16).clamp(32, 512);
         // Not at a stride: who makes boxes in turns, one here and one there, would be seen in one place only.
         let place = |number: u32| ((u64::from(number.wrapping_mul(GOLDEN)) * count as u64) >> 32) as usize;
@@ -171,10 +198,14 @@ impl Spread {
             }
             *scratch.select_nth_unstable_by(place.min(last), f32::total_cmp).1
         };
+        let (first, last, widened) = match over {
+            Over::All => (1, 98, 0.06),
+            Over::Bulk => (25, 74, 0.56),
+        };
         let range = [0, 1, 2].map(|axis| {
-            let (low, high) = (quantile(&|b| b.0[axis], 1), quantile(&|b| b.1[axis], 98));
+            let (low, high) = (quantile(&|b| b.0[axis], first), quantile(&|b| b.1[axis], last));
             let (low, high) = (low.min(high), high.max(low));
-            let more = (high - low) * 0.06;
+            let more = (high - low) * widened;
             (low - more, high + more)
         });
         let range = range.map(|(low, high)| (low.max(-1e38), high.min(1e38)));
@@ -189,6 +220,13 @@ impl Spread {
 
     fn extent(&self, axis: usize) -> f64 {
         f64::from(self.range[axis].1) - f64::from(self.range[axis].0)
+    }
+
+    /// Boxes that fill an axis, side by side; boxes without size count as if there were room for very many.
+    fn boxes_across(&self, axis: usize) -> f64 {
+        let across = self.extent(axis) / self.size[axis];
+        // Not a number where there is no extent and no size, and below zero where all is beyond the range.
+        if across >= 1.0 { across.min(1e15) } else { 1.0 }
     }
 
     /// The part of an axis that one box fills.
@@ -224,4 +262,49 @@ fn crowding(sample: &[Corners], range: &[(f32, f32); 3]) -> f64 {
     }
     let pairs = sample.len() * sample.len().saturating_sub(1) / 2;
     (512.0 * f64::from(met) / pairs.max(1) as f64).max(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asunder_geometry::{Aabb3, glam::Vec3};
+
+    fn spread(count: u32, at: impl Fn(Vec3) -> Vec3) -> Vec<Aabb3> {
+        // Multiples of three irrational numbers: spread evenly.
+        let part = |i: u32, by: f64| (f64::from(i) * by).fract() as f32;
+        let center = |i: u32| at(Vec3::new(part(i, 0.819_172_5), part(i, 0.671_043_6), part(i, 0.549_700_4)));
+        (0..count).map(center).map(|center| Aabb3::new(center, center + Vec3::splat(1e-3))).collect()
+    }
+
+    #[test]
+    fn however_far_some_boxes_are_there_are_columns_and_not_more_than_boxes() {
+        for count in [10_000, 50_000] {
+            for far in [1.0, 1e3, 1e5] {
+                let mut boxes = spread(count, |center| center);
+                for one in boxes.iter_mut().step_by(25) {
+                    *one = Aabb3::new(one.min * far, one.min * far + Vec3::splat(1e-3));
+                }
+                let grid = Grid::for_boxes(boxes.len(), Over::All, |place| boxes[place]);
+                assert!(grid.count() > 1 && grid.count() <= boxes.len(), "{count} {far}: {:?}", grid.columns);
+            }
+        }
+    }
+
+    #[test]
+    fn a_fifth_of_boxes_far_away_does_not_decide_where_the_bulk_is() {
+        let even = spread(4000, |center| center);
+        let mut odd = even.clone();
+        for one in odd.iter_mut().step_by(5) {
+            *one = Aabb3::new(one.min * 1e6, one.max * 1e6);
+        }
+        let lay = |boxes: &[Aabb3], over| Grid::for_boxes(boxes.len(), over, |place| boxes[place]);
+        let (all, bulk) = (lay(&odd, Over::All), lay(&odd, Over::Bulk));
+        assert!((0..3).all(|axis| bulk.quantiser.per_metre(axis) > 1e4 * all.quantiser.per_metre(axis)));
+        let (all, bulk) = (lay(&even, Over::All), lay(&even, Over::Bulk));
+        for axis in 0..3 {
+            let ratio = bulk.quantiser.per_metre(axis) / all.quantiser.per_metre(axis);
+            assert!((0.8..1.25).contains(&ratio), "evenly spread, the same: {ratio}");
+        }
+        assert!(all.is_like(&all) && !all.is_like(&lay(&odd, Over::All)));
+    }
 }

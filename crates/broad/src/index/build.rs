@@ -82,6 +82,8 @@ impl<F: Fn(u32) -> Sides> Builder<'_, F> {
             order = Order::Any;
         } else if order == Order::None {
             let ordinary = start + sort(&mut self.items[start..end], self.scratch, &self.sides);
+            // Giants among giants would be set apart forever: so deep, they are split by count like all others.
+            let ordinary = if depth < DEEP { ordinary } else { end };
             if ordinary < end {
                 parts.push(Part { start: ordinary, end, order: Order::None });
             }

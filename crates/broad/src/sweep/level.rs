@@ -3,7 +3,7 @@
 use super::rows::{HITS, Hit, Progress, Strips};
 use super::settle::{NO_PAIRS, Names, Question};
 use crate::columns::codes::Entry;
-use crate::columns::grid::Grid;
+use crate::columns::grid::{Grid, Over};
 use crate::columns::{ColumnEntries, Columns, PLACE};
 use crate::pair::PairId;
 use crate::width::{Kernel, Width, widest};
@@ -38,8 +38,9 @@ const FULL: usize = 32;
 /// and is expected to have so many times fewer then.
 const GAIN: f64 = 2.0;
 
-/// Columns within columns at most: clumps of clumps of clumps.
-const DEEPEST: usize = 4;
+/// Columns within columns at most, for clumps of clumps of clumps: each costs twice as much of this as boxes get entries in it on average,
+/// so that there are twelve where few straddle, four where all do, and never more than 256 entries a box.
+const DEEPEST: usize = 24;
 
 impl Scratch {
     pub(super) fn bytes(&self) -> usize {
@@ -108,7 +109,8 @@ where
     ) -> ControlFlow<()> {
         let Level { parts, grid, range, question, scratch } = self;
         let Scratch { strips, gathered, nested } = scratch;
-        let crowd = CROWDED * parts.iter().map(Columns::len).sum::<usize>() / grid.count();
+        let all = parts.iter().map(Columns::len).sum::<usize>();
+        let crowd = CROWDED * all / grid.count();
         let mut hits = [Hit::default(); HITS];
         let mut pairs = NO_PAIRS;
         for index in range {
@@ -125,7 +127,10 @@ where
                 if full > FULL {
                     let nested = nested.get_or_insert_default();
                     let names = if NESTED { names } else { None };
-                    if let Some(flow) = nested.sweep(&column, full, question, (names, depth)) {
+                    // Columns that leave most boxes in one were misled by what lies far outside.
+                    let over = if 2 * count > all { Over::Bulk } else { Over::All };
+                    if let Some(flow) = nested.sweep((&column, grid), (full, over), question, (names, depth))
+                    {
                         flow?;
                         continue;
                     }
@@ -149,8 +154,8 @@ impl Nested {
     /// Sweeps a column in columns, by fresh statistics; not if they promise too little.
     fn sweep<B, A, S>(
         &mut self,
-        column: &ColumnEntries<'_>,
-        full: usize,
+        (column, around): (&ColumnEntries<'_>, &Grid),
+        (full, over): (usize, Over),
         question: &mut Question<'_, B, A, S>,
         (outer, depth): (Option<&Names<'_>>, usize),
     ) -> Option<ControlFlow<()>>
@@ -162,11 +167,21 @@ impl Nested {
         let Self { columns, members, scratch } = self;
         let boxes = question.boxes;
         let pick = |entry: &Entry| boxes[outermost(entry.place & PLACE, outer) as usize];
-        let grid = Grid::for_boxes(column.entries.len(), |place| pick(&column.entries[place]));
-        if grid.count() == 1 && grid.expected * GAIN > full as f64 {
+        let grid = Grid::for_boxes(column.entries.len(), over, |place| pick(&column.entries[place]));
+        let is_gain = grid.count() > 1 || grid.expected * GAIN <= full as f64;
+        // Of boxes all around one spot, say: it would be the same again.
+        if !is_gain || grid.is_like(around) {
             return None;
         }
         let grid = columns.fill(grid, column.entries.len(), |place| pick(&column.entries[place]));
+        let (before, after) = (column.entries.len(), columns.len());
+        let candidates =
+            || (0..grid.count()).map(|index| columns.column(&grid, index).candidates(&grid)).sum::<usize>();
+        // Unless nearly all straddle, what is a heap still is told apart further down.
+        if after > 3 * before && candidates() as f64 * GAIN > (full * before) as f64 {
+            return None;
+        }
+        let depth = depth + 2 * after / before.max(1);
         members.clear();
         members.extend(column.entries.iter().map(|entry| entry.place));
         let level = Level {
@@ -176,7 +191,7 @@ impl Nested {
             question,
             scratch,
         };
-        Some(widest(Inner { level, names: Names { members, outer }, depth: depth + 1 }))
+        Some(widest(Inner { level, names: Names { members, outer }, depth }))
     }
 }
 

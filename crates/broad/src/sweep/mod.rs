@@ -46,7 +46,7 @@ mod settle;
 mod threads;
 pub(crate) mod wide;
 
-use crate::columns::grid::Grid;
+use crate::columns::grid::{Grid, Over};
 use crate::columns::{Columns, MOST_BOXES};
 use crate::pair::{PairId, TooManyPairs};
 use crate::width::{Kernel, Width, widest};
@@ -198,7 +198,7 @@ impl<B: Bounds> Kernel for Sort<'_, B> {
     #[inline(always)]
     fn run<W: Width>(self, _: W) -> Grid {
         let Self { boxes, columns } = self;
-        let grid = Grid::for_boxes(boxes.len(), |place| boxes[place]);
+        let grid = Grid::for_boxes(boxes.len(), Over::All, |place| boxes[place]);
         columns.fill(grid, boxes.len(), |place| boxes[place])
     }
 }

@@ -14,7 +14,7 @@ use super::level::{Level, Scratch};
 use super::order::Order;
 use super::settle::Question;
 use crate::columns::Columns;
-use crate::columns::grid::Grid;
+use crate::columns::grid::{Grid, Over};
 use crate::pair::{PairId, TooManyPairs};
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
@@ -119,7 +119,7 @@ impl Team {
 fn sort<B: Bounds>(parts: &mut [Columns], boxes: &[B]) -> Grid {
     let each = boxes.len().div_ceil(parts.len().max(1));
     let places = |part: usize| (part * each).min(boxes.len())..((part + 1) * each).min(boxes.len());
-    let mut grid = Grid::for_boxes(boxes.len(), |place| boxes[place]);
+    let mut grid = Grid::for_boxes(boxes.len(), Over::All, |place| boxes[place]);
     loop {
         let count = |(index, part): (usize, &mut Columns)| {
             widest(Count { part, grid: &grid, boxes, places: places(index) });
