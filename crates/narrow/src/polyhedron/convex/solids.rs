@@ -1,6 +1,7 @@
 //! Solids: which search comes first, the decision, and the number that agrees with it.
 //!
 //! ```text
+//! contact points   what last frame's hint tells of a gap, or will tell in the next: the distance            (sat::across)
 //! two cuboids      all fifteen axes; in a gap, or where those cannot tell, the distance
 //! anything else    last frame's axis
 //!                  a search for a direction that parts them, or for a common point                     (portal)
@@ -8,7 +9,8 @@
 //!                  the best axis, in overlap, and where contact points are wanted                      (sat)
 //! ```
 //! Most pairs that a broad phase hands over are apart, and most others overlap by more than rounding: what tells them apart
-//! is asked first, and the axes, of which there are thousands, only when the depth is wanted.
+//! is asked first, and the axes, of which there are thousands, only when the depth is wanted. In a gap no contact is built on
+//! the axes of edges, and only those of faces are asked for.
 
 use super::{Asked, Convex, Evidence, Near, Probe, Wanted};
 use crate::answer::{Tier, Verdict};

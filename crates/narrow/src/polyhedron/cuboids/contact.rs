@@ -54,8 +54,8 @@ impl Touching<'_> {
         }
         let separation = best.separation();
         match of {
-            AxisOf::FaceA(face) => self.fill_over(&self.over_face(face, false)?, manifold)?,
-            AxisOf::FaceB(face) => self.fill_over(&self.over_face(face, true)?, manifold)?,
+            AxisOf::FaceA(face) => self.over_face(face, false, |patch| self.fill_over(patch, manifold))?,
+            AxisOf::FaceB(face) => self.over_face(face, true, |patch| self.fill_over(patch, manifold))?,
             AxisOf::Edges(edge_a, edge_b) => self.over_edges(edge_a, edge_b, manifold)?,
         }
         manifold.separation = signed(separation, true);
@@ -103,13 +103,18 @@ impl Touching<'_> {
         self.best.separation() + self.placed.preference
     }
 
-    /// What a face shares with the face that looks at it.
+    /// Asks about what a face shares with the face that looks at it. It is large, and stays where it is made.
     #[inline(always)]
-    pub(super) fn over_face(&self, face: usize, is_b: bool) -> Option<Patch> {
+    pub(super) fn over_face<R>(
+        &self,
+        face: usize,
+        is_b: bool,
+        ask: impl FnOnce(&Patch) -> Option<R>,
+    ) -> Option<R> {
         let (slack, deep) = (self.placed.preference, self.deep());
         let within = if deep > self.margin { deep } else { self.margin };
         let (reference, faces) = self.placed.faces(is_b, face, slack)?;
-        Some(faces.patch(reference, within, slack))
+        ask(&faces.patch(reference, within, slack))
     }
 
     /// The point where two edges cross, unless the faces beside them nearly look at each other.

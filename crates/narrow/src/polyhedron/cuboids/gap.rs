@@ -8,6 +8,9 @@
 //! ```
 //! The contact points are corners of a patch as in overlap, mostly of the very same one. Anything else that is nearest, an
 //! edge to an edge or a corner to a corner, is left to the general path.
+//!
+//! Of a pile of boxes of which a third of the pairs is parted by less than the margin, nine tenths of those are told here, in
+//! 0.35 us where the general path took 2.5 (AMD EPYC, Zen 4, 2026-11-21).
 
 use super::super::sat::{AxisOf, hint_to, hint_with};
 use super::asked::Contact;
@@ -25,48 +28,57 @@ const LEVEL: f64 = 0.5;
 
 impl Touching<'_> {
     /// Whether the shapes are within the margin, and the manifold, filled in where one is wanted.
-    #[inline]
+    ///
+    /// Out of line: within what is asked of pairs that overlap it made those 6 % slower.
+    #[inline(never)]
     pub(super) fn across(&self, hint: Hint, manifold: Option<&mut Manifold3>) -> Contact {
-        let separation = signed(self.best.separation(), false);
         let of = self.measured_from();
-        let Some((patch, short)) = self.proved(of) else { return Contact::Unclear(hint) };
-        // The margin is that of the caller and one ulp: what rounds to it counts.
-        if f64::from(separation) >= self.margin {
-            return Contact::Apart(hint_to(of));
-        }
-        if let Some(manifold) = manifold {
-            if self.fill_over(&patch, manifold).is_none() {
-                return Contact::Unclear(hint_with(hint_to(self.best.axis_of(self.placed)), of));
-            }
-            manifold.separation = separation;
-            manifold.error = self.placed.precision.of_distance(self.best.separation(), short);
-        }
-        Contact::Near(hint_to(of))
+        let contact = match of {
+            AxisOf::FaceA(face) => self.over_face(face, false, |patch| self.told(of, patch, manifold)),
+            AxisOf::FaceB(face) => self.over_face(face, true, |patch| self.told(of, patch, manifold)),
+            AxisOf::Edges(..) => None,
+        };
+        contact.unwrap_or(Contact::Unclear(hint))
     }
 
-    /// The patch over a face, and what the distance may exceed the best face's separation by; nothing where more than
-    /// rounding may be between them.
+    /// The same by the patch over a face; nothing where more than rounding may be between both bounds.
     ///
     /// A corner of the patch is off its place by less than 88 u reach, two projections: one for where the incident cuboid
     /// stands; 8 u for where an edge crosses a side, along the side and across; 12 u for the height at a corner of the
     /// reference face, over a face that is tilted by 60 degrees at most.
     #[inline(always)]
-    fn proved(&self, of: AxisOf) -> Option<(Patch, f64)> {
+    fn told(&self, of: AxisOf, patch: &Patch, manifold: Option<&mut Manifold3>) -> Option<Contact> {
         let Self { placed, best, .. } = *self;
-        let patch = self.over(of)?;
-        let nearest = best.axis_of(placed);
-        let lowest = if nearest == of { placed.lowest(&patch) } else { placed.lowest(&self.over(nearest)?) };
+        let (least, nearest) = (best.separation(), best.axis_of(placed));
+        let lowest = if nearest == of { placed.lowest(patch) } else { self.lowest_over(nearest)? };
         let rounding = placed.precision.projection();
-        let (above, most) = (lowest - best.separation(), best.separation() * SLACK);
+        let (above, most) = (lowest - least, least * SLACK);
         let is_met = above <= if most > rounding { most } else { rounding };
-        is_met.then(|| (patch, above.max(0.0) + rounding))
+        if !is_met {
+            return None;
+        }
+        let separation = signed(least, false);
+        // The margin is that of the caller and one ulp: what rounds to it counts.
+        if f64::from(separation) >= self.margin {
+            return Some(Contact::Apart(hint_to(of)));
+        }
+        if let Some(manifold) = manifold {
+            if self.fill_over(patch, manifold).is_none() {
+                return Some(Contact::Unclear(hint_with(hint_to(nearest), of)));
+            }
+            manifold.separation = separation;
+            manifold.error = placed.precision.of_distance(least, above.max(0.0) + rounding);
+        }
+        Some(Contact::Near(hint_to(of)))
     }
 
-    #[inline(always)]
-    fn over(&self, of: AxisOf) -> Option<Patch> {
-        match of {
-            AxisOf::FaceA(face) => self.over_face(face, false),
-            AxisOf::FaceB(face) => self.over_face(face, true),
+    /// The height of the lowest corner over the best face, where the points are measured from another.
+    #[inline(never)]
+    fn lowest_over(&self, nearest: AxisOf) -> Option<f64> {
+        let lowest = |patch: &Patch| Some(self.placed.lowest(patch));
+        match nearest {
+            AxisOf::FaceA(face) => self.over_face(face, false, lowest),
+            AxisOf::FaceB(face) => self.over_face(face, true, lowest),
             AxisOf::Edges(..) => None,
         }
     }
