@@ -281,7 +281,7 @@ fn what_leaves_most_boxes_in_one_column_has_the_pairs_of_the_plain_sweep() {
     }
     let clusters: Vec<Aabb3> = (0..3000)
         .map(|i| {
-            let scale = 0.25_f32.powi(i % 40);
+            let scale = (0..i % 40).fold(1.0, |scale: f32, _| scale * 0.25);
             let b = random_box3(&mut random, Vec3::ONE, 0.1);
             Aabb3::new(b.min * scale, b.max * scale)
         })

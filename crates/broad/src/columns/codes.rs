@@ -34,7 +34,7 @@ impl Quantiser {
         let [mut middle, mut scale] = [[0.0; 8]; 2];
         for (axis, (low, high)) in intervals.into_iter().enumerate() {
             let width = f64::from(high) - f64::from(low);
-            let per_metre = (2.0 * f64::from(LAST) / width).clamp(1e-30, 1e30) as f32;
+            let per_metre = (2.0 * f64::from(LAST) / width).clamp(1e-36, 1e38) as f32;
             for place in [axis, axis + 3] {
                 middle[place] = low * 0.5 + high * 0.5;
                 scale[place] = per_metre;
@@ -113,6 +113,17 @@ mod tests {
             [-32_767, -32_767, -32_767, 32_767, 32_767, 32_767]
         );
         assert_eq!(quantiser.codes([3.0, 0.5, -0.5], [3.0, 0.5, -0.5]), [0; 6]);
+    }
+
+    #[test]
+    fn intervals_as_wide_and_as_narrow_as_numbers_go_are_spread() {
+        for width in [1e38_f32, 1e20, 1e-20, 1e-31, 1e-33] {
+            let quantiser = Quantiser::over([(0.0, width); 3]);
+            let codes = [0.0, 0.25, 0.5, 0.75].map(|part| quantiser.codes([part * width; 3], [width; 3])[0]);
+            let is_off = |(code, wanted): (i16, i32)| (i32::from(code) - wanted).abs() > 2;
+            let wanted = [-32_767, -16_384, 0, 16_384];
+            assert!(!codes.into_iter().zip(wanted).any(is_off), "{width}: {codes:?}");
+        }
     }
 
     #[test]
