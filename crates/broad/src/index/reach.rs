@@ -10,7 +10,7 @@ use core::ops::ControlFlow;
 
 /// A box that was found at a distance.
 ///
-/// The distance is never too great: what is in the box is that far away or further. It falls short by at most 1e-6 of itself, where
+/// The distance is never too great, down to 1e-38 m: what is in the box is that far away or further. It falls short by at most 1e-6 of itself, where
 /// f32 can tell.
 ///
 /// ```
@@ -78,7 +78,7 @@ impl Ask for To {
 impl<B: Bounds> Index<B> {
     /// Replaces `into` by the boxes that are crossed no later than at `limit`, in order of distance, then of number.
     ///
-    /// None is left out that is crossed; one that is missed by less than rounding (1e-6 of the distance) may be among them.
+    /// None is left out that is crossed within 1e38 lengths; one that is missed by less than rounding (1e-6 of the distance) may be among them.
     pub fn crossed(&self, cast: &Cast, limit: f64, into: &mut Vec<Found>) {
         into.clear();
         let _ = self.visit_crossed(cast, limit, |found| {
