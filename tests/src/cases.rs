@@ -329,3 +329,25 @@ pub fn truth2(a: &Placed2, b: &Placed2) -> Truth<DVec2> {
     let normal = if nearest.distance > 0.0 && gap2(a, b, line) > best.gap { line } else { best.normal };
     Truth { separation: nearest.distance, normal }
 }
+
+/// Coordinates that break sorts, quantisers and comparisons.
+pub const NASTY: [f32; 18] = [
+    f32::NAN,
+    f32::NEG_INFINITY,
+    f32::INFINITY,
+    f32::MIN,
+    f32::MAX,
+    -1.0,
+    -0.0,
+    0.0,
+    1.0,
+    1.000_000_1,
+    2.0,
+    1e-45,
+    -1e-45,
+    1e-40,
+    f32::MIN_POSITIVE,
+    1e9,
+    -1e9,
+    0.5,
+];

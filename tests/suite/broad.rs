@@ -4,7 +4,7 @@ use asunder_broad::{CoherentSweep, PairId, PlainSweep, Sweep, TooManyPairs};
 use asunder_geometry::{Aabb2, Aabb3, Bounds};
 use asunder_scenes::boxes::{BoxScene, MovingBoxes};
 use asunder_tests::brute_pairs::{Sides, brute_pairs};
-use asunder_tests::cases::Random;
+use asunder_tests::cases::{NASTY, Random};
 use core::ops::ControlFlow;
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -72,28 +72,6 @@ fn random_boxes_of_every_density() {
     assert!(counts.iter().any(|&count| count < 20), "sparse: {counts:?}");
     assert!(counts.iter().any(|&count| count > all_pairs * 9 / 10), "dense: {counts:?}");
 }
-
-/// Coordinates that break sorts, quantisers and comparisons.
-const NASTY: [f32; 18] = [
-    f32::NAN,
-    f32::NEG_INFINITY,
-    f32::INFINITY,
-    f32::MIN,
-    f32::MAX,
-    -1.0,
-    -0.0,
-    0.0,
-    1.0,
-    1.000_000_1,
-    2.0,
-    1e-45,
-    -1e-45,
-    1e-40,
-    f32::MIN_POSITIVE,
-    1e9,
-    -1e9,
-    0.5,
-];
 
 #[test]
 fn nasty_boxes() {

@@ -6,7 +6,7 @@ use asunder_broad::Index;
 use asunder_geometry::{Aabb2, Aabb3, Bounds};
 use asunder_scenes::boxes::{BoxScene, MovingBoxes};
 use asunder_tests::brute_pairs::Sides;
-use asunder_tests::cases::Random;
+use asunder_tests::cases::{NASTY, Random};
 use core::ops::ControlFlow;
 use glam::Vec3;
 use proptest::prelude::*;
@@ -104,28 +104,6 @@ fn overlaps_in_every_scene() {
     }
     assert!(found > 1000, "{found}");
 }
-
-/// Coordinates that break sorts, keys and comparisons.
-const NASTY: [f32; 18] = [
-    f32::NAN,
-    f32::NEG_INFINITY,
-    f32::INFINITY,
-    f32::MIN,
-    f32::MAX,
-    -1.0,
-    -0.0,
-    0.0,
-    1.0,
-    1.000_000_1,
-    2.0,
-    1e-45,
-    -1e-45,
-    1e-40,
-    f32::MIN_POSITIVE,
-    1e9,
-    -1e9,
-    0.5,
-];
 
 /// Sixty boxes with nasty corners, every fourth inverted if it came so.
 fn nasty_boxes(random: &mut Random, round: usize) -> Vec<Aabb3> {

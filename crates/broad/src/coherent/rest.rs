@@ -62,6 +62,8 @@ impl<B: Bounds> Rest<B> {
             + self.far.bytes()
             + strips
             + self.asked.capacity() * size_of::<(u32, Codes, Stretch)>()
+            + self.starts.capacity() * size_of::<PairId>()
+            + self.order.bytes()
     }
 
     /// All boxes rest, as they were just swept.

@@ -85,7 +85,7 @@ impl Grid {
         let grid = Self {
             quantiser: Quantiser::over(spread.range),
             sweep,
-            columns: best.1,
+            columns: [1, 1],
             bin_bits,
             across: [0; 6],
             expected: best.2,

@@ -52,15 +52,17 @@ impl Scratch {
 }
 
 /// Some columns of boxes that were sorted in one or more parts.
-pub(super) struct Level<'a, 'q, B, A, S> {
+pub(super) struct Level<'a, 'q, B, A, S, const NESTED: bool> {
     pub(super) parts: &'a [Columns],
     pub(super) grid: &'a Grid,
     pub(super) range: Range<usize>,
     pub(super) question: &'a mut Question<'q, B, A, S>,
     pub(super) scratch: &'a mut Scratch,
+    /// If these are columns of a column: what its boxes are called outside, and how deep it is.
+    pub(super) around: (Option<&'a Names<'a>>, usize),
 }
 
-impl<B, A, S> Kernel for Level<'_, '_, B, A, S>
+impl<B, A, S, const NESTED: bool> Kernel for Level<'_, '_, B, A, S, NESTED>
 where
     B: Bounds,
     A: Fn(u32, u32) -> bool,
@@ -70,44 +72,7 @@ where
 
     #[inline(always)]
     fn run<W: Width>(self, width: W) -> ControlFlow<()> {
-        self.sweep::<W, false>(width, (None, 0))
-    }
-}
-
-/// The columns of a column.
-struct Inner<'a, 'q, B, A, S> {
-    level: Level<'a, 'q, B, A, S>,
-    names: Names<'a>,
-    depth: usize,
-}
-
-impl<B, A, S> Kernel for Inner<'_, '_, B, A, S>
-where
-    B: Bounds,
-    A: Fn(u32, u32) -> bool,
-    S: FnMut(&[PairId]) -> ControlFlow<()>,
-{
-    type Output = ControlFlow<()>;
-
-    #[inline(always)]
-    fn run<W: Width>(self, width: W) -> ControlFlow<()> {
-        self.level.sweep::<W, true>(width, (Some(&self.names), self.depth))
-    }
-}
-
-impl<B, A, S> Level<'_, '_, B, A, S>
-where
-    B: Bounds,
-    A: Fn(u32, u32) -> bool,
-    S: FnMut(&[PairId]) -> ControlFlow<()>,
-{
-    #[inline(always)]
-    fn sweep<W: Width, const NESTED: bool>(
-        self,
-        width: W,
-        (names, depth): (Option<&Names<'_>>, usize),
-    ) -> ControlFlow<()> {
-        let Level { parts, grid, range, question, scratch } = self;
+        let Level { parts, grid, range, question, scratch, around: (names, depth) } = self;
         let Scratch { strips, gathered, nested } = scratch;
         let all = parts.iter().map(Columns::len).sum::<usize>();
         let crowd = CROWDED * all / grid.count();
@@ -126,7 +91,6 @@ where
                 let full = column.candidates(grid) / count;
                 if full > FULL {
                     let nested = nested.get_or_insert_default();
-                    let names = if NESTED { names } else { None };
                     // Columns that leave most boxes in one were misled by what lies far outside.
                     let over = if 2 * count > all { Over::Bulk } else { Over::All };
                     if let Some(flow) = nested.sweep((&column, grid), (full, over), question, (names, depth))
@@ -184,14 +148,16 @@ impl Nested {
         let depth = depth + 2 * after / before.max(1);
         members.clear();
         members.extend(column.entries.iter().map(|entry| entry.place));
-        let level = Level {
+        let names = Names { members, outer };
+        let level = Level::<_, _, _, true> {
             parts: core::slice::from_ref(columns),
             grid: &grid,
             range: 0..grid.count(),
             question,
             scratch,
+            around: (Some(&names), depth),
         };
-        Some(widest(Inner { level, names: Names { members, outer }, depth }))
+        Some(widest(level))
     }
 }
 

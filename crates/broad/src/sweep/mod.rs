@@ -154,12 +154,13 @@ impl Sweep {
         let Self { columns, scratch, .. } = self;
         let grid = widest(Sort { boxes, columns });
         self.grid = Some(grid);
-        let level = Level {
+        let level = Level::<_, _, _, false> {
             parts: core::slice::from_ref(columns),
             grid: &grid,
             range: 0..grid.count(),
             question: &mut Question { boxes, admit, sink },
             scratch,
+            around: (None, 0),
         };
         widest(level)
     }

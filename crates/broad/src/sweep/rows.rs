@@ -158,7 +158,7 @@ fn lanes(strips: [&[i16]; 6], from: usize) -> Option<[&[i16; LANES]; 6]> {
 }
 
 /// Bits of the lanes that may overlap.
-const MAY: u32 = 0x00ff_00ff;
+pub(super) const MAY: u32 = 0x00ff_00ff;
 
 const BITS: [i16; LANES] = {
     let mut bits = [0; LANES];

@@ -204,7 +204,7 @@ impl Group {
         let range = columns.clone();
         let question = &mut Question { boxes, admit, sink: &mut sink };
         // Broken off only where there are too many pairs, which the total says.
-        let _ = widest(Level { parts, grid, range, question, scratch });
+        let _ = widest(Level::<_, _, _, false> { parts, grid, range, question, scratch, around: (None, 0) });
         counts.clear();
         counts.resize(BINS, 0);
         for pair in found.iter() {

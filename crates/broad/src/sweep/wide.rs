@@ -19,6 +19,7 @@ impl SixteenGaps for Portable {
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code)]
 mod avx2 {
+    use super::super::rows::MAY;
     use super::{LANES, SixteenGaps};
     use crate::width::Avx2;
     use core::arch::x86_64::*;
@@ -39,7 +40,7 @@ mod avx2 {
         let gaps = _mm256_set_epi16(p, o, n, m, l, k, j, i, h, g, f, e, d, c, b, a);
         let zero = _mm256_setzero_si256();
         let bytes = _mm256_packs_epi16(_mm256_cmpgt_epi16(gaps, zero), _mm256_cmpeq_epi16(gaps, zero));
-        _mm256_movemask_epi8(bytes) as u32 ^ 0x00ff_00ff
+        _mm256_movemask_epi8(bytes) as u32 ^ MAY
     }
 
     #[cfg(test)]
