@@ -42,6 +42,7 @@ mod bodies;
 mod clock;
 mod collider;
 mod contact;
+mod debug;
 mod event;
 mod frame;
 mod hooks;
@@ -64,6 +65,7 @@ pub use asunder_narrow::{
 };
 pub use collider::{Collider, Collider2, Collider3, Layers, MarginError};
 pub use contact::{Contact, Contact2, Contact3};
+pub use debug::{DebugLine, DebugOptions};
 pub use event::{Event, Event2, Event3};
 pub use hooks::{Hooks, Hooks2, Hooks3, Meeting, Meeting2, Meeting3, Side, Side2, Side3};
 pub use slotmap;
