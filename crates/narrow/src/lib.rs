@@ -47,9 +47,11 @@
 
 mod answer;
 mod batch;
+mod cast3;
 mod counted;
 mod exact;
 mod feature;
+mod impact3;
 mod jobs3;
 mod lanes;
 mod least;
@@ -66,7 +68,9 @@ pub use answer::{
 };
 pub use arrayvec::ArrayVec;
 pub use batch::{Batch, Batch2, Batch3};
+pub use cast3::cast_ray3;
 pub use feature::{Feature, FeatureId, Hint};
+pub use impact3::{Impact3, RayHit3};
 pub use jobs3::{Job3, collide3, separations3};
 pub use pair2::{Job2, Pair2, collide2};
 pub use pair3::Pair3;
