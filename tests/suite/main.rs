@@ -28,7 +28,6 @@
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
-//! - [`casts`]: what moves and turns meets nothing before it is said to, and is as near there as told; rays; parry3d's word
 //! - [`theory`]: the textbook's own examples
 //! - [`peer`]: parry3d says the same on 160,000 pairs
 //! - [`solver`]: stacks, pyramids and leaning cards stand on the manifolds, by the names of their points
@@ -36,6 +35,8 @@
 //! World
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
+//! - [`debug_lines`]: lines for a renderer lie on what they show
+//! - [`motions`]: what an update says of this frame's motions: contacts to come, and what bullets run into first
 //! - [`world_threads`]: every output has the same bits at any number of threads
 //!
 //! Stories
@@ -51,7 +52,7 @@ mod architecture;
 mod bounds;
 mod boxes;
 mod broad;
-mod casts;
+mod debug_lines;
 mod exactness;
 mod fuzzed;
 mod hard;
@@ -61,6 +62,7 @@ mod index;
 mod invariance;
 mod manifolds;
 mod mass;
+mod motions;
 mod oracles;
 mod peer;
 mod plane;

@@ -80,5 +80,5 @@ impl DebugLine {
     }
 }
 
-/// An arc is halved so often: eight pieces a quarter circle would be more than anybody sees, so four.
-const HALVINGS: u32 = 2;
+/// An arc of at most half a circle is halved so often: a quarter circle is off by at most 0.5 % of its radius.
+const HALVINGS: u32 = 3;

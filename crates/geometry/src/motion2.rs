@@ -28,6 +28,9 @@ pub struct Motion2 {
 }
 
 impl Motion2 {
+    /// Neither moves nor turns.
+    pub const STILL: Self = Self { displacement: DVec2::ZERO, to: None };
+
     /// A motion by a displacement in metres (`Vec2`, `DVec2`, or an array of f64), which ends in a given rotation.
     ///
     /// # Errors

@@ -57,6 +57,9 @@ pub struct Turn3 {
 }
 
 impl Motion3 {
+    /// Neither moves nor turns.
+    pub const STILL: Self = Self { displacement: DVec3::ZERO, rotation: None };
+
     /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the rotation that is reached at the end, of any
     /// length but zero.
     ///
