@@ -2,13 +2,12 @@
 
 use super::piece::Piece;
 use super::stretch::Stretch;
-use super::sum;
-use crate::answer::Separation2;
+use super::{at_start, sum};
 use crate::pair2::Pair2;
 use crate::polygon::distance::{Reached, Until, Witness, distance};
 use crate::polygon::outline::{Outline, Turn};
 use crate::precision::Precision;
-use asunder_geometry::glam::DVec2;
+use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::tolerance::CAST_GAP2;
 use asunder_geometry::{Core2, Pose2, Rotation2, Shape2};
 
@@ -233,7 +232,12 @@ impl<'a> Course<'a> {
             };
             let apart = (points[1] - points[0]).length() - self.radii + rounding;
             if apart <= best.apart {
-                best = Touching { at: now + on, apart, points: self.on_surfaces(points, look.axis), ..best };
+                // Round shapes touch along the line between their cores as they are then.
+                let across = points[1] - points[0];
+                let is_round =
+                    self.radii > 0.0 && self.line().is_none() && across.length() > 1e-6 * self.radii;
+                let axis = if is_round { across.normalize() } else { look.axis };
+                best = Touching { at: now + on, axis, apart, points: self.on_surfaces(points, axis) };
             }
         }
         best
@@ -244,14 +248,18 @@ impl<'a> Course<'a> {
         let beside = |which: usize| {
             let (turn, origin) = self.place(which, now);
             let along = turn.axes()[0].as_vec2();
-            Rotation2::new(along.x, along.y).and_then(|rotation| Pose2::new(origin, rotation)).unwrap_or_default()
+            Rotation2::new(along.x, along.y)
+                .and_then(|rotation| Pose2::new(origin, rotation))
+                .unwrap_or_default()
         };
-        let (pose_a, pose_b) = (beside(0), beside(1));
-        let pair = Pair2::new(self.pieces[0].shape, &pose_a, self.pieces[1].shape, &pose_b);
-        let axis = match pair.separation(0.0) {
-            Separation2::Measured(measured) => measured.normal.as_dvec2(),
-            Separation2::AtLeast(_) => axis,
-        };
+        let poses = [beside(0), beside(1)];
+        let pair = Pair2::new(self.pieces[0].shape, &poses[0], self.pieces[1].shape, &poses[1]);
+        let margin = (2.0 * self.enough + f64::from(f32::EPSILON) * self.precision.reach) as f32;
+        if let Some(impact) = pair.manifold(margin).and_then(|manifold| at_start(&manifold)) {
+            let [on_a, on_b] = [impact.anchor_a, impact.anchor_b].map(Vec2::as_dvec2);
+            let points = [on_a + poses[0].position(), on_b + poses[1].position()];
+            return Touching { at: now, axis: impact.normal.as_dvec2(), apart: self.enough, points };
+        }
         let [a, b] = self.outlines(now);
         let points = [a.point(a.support(axis).vertex), b.point(b.support(-axis).vertex)];
         Touching { at: now, axis, apart: self.enough, points: self.on_surfaces(points, axis) }
