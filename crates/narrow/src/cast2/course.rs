@@ -152,7 +152,11 @@ impl<'a> Course<'a> {
             if look.least <= self.aim || look.most <= self.enough || round == MAX_ROUNDS {
                 return Some(self.settled(&look, now));
             }
-            now = (now + self.step(&look, now, rest)).min(self.times[1]);
+            let next = (now + self.step(&look, now, rest)).min(self.times[1]);
+            if next <= now {
+                return Some(self.settled(&look, now));
+            }
+            now = next;
         }
         None
     }
@@ -302,11 +306,10 @@ impl<'a> Course<'a> {
 
     /// The same, where one is a half-plane: its own normal is the only axis.
     fn look_from_line(&self, line: usize, now: f64) -> Look {
-        let (normal, origin, point, height) = self.height(line, now);
+        let (normal, point, height) = self.height(line, now);
         let foot = point - normal * height;
         let rounding = self.precision.projection();
         let (axis, points) = if line == 0 { (normal, [foot, point]) } else { (-normal, [point, foot]) };
-        debug_assert!(origin.is_finite());
         let height = height - self.radii;
         Look { axis, least: height - rounding, most: height + rounding, points }
     }
@@ -314,7 +317,7 @@ impl<'a> Course<'a> {
     /// A lower bound on the gap along an axis at a time; along a half-plane's own, where there is one.
     fn gap(&self, axis: DVec2, now: f64) -> f64 {
         let between = match self.line() {
-            Some(line) => self.height(line, now).3,
+            Some(line) => self.height(line, now).2,
             None => {
                 let [a, b] = self.outlines(now);
                 -a.support(axis).reach - b.support(-axis).reach
@@ -323,8 +326,8 @@ impl<'a> Course<'a> {
         between - self.radii - self.precision.projection()
     }
 
-    /// A half-plane's unit normal and origin at a time, the other's lowest vertex, and its height.
-    fn height(&self, line: usize, now: f64) -> (DVec2, DVec2, DVec2, f64) {
+    /// A half-plane's unit normal at a time, the other's lowest vertex, and its height.
+    fn height(&self, line: usize, now: f64) -> (DVec2, DVec2, f64) {
         let (turn, origin) = self.place(line, now);
         let normal = match self.pieces[line].shape {
             Shape2::HalfPlane(half_plane) => turn.turn(half_plane.unit_normal()).normalize(),
@@ -337,7 +340,7 @@ impl<'a> Course<'a> {
             let outline = self.outline(other, now);
             outline.point(outline.support(-normal).vertex)
         };
-        (normal, origin, point, normal.dot(point - origin))
+        (normal, point, normal.dot(point - origin))
     }
 
     fn line(&self) -> Option<usize> {

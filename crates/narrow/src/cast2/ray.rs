@@ -25,7 +25,7 @@ const ROUNDINGS: f64 = 16.0;
 /// be infinite; NaN counts as no limit, and a negative one as zero.
 ///
 /// Whether it starts inside is exact; then the distance is 0 and the normal is against the ray. Of a compound, the part that it
-/// enters first; one that it starts inside of before any other. Cost: 15 to 50 ns for a shape of few vertices, the
+/// enters first; one that it starts inside of before any other. Cost: 30 to 80 ns for a shape of few vertices, the
 /// logarithm of the vertices for a polygon of many, the number of parts for a compound; some microseconds where the origin lies
 /// on the outline up to rounding.
 ///
