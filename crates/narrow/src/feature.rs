@@ -106,8 +106,11 @@ enum Known {
     /// Bits of a [`FeatureId`]; then the face that contact points were made on, where it is another: the top bit, its
     /// index, and whose it is. Zero where it is not.
     Features([u32; 3]),
-    /// Bits of a vector: in A's axes in space, in the world's in the plane.
+    /// Bits of a vector: in A's axes in space, in the world's in the plane. Of compounds, one that parted them as wholes, or
+    /// the one to go on from.
     Direction([u32; 3]),
+    /// What two pairs of parts left, of compounds that touch: see `kept`.
+    Parts([u32; 3]),
 }
 
 impl Hint {
@@ -148,6 +151,22 @@ impl Hint {
     /// A direction that parts the shapes: in A's axes in space, in the world's in the plane.
     pub(crate) fn towards(direction: DVec3) -> Self {
         Self(Known::Direction(direction.as_vec3().to_array().map(f32::to_bits)))
+    }
+
+    /// What was kept of two pairs of parts, of 48 bits each.
+    pub(crate) fn for_parts([one, other]: [u64; 2]) -> Self {
+        Self(Known::Parts([one as u32, (one >> 32 | other << 16) as u32, (other >> 16) as u32]))
+    }
+
+    /// The same back, where the shapes were compounds that touched.
+    pub(crate) fn of_parts(self) -> Option<[u64; 2]> {
+        match self.0 {
+            Known::Parts(bits) => {
+                let [low, middle, high] = bits.map(u64::from);
+                Some([low | (middle & 0xFFFF) << 32, middle >> 16 | high << 16])
+            }
+            _ => None,
+        }
     }
 
     pub(crate) const fn features(self) -> Option<FeatureId> {

@@ -20,7 +20,7 @@ pub(crate) mod outline;
 mod placed;
 pub(crate) mod quick;
 mod rects;
-mod sat;
+pub(crate) mod sat;
 mod search;
 #[cfg(test)]
 mod tests;

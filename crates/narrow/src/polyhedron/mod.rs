@@ -13,4 +13,4 @@ mod rods;
 pub(crate) mod sat;
 mod simplex;
 mod slender;
-mod solid;
+pub(crate) mod solid;
