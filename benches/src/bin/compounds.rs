@@ -13,7 +13,7 @@ use glam::{DVec3, Quat, Vec3};
 const PAIRS: usize = 64;
 
 /// Frames that a pair is followed for; the first is not timed.
-const FRAMES: usize = 12;
+const FRAMES: usize = 32;
 
 /// How two bodies lie: a name, and a pair that lies so.
 type Scene = (&'static str, fn(&mut Random, usize, bool) -> Option<Posed>);
@@ -21,7 +21,7 @@ type Scene = (&'static str, fn(&mut Random, usize, bool) -> Option<Posed>);
 const SCENES: [Scene; 4] =
     [("apart", apart), ("hooked", hooked), ("touching", touching), ("on a slab", on_a_slab)];
 
-/// Two bodies, and how far the second one strays.
+/// Two bodies.
 struct Posed {
     shapes: [Shape3; 2],
     poses: [Pose3; 2],
@@ -114,15 +114,24 @@ fn part(random: &mut Random, half: Vec3, of_hull: bool) -> Option<Shape3> {
     Some(Hull::from_points(&points).ok()?.into())
 }
 
-fn turned(random: &mut Random) -> Quat {
-    random.rotation()
-}
-
-/// Boxes around them overlap, but they do not, and a plane parts them.
+/// Boxes around them overlap, but a plane parts them.
 fn apart(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     let posed = near(random, parts, of_hulls)?;
-    let Separation3::Measured(found) = pair(&posed).separation(f32::INFINITY) else { return None };
-    (found.separation > 0.1).then_some(posed)
+    let around = [around(&posed.shapes[0])?, around(&posed.shapes[1])?];
+    let wholes = Pair3::new(&around[0], &posed.poses[0], &around[1], &posed.poses[1]);
+    let Separation3::Measured(found) = wholes.separation(f32::INFINITY) else { return None };
+    (found.separation > 0.03).then_some(posed)
+}
+
+/// The hull of a compound whose parts are not turned.
+fn around(shape: &Shape3) -> Option<Shape3> {
+    let Shape3::Compound(compound) = shape else { return None };
+    let mut points = Vec::new();
+    for part in compound.parts() {
+        let place = part.pose().position().as_vec3();
+        points.extend(part.shape().core().vertices().iter().map(|&vertex| place + vertex));
+    }
+    Some(Hull::simplify(&points, 128).ok()?.into())
 }
 
 /// The corner between one's head and handle holds the other's head: no plane parts them.
@@ -143,7 +152,7 @@ fn touching(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> 
     Some(posed)
 }
 
-/// Lying on a large box, by its head and the end of its handle.
+/// Lying on a large box, by its head or its handle.
 fn on_a_slab(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     let slab = Cuboid::from_half_extents(Vec3::new(5.0, 1.0, 5.0)).ok()?.into();
     let shapes = [slab, hammer(random, parts, of_hulls)?];
@@ -161,7 +170,8 @@ fn on_a_slab(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed>
 fn near(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     let shapes = [hammer(random, parts, of_hulls)?, hammer(random, parts, of_hulls)?];
     let place = random.direction() * random.range(0.3, 1.6);
-    let poses = [Pose3::new(DVec3::ZERO, turned(random)).ok()?, Pose3::new(place, turned(random)).ok()?];
+    let poses =
+        [Pose3::new(DVec3::ZERO, random.rotation()).ok()?, Pose3::new(place, random.rotation()).ok()?];
     let posed = Posed { shapes, poses };
     let boxes = [0, 1].map(|i| posed.shapes[i].bounds(&posed.poses[i], 0.0));
     boxes[0].overlaps(&boxes[1]).then_some(posed)

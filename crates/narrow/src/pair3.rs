@@ -427,6 +427,7 @@ fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'
 
 impl Parts<'_> {
     /// The hint for the next frame, and how they touch if they are within the margin.
+    #[inline(always)]
     fn contact(&self, asked: Asked, margin: f32, manifolds: &mut impl Room) -> (Hint, Option<Found>) {
         let mut touch = Touch::NONE;
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;

@@ -50,7 +50,7 @@ impl Wholes2<'_> {
     }
 }
 
-fn part_count(shape: &Shape2) -> usize {
+pub(crate) fn part_count(shape: &Shape2) -> usize {
     if let Shape2::Compound(compound) = shape { compound.parts().len() } else { 1 }
 }
 

@@ -50,7 +50,7 @@ impl Wholes3<'_> {
     }
 }
 
-fn part_count(shape: &Shape3) -> usize {
+pub(crate) fn part_count(shape: &Shape3) -> usize {
     if let Shape3::Compound(compound) = shape { compound.parts().len() } else { 1 }
 }
 

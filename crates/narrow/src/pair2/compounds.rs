@@ -6,11 +6,11 @@ use crate::feature::Hint;
 use crate::kept::Kept;
 use crate::polygon::measure::Asked;
 use crate::polygon::quick::Bodies;
-use crate::polygon::sat::hint_of_direction;
-use crate::whole2::Wholes2;
+use crate::shadow::is_many;
+use crate::whole2::{Wholes2, part_count};
 
 impl Pair2<'_> {
-    /// A contact of compounds. A direction that parts them as wholes comes first, unless they touched in the last frame;
+    /// A contact of compounds. A direction that parts them as wholes comes first, where there may be one or it saves much;
     /// pairs of parts, with what two of them left, come next.
     pub(super) fn contact_of_parts(
         &self,
@@ -20,11 +20,14 @@ impl Pair2<'_> {
     ) -> (Hint, Option<bool>) {
         let Bodies { shapes, turns, between } = self.bodies();
         let wholes = Wholes2 { shapes, turns, between };
-        let known = asked.hint.direction().and_then(|direction| direction.truncate().try_normalize());
-        let from = known.unwrap_or_else(|| wholes.towards_b());
-        let shadow = if asked.hint.of_parts().is_some() { None } else { wholes.shadow(from, asked.limit) };
+        let sought = asked.hint.sought();
+        let sought =
+            sought.and_then(|(direction, is_due)| Some((direction.truncate().try_normalize()?, is_due)));
+        let (from, is_due) = sought.unwrap_or_else(|| (wholes.towards_b(), false));
+        let is_worth_it = is_due || is_many([self.shape_a, self.shape_b].map(part_count));
+        let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
-            return (if known.is_some() { asked.hint } else { hint_of_direction(from) }, None);
+            return (Hint::towards(from.extend(0.0)), None);
         }
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
@@ -48,6 +51,6 @@ impl Pair2<'_> {
             })
         });
         let next = shadow.map_or(from, |(_, next)| next);
-        (if touch.is_some() { kept.hint() } else { hint_of_direction(next) }, touch)
+        (if touch.is_some() { kept.hint() } else { asked.hint.seeking(next.extend(0.0)) }, touch)
     }
 }

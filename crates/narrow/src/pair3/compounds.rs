@@ -5,10 +5,11 @@ use crate::feature::Hint;
 use crate::kept::Kept;
 use crate::polyhedron::convex::Asked;
 use crate::room::Room;
-use crate::whole3::Wholes3;
+use crate::shadow::is_many;
+use crate::whole3::{Wholes3, part_count};
 
 impl Pair3<'_> {
-    /// A contact of compounds. A direction that parts them as wholes comes first, unless they touched in the last frame;
+    /// A contact of compounds. A direction that parts them as wholes comes first, where there may be one or it saves much;
     /// pairs of parts, with what two of them left, come next.
     pub(super) fn contact_of_parts(
         &self,
@@ -22,14 +23,14 @@ impl Pair3<'_> {
             bases: [&bases[0], &bases[1]],
             between: self.between,
         };
-        let known = asked.hint.direction().and_then(|direction| bases[0].turn(direction).try_normalize());
-        let from = known.unwrap_or_else(|| wholes.towards_b());
-        let shadow = if asked.hint.of_parts().is_some() { None } else { wholes.shadow(from, asked.limit) };
+        let sought = asked.hint.sought();
+        let sought =
+            sought.and_then(|(direction, is_due)| Some((bases[0].turn(direction).try_normalize()?, is_due)));
+        let (from, is_due) = sought.unwrap_or_else(|| (wholes.towards_b(), false));
+        let is_worth_it = is_due || is_many([self.shape_a, self.shape_b].map(part_count));
+        let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
-            return (
-                if known.is_some() { asked.hint } else { Hint::towards(bases[0].turn_back(from)) },
-                None,
-            );
+            return (Hint::towards(bases[0].turn_back(from)), None);
         }
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
@@ -53,6 +54,6 @@ impl Pair3<'_> {
             })
         });
         let next = shadow.map_or(from, |(_, next)| next);
-        (if touch.is_some() { kept.hint() } else { Hint::towards(bases[0].turn_back(next)) }, touch)
+        (if touch.is_some() { kept.hint() } else { asked.hint.seeking(bases[0].turn_back(next)) }, touch)
     }
 }

@@ -20,7 +20,7 @@ pub(crate) mod outline;
 mod placed;
 pub(crate) mod quick;
 mod rects;
-pub(crate) mod sat;
+mod sat;
 mod search;
 #[cfg(test)]
 mod tests;
