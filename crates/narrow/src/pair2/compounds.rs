@@ -23,7 +23,9 @@ impl Pair2<'_> {
         let sought = asked.hint.sought();
         let sought =
             sought.and_then(|(direction, is_due)| Some((direction.truncate().try_normalize()?, is_due)));
-        let (from, is_due) = sought.unwrap_or_else(|| (wholes.towards_b(), false));
+        // Where none is due, the middles part more pairs of parts than a direction that has failed.
+        let due = sought.filter(|&(_, is_due)| is_due);
+        let (from, is_due) = due.unwrap_or_else(|| (wholes.towards_b(), false));
         let is_worth_it = is_due || is_many([self.shape_a, self.shape_b].map(part_count));
         let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
