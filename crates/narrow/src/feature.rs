@@ -230,6 +230,20 @@ mod tests {
     }
 
     #[test]
+    fn a_direction_is_sought_for_some_frames_and_then_now_and_again() {
+        let mut hint = Hint::towards(DVec3::X);
+        let mut is_due = Vec::new();
+        for _ in 0..300 {
+            hint = hint.seeking(DVec3::Y);
+            let (direction, due) = hint.sought().unwrap();
+            assert_eq!((direction, hint.direction()), (DVec3::Y, None));
+            is_due.push(due);
+        }
+        assert!(is_due[..4].iter().all(|&due| due) && is_due[4..16].iter().all(|&due| !due) && is_due[16]);
+        assert_eq!(core::mem::size_of::<Hint>(), 16);
+    }
+
+    #[test]
     fn a_hint_keeps_a_direction_up_to_its_rounding() {
         let direction = DVec3::new(0.36, -0.48, 0.8);
         let kept = Hint::towards(direction).direction().unwrap();
