@@ -55,6 +55,7 @@ mod feature;
 mod impact2;
 mod impact3;
 mod jobs3;
+mod kept;
 mod lanes;
 mod least;
 mod pair2;
@@ -63,6 +64,9 @@ mod polygon;
 mod polyhedron;
 mod precision;
 mod room;
+mod shadow;
+mod whole2;
+mod whole3;
 
 pub use answer::{
     Answer, Closest2, Closest3, ContactPoint2, ContactPoint3, Manifold2, Manifold3, Measured2, Measured3,

@@ -1,4 +1,6 @@
-//! One pair in space, and batches of them.
+//! One pair in space.
+
+mod compounds;
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::exact::Site3;
@@ -69,6 +71,12 @@ struct Parts<'a> {
     /// Each part's origin less its body's position, in world axes.
     shifts: [DVec3; 2],
     convex: Convex<'a>,
+}
+
+/// Two parts within the margin of each other.
+struct Found {
+    overlapping: bool,
+    separation: f32,
 }
 
 impl<'a> Pair3<'a> {
@@ -255,28 +263,15 @@ impl<'a> Pair3<'a> {
         if self.gap_of_spheres() > reach {
             return (hint, None);
         }
-        let (mut next_hint, mut touch) = (Hint::NONE, None);
         let wanted = if manifolds.is_wanted() { Wanted::Points } else { Wanted::Number };
-        self.any(reach, |parts| {
-            let mut found = Touch::NONE;
-            let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
-            let accept = |near: &Near| wanted == Wanted::Points && is_near(near);
-            match parts.convex.contact(Asked { limit: reach, hint, wanted }, accept, &mut found) {
-                (Probe::Beyond(_, hint), _) => next_hint = hint,
-                (Probe::Near(near), has_points) => {
-                    next_hint = near.hint;
-                    if is_near(&near) {
-                        touch = Some(touch.unwrap_or(false) || near.verdict.overlapping);
-                    }
-                    if has_points {
-                        next_hint = parts.add_manifold(&near, &found, manifolds);
-                    }
-                }
-            }
-            false
-        });
-        // A hint is one axis of one pair of parts: of no use where there are several.
-        (if self.is_compound() { Hint::NONE } else { next_hint }, touch)
+        let asked = Asked { limit: reach, hint, wanted };
+        if self.is_compound() {
+            return self.contact_of_parts(asked, margin, manifolds);
+        }
+        let bases = self.bases();
+        let [a, b] = [Part::whole(self.shape_a, &bases[0]), Part::whole(self.shape_b, &bases[1])];
+        let (hint, found) = self.parts(&bases, a, b).contact(asked, margin, manifolds);
+        (hint, found.map(|found| found.overlapping))
     }
 
     /// The pair of parts with the least separation, or a bound where all are beyond the limit.
@@ -435,6 +430,22 @@ pub(crate) fn for_parts<'a>(
 }
 
 impl Parts<'_> {
+    /// The hint for the next frame, and how they touch if they are within the margin.
+    #[inline(always)]
+    fn contact(&self, asked: Asked, margin: f32, manifolds: &mut impl Room) -> (Hint, Option<Found>) {
+        let mut touch = Touch::NONE;
+        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
+        let accept = |near: &Near| asked.wanted == Wanted::Points && is_near(near);
+        match self.convex.contact(asked, accept, &mut touch) {
+            (Probe::Beyond(_, hint), _) => (hint, None),
+            (Probe::Near(near), has_points) => {
+                let found = Found { overlapping: near.verdict.overlapping, separation: near.separation };
+                let hint = if has_points { self.add_manifold(&near, &touch, manifolds) } else { near.hint };
+                (hint, is_near(&near).then_some(found))
+            }
+        }
+    }
+
     /// Adds the contact points; returns the hint that keeps them where they are in the next frame.
     fn add_manifold(&self, near: &Near, touch: &Touch, to: &mut impl Room) -> Hint {
         if let Some(manifold) = to.room(near.separation) {

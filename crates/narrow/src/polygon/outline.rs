@@ -65,7 +65,7 @@ pub(super) const FEW_VERTICES: usize = 16;
 
 /// What a searched support adds to the roundings of a projection, in units of 2^-53 of the reach: see
 /// [`Outline::climb`].
-pub(super) const OF_SEARCH: f64 = 4.0;
+pub(crate) const OF_SEARCH: f64 = 4.0;
 
 /// A core in the frame of a pair: the world's axes, about A's position. Most often a polygon; a segment has two edges
 /// back to back, a point none.
