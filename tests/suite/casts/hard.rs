@@ -47,7 +47,8 @@ fn what_flies_a_million_kilometres_meets_what_is_in_the_way() {
         let motion = Motion3::shift(direction * 9e8).unwrap();
         let pair = Pair3::new(&case.shape_a, &case.pose_a, &case.shape_b, &case.pose_b);
         let impact = pair.impact(&motion, &still()).unwrap();
-        assert!(impact.error < 4e-6, "{impact:?}");
+        // Sixteen projections at 4 units of 2^-53 of a way of 1e9 m in three coordinates.
+        assert!(impact.error < 2e-5, "{impact:?}");
         Course { case: &case, motions: [motion, still()] }.check(Some(impact), "long");
     }
 }

@@ -68,6 +68,9 @@ fn a_ray_meets_nothing_before_its_hit_and_the_surface_there() {
             hits += 1;
             let (apart, error) = separation(shape, pose, ray.at(hit.distance));
             assert!(apart.abs() <= slack + error, "{apart} {slack} {told}");
+            if hit.distance * pace < 1e-6 * size {
+                continue;
+            }
             let limits = [hit.distance * 1.0001, hit.distance * 0.9999];
             let found = limits.map(|limit| cast_ray3(shape, pose, &ray, limit));
             assert!(found[0].is_some() && found[1].is_none(), "{found:?} {told}");

@@ -27,6 +27,9 @@ fn nothing_that_turns_touches_before_it_is_said_to() {
     let (mut hits, mut misses, mut wide) = (0, 0, 0);
     for (i, a) in KINDS3.iter().enumerate() {
         for (j, b) in KINDS3.iter().enumerate() {
+            if a.0 == "half-space" && b.0 == "half-space" {
+                continue;
+            }
             for round in 0..PLACES {
                 let mut random = Random::new(((i * 100 + j) * 10_000 + round + 5000) as u128);
                 let bodies = pair3(&mut random, a, b, round);
