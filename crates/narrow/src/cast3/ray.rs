@@ -186,7 +186,9 @@ impl Cast<'_> {
         };
         let steep = met.normal.dot(self.unit).abs();
         let error = if met.gap <= steep * radius { met.gap / steep } else { 2.0 * radius };
-        Some((met.fraction * way, -met.normal, Some(error + 4.0 * f64::EPSILON * way)))
+        // Where it starts within rounding of the surface, so may the axis be rounding.
+        let normal = if met.normal.dot(self.unit) < 0.0 { -self.unit } else { -met.normal };
+        Some((met.fraction * way, normal, Some(error + 4.0 * f64::EPSILON * way)))
     }
 }
 
