@@ -38,11 +38,14 @@
 //! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
 #![deny(missing_docs)]
 
+mod ask2;
+mod ask3;
 mod clock;
 mod collider;
 mod contact;
 mod event;
 mod frame;
+mod query;
 mod space;
 mod stats;
 mod world;
@@ -63,6 +66,10 @@ pub use asunder_narrow::{
 pub use collider::{Collider, Collider2, Collider3, Layers, MarginError};
 pub use contact::{Contact, Contact2, Contact3};
 pub use event::{Event, Event2, Event3};
+pub use query::{
+    CastAnswer, CastAnswer2, CastAnswer3, Filter, Filter2, Filter3, NearAnswer, NearAnswer2, NearAnswer3,
+    RayAnswer, RayAnswer2, RayAnswer3,
+};
 pub use slotmap;
 pub use space::{BodyKey2, BodyKey3, Plane, Space, Volume};
 pub use stats::Stats;

@@ -3,6 +3,7 @@
 use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
+use crate::query::Boxes;
 use crate::space::Space;
 use crate::stats::Stats;
 use asunder_broad::{CoherentSweep, PairId};
@@ -53,6 +54,8 @@ pub struct World<S: Space> {
     pub(crate) moved: Vec<u32>,
     pub(crate) is_moved: Vec<bool>,
     pub(crate) max_pairs: usize,
+    /// What questions are asked of; nothing that an output depends on.
+    pub(crate) questions: Boxes<S>,
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,
     pub(crate) records: Vec<Record<S::Key>>,
@@ -105,6 +108,7 @@ impl<S: Space> World<S> {
             moved: Vec::new(),
             is_moved: Vec::new(),
             max_pairs: 1 << 24,
+            questions: Boxes::default(),
             candidates: Vec::new(),
             records: Vec::new(),
             manifolds: Vec::new(),
@@ -207,6 +211,7 @@ impl<S: Space> World<S> {
     }
 
     fn mark_dirty(&mut self, slot: u32) {
+        self.questions.told(slot);
         if !core::mem::replace(&mut self.is_dirty[slot as usize], true) {
             self.dirty.push(slot);
         }
