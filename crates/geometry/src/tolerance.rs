@@ -48,6 +48,20 @@ pub const ALIGNED_FACES: f64 = 0.995;
 /// Share of a pair's size at which the distance iteration stops: the gap between its two certified bounds.
 pub const DISTANCE_GAP: f64 = 1e-12;
 
+/// Share of a pair's size up to which shapes that move towards each other count as having met, where no certified step
+/// brings them closer at once.
+///
+/// A step is along one axis, and for polytopes the last one ends at the contact up to [`IMPACT_REST`]; only round or turning
+/// shapes stop here. It is part of every impact's stated error. A smaller value costs a step or two where shapes graze;
+/// a larger one stops bodies visibly short.
+pub const IMPACT_GAP: f64 = 1e-6;
+
+/// Share of a pair's size that a certified step leaves between moving shapes.
+///
+/// Closer, the distance iteration sees little but rounding: it has 1e-15 of the size. It is part of every impact's stated
+/// error, and far below an f32 rounding of the size.
+pub const IMPACT_REST: f64 = 1e-9;
+
 /// Share of a cloud's size by which a point must stand out of the hull of those before it to count as a vertex that no
 /// merging of facets takes away: 64 times [`COPLANAR`].
 ///

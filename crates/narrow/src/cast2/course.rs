@@ -244,7 +244,9 @@ impl<'a> Course<'a> {
         let beside = |which: usize| {
             let (turn, origin) = self.place(which, now);
             let along = turn.axes()[0].as_vec2();
-            Rotation2::new(along.x, along.y).and_then(|rotation| Pose2::new(origin, rotation)).unwrap_or_default()
+            Rotation2::new(along.x, along.y)
+                .and_then(|rotation| Pose2::new(origin, rotation))
+                .unwrap_or_default()
         };
         let (pose_a, pose_b) = (beside(0), beside(1));
         let pair = Pair2::new(self.pieces[0].shape, &pose_a, self.pieces[1].shape, &pose_b);
