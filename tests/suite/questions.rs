@@ -14,6 +14,7 @@ struct Seen {
     asked: usize,
     overlaps: usize,
     near: usize,
+    met: usize,
 }
 
 /// A life: bodies come and go, move alone and in crowds, and questions come at any time.
@@ -69,6 +70,7 @@ fn live<S: Questioned>(seed: u128, steps: usize, room: f64, shift: f64) -> Seen 
             assert_eq!(answers(&world.clone(), &asked, filter), found, "a clone answers the same");
             seen.asked += 1;
             seen.overlaps += found.over.len() + found.holding.len();
+            seen.met += found.rays.len() + found.casts.len();
             seen.near += found.near_shape.len() + found.near_point.len();
         }
     }

@@ -1,9 +1,9 @@
 //! Questions, each as the boxes that it is about and what it asks of a body.
 
-use super::answer::{Met, NearAnswer};
+use super::answer::Met;
 use super::filter::Filter;
-use super::space::{Asked, Posed};
-use super::walk::{Around, Asks, Over, Question};
+use super::space::{Asked, Enter, Meet, Near, Posed};
+use super::walk::{Along, Around, Asks, Over, Question};
 use crate::world::World;
 
 /// Bodies at a distance of at most `limit`: a NaN counts as no limit, and a negative limit as zero.
@@ -37,8 +37,32 @@ pub(crate) fn bodies_near<'q, S: Asked>(
     at: Posed<'q, S>,
     within: f32,
     filter: &'q Filter<'q, S>,
-) -> Question<'q, S, Around<S::Aabb>, impl Asks<S, NearAnswer<S::Key, S::Vector, S::Point>>> {
+) -> Question<'q, S, Around<S::Aabb>, impl Asks<S, Near<S>>> {
     let ask = move |key, body: &_| Some(S::near(at, key, body));
     let reach = Around(S::bounds(at.0, at.1, 0.0));
     Question { world, filter, reach, limit: limit_of(within.into()), ask }
+}
+
+/// Which bodies a ray meets.
+pub(crate) fn bodies_along_ray<'q, S: Asked>(
+    world: &'q World<S>,
+    ray: &'q S::Ray,
+    limit: f64,
+    filter: &'q Filter<'q, S>,
+) -> Question<'q, S, Along, impl Asks<S, Enter<S>>> {
+    let limit = limit_of(limit);
+    let ask = move |key, body: &_| S::enter(ray, limit, key, body);
+    Question { world, filter, reach: Along(S::along_ray(ray)), limit, ask }
+}
+
+/// Which bodies a moved shape meets.
+pub(crate) fn bodies_along<'q, S: Asked>(
+    world: &'q World<S>,
+    at: Posed<'q, S>,
+    displacement: S::Vector,
+    filter: &'q Filter<'q, S>,
+) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
+    let ask = move |key, body: &_| S::meet(at, displacement, key, body);
+    let reach = Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
+    Question { world, filter, reach, limit: 1.0, ask }
 }
