@@ -82,7 +82,10 @@ fn every_question_at_any_time() {
     for seed in 0..4 {
         let seen = [live::<Volume>(2500 + seed, 300, 4.0, 0.0), live::<Plane>(2600 + seed, 300, 9.0, 0.0)];
         for seen in seen {
-            assert!(seen.asked > 150 && seen.overlaps > 500 && seen.near > 2000, "{seen:?}");
+            assert!(
+                seen.asked > 150 && seen.overlaps > 200 && seen.near > 2000 && seen.met > 300,
+                "{seen:?}"
+            );
         }
     }
 }
