@@ -38,6 +38,8 @@
 //! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
 #![deny(missing_docs)]
 
+mod ask2;
+mod ask3;
 mod bodies;
 mod clock;
 mod collider;
@@ -47,6 +49,7 @@ mod event;
 mod frame;
 mod hooks;
 mod motion;
+mod query;
 mod space;
 mod stats;
 mod world;
@@ -72,6 +75,10 @@ pub use debug::{DebugLine, DebugOptions};
 pub use event::{Event, Event2, Event3};
 pub use hooks::{Hooks, Hooks2, Hooks3, Meeting, Meeting2, Meeting3, Side, Side2, Side3};
 pub use motion::{Hit, Hit2, Hit3};
+pub use query::{
+    CastAnswer, CastAnswer2, CastAnswer3, Filter, Filter2, Filter3, NearAnswer, NearAnswer2, NearAnswer3,
+    RayAnswer, RayAnswer2, RayAnswer3,
+};
 pub use slotmap;
 pub use space::{BodyKey2, BodyKey3, Plane, Space, Volume};
 pub use stats::Stats;

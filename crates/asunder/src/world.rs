@@ -6,6 +6,7 @@ use crate::event::Event;
 use crate::frame::Found;
 use crate::hooks::Edited;
 use crate::motion::{Hit, Motions};
+use crate::query::Boxes;
 use crate::space::Space;
 use crate::stats::Stats;
 use asunder_broad::{CoherentSweep, PairId};
@@ -59,6 +60,8 @@ pub struct World<S: Space> {
     /// What bodies are about to do, until the next update.
     pub(crate) motions: Motions<S>,
     pub(crate) max_pairs: usize,
+    /// What questions are asked of; nothing that an output depends on.
+    pub(crate) questions: Boxes<S>,
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,
     pub(crate) records: Vec<Record<S::Key>>,
@@ -123,6 +126,7 @@ impl<S: Space> World<S> {
             reshaped: Vec::new(),
             motions: Motions::NONE,
             max_pairs: 1 << 24,
+            questions: Boxes::default(),
             candidates: Vec::new(),
             records: Vec::new(),
             manifolds: Vec::new(),
