@@ -76,7 +76,7 @@ fn crosses_and_normals_stand_where_bodies_touch() {
         };
         let bodies = [make(&mut random), make(&mut random)];
         let mut world = World3::new();
-        bodies.iter().for_each(|body| drop(world.insert(body.clone())));
+        world.insert_many(bodies.iter().cloned());
         world.update();
         let distance = |point: DVec3| {
             let dot = asunder::Sphere::new(1e-6).unwrap().into();

@@ -25,7 +25,7 @@
 //! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair; what they keep of the faces; names that stay
 //! - [`plane`]: polygons of many edges against all edges, mirrored, and what hints may change: names, never a yes or no
 //! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
-//! - [`casts`]: moved and turning shapes, and rays, first meet a shape where sampling, exact overlaps and parry3d say
+//! - [`casts`]: what moves and turns meets nothing before it is said to, and is as near there as told; rays; parry3d's word
 //! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the exact yes or no say
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds

@@ -112,7 +112,9 @@ fn rooms<S: Engine>(seed: u128) {
         assert!(S::contacts(&room.world).iter().all(|contact| !contact.speculative));
         let boxes: Vec<_> = S::candidates(&room.world);
         let mut fresh = World::<S>::new();
-        S::bodies(&room.world).into_iter().for_each(|(_, body)| drop(S::insert(&mut fresh, body)));
+        for (_, body) in S::bodies(&room.world) {
+            S::insert(&mut fresh, body);
+        }
         fresh.update();
         assert_eq!(boxes, S::candidates(&fresh), "boxes are as tight as before");
     }
