@@ -178,7 +178,7 @@ impl Cast<'_> {
         let passage = Passage { rounding: 0.0, ..Passage::straight(&pair, self.unit * way) };
         let (core_point, core) = (point.core(), part.shape.core());
         let parts = [Part::whole(point, &passage.bases[0]), *part];
-        let course = Course::new(&passage, parts, [&core_point, &core]).as_fine_as(Fineness::FINEST);
+        let course = Course::new(&passage, parts, [&core_point, &core]).refined_to(Fineness::FINEST);
         let met = match advance(&course, 1.0) {
             End::Apart => return None,
             End::Unclear(_) if self.is_inside(part) => return Some((0.0, -self.unit, None)),
