@@ -157,7 +157,7 @@ impl Cast<'_> {
             Meeting::At(distance, normal, error) => Some((distance, basis.turn(normal), Some(error))),
             Meeting::Inside => Some((0.0, -self.unit, None)),
             Meeting::Unclear if self.is_inside(part) => Some((0.0, -self.unit, None)),
-            Meeting::Unclear | Meeting::Open => self.by_steps(part, limit),
+            Meeting::Unclear | Meeting::Open => self.by_steps(part),
         }
     }
 
@@ -168,12 +168,12 @@ impl Cast<'_> {
     }
 
     /// The ray as a point that moves until it touches.
-    fn by_steps(&self, part: &Part, limit: f64) -> Option<(f64, DVec3, Option<f64>)> {
+    fn by_steps(&self, part: &Part) -> Option<(f64, DVec3, Option<f64>)> {
         let (Some(point), Ok(origin)) = (&*POINT, Pose3::at(self.ray.origin())) else { return None };
         let radius = f64::from(part.shape.outer_radius());
         let beyond = length(part.center - self.from) + radius;
-        // A half-space is here only where the ray starts on its surface.
-        let way = limit.min(if radius.is_finite() { beyond * 1.0625 } else { 1.0 });
+        // Whatever the limit is, so that it changes no answer. A half-space is here only where the ray starts on its surface.
+        let way = if radius.is_finite() { beyond * 1.0625 } else { 1.0 };
         let pair = Pair3::new(point, &origin, self.shape, self.pose);
         let passage = Passage { rounding: 0.0, ..Passage::straight(&pair, self.unit * way) };
         let (core_point, core) = (point.core(), part.shape.core());
