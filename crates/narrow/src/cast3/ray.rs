@@ -11,7 +11,7 @@
 //! compound            the nearest of its parts
 //! ```
 //! All in f64, in the shape's own axes. Only whether the origin is inside is asked of exact arithmetic, where it lies within
-//! rounding of the surface. One ray against a cuboid takes 20 ns (figures in `benches/benches/casts.rs`).
+//! rounding of the surface.
 
 mod planes;
 mod round;
