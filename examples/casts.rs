@@ -41,7 +41,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let to = shot.direction() * 200.0;
         if let Some(hit) = world.cast_shape((&ball, &Pose3::at(eye)?), to, &others) {
             let what = world.get(hit.body).map_or(0, Collider3::get_user_data);
-            println!("  a thick one touches {what} at {:.3}, on a side that looks along {:.2}", hit.point, -hit.normal);
+            println!(
+                "  a thick one touches {what} at {:.3}, on a side that looks along {:.2}",
+                hit.point, -hit.normal
+            );
         }
     }
     Ok(())

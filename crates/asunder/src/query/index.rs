@@ -88,10 +88,10 @@ const fn most_changed(at_rest: usize) -> usize {
     64 + at_rest / 4
 }
 
-/// Boxes in the list, before the second tree is made anew. A question takes some 20 ns for each, and the tree 45 ns for each in it: between
-/// one question a move and many, this keeps both small.
+/// Boxes in the list, before the second tree is made anew. A question takes some 45 ns for each, and the tree as much for each in it: between
+/// one question a move and many, a root keeps both small.
 const fn most_recent(changed: usize) -> usize {
-    64 + (4 * changed).isqrt()
+    16 + (2 * changed).isqrt()
 }
 
 /// A tree that is made when it is needed, and the memory of the last one.
