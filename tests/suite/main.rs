@@ -52,7 +52,7 @@ mod architecture;
 mod bounds;
 mod boxes;
 mod broad;
-// mod casts;
+mod casts;
 mod exactness;
 mod fuzzed;
 mod hard;

@@ -170,10 +170,10 @@ impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Opti
         for &slot in sight.recent() {
             limit = look(slot, false);
         }
-        for (tree, slot_of_number) in sight.trees() {
+        for branch in sight.trees() {
             let start = limit;
-            self.reach.in_order(tree, start, |number| {
-                if let Some(slot) = slot_of_number(number) {
+            self.reach.in_order(branch.tree, start, |number| {
+                if let Some(slot) = branch.slot(number) {
                     limit = look(slot, true);
                 }
                 limit
@@ -192,8 +192,8 @@ impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Opti
         for &slot in sight.recent() {
             look(slot, false)?;
         }
-        for (tree, slot_of_number) in sight.trees() {
-            self.reach.visit(tree, self.limit, |number| match slot_of_number(number) {
+        for branch in sight.trees() {
+            self.reach.visit(branch.tree, self.limit, |number| match branch.slot(number) {
                 Some(slot) => look(slot, true),
                 None => ControlFlow::Continue(()),
             })?;
