@@ -15,7 +15,7 @@
 //! to continuous collision detection", 2004).
 //!
 //! With rotation the usual step is the gap over the fastest that any point may move (Mirtich 1996, "conservative
-//! advancement"), which halves the gap at best and takes hundreds of steps where shapes graze. Here it is of second order:
+//! advancement"), which converges only linearly, and slowly where shapes graze. Here it is of second order:
 //!
 //! ```text
 //! a vertex x of A moves along n by  h n.v + h^2/2 K at most,  v = its velocity at s,  K = a bound on all accelerations
@@ -24,7 +24,7 @@
 //! L is concave in h (a least of straight lines): between two h it lies above its chord
 //! h = the root of chord - K h^2/2; a shorter chord has a better root, a few times
 //! ```
-//! Near the contact K h^2 vanishes beside the gap, and the iteration is Newton's again: 4 to 8 steps to 1e-9 of the size.
+//! Near the contact K h^2 vanishes beside the gap, and the iteration is Newton's again.
 //!
 //! A half-space that turns has an axis that turns with it: the same, with the vertices of the other seen from the plane.
 //! Cost: a distance and a few support searches a step.
@@ -34,7 +34,7 @@ use crate::polyhedron::closest::{Closest, Placed, closest};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
-/// Steps after which the fraction that was reached is told with the gap that is left there. Most impacts need 2 to 6.
+/// Steps after which the fraction that was reached is told with the gap that is left there.
 const MAX_STEPS: usize = 256;
 
 /// Chords after which a step is good enough.

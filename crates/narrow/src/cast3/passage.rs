@@ -144,7 +144,7 @@ impl<'a> Course<'a> {
     }
 
     /// The same, moved until they are as near as that.
-    pub(super) fn as_fine_as(self, fineness: Fineness) -> Self {
+    pub(super) fn refined_to(self, fineness: Fineness) -> Self {
         Self { fineness, ..self }
     }
 

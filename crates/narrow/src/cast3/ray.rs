@@ -11,7 +11,7 @@
 //! compound            the nearest of its parts
 //! ```
 //! All in f64, in the shape's own axes. Only whether the origin is inside is asked of exact arithmetic, where it lies within
-//! rounding of the surface. One ray against a cuboid takes 20 ns (figures in `benches/benches/casts.rs`).
+//! rounding of the surface.
 
 mod planes;
 mod round;
@@ -157,7 +157,7 @@ impl Cast<'_> {
             Meeting::At(distance, normal, error) => Some((distance, basis.turn(normal), Some(error))),
             Meeting::Inside => Some((0.0, -self.unit, None)),
             Meeting::Unclear if self.is_inside(part) => Some((0.0, -self.unit, None)),
-            Meeting::Unclear | Meeting::Open => self.by_steps(part, limit),
+            Meeting::Unclear | Meeting::Open => self.by_steps(part),
         }
     }
 
@@ -168,17 +168,17 @@ impl Cast<'_> {
     }
 
     /// The ray as a point that moves until it touches.
-    fn by_steps(&self, part: &Part, limit: f64) -> Option<(f64, DVec3, Option<f64>)> {
+    fn by_steps(&self, part: &Part) -> Option<(f64, DVec3, Option<f64>)> {
         let (Some(point), Ok(origin)) = (&*POINT, Pose3::at(self.ray.origin())) else { return None };
         let radius = f64::from(part.shape.outer_radius());
         let beyond = length(part.center - self.from) + radius;
-        // A half-space is here only where the ray starts on its surface.
-        let way = limit.min(if radius.is_finite() { beyond * 1.0625 } else { 1.0 });
+        // Whatever the limit is, so that it changes no answer. A half-space is here only where the ray starts on its surface.
+        let way = if radius.is_finite() { beyond * 1.0625 } else { 1.0 };
         let pair = Pair3::new(point, &origin, self.shape, self.pose);
         let passage = Passage { rounding: 0.0, ..Passage::straight(&pair, self.unit * way) };
         let (core_point, core) = (point.core(), part.shape.core());
         let parts = [Part::whole(point, &passage.bases[0]), *part];
-        let course = Course::new(&passage, parts, [&core_point, &core]).as_fine_as(Fineness::FINEST);
+        let course = Course::new(&passage, parts, [&core_point, &core]).refined_to(Fineness::FINEST);
         let met = match advance(&course, 1.0) {
             End::Apart => return None,
             End::Unclear(_) if self.is_inside(part) => return Some((0.0, -self.unit, None)),
@@ -186,7 +186,9 @@ impl Cast<'_> {
         };
         let steep = met.normal.dot(self.unit).abs();
         let error = if met.gap <= steep * radius { met.gap / steep } else { 2.0 * radius };
-        Some((met.fraction * way, -met.normal, Some(error + 4.0 * f64::EPSILON * way)))
+        // Where it starts within rounding of the surface, so may the axis be rounding.
+        let normal = if met.normal.dot(self.unit) < 0.0 { -self.unit } else { -met.normal };
+        Some((met.fraction * way, normal, Some(error + 4.0 * f64::EPSILON * way)))
     }
 }
 

@@ -24,6 +24,7 @@ pub(crate) struct Closest {
 }
 
 /// A placed shape without its rounding.
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack for one step")]
 pub(crate) enum Placed<'a> {
     Core(Solid<'a>),
     HalfSpace(Plane),
