@@ -25,6 +25,7 @@
 //! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair; what they keep of the faces; names that stay
 //! - [`plane`]: polygons of many edges against all edges, mirrored, and what hints may change: names, never a yes or no
 //! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
+//! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the exact yes or no say
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
@@ -53,6 +54,7 @@ mod bounds;
 mod boxes;
 mod broad;
 mod casts;
+mod casts_plane;
 mod exactness;
 mod fuzzed;
 mod hard;

