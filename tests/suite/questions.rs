@@ -2,11 +2,13 @@
 
 mod asked;
 mod points;
+mod sieve;
 mod stories;
 
-use asked::{Questioned, Sieve, answers, check, visited};
+use asked::{Questioned, answers, check, visited};
 use asunder::{Filter, Plane, Volume, World};
 use asunder_tests::cases::Random;
+use sieve::Sieve;
 
 /// What a life of a world has seen, so that no part of a test is about nothing.
 #[derive(Debug, Default)]

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! index       which boxes a question is about, nearest first, from two trees and a list
-//! walk        box after box: filter, the box around the body as it stands, the narrow phase; the best, all, or whatever comes
+//! walk        box after box: filter, the narrow phase, the box around the body as it stands; the best, all, or whatever comes
 //! questions   each as the boxes that it is about and what it asks of a body
 //! space       the narrow phase's part, for the plane and for space
 //! answer      what is told

@@ -88,10 +88,10 @@ const fn most_changed(at_rest: usize) -> usize {
     64 + at_rest / 4
 }
 
-/// Boxes in the list, before the second tree is made anew. A question takes some 20 ns for each, and the tree 45 ns for each in it: between
-/// one question a move and many, this keeps both small.
+/// Boxes in the list, before the second tree is made anew. A question takes some 45 ns for each, and the tree as much for each in it: between
+/// one question a move and many, a root keeps both small.
 const fn most_recent(changed: usize) -> usize {
-    64 + (4 * changed).isqrt()
+    16 + (2 * changed).isqrt()
 }
 
 /// A tree that is made when it is needed, and the memory of the last one.
@@ -169,17 +169,31 @@ impl<'w, S: Space> Sight<'w, S> {
         &self.boxes.recent
     }
 
-    /// Both trees, and which slot a number in each of them means, if the body is not elsewhere by now.
-    pub(super) fn trees(&self) -> [(&'w Index<S::Aabb>, impl Fn(u32) -> Option<u32> + use<'w, S>); 2] {
+    /// Both trees.
+    pub(super) fn trees(&self) -> [Branch<'w, S>; 2] {
+        let boxes = self.boxes;
+        [
+            Branch { tree: self.rest, boxes, level: Level::Rest },
+            Branch { tree: self.moved, boxes, level: Level::Moved },
+        ]
+    }
+}
+
+/// One of the two trees.
+pub(super) struct Branch<'w, S: Space> {
+    pub(super) tree: &'w Index<S::Aabb>,
+    boxes: &'w Boxes<S>,
+    level: Level,
+}
+
+impl<S: Space> Branch<'_, S> {
+    /// The slot that a number in the tree means, if the body is not elsewhere by now.
+    #[inline]
+    pub(super) fn slot(&self, number: u32) -> Option<u32> {
         let Boxes { levels, changed, .. } = self.boxes;
-        let slot_in = |level: Level| {
-            move |number: u32| {
-                let slot = if level == Level::Rest { number } else { *changed.get(number as usize)? };
-                let now = levels.get(slot as usize).copied().unwrap_or_default();
-                (now == level).then_some(slot)
-            }
-        };
-        [(self.rest, slot_in(Level::Rest)), (self.moved, slot_in(Level::Moved))]
+        let slot = if self.level == Level::Rest { number } else { *changed.get(number as usize)? };
+        let now = levels.get(slot as usize).copied().unwrap_or_default();
+        (now == self.level).then_some(slot)
     }
 }
 

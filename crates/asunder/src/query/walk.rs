@@ -132,15 +132,18 @@ pub(crate) struct Question<'q, S: Space, R, F> {
 }
 
 impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, R, F> {
-    /// The answer of a body, if it is within a limit that may be nearer by now.
-    fn answer(&self, slot: u32, limit: f64) -> Option<A> {
+    /// The answer of a body, if it is within a limit that may be nearer by now. Its own box comes last where one from a tree was met: the
+    /// narrow phase says no more often than a second box does.
+    fn answer(&self, slot: u32, limit: f64, is_from_tree: bool) -> Option<A> {
         let key = *self.world.keys.get(slot as usize)?;
         let body = self.world.bodies.get(key).filter(|body| self.filter.admits(key, body))?;
-        let bound = self.reach.meets(&S::bounds(&body.shape, &body.pose, 0.0), limit)?;
+        let meets = || self.reach.meets(&S::bounds(&body.shape, &body.pose, 0.0), limit);
+        let early = if is_from_tree { None } else { Some(meets()?) };
         if !self.filter.agrees(key, body) {
             return None;
         }
-        let mut answer = (self.ask)(key, body)?;
+        let mut answer = (self.ask)(key, body).filter(|answer| answer.rank().0 <= limit)?;
+        let bound = early.or_else(meets)?;
         if answer.rank().0 < bound {
             answer.put_at(bound);
         }
@@ -152,8 +155,8 @@ impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Opti
     /// Each body that is looked at may bring the limit nearer, so that trees are walked no further than need be.
     pub(crate) fn first(&self) -> Option<A> {
         let (mut best, mut limit) = (None::<A>, self.limit);
-        let mut look = |slot: u32| {
-            let found = self.answer(slot, limit);
+        let mut look = |slot: u32, is_from_tree: bool| {
+            let found = self.answer(slot, limit, is_from_tree);
             if let Some(found) =
                 found.filter(|found| best.as_ref().is_none_or(|best| found.rank() < best.rank()))
             {
@@ -165,13 +168,13 @@ impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Opti
         let sight = self.world.sight();
         let mut limit = self.limit;
         for &slot in sight.recent() {
-            limit = look(slot);
+            limit = look(slot, false);
         }
-        for (tree, slot_of_number) in sight.trees() {
+        for branch in sight.trees() {
             let start = limit;
-            self.reach.in_order(tree, start, |number| {
-                if let Some(slot) = slot_of_number(number) {
-                    limit = look(slot);
+            self.reach.in_order(branch.tree, start, |number| {
+                if let Some(slot) = branch.slot(number) {
+                    limit = look(slot, true);
                 }
                 limit
             });
@@ -181,17 +184,17 @@ impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Opti
 
     /// Hands all answers to a visitor, in no promised order, until it breaks off.
     pub(crate) fn visit(&self, mut visitor: impl FnMut(A) -> ControlFlow<()>) -> ControlFlow<()> {
-        let mut look = |slot: u32| match self.answer(slot, self.limit) {
+        let mut look = |slot: u32, is_from_tree: bool| match self.answer(slot, self.limit, is_from_tree) {
             Some(answer) => visitor(answer),
             None => ControlFlow::Continue(()),
         };
         let sight = self.world.sight();
         for &slot in sight.recent() {
-            look(slot)?;
+            look(slot, false)?;
         }
-        for (tree, slot_of_number) in sight.trees() {
-            self.reach.visit(tree, self.limit, |number| match slot_of_number(number) {
-                Some(slot) => look(slot),
+        for branch in sight.trees() {
+            self.reach.visit(branch.tree, self.limit, |number| match branch.slot(number) {
+                Some(slot) => look(slot, true),
                 None => ControlFlow::Continue(()),
             })?;
         }
