@@ -55,6 +55,10 @@ mod guide {
     struct Events;
     #[doc = include_str!("../../docs/guide/margins.md")]
     struct Margins;
+    #[doc = include_str!("../../docs/guide/queries.md")]
+    struct Queries;
+    #[doc = include_str!("../../docs/guide/determinism.md")]
+    struct Determinism;
     #[doc = include_str!("../../docs/guide/units.md")]
     struct Units;
 }
