@@ -27,6 +27,8 @@ mod pose3;
 mod radius;
 mod ray;
 mod rect;
+#[cfg(feature = "serde")]
+mod saved;
 mod segment;
 mod shape;
 mod sphere;
