@@ -10,6 +10,51 @@ use asunder::{
 use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
 use glam::{Vec2, Vec3};
 
+/// What may be changed of a body that is there.
+#[derive(Clone, Debug)]
+pub enum Change<S: Space> {
+    /// `World::set_shape`.
+    Shape(S::Shape),
+    /// `World::set_layers`.
+    Layers(Layers),
+    /// `World::set_user_data`.
+    UserData(u64),
+    /// `World::enable`.
+    Enable,
+    /// `World::disable`.
+    Disable,
+    /// `World::sleep`.
+    Sleep,
+    /// `World::wake`.
+    Wake,
+    /// `World::replace`.
+    Replace(Collider<S>),
+}
+
+impl<S: Engine> Change<S> {
+    /// Any of them.
+    pub fn random(random: &mut Random) -> Self {
+        let groups = [0b01, 0b10, 0b11, u32::MAX];
+        let mut body = S::random_body(random, 1.6);
+        match random.below(16) {
+            0..4 => Self::Shape(S::shape_of(&body).clone()),
+            4..6 => {
+                Self::Layers(Layers { member_of: random.pick(&groups), collides_with: random.pick(&groups) })
+            }
+            6 => Self::UserData(random.below(1 << 20) as u64),
+            7..10 => Self::Enable,
+            10..12 => Self::Disable,
+            12 => Self::Sleep,
+            13 => Self::Wake,
+            _ => {
+                // A body is given back as it was; the model knows none that sleep or are disabled.
+                body = body.user_data(random.below(1 << 20) as u64);
+                Self::Replace(body)
+            }
+        }
+    }
+}
+
 /// A dimension's world, by the calls that both have.
 pub trait Engine: Space + Clone + core::fmt::Debug {
     /// `World::insert`.
@@ -20,6 +65,12 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn get(world: &World<Self>, key: Self::Key) -> Option<&Collider<Self>>;
     /// `World::set_pose`: whether the key was fresh.
     fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose) -> bool;
+    /// Whether the key was fresh, and so the change was made.
+    fn change(world: &mut World<Self>, key: Self::Key, change: &Change<Self>) -> bool;
+    /// `Collider::shape`.
+    fn shape_of(body: &Collider<Self>) -> &Self::Shape;
+    /// The same body with another shape.
+    fn shaped(body: &Collider<Self>, shape: Self::Shape) -> Collider<Self>;
     /// `World::iter`.
     fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)>;
     /// `World::candidates`.
@@ -68,6 +119,19 @@ pub fn slot_of(key: impl Key) -> u32 {
     key.data().as_ffi() as u32
 }
 
+/// A body of one's shape and pose, with the traits of another.
+fn with_traits_of<S: Space>(mut body: Collider<S>, other: &Collider<S>) -> Collider<S> {
+    body =
+        body.layers(other.get_layers()).user_data(other.get_user_data()).margin(other.get_margin()).unwrap();
+    if other.is_fixed() {
+        body = body.fixed();
+    }
+    if other.is_sensor() {
+        body = body.sensor();
+    }
+    other.get_owner().into_iter().fold(body, Collider::owner)
+}
+
 /// Gives a body some of the traits that decide whom it meets.
 fn with_random_traits<S: Space>(mut body: Collider<S>, random: &mut Random) -> Collider<S> {
     if random.below(6) == 0 {
@@ -105,6 +169,28 @@ impl Engine for Volume {
 
     fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose) -> bool {
         world.set_pose(key, pose).is_ok()
+    }
+
+    fn change(world: &mut World<Self>, key: Self::Key, change: &Change<Self>) -> bool {
+        let done = match change.clone() {
+            Change::Shape(shape) => world.set_shape(key, shape),
+            Change::Layers(layers) => world.set_layers(key, layers),
+            Change::UserData(number) => world.set_user_data(key, number),
+            Change::Enable => world.enable(key),
+            Change::Disable => world.disable(key),
+            Change::Sleep => world.sleep(key),
+            Change::Wake => world.wake(key),
+            Change::Replace(body) => world.replace(key, body).map(|_| ()),
+        };
+        done.is_ok()
+    }
+
+    fn shape_of(body: &Collider<Self>) -> &Self::Shape {
+        body.shape()
+    }
+
+    fn shaped(body: &Collider<Self>, shape: Self::Shape) -> Collider<Self> {
+        with_traits_of(Collider::<Self>::new(shape).at(*body.pose()), body)
     }
 
     fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)> {
@@ -222,6 +308,28 @@ impl Engine for Plane {
 
     fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose) -> bool {
         world.set_pose(key, pose).is_ok()
+    }
+
+    fn change(world: &mut World<Self>, key: Self::Key, change: &Change<Self>) -> bool {
+        let done = match change.clone() {
+            Change::Shape(shape) => world.set_shape(key, shape),
+            Change::Layers(layers) => world.set_layers(key, layers),
+            Change::UserData(number) => world.set_user_data(key, number),
+            Change::Enable => world.enable(key),
+            Change::Disable => world.disable(key),
+            Change::Sleep => world.sleep(key),
+            Change::Wake => world.wake(key),
+            Change::Replace(body) => world.replace(key, body).map(|_| ()),
+        };
+        done.is_ok()
+    }
+
+    fn shape_of(body: &Collider<Self>) -> &Self::Shape {
+        body.shape()
+    }
+
+    fn shaped(body: &Collider<Self>, shape: Self::Shape) -> Collider<Self> {
+        with_traits_of(Collider::<Self>::new(shape).at(*body.pose()), body)
     }
 
     fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)> {

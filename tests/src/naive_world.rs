@@ -1,9 +1,9 @@
 //! What a world must say, from all pairs of bodies and three plain lists: no boxes, no batches, no order to keep up.
 
-use crate::engine::{Engine, slot_of};
+use crate::engine::{Change, Engine, slot_of};
 use asunder::{Collider, Event, Space, World};
 use asunder_narrow::Hint;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A body in its slot, with the key that the world gave it.
 type Tenant<S> = (<S as Space>::Key, Collider<S>);
@@ -19,6 +19,12 @@ pub struct NaiveWorld<S: Engine> {
     /// Contacts of the last update, by the slots of their bodies.
     records: BTreeMap<(u32, u32), Record<S>>,
     events: Vec<Event<S::Key>>,
+    /// Pairs that may meet and whose boxes overlap, as of the last update.
+    candidates: Vec<(S::Key, S::Key)>,
+    /// Bodies that were disabled since they came, or since they were enabled.
+    disabled: BTreeSet<u32>,
+    /// Bodies that got another shape since the last update.
+    reshaped: BTreeSet<u32>,
     /// What the last update learnt of each pair whose boxes overlap, by the slots of their bodies.
     hints: BTreeMap<(u32, u32), Known<S>>,
 }
@@ -31,19 +37,30 @@ struct Record<S: Engine> {
     overlapping: bool,
     begun: bool,
     is_new: bool,
-    manifolds: Vec<S::Manifold>,
+    /// Manifolds, as they were edited.
+    shown: Vec<S::Manifold>,
 }
 
 impl<S: Engine> Default for NaiveWorld<S> {
     fn default() -> Self {
-        Self { bodies: BTreeMap::new(), records: BTreeMap::new(), events: Vec::new(), hints: BTreeMap::new() }
+        Self {
+            bodies: BTreeMap::new(),
+            records: BTreeMap::new(),
+            events: Vec::new(),
+            candidates: Vec::new(),
+            disabled: BTreeSet::new(),
+            reshaped: BTreeSet::new(),
+            hints: BTreeMap::new(),
+        }
     }
 }
 
 impl<S: Engine> NaiveWorld<S> {
     /// A body that the world gave this key.
     pub fn insert(&mut self, key: S::Key, body: Collider<S>) {
+        assert!(body.is_enabled(), "the model notes that itself");
         assert!(self.bodies.insert(slot_of(key), (key, body)).is_none(), "a slot with two tenants");
+        self.disabled.remove(&slot_of(key));
     }
 
     /// Whether the key's body was there.
@@ -61,6 +78,34 @@ impl<S: Engine> NaiveWorld<S> {
         true
     }
 
+    /// Whether the key's body is there, and so the change was made.
+    pub fn change(&mut self, key: S::Key, change: &Change<S>) -> bool {
+        if !self.is_fresh(key) {
+            return false;
+        }
+        let slot = slot_of(key);
+        let body = &mut self.bodies.get_mut(&slot).unwrap().1;
+        match change {
+            Change::Shape(shape) => {
+                *body = S::shaped(body, shape.clone());
+                self.reshaped.insert(slot);
+            }
+            Change::Layers(layers) => *body = body.clone().layers(*layers),
+            Change::UserData(number) => *body = body.clone().user_data(*number),
+            Change::Enable => drop(self.disabled.remove(&slot)),
+            Change::Disable => drop(self.disabled.insert(slot)),
+            Change::Sleep | Change::Wake => (),
+            Change::Replace(other) => {
+                if S::shape_of(body) != S::shape_of(other) {
+                    self.reshaped.insert(slot);
+                }
+                *body = other.clone();
+                self.disabled.remove(&slot);
+            }
+        }
+        true
+    }
+
     /// Whether the key's body is there.
     pub fn is_fresh(&self, key: S::Key) -> bool {
         self.bodies.get(&slot_of(key)).is_some_and(|(tenant, _)| *tenant == key)
@@ -73,19 +118,35 @@ impl<S: Engine> NaiveWorld<S> {
 
     /// Contacts from all pairs, and events from the difference of two sets.
     pub fn update(&mut self) {
-        let (mut records, mut hints) = (BTreeMap::new(), BTreeMap::new());
+        self.update_with(|_, _| true, |_, _, manifolds| manifolds.clone());
+    }
+
+    /// The same of the pairs that are admitted, with the manifolds as they are edited.
+    pub fn update_with(
+        &mut self,
+        admit: impl Fn(&Collider<S>, &Collider<S>) -> bool,
+        edit: impl Fn(&Collider<S>, &Collider<S>, &Vec<S::Manifold>) -> Vec<S::Manifold>,
+    ) {
+        let (mut records, mut hints, mut candidates) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
         for [a, b] in self.pairs_that_may_meet() {
+            if !admit(&a.1, &b.1) {
+                continue;
+            }
             let slots = (slot_of(a.0), slot_of(b.0));
             let keys = (a.0, b.0);
-            let known = self.hints.get(&slots).filter(|(known, _)| *known == keys);
+            let is_reshaped = self.reshaped.contains(&slots.0) || self.reshaped.contains(&slots.1);
+            let known = self.hints.get(&slots).filter(|(known, _)| *known == keys && !is_reshaped);
             let (hint, met) = S::meet(&a.1, &b.1, known.map_or(Hint::NONE, |(_, hint)| *hint));
             if S::boxes_overlap(&a.1, &b.1) {
+                candidates.push(keys);
                 hints.insert(slots, (keys, hint));
             }
             let Some((overlapping, manifolds)) = met else { continue };
             let sensor = a.1.is_sensor() || b.1.is_sensor();
             let before = self.records.get(&slots).filter(|before| before.keys == keys);
-            let had_begun = before.is_some_and(|before| before.begun);
+            // With a margin, a contact outlives the touch; not with another shape.
+            let had_begun = before.is_some_and(|before| before.begun) && (overlapping || !is_reshaped);
+            let manifolds = if sensor { Vec::new() } else { manifolds };
             let record = Record {
                 keys,
                 user_data: (a.1.get_user_data(), b.1.get_user_data()),
@@ -93,7 +154,7 @@ impl<S: Engine> NaiveWorld<S> {
                 overlapping,
                 begun: had_begun || overlapping,
                 is_new: overlapping && !had_begun,
-                manifolds: if sensor { Vec::new() } else { manifolds },
+                shown: if manifolds.is_empty() { Vec::new() } else { edit(&a.1, &b.1, &manifolds) },
             };
             records.insert(slots, record);
         }
@@ -103,26 +164,31 @@ impl<S: Engine> NaiveWorld<S> {
         slots.dedup();
         for slots in slots {
             let (before, now) = (self.records.get(&slots), records.get(&slots));
-            let stays = |before: &Record<S>| now.is_some_and(|now| now.keys == before.keys);
-            if let Some(Record { keys: (a, b), user_data: (user_data_a, user_data_b), .. }) =
+            let stays = |before: &Record<S>| {
+                now.is_some_and(|now| now.keys == before.keys && (now.begun || !before.begun))
+            };
+            if let Some(Record { keys: (a, b), user_data: (user_data_a, user_data_b), sensor, .. }) =
                 before.filter(|before| before.begun && !stays(before)).cloned()
             {
-                self.events.push(Event::Ended { a, b, user_data_a, user_data_b });
+                self.events.push(Event::Ended { a, b, user_data_a, user_data_b, sensor });
             }
-            if let Some(Record { keys: (a, b), user_data: (user_data_a, user_data_b), .. }) =
+            if let Some(Record { keys: (a, b), user_data: (user_data_a, user_data_b), sensor, .. }) =
                 now.filter(|now| now.is_new).cloned()
             {
-                self.events.push(Event::Began { a, b, user_data_a, user_data_b });
+                self.events.push(Event::Began { a, b, user_data_a, user_data_b, sensor });
             }
         }
-        (self.records, self.hints) = (records, hints);
+        (self.records, self.hints, self.candidates) = (records, hints, candidates);
+        self.reshaped.clear();
     }
 
     /// Pairs in order of their slots.
     fn pairs_that_may_meet(&self) -> Vec<[&Tenant<S>; 2]> {
         let mut pairs = Vec::new();
         for (&slot, a) in &self.bodies {
-            let later = self.bodies.range(slot + 1..).map(|(_, b)| [a, b]);
+            let is_enabled = |slot: &u32| !self.disabled.contains(slot);
+            let others = self.bodies.range(slot + 1..).filter(|(other, _)| is_enabled(other));
+            let later = others.filter(|_| is_enabled(&slot)).map(|(_, b)| [a, b]);
             pairs.extend(later.filter(|[a, b]| may_meet(&a.1, &b.1)));
         }
         pairs
@@ -138,26 +204,20 @@ impl<S: Engine> NaiveWorld<S> {
         assert_eq!(stats.candidates, S::candidates(world).len());
         assert_eq!(stats.contacts, self.records.len());
         assert_eq!(stats.touching, records.clone().filter(|record| record.overlapping).count());
-        assert_eq!(stats.manifolds, records.map(|record| record.manifolds.len()).sum::<usize>());
+        assert_eq!(stats.manifolds, records.map(|record| record.shown.len()).sum::<usize>());
         assert!(!stats.overflow);
     }
 
     fn check_lists(&self, world: &World<S>) {
         assert_eq!(S::events(world), self.events, "events");
-        let candidates: Vec<_> = self
-            .pairs_that_may_meet()
-            .iter()
-            .filter(|[a, b]| S::boxes_overlap(&a.1, &b.1))
-            .map(|[a, b]| (a.0, b.0))
-            .collect();
-        assert_eq!(S::candidates(world), candidates, "candidates");
+        assert_eq!(S::candidates(world), self.candidates, "candidates");
         let contacts = S::contacts(world);
         assert_eq!(contacts.len(), self.records.len(), "contacts");
         for (contact, record) in contacts.iter().zip(self.records.values()) {
             assert_eq!((contact.a, contact.b), record.keys, "contacts in order of their slots");
             let facts = (contact.sensor, contact.overlapping, contact.is_new);
             assert_eq!(facts, (record.sensor, record.overlapping, record.is_new), "{contact:?}");
-            assert_eq!(contact.manifolds, record.manifolds, "{contact:?}");
+            assert_eq!(contact.manifolds, record.shown, "{contact:?}");
         }
         let bodies: Vec<_> = self.bodies.values().map(|(key, _)| *key).collect();
         let found: Vec<_> = S::bodies(world).into_iter().map(|(key, _)| key).collect();
@@ -169,6 +229,7 @@ impl<S: Engine> NaiveWorld<S> {
         for (slot, (key, body)) in &self.bodies {
             let found = S::get(world, *key).unwrap();
             assert_eq!(found.get_user_data(), body.get_user_data());
+            assert_eq!(found.is_enabled(), !self.disabled.contains(slot));
             let of_key: Vec<_> = self
                 .records
                 .iter()

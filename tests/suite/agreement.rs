@@ -102,8 +102,8 @@ fn check_frame<S: Side>(world: &World<S>, keys: [S::Key; 2], [was, is]: [bool; 2
         assert!(contact.is_some_and(|contact| !contact.manifolds.is_empty()), "{place}");
     }
     let expected = match [was, is] {
-        [false, true] => vec![Event::Began { a, b, user_data_a: 0, user_data_b: 0 }],
-        [true, false] => vec![Event::Ended { a, b, user_data_a: 0, user_data_b: 0 }],
+        [false, true] => vec![Event::Began { a, b, user_data_a: 0, user_data_b: 0, sensor: false }],
+        [true, false] => vec![Event::Ended { a, b, user_data_a: 0, user_data_b: 0, sensor: false }],
         _ => vec![],
     };
     assert_eq!(S::events(world), expected, "{place}");

@@ -1,9 +1,9 @@
 //! Lists of operations on both worlds, against the model and against a fresh world with the same bodies.
 
 use asunder::slotmap::Key;
-use asunder::{Plane, Volume, World};
+use asunder::{Collider, Hooks, Meeting, Plane, Side, Volume, World};
 use asunder_tests::cases::Random;
-use asunder_tests::engine::Engine;
+use asunder_tests::engine::{Change, Engine};
 use asunder_tests::naive_world::NaiveWorld;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -25,8 +25,17 @@ enum Operation {
     Remove {
         body: usize,
     },
+    /// Changes what a body is.
+    Change {
+        body: usize,
+        seed: u64,
+    },
     Clear,
     Update,
+    /// Updates with both hooks.
+    UpdateWith {
+        seed: u64,
+    },
 }
 
 /// Half of the side of the room, in metres: bodies of a metre meet often in it.
@@ -83,11 +92,33 @@ impl<S: Engine> Twins<S> {
                 self.world.clear();
                 self.model.clear();
             }
+            Operation::Change { body, seed } => {
+                let (key, change) = (self.key(body), Change::random(&mut Random::new(seed.into())));
+                let was_there = self.model.change(key, &change);
+                assert_eq!(S::change(&mut self.world, key, &change), was_there, "a stale key changes nobody");
+            }
             Operation::Update => {
                 self.world.update();
                 self.model.update();
                 self.model.check(&self.world);
                 check_fresh(&self.world);
+            }
+            Operation::UpdateWith { seed } => {
+                // A third of the pairs is refused, and of each contact some manifolds go.
+                let dice = |a: &Collider<S>, b: &Collider<S>| {
+                    a.get_user_data().wrapping_mul(31).wrapping_add(b.get_user_data()).wrapping_add(seed) % 3
+                };
+                let pair = |a: Side<'_, S>, b: Side<'_, S>| dice(a.body, b.body) != 0;
+                let contact = |meeting: Meeting<'_, S>| {
+                    let keep = dice(meeting.a.body, meeting.b.body) - 1;
+                    meeting.manifolds.truncate(keep as usize);
+                };
+                self.world.update_with(&Hooks::new().pair(&pair).contact(&contact));
+                self.model.update_with(
+                    |a, b| dice(a, b) != 0,
+                    |a, b, manifolds| manifolds.iter().take(dice(a, b) as usize - 1).cloned().collect(),
+                );
+                self.model.check(&self.world);
             }
         }
         for &key in &self.keys {
@@ -136,7 +167,9 @@ fn operation() -> impl Strategy<Value = Operation> {
         4 => (0..40_usize, any::<u64>()).prop_map(|(body, seed)| Operation::Move { body, seed }),
         1 => (0..40_usize).prop_map(|body| Operation::Stay { body }),
         2 => (0..40_usize).prop_map(|body| Operation::Remove { body }),
+        3 => (0..40_usize, any::<u64>()).prop_map(|(body, seed)| Operation::Change { body, seed }),
         3 => Just(Operation::Update),
+        1 => any::<u64>().prop_map(|seed| Operation::UpdateWith { seed }),
     ]
 }
 
@@ -162,7 +195,7 @@ fn long_list<S: Engine>(seed: u128) {
     let mut twins = Twins::<S>::new();
     let mut alive = Vec::new();
     let (mut updates, mut events) = (0, 0);
-    for _ in 0..3000 {
+    for _ in 0..10_000 {
         let seed = random.below(1 << 30) as u64;
         let operation = match random.below(20) {
             0..4 if alive.len() < 30 => {
@@ -179,17 +212,22 @@ fn long_list<S: Engine>(seed: u128) {
                 alive.clear();
                 Operation::Clear
             }
+            16 if !alive.is_empty() => Operation::Change { body: random.pick(&alive), seed },
+            17 if random.below(3) == 0 => {
+                updates += 1;
+                Operation::UpdateWith { seed }
+            }
             _ => {
                 updates += 1;
                 Operation::Update
             }
         };
         twins.apply(&operation);
-        if matches!(operation, Operation::Update) {
+        if matches!(operation, Operation::Update | Operation::UpdateWith { .. }) {
             events += S::events(&twins.world).len();
         }
     }
-    assert!(updates > 500 && events > 1000, "{updates} updates, {events} events");
+    assert!(updates > 1500 && events > 3000, "{updates} updates, {events} events");
 }
 
 #[test]

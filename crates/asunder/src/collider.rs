@@ -88,7 +88,7 @@ impl core::error::Error for MarginError {}
 /// A body to be: what [`World3::insert`](crate::World3::insert) takes, and what `get` shows.
 ///
 /// Shape and pose differ between [`Collider2`] and [`Collider3`]; all else is common. By default a body may move, is
-/// solid, in every layer, owned by nobody, without margin, and its `user_data` is 0.
+/// solid, enabled, in every layer, owned by nobody, without margin, and its `user_data` is 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collider<S: Space> {
     pub(crate) shape: S::Shape,
@@ -99,6 +99,8 @@ pub struct Collider<S: Space> {
     pub(crate) margin: f32,
     pub(crate) fixed: bool,
     pub(crate) sensor: bool,
+    pub(crate) disabled: bool,
+    pub(crate) asleep: bool,
 }
 
 /// A body in the plane.
@@ -190,6 +192,8 @@ impl<S: Space> Collider<S> {
             margin: 0.0,
             fixed: false,
             sensor: false,
+            disabled: false,
+            asleep: false,
         }
     }
 
@@ -204,6 +208,13 @@ impl<S: Space> Collider<S> {
     #[must_use]
     pub fn sensor(mut self) -> Self {
         self.sensor = true;
+        self
+    }
+
+    /// Lets the body take no part, until it is enabled: it pairs with nobody, and no question finds it.
+    #[must_use]
+    pub fn disabled(mut self) -> Self {
+        self.disabled = true;
         self
     }
 
@@ -251,6 +262,16 @@ impl<S: Space> Collider<S> {
     /// Whether it only senses.
     pub fn is_sensor(&self) -> bool {
         self.sensor
+    }
+
+    /// Whether it takes part.
+    pub fn is_enabled(&self) -> bool {
+        !self.disabled
+    }
+
+    /// Whether it sleeps: see [`World3::sleep`](crate::World3::sleep).
+    pub fn is_asleep(&self) -> bool {
+        self.asleep
     }
 
     /// The layers.

@@ -1,6 +1,6 @@
 //! Contacts: what the world keeps of a pair, and what it shows.
 
-use crate::space::{BodyKey2, BodyKey3, Space};
+use crate::space::{BodyKey2, BodyKey3};
 use asunder_broad::PairId;
 use asunder_narrow::{Hint, Manifold2, Manifold3};
 use core::ops::Range;
@@ -49,15 +49,4 @@ pub(crate) struct Record<K> {
     /// Whether it has begun and not ended: its bodies overlapped at some update since the record appeared.
     pub(crate) begun: bool,
     pub(crate) is_new: bool,
-}
-
-impl<K: slotmap::Key> Record<K> {
-    pub(crate) fn show<'a, S: Space<Key = K>>(
-        &self,
-        manifolds: &'a [S::Manifold],
-    ) -> Contact<'a, K, S::Manifold> {
-        let Record { keys: (a, b), sensor, overlapping, is_new, .. } = *self;
-        let range = self.manifolds.start as usize..self.manifolds.end as usize;
-        Contact { a, b, sensor, overlapping, is_new, manifolds: &manifolds[range] }
-    }
 }

@@ -3,6 +3,8 @@
 use crate::space::{BodyKey2, BodyKey3};
 
 /// A contact that began or ended. Each `Began` is followed, at some later update, by exactly one `Ended`.
+///
+/// From a `Began` to its contact it is one call: `world.contact(a, b)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event<K> {
     /// Two bodies share a point for the first time since they were last apart.
@@ -15,8 +17,11 @@ pub enum Event<K> {
         user_data_a: u64,
         /// What was attached to `b`.
         user_data_b: u64,
+        /// Whether either is a sensor.
+        sensor: bool,
     },
-    /// A contact that had begun is gone: the bodies are further apart than their margins, or one was removed.
+    /// A contact that had begun is gone: the bodies are further apart than their margins, or may not meet any more, or one was
+    /// disabled or removed.
     Ended {
         /// The body in the lower slot. Its key may be stale by now.
         a: K,
@@ -26,6 +31,8 @@ pub enum Event<K> {
         user_data_a: u64,
         /// What was attached to `b`.
         user_data_b: u64,
+        /// Whether either was a sensor when they last touched.
+        sensor: bool,
     },
 }
 
@@ -35,21 +42,56 @@ pub type Event2 = Event<BodyKey2>;
 /// An event in space.
 pub type Event3 = Event<BodyKey3>;
 
-impl<K: Copy> Event<K> {
+impl<K: Copy + PartialEq> Event<K> {
     /// The two bodies, the one in the lower slot first.
     ///
     /// ```
     /// use asunder::{Collider2, Rect, World2, glam::Vec2};
     /// let mut world = World2::new();
-    /// let a = world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?));
-    /// let b = world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?));
+    /// let unit = Rect::from_half_extents(Vec2::ONE)?;
+    /// let coin = world.insert(Collider2::new(unit).sensor().user_data(5));
+    /// let player = world.insert(Collider2::new(unit));
     /// world.update();
-    /// assert_eq!(world.events()[0].bodies(), (a, b));
+    /// let event = world.events()[0];
+    /// assert_eq!(event.bodies(), (coin, player));
+    /// assert_eq!((event.other(player), event.other(coin)), (Some(coin), Some(player)));
+    /// assert_eq!(event.user_data(), (5, 0));
+    /// assert!(event.is_began() && event.is_sensor());
     /// # Ok::<(), asunder::ExtentError>(())
     /// ```
     pub fn bodies(&self) -> (K, K) {
         match *self {
             Self::Began { a, b, .. } | Self::Ended { a, b, .. } => (a, b),
+        }
+    }
+
+    /// Whom this body met or left; nothing if the event is not about it.
+    pub fn other(&self, body: K) -> Option<K> {
+        match self.bodies() {
+            (a, b) if a == body => Some(b),
+            (a, b) if b == body => Some(a),
+            _ => None,
+        }
+    }
+
+    /// What was attached to the two bodies, in their order.
+    pub fn user_data(&self) -> (u64, u64) {
+        match *self {
+            Self::Began { user_data_a, user_data_b, .. } | Self::Ended { user_data_a, user_data_b, .. } => {
+                (user_data_a, user_data_b)
+            }
+        }
+    }
+
+    /// Whether a contact began, and not ended.
+    pub fn is_began(&self) -> bool {
+        matches!(self, Self::Began { .. })
+    }
+
+    /// Whether either body is a sensor, or was when they last touched.
+    pub fn is_sensor(&self) -> bool {
+        match *self {
+            Self::Began { sensor, .. } | Self::Ended { sensor, .. } => sensor,
         }
     }
 }

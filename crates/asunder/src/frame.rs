@@ -9,6 +9,8 @@
 //! 4. **merge**: two lists sorted by pair, walked side by side.
 //! 5. **report**: events in pair order.
 //!
+//! Hooks are asked between the stages, by one thread, in pair order: who may pair after the sweep, what to make of a contact after the merge.
+//!
 //! No stage walks a hash map, calls std's trigonometry or fuses a multiplication with an addition.
 
 mod collide;
@@ -18,22 +20,32 @@ mod report;
 mod sweep;
 
 use crate::clock::Moment;
+use crate::hooks::{Hooks, edit_contacts};
 use crate::space::Space;
 use crate::stats::Stats;
 use crate::world::World;
 use core::time::Duration;
 
 impl<S: Space> World<S> {
-    /// Brings contacts, candidates and events up to date with the poses. Cannot fail.
+    /// Brings contacts, candidates and events up to date with the bodies. Cannot fail.
     ///
     /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where few bodies move, else in all
     /// bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow phase of every candidate of which one body moved.
     pub fn update(&mut self) {
+        self.update_with(&Hooks::new());
+    }
+
+    /// The same, asking these hooks who may pair and what to make of a contact. They are asked in pair order, by one thread; what they
+    /// say must be a function of what they are told, if equal worlds are to have equal futures.
+    ///
+    /// Cost: a call a candidate for [`Hooks::pair`]; a call a contact and a copy of its manifolds for [`Hooks::contact`].
+    pub fn update_with(&mut self, hooks: &Hooks<'_, S>) {
         self.stats = Stats { bodies: self.bodies.len(), ..Stats::default() };
         self.stats.refit = self.timed(refit::refit);
-        self.stats.sweep = self.timed(sweep::sweep);
+        self.stats.sweep = self.timed(|world| sweep::sweep(world, hooks));
         self.stats.collide = self.timed(collide::collide);
         self.stats.merge = self.timed(merge::merge);
+        self.stats.hooks = self.timed(|world| edit_contacts(world, hooks));
         self.stats.report = self.timed(report::report);
     }
 

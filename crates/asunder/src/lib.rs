@@ -38,11 +38,13 @@
 //! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
 #![deny(missing_docs)]
 
+mod bodies;
 mod clock;
 mod collider;
 mod contact;
 mod event;
 mod frame;
+mod hooks;
 mod space;
 mod stats;
 mod world;
@@ -63,6 +65,7 @@ pub use asunder_narrow::{
 pub use collider::{Collider, Collider2, Collider3, Layers, MarginError};
 pub use contact::{Contact, Contact2, Contact3};
 pub use event::{Event, Event2, Event3};
+pub use hooks::{Hooks, Hooks2, Hooks3, Meeting, Meeting2, Meeting3, Side, Side2, Side3};
 pub use slotmap;
 pub use space::{BodyKey2, BodyKey3, Plane, Space, Volume};
 pub use stats::Stats;

@@ -22,6 +22,8 @@ pub struct Stats {
     pub collide: Duration,
     /// Stage 4: last update's contacts beside this one's.
     pub merge: Duration,
+    /// Between stages 4 and 5: the contact hook; nothing without one.
+    pub hooks: Duration,
     /// Stage 5: events, and the index by body.
     pub report: Duration,
     /// Bodies in the world.
@@ -43,6 +45,6 @@ pub struct Stats {
 impl Stats {
     /// The time of all stages.
     pub fn total(&self) -> Duration {
-        self.refit + self.sweep + self.collide + self.merge + self.report
+        self.refit + self.sweep + self.collide + self.merge + self.hooks + self.report
     }
 }

@@ -3,10 +3,10 @@
 use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
+use crate::hooks::Edited;
 use crate::space::Space;
 use crate::stats::Stats;
 use asunder_broad::{CoherentSweep, PairId};
-use asunder_geometry::Bounds;
 use asunder_narrow::{Batch, Hint};
 use slotmap::{Key, SlotMap};
 
@@ -52,11 +52,15 @@ pub struct World<S: Space> {
     /// Slots whose body moved, came or went since candidates were last collided, and the same as a flag a slot.
     pub(crate) moved: Vec<u32>,
     pub(crate) is_moved: Vec<bool>,
+    /// Slots whose body got another shape since then: what was learnt with the one before does not count.
+    pub(crate) reshaped: Vec<u32>,
     pub(crate) max_pairs: usize,
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,
     pub(crate) records: Vec<Record<S::Key>>,
     pub(crate) manifolds: Vec<S::Manifold>,
+    /// What a contact hook made of them at the last update; nothing without one.
+    pub(crate) edited: Option<Edited<S>>,
     pub(crate) events: Vec<Event<S::Key>>,
     /// Records by their second body, then their first: with the records themselves, every body's contacts.
     pub(crate) by_second: Vec<u32>,
@@ -79,6 +83,8 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) last_records: Vec<Record<S::Key>>,
     pub(crate) last_manifolds: Vec<S::Manifold>,
     pub(crate) ended: Vec<Record<S::Key>>,
+    /// The manifolds that a contact hook is editing.
+    pub(crate) editing: Vec<S::Manifold>,
     /// Where each slot's records end, in order of their second body.
     pub(crate) ends: Vec<u32>,
 }
@@ -104,10 +110,12 @@ impl<S: Space> World<S> {
             is_dirty: Vec::new(),
             moved: Vec::new(),
             is_moved: Vec::new(),
+            reshaped: Vec::new(),
             max_pairs: 1 << 24,
             candidates: Vec::new(),
             records: Vec::new(),
             manifolds: Vec::new(),
+            edited: None,
             events: Vec::new(),
             by_second: Vec::new(),
             stats: Stats::default(),
@@ -122,6 +130,7 @@ impl<S: Space> World<S> {
                 last_records: Vec::new(),
                 last_manifolds: Vec::new(),
                 ended: Vec::new(),
+                editing: Vec::new(),
                 ends: Vec::new(),
             },
         }
@@ -135,16 +144,6 @@ impl<S: Space> World<S> {
     /// Whether there is no body.
     pub fn is_empty(&self) -> bool {
         self.bodies.is_empty()
-    }
-
-    /// Removes every body. Contacts that had begun end at the next update.
-    pub fn clear(&mut self) {
-        self.bodies.clear();
-        for slot in 0..self.keys.len() {
-            if !core::mem::replace(&mut self.keys[slot], S::Key::null()).is_null() {
-                self.mark_dirty(slot as u32);
-            }
-        }
     }
 
     /// Sets how many candidate pairs an update may make; 2^24 at first. See [`Stats::overflow`].
@@ -172,53 +171,25 @@ impl<S: Space> World<S> {
         &self.stats
     }
 
-    pub(crate) fn insert_body(&mut self, collider: Collider<S>) -> S::Key {
-        let tag = Tag::of(&collider);
-        let key = self.bodies.insert(collider);
-        let slot = slot_of(key);
-        let index = slot as usize;
-        if index >= self.keys.len() {
-            self.keys.resize(index + 1, S::Key::null());
-            self.boxes.resize(index + 1, S::Aabb::NOTHING);
-            self.tags.resize(index + 1, Tag::default());
-            self.is_dirty.resize(index + 1, false);
-            self.is_moved.resize(index + 1, false);
-        }
-        self.keys[index] = key;
-        self.tags[index] = tag;
-        self.mark_dirty(slot);
-        key
-    }
-
-    pub(crate) fn remove_body(&mut self, key: S::Key) -> Option<Collider<S>> {
-        let collider = self.bodies.remove(key)?;
-        self.keys[slot_of(key) as usize] = S::Key::null();
-        self.mark_dirty(slot_of(key));
-        Some(collider)
-    }
-
-    pub(crate) fn move_body(&mut self, key: S::Key, pose: S::Pose) -> Result<(), StaleKey> {
-        let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
-        if !S::same_bits(&body.pose, &pose) {
-            body.pose = pose;
-            self.mark_dirty(slot_of(key));
-        }
-        Ok(())
-    }
-
-    fn mark_dirty(&mut self, slot: u32) {
-        if !core::mem::replace(&mut self.is_dirty[slot as usize], true) {
-            self.dirty.push(slot);
-        }
-    }
-
     pub(crate) fn show_contacts(
         &self,
     ) -> impl ExactSizeIterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone {
-        self.records.iter().map(|record| record.show::<S>(&self.manifolds))
+        (0..self.records.len()).map(|index| self.show(index))
     }
 
-    pub(crate) fn record_of(&self, one: S::Key, other: S::Key) -> Option<&Record<S::Key>> {
+    /// The contact of a record, with its manifolds as the contact hook left them.
+    pub(crate) fn show(&self, index: usize) -> Contact<'_, S::Key, S::Manifold> {
+        let record = &self.records[index];
+        let Record { keys: (a, b), sensor, overlapping, is_new, .. } = *record;
+        let manifolds = match &self.edited {
+            Some(edited) => edited.of(index),
+            None => &self.manifolds[record.manifolds.start as usize..record.manifolds.end as usize],
+        };
+        Contact { a, b, sensor, overlapping, is_new, manifolds }
+    }
+
+    /// The record of two bodies, by its index.
+    pub(crate) fn record_of(&self, one: S::Key, other: S::Key) -> Option<usize> {
         if !self.bodies.contains_key(one) || !self.bodies.contains_key(other) {
             return None;
         }
@@ -226,26 +197,35 @@ impl<S: Space> World<S> {
         let index = self.records.binary_search_by_key(&pair, |record| record.pair).ok()?;
         let record = &self.records[index];
         // A slot may have had another tenant when the record was made.
-        (record.keys == (one, other) || record.keys == (other, one)).then_some(record)
+        (record.keys == (one, other) || record.keys == (other, one)).then_some(index)
     }
 
-    /// Records of one body, in order of the other body's slot.
-    pub(crate) fn records_of(&self, key: S::Key) -> impl Iterator<Item = &Record<S::Key>> + Clone {
+    /// Whether the contact of two bodies has begun.
+    pub(crate) fn has_begun(&self, one: S::Key, other: S::Key) -> bool {
+        self.record_of(one, other).is_some_and(|index| self.records[index].begun)
+    }
+
+    /// Records of one body, by their indices, in order of the other body's slot.
+    pub(crate) fn records_of(&self, key: S::Key) -> impl Iterator<Item = usize> + Clone {
         // A stale key gets an empty range, and so does a slot whose records were another tenant's.
         let slot = if self.bodies.contains_key(key) { slot_of(key) } else { u32::MAX };
         let second = |&index: &u32| self.records[index as usize].pair.b;
         let start = self.by_second.partition_point(|index| second(index) < slot);
         let as_second = self.by_second[start..].iter().take_while(move |index| second(index) == slot);
         let start = self.records.partition_point(|record| record.pair.a < slot);
-        let as_first = self.records[start..].iter().take_while(move |record| record.pair.a == slot);
-        as_second
-            .map(|&index| &self.records[index as usize])
-            .chain(as_first)
-            .filter(move |record| record.keys.0 == key || record.keys.1 == key)
+        let as_first =
+            (start..self.records.len()).take_while(move |&index| self.records[index].pair.a == slot);
+        as_second.map(|&index| index as usize).chain(as_first).filter(move |&index| {
+            let (a, b) = self.records[index].keys;
             // The other body may have been removed since.
-            .filter(|record| {
-                self.bodies.contains_key(record.keys.0) && self.bodies.contains_key(record.keys.1)
-            })
+            (a == key || b == key) && self.bodies.contains_key(a) && self.bodies.contains_key(b)
+        })
+    }
+
+    /// The bodies that touch this one.
+    pub(crate) fn touched_by(&self, key: S::Key) -> impl Iterator<Item = S::Key> + Clone {
+        let begun = self.records_of(key).map(|index| &self.records[index]).filter(|record| record.begun);
+        begun.map(move |record| if record.keys.0 == key { record.keys.1 } else { record.keys.0 })
     }
 }
 

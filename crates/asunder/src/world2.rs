@@ -1,11 +1,11 @@
 //! The world in the plane: the engine's face, in plain types.
 
-use crate::collider::Collider2;
+use crate::collider::{Collider2, Layers};
 use crate::contact::Contact2;
 use crate::event::Event2;
 use crate::space::{BodyKey2, Plane};
 use crate::world::{StaleKey, World};
-use asunder_geometry::Pose2;
+use asunder_geometry::{Pose2, Shape2};
 
 /// A world of bodies in the plane.
 ///
@@ -13,7 +13,7 @@ use asunder_geometry::Pose2;
 /// two updates is as of the last one; what is asked about a body leaves out bodies removed since.
 ///
 /// ```
-/// use asunder::{Collider2, Rect, Pose2, World2, glam::Vec2};
+/// use asunder::{Circle, Collider2, Layers, Pose2, Rect, World2, glam::Vec2};
 /// let mut world = World2::new();
 /// let unit = Rect::from_half_extents(Vec2::ONE)?;
 /// let a = world.insert(Collider2::new(unit));
@@ -29,7 +29,30 @@ use asunder_geometry::Pose2;
 /// assert_eq!(world.contact(b, a), world.contacts_of(a).next());
 /// assert_eq!(world.events().len(), 1);
 ///
-/// assert!(world.contains(b) && world.get(b).is_some() && world.iter().count() == 2);
+/// world.disable(b)?;
+/// world.update();
+/// assert!(!world.is_touching(a, b) && !world.events()[0].is_began());
+/// world.enable(b)?;
+/// world.set_poses([(a, Pose2::IDENTITY), (b, Pose2::at([8.0, 0.0])?)])?;
+/// world.set_shape(b, Circle::new(3.0)?)?;
+/// world.set_user_data(b, 12)?;
+/// world.update();
+/// assert_eq!(world.events().len(), 0, "a radius of 3 m ends at 5 m");
+/// world.set_shape(a, Circle::new(6.0)?)?;
+/// world.update();
+/// assert_eq!(world.events()[0].user_data(), (0, 12));
+/// world.set_layers(b, Layers { member_of: 0, ..Layers::default() })?;
+/// world.update();
+/// assert!(!world.is_touching(a, b), "a member of nothing meets nobody");
+///
+/// world.sleep(b)?;
+/// assert!(world.get(b).is_some_and(Collider2::is_asleep));
+/// world.wake(b)?;
+/// let ghost = world.replace(b, Collider2::new(unit).sensor().disabled())?;
+/// assert_eq!(ghost.get_user_data(), 12);
+/// assert_eq!(world.insert_many([ghost.clone(), ghost]).len(), 2);
+///
+/// assert!(world.contains(b) && world.get(b).is_some() && world.iter().count() == 4);
 /// assert!(world.remove(b).is_some());
 /// assert!(!world.contains(b));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -40,6 +63,11 @@ impl World<Plane> {
     /// Adds a body. It takes part from the next update on. Cost: constant.
     pub fn insert(&mut self, collider: Collider2) -> BodyKey2 {
         self.insert_body(collider)
+    }
+
+    /// Adds many bodies, in this order, and returns their keys.
+    pub fn insert_many(&mut self, colliders: impl IntoIterator<Item = Collider2>) -> Vec<BodyKey2> {
+        colliders.into_iter().map(|collider| self.insert_body(collider)).collect()
     }
 
     /// Takes a body out and returns it; nothing for a stale key. Contacts of it that had begun end at the next update.
@@ -70,6 +98,83 @@ impl World<Plane> {
         self.move_body(key, pose)
     }
 
+    /// Moves many bodies, in this order. Cost: a look-up a body; their boxes are made by the next update, in parallel.
+    ///
+    /// # Errors
+    /// A stale key among them; all the others are moved.
+    pub fn set_poses(&mut self, poses: impl IntoIterator<Item = (BodyKey2, Pose2)>) -> Result<(), StaleKey> {
+        self.move_bodies(poses)
+    }
+
+    /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_shape(&mut self, key: BodyKey2, shape: impl Into<Shape2>) -> Result<(), StaleKey> {
+        self.reshape_body(key, shape.into())
+    }
+
+    /// Changes which groups a body is in and which it meets. Contacts with bodies that it does not meet any more end at the next
+    /// update.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_layers(&mut self, key: BodyKey2, layers: Layers) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.layers = layers)
+    }
+
+    /// Attaches another number to a body. Events of later updates carry it.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_user_data(&mut self, key: BodyKey2, user_data: u64) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.user_data = user_data)
+    }
+
+    /// Lets a body take part again.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn enable(&mut self, key: BodyKey2) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.disabled = false)
+    }
+
+    /// Takes a body out of the game without removing it: its contacts end at the next update, it pairs with nobody, and no question
+    /// finds it.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn disable(&mut self, key: BodyKey2) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.disabled = true)
+    }
+
+    /// Notes that a body is at rest. Another pose wakes it.
+    ///
+    /// A note for the game and its solver, which [`Filter2`](crate::Filter2) and hooks can read: the world carries on the contacts of
+    /// whatever does not move as it is, and never takes a body's word for that.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn sleep(&mut self, key: BodyKey2) -> Result<(), StaleKey> {
+        self.set_asleep(key, true)
+    }
+
+    /// Notes that a body is not at rest any more.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn wake(&mut self, key: BodyKey2) -> Result<(), StaleKey> {
+        self.set_asleep(key, false)
+    }
+
+    /// Makes another body of it under the same key, and returns what it was: for all that has no call of its own.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn replace(&mut self, key: BodyKey2, collider: Collider2) -> Result<Collider2, StaleKey> {
+        self.replace_body(key, collider)
+    }
+
     /// Pairs whose boxes overlapped and whose filters agreed, in pair order: what the narrow phase was asked.
     pub fn candidates(&self) -> impl ExactSizeIterator<Item = (BodyKey2, BodyKey2)> + Clone {
         self.candidates.iter().map(|candidate| candidate.keys)
@@ -84,24 +189,23 @@ impl World<Plane> {
     /// Contacts of one body with bodies that are still there, in order of the other's slot; none for a stale key.
     /// Cost: a binary search.
     pub fn contacts_of(&self, key: BodyKey2) -> impl Iterator<Item = Contact2<'_>> + Clone {
-        self.records_of(key).map(|record| record.show::<Plane>(&self.manifolds))
+        self.records_of(key).map(|index| self.show(index))
     }
 
     /// The contact of two bodies, in either order, if they have one. Cost: a binary search.
     pub fn contact(&self, one: BodyKey2, other: BodyKey2) -> Option<Contact2<'_>> {
-        self.record_of(one, other).map(|record| record.show::<Plane>(&self.manifolds))
+        self.record_of(one, other).map(|index| self.show(index))
     }
 
     /// Whether the two bodies touch: `Began` was reported and `Ended` was not. Cost: a binary search.
     pub fn is_touching(&self, one: BodyKey2, other: BodyKey2) -> bool {
-        self.record_of(one, other).is_some_and(|record| record.begun)
+        self.has_begun(one, other)
     }
 
     /// The bodies that touch this one and are still there, sensors among them, in order of their slots. Cost: a binary
     /// search.
     pub fn touching(&self, key: BodyKey2) -> impl Iterator<Item = BodyKey2> + Clone {
-        let begun = self.records_of(key).filter(|record| record.begun);
-        begun.map(move |record| if record.keys.0 == key { record.keys.1 } else { record.keys.0 })
+        self.touched_by(key)
     }
 
     /// What began and what ended at the last update, in pair order; where a slot was reused, what ended comes first.

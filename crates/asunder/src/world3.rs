@@ -1,11 +1,11 @@
 //! The world in space: the engine's face, in plain types.
 
-use crate::collider::Collider3;
+use crate::collider::{Collider3, Layers};
 use crate::contact::Contact3;
 use crate::event::Event3;
 use crate::space::{BodyKey3, Volume};
 use crate::world::{StaleKey, World};
-use asunder_geometry::Pose3;
+use asunder_geometry::{Pose3, Shape3};
 
 /// A world of bodies in space.
 ///
@@ -13,7 +13,7 @@ use asunder_geometry::Pose3;
 /// two updates is as of the last one; what is asked about a body leaves out bodies removed since.
 ///
 /// ```
-/// use asunder::{Collider3, Cuboid, Pose3, World3, glam::Vec3};
+/// use asunder::{Collider3, Cuboid, Layers, Pose3, Sphere, World3, glam::Vec3};
 /// let mut world = World3::new();
 /// let unit = Cuboid::from_half_extents(Vec3::ONE)?;
 /// let a = world.insert(Collider3::new(unit));
@@ -29,7 +29,30 @@ use asunder_geometry::Pose3;
 /// assert_eq!(world.contact(b, a), world.contacts_of(a).next());
 /// assert_eq!(world.events().len(), 1);
 ///
-/// assert!(world.contains(b) && world.get(b).is_some() && world.iter().count() == 2);
+/// world.disable(b)?;
+/// world.update();
+/// assert!(!world.is_touching(a, b) && !world.events()[0].is_began());
+/// world.enable(b)?;
+/// world.set_poses([(a, Pose3::IDENTITY), (b, Pose3::at([8.0, 0.0, 0.0])?)])?;
+/// world.set_shape(b, Sphere::new(3.0)?)?;
+/// world.set_user_data(b, 12)?;
+/// world.update();
+/// assert_eq!(world.events().len(), 0, "a radius of 3 m ends at 5 m");
+/// world.set_shape(a, Sphere::new(6.0)?)?;
+/// world.update();
+/// assert_eq!(world.events()[0].user_data(), (0, 12));
+/// world.set_layers(b, Layers { member_of: 0, ..Layers::default() })?;
+/// world.update();
+/// assert!(!world.is_touching(a, b), "a member of nothing meets nobody");
+///
+/// world.sleep(b)?;
+/// assert!(world.get(b).is_some_and(Collider3::is_asleep));
+/// world.wake(b)?;
+/// let ghost = world.replace(b, Collider3::new(unit).sensor().disabled())?;
+/// assert_eq!(ghost.get_user_data(), 12);
+/// assert_eq!(world.insert_many([ghost.clone(), ghost]).len(), 2);
+///
+/// assert!(world.contains(b) && world.get(b).is_some() && world.iter().count() == 4);
 /// assert!(world.remove(b).is_some());
 /// assert!(!world.contains(b));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -40,6 +63,11 @@ impl World<Volume> {
     /// Adds a body. It takes part from the next update on. Cost: constant.
     pub fn insert(&mut self, collider: Collider3) -> BodyKey3 {
         self.insert_body(collider)
+    }
+
+    /// Adds many bodies, in this order, and returns their keys.
+    pub fn insert_many(&mut self, colliders: impl IntoIterator<Item = Collider3>) -> Vec<BodyKey3> {
+        colliders.into_iter().map(|collider| self.insert_body(collider)).collect()
     }
 
     /// Takes a body out and returns it; nothing for a stale key. Contacts of it that had begun end at the next update.
@@ -70,6 +98,83 @@ impl World<Volume> {
         self.move_body(key, pose)
     }
 
+    /// Moves many bodies, in this order. Cost: a look-up a body; their boxes are made by the next update, in parallel.
+    ///
+    /// # Errors
+    /// A stale key among them; all the others are moved.
+    pub fn set_poses(&mut self, poses: impl IntoIterator<Item = (BodyKey3, Pose3)>) -> Result<(), StaleKey> {
+        self.move_bodies(poses)
+    }
+
+    /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_shape(&mut self, key: BodyKey3, shape: impl Into<Shape3>) -> Result<(), StaleKey> {
+        self.reshape_body(key, shape.into())
+    }
+
+    /// Changes which groups a body is in and which it meets. Contacts with bodies that it does not meet any more end at the next
+    /// update.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_layers(&mut self, key: BodyKey3, layers: Layers) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.layers = layers)
+    }
+
+    /// Attaches another number to a body. Events of later updates carry it.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_user_data(&mut self, key: BodyKey3, user_data: u64) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.user_data = user_data)
+    }
+
+    /// Lets a body take part again.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn enable(&mut self, key: BodyKey3) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.disabled = false)
+    }
+
+    /// Takes a body out of the game without removing it: its contacts end at the next update, it pairs with nobody, and no question
+    /// finds it.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn disable(&mut self, key: BodyKey3) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.disabled = true)
+    }
+
+    /// Notes that a body is at rest. Another pose wakes it.
+    ///
+    /// A note for the game and its solver, which [`Filter3`](crate::Filter3) and hooks can read: the world carries on the contacts of
+    /// whatever does not move as it is, and never takes a body's word for that.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn sleep(&mut self, key: BodyKey3) -> Result<(), StaleKey> {
+        self.set_asleep(key, true)
+    }
+
+    /// Notes that a body is not at rest any more.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn wake(&mut self, key: BodyKey3) -> Result<(), StaleKey> {
+        self.set_asleep(key, false)
+    }
+
+    /// Makes another body of it under the same key, and returns what it was: for all that has no call of its own.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn replace(&mut self, key: BodyKey3, collider: Collider3) -> Result<Collider3, StaleKey> {
+        self.replace_body(key, collider)
+    }
+
     /// Pairs whose boxes overlapped and whose filters agreed, in pair order: what the narrow phase was asked.
     pub fn candidates(&self) -> impl ExactSizeIterator<Item = (BodyKey3, BodyKey3)> + Clone {
         self.candidates.iter().map(|candidate| candidate.keys)
@@ -84,24 +189,23 @@ impl World<Volume> {
     /// Contacts of one body with bodies that are still there, in order of the other's slot; none for a stale key.
     /// Cost: a binary search.
     pub fn contacts_of(&self, key: BodyKey3) -> impl Iterator<Item = Contact3<'_>> + Clone {
-        self.records_of(key).map(|record| record.show::<Volume>(&self.manifolds))
+        self.records_of(key).map(|index| self.show(index))
     }
 
     /// The contact of two bodies, in either order, if they have one. Cost: a binary search.
     pub fn contact(&self, one: BodyKey3, other: BodyKey3) -> Option<Contact3<'_>> {
-        self.record_of(one, other).map(|record| record.show::<Volume>(&self.manifolds))
+        self.record_of(one, other).map(|index| self.show(index))
     }
 
     /// Whether the two bodies touch: `Began` was reported and `Ended` was not. Cost: a binary search.
     pub fn is_touching(&self, one: BodyKey3, other: BodyKey3) -> bool {
-        self.record_of(one, other).is_some_and(|record| record.begun)
+        self.has_begun(one, other)
     }
 
     /// The bodies that touch this one and are still there, sensors among them, in order of their slots. Cost: a binary
     /// search.
     pub fn touching(&self, key: BodyKey3) -> impl Iterator<Item = BodyKey3> + Clone {
-        let begun = self.records_of(key).filter(|record| record.begun);
-        begun.map(move |record| if record.keys.0 == key { record.keys.1 } else { record.keys.0 })
+        self.touched_by(key)
     }
 
     /// What began and what ended at the last update, in pair order; where a slot was reused, what ended comes first.

@@ -133,9 +133,9 @@ fn a_margin_keeps_the_record_and_not_the_beginning<S: Side>() {
             );
             let [a, b] = keys;
             let expected = if exact && !has_begun {
-                vec![Event::Began { a, b, user_data_a: 0, user_data_b: 0 }]
+                vec![Event::Began { a, b, user_data_a: 0, user_data_b: 0, sensor: false }]
             } else if !kept && has_begun {
-                vec![Event::Ended { a, b, user_data_a: 0, user_data_b: 0 }]
+                vec![Event::Ended { a, b, user_data_a: 0, user_data_b: 0, sensor: false }]
             } else {
                 vec![]
             };

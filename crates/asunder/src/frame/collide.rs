@@ -31,6 +31,7 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     core::mem::swap(candidates, &mut scratch.last_candidates);
     core::mem::swap(records, &mut scratch.last_records);
     core::mem::swap(manifolds, &mut scratch.last_manifolds);
+    world.reshaped.sort_unstable();
     choose(world);
     ask(world);
     gather(world);
@@ -41,7 +42,7 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
 
 /// Which pairs are carried on and which are asked about. Pairs are sorted, and so are last update's: one walk.
 fn choose<S: Space>(world: &mut World<S>) {
-    let World { keys, is_moved, scratch, .. } = world;
+    let World { keys, is_moved, reshaped, scratch, .. } = world;
     let Scratch { pairs, carried, asked, last_candidates, .. } = scratch;
     carried.clear();
     asked.clear();
@@ -58,10 +59,17 @@ fn choose<S: Space>(world: &mut World<S>) {
             Some(_) if !is_moved[a] && !is_moved[b] => carried.push(last as u32),
             known => {
                 carried.push(ASKED);
+                let known = known.filter(|_| !of_another_shape(reshaped, pair));
                 asked.push((pair, known.map_or(Hint::NONE, |known| known.hint)));
             }
         }
     }
+}
+
+/// Whether what was learnt of a pair is about another shape than the one a body has now.
+pub(super) fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
+    !reshaped.is_empty()
+        && (reshaped.binary_search(&pair.a).is_ok() || reshaped.binary_search(&pair.b).is_ok())
 }
 
 /// Asks the narrow phase, in batches.

@@ -1,5 +1,6 @@
 //! Stage 4: last update's contacts beside this one's.
 
+use super::collide::of_another_shape;
 use crate::contact::Record;
 use crate::space::Space;
 use crate::world::World;
@@ -7,7 +8,7 @@ use slotmap::Key;
 
 /// Carries over what has begun, and sets aside what is gone. Two lists sorted by pair, walked once.
 pub(super) fn merge<S: Space>(world: &mut World<S>) {
-    let World { records, stats, scratch, .. } = world;
+    let World { records, reshaped, stats, scratch, .. } = world;
     scratch.ended.clear();
     if stats.overflow {
         // Last update's contacts stay; their events were reported then.
@@ -26,6 +27,11 @@ pub(super) fn merge<S: Space>(world: &mut World<S>) {
                 set_aside(before, &mut scratch.ended);
                 false
             }
+            // The margin's memory does not outlive a shape: a contact that the new one does not touch is over.
+            Some(before) if !record.overlapping && of_another_shape(reshaped, record.pair) => {
+                set_aside(before, &mut scratch.ended);
+                false
+            }
             Some(before) => before.begun,
             None => false,
         };
@@ -35,6 +41,7 @@ pub(super) fn merge<S: Space>(world: &mut World<S>) {
     for gone in last {
         set_aside(gone, &mut scratch.ended);
     }
+    reshaped.clear();
 }
 
 fn set_aside<K: Key>(gone: &Record<K>, ended: &mut Vec<Record<K>>) {

@@ -8,12 +8,12 @@ use slotmap::Key;
 #[cfg(feature = "parallel")]
 const MIN_PARALLEL: usize = 4096;
 
-/// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went are empty sets.
+/// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went, or are disabled, are empty sets.
 pub(super) fn refit<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, boxes, dirty, is_dirty, moved, is_moved, stats, scratch, .. } = world;
     stats.moved = dirty.iter().filter(|&&slot| !keys[slot as usize].is_null()).count();
     let bounds = |&slot: &u32| {
-        let body = bodies.get(keys[slot as usize]);
+        let body = bodies.get(keys[slot as usize]).filter(|body| !body.disabled);
         body.map_or(asunder_geometry::Bounds::NOTHING, |body| S::bounds(&body.shape, &body.pose, body.margin))
     };
     scratch.refitted.clear();

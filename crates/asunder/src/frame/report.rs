@@ -2,13 +2,14 @@
 
 use crate::contact::Record;
 use crate::event::Event;
+use crate::hooks::Edited;
 use crate::space::Space;
 use crate::world::World;
 use slotmap::Key;
 
 /// Writes the events in pair order, then the index of records by their second body.
 pub(super) fn report<S: Space>(world: &mut World<S>) {
-    let World { keys, candidates, records, manifolds, events, by_second, stats, scratch, .. } = world;
+    let World { keys, candidates, records, manifolds, edited, events, by_second, stats, scratch, .. } = world;
     events.clear();
     let mut ended = scratch.ended.iter().peekable();
     for began in records.iter().filter(|record| record.is_new) {
@@ -16,8 +17,8 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
         while let Some(gone) = ended.next_if(|gone| gone.pair <= began.pair) {
             events.push(end(gone));
         }
-        let Record { keys: (a, b), user_data: (user_data_a, user_data_b), .. } = *began;
-        events.push(Event::Began { a, b, user_data_a, user_data_b });
+        let Record { keys: (a, b), user_data: (user_data_a, user_data_b), sensor, .. } = *began;
+        events.push(Event::Began { a, b, user_data_a, user_data_b, sensor });
     }
     events.extend(ended.map(end));
 
@@ -27,7 +28,7 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
     stats.candidates = candidates.len();
     stats.contacts = records.len();
     stats.touching = records.iter().filter(|record| record.overlapping).count();
-    stats.manifolds = manifolds.len();
+    stats.manifolds = edited.as_ref().map_or(manifolds.len(), Edited::len);
 }
 
 /// The records in order of their second body, then of the first, in which order they come.
@@ -60,8 +61,8 @@ fn index_by_second<K: Key>(records: &[Record<K>], slots: usize, into: &mut Vec<u
 }
 
 fn end<K: Key>(gone: &Record<K>) -> Event<K> {
-    let Record { keys: (a, b), user_data: (user_data_a, user_data_b), .. } = *gone;
-    Event::Ended { a, b, user_data_a, user_data_b }
+    let Record { keys: (a, b), user_data: (user_data_a, user_data_b), sensor, .. } = *gone;
+    Event::Ended { a, b, user_data_a, user_data_b, sensor }
 }
 
 #[cfg(test)]

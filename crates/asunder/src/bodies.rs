@@ -1,0 +1,117 @@
+//! Bodies come, go and change; what hangs on it is noted for the next update.
+
+use crate::collider::{Collider, Tag};
+use crate::space::Space;
+use crate::world::{StaleKey, World, slot_of};
+use asunder_geometry::Bounds;
+use slotmap::Key;
+
+impl<S: Space> World<S> {
+    /// Removes every body. Contacts that had begun end at the next update.
+    pub fn clear(&mut self) {
+        self.bodies.clear();
+        for slot in 0..self.keys.len() {
+            if !core::mem::replace(&mut self.keys[slot], S::Key::null()).is_null() {
+                self.mark_dirty(slot as u32);
+            }
+        }
+    }
+
+    pub(crate) fn insert_body(&mut self, collider: Collider<S>) -> S::Key {
+        let tag = Tag::of(&collider);
+        let key = self.bodies.insert(collider);
+        let slot = slot_of(key);
+        let index = slot as usize;
+        if index >= self.keys.len() {
+            self.keys.resize(index + 1, S::Key::null());
+            self.boxes.resize(index + 1, S::Aabb::NOTHING);
+            self.tags.resize(index + 1, Tag::default());
+            self.is_dirty.resize(index + 1, false);
+            self.is_moved.resize(index + 1, false);
+        }
+        self.keys[index] = key;
+        self.tags[index] = tag;
+        self.mark_dirty(slot);
+        key
+    }
+
+    pub(crate) fn remove_body(&mut self, key: S::Key) -> Option<Collider<S>> {
+        let collider = self.bodies.remove(key)?;
+        self.keys[slot_of(key) as usize] = S::Key::null();
+        self.mark_dirty(slot_of(key));
+        Some(collider)
+    }
+
+    /// Moves a body, which wakes it.
+    pub(crate) fn move_body(&mut self, key: S::Key, pose: S::Pose) -> Result<(), StaleKey> {
+        let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
+        if !S::same_bits(&body.pose, &pose) {
+            body.pose = pose;
+            body.asleep = false;
+            self.mark_dirty(slot_of(key));
+        }
+        Ok(())
+    }
+
+    /// Moves every body whose key is fresh.
+    pub(crate) fn move_bodies(
+        &mut self,
+        poses: impl IntoIterator<Item = (S::Key, S::Pose)>,
+    ) -> Result<(), StaleKey> {
+        let mut outcome = Ok(());
+        for (key, pose) in poses {
+            outcome = self.move_body(key, pose).and(outcome);
+        }
+        outcome
+    }
+
+    /// Gives a body another shape, and forgets what was learnt with the one before.
+    pub(crate) fn reshape_body(&mut self, key: S::Key, shape: S::Shape) -> Result<(), StaleKey> {
+        self.bodies.get_mut(key).ok_or(StaleKey)?.shape = shape;
+        self.reshaped.push(slot_of(key));
+        self.mark_dirty(slot_of(key));
+        Ok(())
+    }
+
+    /// Makes another body of it, and gives back what it was.
+    pub(crate) fn replace_body(
+        &mut self,
+        key: S::Key,
+        collider: Collider<S>,
+    ) -> Result<Collider<S>, StaleKey> {
+        let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
+        if body.shape != collider.shape {
+            self.reshaped.push(slot_of(key));
+        }
+        self.tags[slot_of(key) as usize] = Tag::of(&collider);
+        let before = core::mem::replace(body, collider);
+        self.mark_dirty(slot_of(key));
+        Ok(before)
+    }
+
+    /// Changes what is neither shape nor pose. Its pairs are asked about anew, since whom it meets, and how, may be
+    /// another matter now.
+    pub(crate) fn change_body(
+        &mut self,
+        key: S::Key,
+        change: impl FnOnce(&mut Collider<S>),
+    ) -> Result<(), StaleKey> {
+        let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
+        change(body);
+        self.tags[slot_of(key) as usize] = Tag::of(body);
+        self.mark_dirty(slot_of(key));
+        Ok(())
+    }
+
+    /// Sends a body to sleep, or wakes it: no reason to look at it again.
+    pub(crate) fn set_asleep(&mut self, key: S::Key, asleep: bool) -> Result<(), StaleKey> {
+        self.bodies.get_mut(key).ok_or(StaleKey)?.asleep = asleep;
+        Ok(())
+    }
+
+    pub(crate) fn mark_dirty(&mut self, slot: u32) {
+        if !core::mem::replace(&mut self.is_dirty[slot as usize], true) {
+            self.dirty.push(slot);
+        }
+    }
+}

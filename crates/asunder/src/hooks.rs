@@ -1,0 +1,192 @@
+//! What a game may say during an update: who pairs at all, and what a contact is worth.
+//!
+//! A hook sees what the engine found and decides what comes of it; it never sees half a frame. Hooks are asked in pair order,
+//! and their answers for one update are not remembered in the next: what they left out is found again, and what they edited is
+//! edited anew from what the narrow phase said.
+
+use crate::collider::Collider;
+use crate::contact::Record;
+use crate::space::{Plane, Space, Volume};
+use crate::world::World;
+use asunder_broad::PairId;
+use core::fmt::Debug;
+
+/// A body of a pair that a hook is asked about.
+#[derive(Clone, Copy, Debug)]
+pub struct Side<'a, S: Space> {
+    /// Its key.
+    pub key: S::Key,
+    /// What it is.
+    pub body: &'a Collider<S>,
+}
+
+/// A body of a pair in the plane.
+pub type Side2<'a> = Side<'a, Plane>;
+
+/// A body of a pair in space.
+pub type Side3<'a> = Side<'a, Volume>;
+
+/// A contact that a hook may edit before anybody sees it.
+#[derive(Debug)]
+pub struct Meeting<'a, S: Space> {
+    /// The body in the lower slot; normals point away from it.
+    pub a: Side<'a, S>,
+    /// The other body.
+    pub b: Side<'a, S>,
+    /// Whether they share a point now.
+    pub overlapping: bool,
+    /// Whether their `Began` is among this update's events.
+    pub is_new: bool,
+    /// How they touch: manifolds and points may be changed, taken out and put in. Whether the two touch, and so the events, stays as
+    /// it is.
+    pub manifolds: &'a mut Vec<S::Manifold>,
+}
+
+/// A contact in the plane that a hook may edit.
+pub type Meeting2<'a> = Meeting<'a, Plane>;
+
+/// A contact in space that a hook may edit.
+pub type Meeting3<'a> = Meeting<'a, Volume>;
+
+/// Asked of every pair whose boxes overlap and whose layers and owners agree.
+type Pairing<'a, S> = dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync + 'a;
+
+/// Asked of every contact that has manifolds.
+type Editing<'a, S> = dyn Fn(Meeting<'_, S>) + Sync + 'a;
+
+/// The hooks of one update: see [`World::update_with`].
+///
+/// ```
+/// use asunder::{BodyKey2, Collider2, Hooks2, Pose2, Rect, World2, glam::Vec2};
+/// let mut world = World2::new();
+/// let ledge = Rect::from_half_extents(Vec2::new(4.0, 0.5))?;
+/// let ledge = world.insert(Collider2::new(ledge).fixed().user_data(1));
+/// let player = Rect::from_half_extents(Vec2::new(0.4, 0.9))?;
+/// let player = world.insert(Collider2::new(player).at(Pose2::at([0.0, -1.3])?));
+///
+/// // A ledge that can be jumped through from below: contacts that would push the player down count for nothing.
+/// let is_ledge = |body: &Collider2| body.get_user_data() == 1;
+/// let one_way = |meeting: asunder::Meeting2<'_>| {
+///     let up = if is_ledge(meeting.a.body) { Vec2::Y } else { Vec2::NEG_Y };
+///     meeting.manifolds.retain(|manifold| manifold.normal.dot(up) > 0.7);
+/// };
+/// world.update_with(&Hooks2::new().contact(&one_way));
+/// assert!(world.is_touching(ledge, player), "touching is a fact");
+/// assert!(world.contact(ledge, player).is_some_and(|contact| contact.manifolds.is_empty()));
+///
+/// let ghosts = |_: asunder::Side2<'_>, b: asunder::Side2<'_>| b.key != player;
+/// world.update_with(&Hooks2::new().pair(&ghosts));
+/// assert!(!world.is_touching(ledge, player));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct Hooks<'a, S: Space> {
+    pair: Option<&'a Pairing<'a, S>>,
+    contact: Option<&'a Editing<'a, S>>,
+}
+
+/// The hooks of one update in the plane.
+pub type Hooks2<'a> = Hooks<'a, Plane>;
+
+/// The hooks of one update in space.
+pub type Hooks3<'a> = Hooks<'a, Volume>;
+
+impl<'a, S: Space> Hooks<'a, S> {
+    /// No hooks.
+    pub const fn new() -> Self {
+        Self { pair: None, contact: None }
+    }
+
+    /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on agree. A pair that is
+    /// refused is no candidate; a contact that it had ends.
+    #[must_use]
+    pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
+        self.pair = Some(may_meet);
+        self
+    }
+
+    /// Hands over every contact that has manifolds, to be edited.
+    #[must_use]
+    pub fn contact(mut self, edit: &'a (dyn Fn(Meeting<'_, S>) + Sync)) -> Self {
+        self.contact = Some(edit);
+        self
+    }
+}
+
+impl<S: Space> Default for Hooks<'_, S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<S: Space> Debug for Hooks<'_, S> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let mut hooks = f.debug_struct("Hooks");
+        hooks.field("pair", &self.pair.is_some()).field("contact", &self.contact.is_some()).finish()
+    }
+}
+
+/// What a contact hook made of the manifolds: of each record, where its own end.
+#[derive(Clone, Debug)]
+pub(crate) struct Edited<S: Space> {
+    manifolds: Vec<S::Manifold>,
+    ends: Vec<u32>,
+}
+
+impl<S: Space> Edited<S> {
+    /// How many manifolds there are.
+    pub(crate) fn len(&self) -> usize {
+        self.manifolds.len()
+    }
+
+    /// The manifolds of a record.
+    pub(crate) fn of(&self, record: usize) -> &[S::Manifold] {
+        let start = if record == 0 { 0 } else { self.ends[record - 1] };
+        &self.manifolds[start as usize..self.ends[record] as usize]
+    }
+}
+
+/// Leaves out the pairs that the hook refuses.
+pub(crate) fn refuse_pairs<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
+    let Some(may_meet) = hooks.pair else { return };
+    let World { bodies, keys, scratch, .. } = world;
+    let side = |slot: u32| {
+        let key = keys[slot as usize];
+        bodies.get(key).map(|body| Side { key, body })
+    };
+    scratch.pairs.retain(|&PairId { a, b }| match (side(a), side(b)) {
+        (Some(a), Some(b)) => may_meet(a, b),
+        _ => false,
+    });
+}
+
+/// Hands every contact with manifolds to the hook, on a copy of its own.
+pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
+    if world.stats.overflow {
+        return;
+    }
+    let Some(edit) = hooks.contact else {
+        world.edited = None;
+        return;
+    };
+    let World { bodies, records, manifolds, edited, scratch, .. } = world;
+    let edited = edited.get_or_insert_with(|| Edited { manifolds: Vec::new(), ends: Vec::new() });
+    edited.manifolds.clear();
+    edited.ends.clear();
+    for Record { keys, manifolds: range, overlapping, is_new, .. } in &*records {
+        let found = &manifolds[range.start as usize..range.end as usize];
+        if let (false, Some(a), Some(b)) = (found.is_empty(), bodies.get(keys.0), bodies.get(keys.1)) {
+            scratch.editing.clear();
+            scratch.editing.extend_from_slice(found);
+            edit(Meeting {
+                a: Side { key: keys.0, body: a },
+                b: Side { key: keys.1, body: b },
+                overlapping: *overlapping,
+                is_new: *is_new,
+                manifolds: &mut scratch.editing,
+            });
+            edited.manifolds.append(&mut scratch.editing);
+        }
+        edited.ends.push(edited.manifolds.len() as u32);
+    }
+}
