@@ -36,6 +36,8 @@
 //!
 //! # Feature flags
 //! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
+//! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and serde's
+//!   traits for bodies, shapes, poses, rays, keys, events and manifolds. What comes in is checked as by the constructors.
 #![deny(missing_docs)]
 
 mod bodies;
@@ -45,6 +47,8 @@ mod contact;
 mod event;
 mod frame;
 mod hooks;
+#[cfg(feature = "serde")]
+mod snapshot;
 mod space;
 mod stats;
 mod world;
@@ -67,6 +71,8 @@ pub use contact::{Contact, Contact2, Contact3};
 pub use event::{Event, Event2, Event3};
 pub use hooks::{Hooks, Hooks2, Hooks3, Meeting, Meeting2, Meeting3, Side, Side2, Side3};
 pub use slotmap;
+#[cfg(feature = "serde")]
+pub use snapshot::{Snapshot, Snapshot2, Snapshot3, SnapshotError};
 pub use space::{BodyKey2, BodyKey3, Plane, Space, Volume};
 pub use stats::Stats;
 pub use world::{StaleKey, World};
