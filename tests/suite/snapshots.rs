@@ -1,1 +1,517 @@
-//! x
+//! A world comes back from text: same outputs, same keys, same future, bit for bit. No file, however damaged, breaks one.
+
+use asunder::slotmap::Key;
+use asunder::{
+    Collider, Collider3, Compound3, Hooks, Hull, Meeting, Plane, Pose3, Shape3, Side, Snapshot, Snapshot3,
+    SnapshotError, Space, Volume, World, World3,
+};
+use asunder_tests::cases::Random;
+use asunder_tests::engine::{Change, Engine};
+use glam::Vec3;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+
+/// What the tests need of both dimensions.
+trait Stored: Engine {
+    fn snapshot(world: &World<Self>) -> impl Serialize + DeserializeOwned + PartialEq + core::fmt::Debug;
+    fn text(world: &World<Self>) -> String;
+    fn restored(text: &str) -> Result<World<Self>, String>;
+}
+
+macro_rules! stored {
+    ($($space:ty),*) => {$(
+        impl Stored for $space {
+            fn snapshot(world: &World<Self>) -> impl Serialize + DeserializeOwned + PartialEq + core::fmt::Debug {
+                world.snapshot()
+            }
+
+            fn text(world: &World<Self>) -> String {
+                serde_json::to_string(&world.snapshot()).unwrap()
+            }
+
+            fn restored(text: &str) -> Result<World<Self>, String> {
+                let snapshot: Snapshot<Self> = serde_json::from_str(text).map_err(|error| error.to_string())?;
+                World::restore(&snapshot).map_err(|error| error.to_string())
+            }
+        }
+    )*};
+}
+
+stored!(Plane, Volume);
+
+/// Half of the side of the room, in metres: bodies of a metre meet often in it.
+const ROOM: f64 = 1.6;
+
+/// All that a world shows, in every bit.
+fn shown<S: Stored>(world: &World<S>) -> String {
+    let mut shown = format!("{:?}", S::bodies(world));
+    shown += &format!("{:?}{:?}{:?}", S::candidates(world), S::contacts(world), S::events(world));
+    for (key, _) in S::bodies(world) {
+        shown += &format!("{:?}{:?}", S::contacts_of(world, key), S::touching(world, key));
+    }
+    let counts = *world.stats();
+    let counts =
+        (counts.bodies, counts.moved, counts.candidates, counts.contacts, counts.touching, counts.overflow);
+    shown + &format!("{counts:?}{}", world.stats().manifolds)
+}
+
+/// Something done to several worlds alike; keys of gone bodies are tried too.
+fn act<S: Stored>(worlds: &mut [World<S>], keys: &mut Vec<S::Key>, random: &mut Random) {
+    let key = if keys.is_empty() { S::Key::null() } else { keys[random.below(keys.len())] };
+    match random.below(16) {
+        0..4 => {
+            let shared = (!keys.is_empty() && random.below(3) == 0)
+                .then(|| S::get(&worlds[0], key).cloned())
+                .flatten();
+            let body = shared.map(|body| S::moved(body, S::random_pose(random, ROOM)));
+            let body = body.unwrap_or_else(|| S::random_body(random, ROOM));
+            let came: Vec<S::Key> = worlds.iter_mut().map(|world| S::insert(world, body.clone())).collect();
+            assert!(came.iter().all(|&other| other == came[0]), "equal worlds give equal keys: {came:?}");
+            keys.push(came[0]);
+        }
+        4..9 => {
+            let pose = S::random_pose(random, ROOM);
+            worlds.iter_mut().for_each(|world| _ = S::set_pose(world, key, pose));
+        }
+        9..11 => worlds.iter_mut().for_each(|world| drop(S::remove(world, key))),
+        11..13 => {
+            let change = Change::random(random);
+            worlds.iter_mut().for_each(|world| _ = S::change(world, key, &change));
+        }
+        13 if random.below(12) == 0 => worlds.iter_mut().for_each(World::clear),
+        13 if random.below(6) == 0 => {
+            let most = random.pick(&[0, 3, 1 << 24]);
+            worlds.iter_mut().for_each(|world| world.set_max_pairs(most));
+        }
+        _ => {
+            let dice = random.below(1 << 20) as u64;
+            let with_hooks = dice % 4 == 0;
+            worlds
+                .iter_mut()
+                .for_each(|world| if with_hooks { update_with(world, dice) } else { world.update() });
+        }
+    }
+}
+
+/// A third of the pairs is refused, and of each contact some manifolds go.
+fn update_with<S: Space>(world: &mut World<S>, dice: u64) {
+    let thrown = |a: &Collider<S>, b: &Collider<S>| (a.get_user_data() + 31 * b.get_user_data() + dice) % 3;
+    let pair = |a: Side<'_, S>, b: Side<'_, S>| thrown(a.body, b.body) != 0;
+    let contact = |meeting: Meeting<'_, S>| {
+        let keep = thrown(meeting.a.body, meeting.b.body) - 1;
+        meeting.manifolds.truncate(keep as usize);
+    };
+    world.update_with(&Hooks::new().pair(&pair).contact(&contact));
+}
+
+/// At a random moment of a life: the world itself, a clone, and two restored from its text have the same future.
+fn futures<S: Stored>(seed: u128) {
+    let mut random = Random::new(seed);
+    let (mut worlds, mut keys) = (vec![World::<S>::new()], Vec::new());
+    for _ in 0..random.below(160) {
+        act(&mut worlds, &mut keys, &mut random);
+    }
+    let world = worlds.remove(0);
+    let text = S::text(&world);
+    let [one, other] =
+        [(); 2].map(|()| S::restored(&text).unwrap_or_else(|error| panic!("{error}: seed {seed}")));
+    assert_eq!(shown(&one), shown(&world), "seed {seed}");
+    assert_equal_texts(&S::text(&one), &text, seed);
+    assert!(S::snapshot(&one) == S::snapshot(&world), "seed {seed}");
+    let mut all = [world.clone(), one, other, world];
+    for step in 0..200 {
+        act(&mut all, &mut keys, &mut random);
+        let known = shown(&all[3]);
+        for (index, world) in all.iter().enumerate() {
+            assert!(shown(world) == known, "world {index} differs {step} steps on, seed {seed}");
+        }
+        for world in all.iter_mut().filter(|_| step % 3 == 0) {
+            world.update();
+        }
+    }
+    // What does not show yet is equal too.
+    let texts = all.map(|world| S::text(&world));
+    texts.iter().for_each(|text| assert_equal_texts(text, &texts[3], seed));
+}
+
+fn assert_equal_texts(one: &str, other: &str, seed: u128) {
+    if let Some(place) = one.bytes().zip(other.bytes()).position(|(a, b)| a != b) {
+        let around = |text: &str| text[place.saturating_sub(200)..text.len().min(place + 100)].to_owned();
+        panic!("seed {seed}: {} is not {}", around(one), around(other));
+    }
+    assert_eq!(one.len(), other.len(), "seed {seed}");
+}
+
+#[test]
+fn restored_worlds_have_the_originals_future_in_space() {
+    (0..60).for_each(|seed| futures::<Volume>(800 + seed));
+}
+
+#[test]
+fn restored_worlds_have_the_originals_future_in_the_plane() {
+    (0..60).for_each(|seed| futures::<Plane>(900 + seed));
+}
+
+/// A crowd in which most rest: the restored world sweeps all where the original kept what rests.
+#[test]
+fn a_large_world_at_rest_comes_back() {
+    let mut random = Random::new(1000);
+    let mut world = World3::new();
+    let keys: Vec<_> = (0..1500).map(|_| world.insert(Volume::random_body(&mut random, 9.0))).collect();
+    for _ in 0..3 {
+        world.update();
+    }
+    let mut restored = Volume::restored(&Volume::text(&world)).unwrap();
+    for _ in 0..8 {
+        for _ in 0..5 {
+            let (key, pose) = (random.pick(&keys), Volume::random_pose(&mut random, 9.0));
+            world.set_pose(key, pose).unwrap();
+            restored.set_pose(key, pose).unwrap();
+        }
+        world.update();
+        restored.update();
+        assert!(shown(&world) == shown(&restored));
+    }
+    assert!(world.contacts().len() > 1000, "{}", world.contacts().len());
+}
+
+#[test]
+fn a_shared_shape_is_stored_once_and_shared_again() {
+    let random = &mut Random::new(1001);
+    let points: Vec<Vec3> = (0..40).map(|_| random.direction().as_vec3()).collect();
+    let hull = Hull::from_points(&points).unwrap();
+    let rounded = hull.clone().rounded(0.1).unwrap();
+    let parts = [
+        (Pose3::IDENTITY, Shape3::from(hull.clone())),
+        (Pose3::at([3.0, 0.0, 0.0]).unwrap(), rounded.clone().into()),
+    ];
+    let compound = Compound3::new(parts).unwrap();
+    let mut world = World3::new();
+    for i in 0..300 {
+        let shape: Shape3 = match i % 3 {
+            0 => hull.clone().into(),
+            1 => rounded.clone().into(),
+            _ => compound.clone().into(),
+        };
+        world.insert(Collider3::new(shape).at(Pose3::at([f64::from(i) * 10.0, 0.0, 0.0]).unwrap()));
+    }
+    let mut snapshot = serde_json::to_value(world.snapshot()).unwrap();
+    let shapes = &snapshot["content"]["shapes"];
+    assert_eq!(
+        shapes["polytopes"].as_array().unwrap().len(),
+        1,
+        "one hull, sharp and rounded, alone and as parts"
+    );
+    assert_eq!(shapes["compounds"].as_array().unwrap().len(), 1);
+    assert_eq!(snapshot.to_string().matches("\"vertices\"").count(), 1);
+    let restored = Volume::restored(&snapshot.to_string()).unwrap();
+    let address = |body: &Collider3| match body.shape() {
+        Shape3::Hull(hull) => hull.shared_address(),
+        Shape3::Compound(compound) => compound.shared_address(),
+        _ => 0,
+    };
+    let addresses: Vec<usize> = restored.iter().map(|(_, body)| address(body)).collect();
+    assert!(addresses.iter().skip(3).zip(&addresses).all(|(later, earlier)| later == earlier));
+    assert!(addresses[0] == addresses[1] && addresses[0] != addresses[2]);
+    // A part that shares its hull with bodies shares it again.
+    let Some(Shape3::Compound(compound)) = restored.iter().nth(2).map(|(_, body)| body.shape()) else {
+        panic!("the third is the compound")
+    };
+    let Shape3::Hull(part) = compound.parts()[1].shape() else { panic!("its parts are hulls") };
+    assert_eq!(part.shared_address(), addresses[0]);
+    snapshot["content"]["shapes"]["compounds"][0][0]["shape"] = json!({"Compound": {"index": 0}});
+    assert!(Volume::restored(&snapshot.to_string()).unwrap_err().contains("there is no shape 0"));
+}
+
+/// Something of everything: stale keys, margins, sensors, hooks' edits, empty slots.
+fn eventful() -> Value {
+    let mut random = Random::new(1002);
+    let (mut worlds, mut keys) = (vec![World3::new()], Vec::new());
+    loop {
+        act(&mut worlds, &mut keys, &mut random);
+        let world = &worlds[0];
+        if world.events().len() > 3 && world.contacts().len() > 4 && world.candidates().len() > 5 {
+            let snapshot = serde_json::to_value(world.snapshot()).unwrap();
+            if snapshot["content"]["free"].as_array().unwrap().len() > 1 {
+                return snapshot;
+            }
+        }
+    }
+}
+
+/// Restores what was changed, with its checksum made right: judged by all else.
+fn judged(mut changed: Value) -> Result<World3, String> {
+    for _ in 0..2 {
+        let snapshot: Snapshot3 = match serde_json::from_value(changed.clone()) {
+            Ok(snapshot) => snapshot,
+            Err(error) => return Err(error.to_string()),
+        };
+        match World3::restore(&snapshot) {
+            Err(SnapshotError::Checksum { found, .. }) => changed["checksum"] = json!(found),
+            other => return other.map_err(|error| error.to_string()),
+        }
+    }
+    panic!("a checksum that its own finding does not mend")
+}
+
+/// A world that works: updates, moves, and answers.
+fn exercise(mut world: World3) {
+    let random = &mut Random::new(1003);
+    world.set_max_pairs(1 << 20);
+    for _ in 0..4 {
+        world.update();
+        let keys: Vec<_> = world.iter().map(|(key, _)| key).collect();
+        for key in keys {
+            assert_eq!(
+                world.contacts_of(key).count(),
+                world.contacts_of(key).filter(|c| c.a == key || c.b == key).count()
+            );
+            let _ = world.set_pose(key, Volume::random_pose(random, ROOM));
+        }
+        let key = world.insert(Volume::random_body(random, ROOM));
+        assert!(world.contains(key));
+        let _ = world.remove(key);
+        let again = Volume::restored(&Volume::text(&world)).expect("a world that works can be saved");
+        assert!(shown(&again) == shown(&world));
+    }
+}
+
+#[test]
+fn what_contradicts_itself_is_refused_by_name() {
+    let whole = eventful();
+    judged(whole.clone()).unwrap();
+    let refused = |change: &dyn Fn(&mut Value), says: &str| {
+        let mut changed = whole.clone();
+        change(&mut changed["content"]);
+        assert_ne!(changed, whole, "{says}");
+        let said = judged(changed).err().unwrap_or_else(|| panic!("taken, though: {says}"));
+        assert!(said.contains(says), "{said}, not: {says}");
+    };
+    let last = |list: &Value| list.as_array().unwrap().len() - 1;
+    refused(&|c| c["format"] = json!(2), "format 2");
+    refused(&|c| c["extra"] = json!(2), "unknown field");
+    refused(&|c| c["free"] = json!([]), "empty slots");
+    refused(&|c| c["free"][0] = json!(0), "empty slots");
+    refused(&|c| c["free"][0] = c["free"][1].clone(), "empty slots");
+    refused(&|c| c["slots"][0]["version"] = json!(4), "version of slot 1");
+    refused(&|c| c["moved"] = json!([9999]), "moved bodies is out of order");
+    refused(&|c| c["dirty"] = json!([2, 2]), "changed bodies is out of order");
+    refused(&|c| c["reshaped"] = json!([0]), "reshaped bodies is out of order");
+    refused(&|c| c["candidates"][0]["keys"][0]["idx"] = json!(77_777), "candidates has a key");
+    refused(&|c| c["candidates"][0]["keys"][1]["version"] = json!(4001), "candidates has a key");
+    refused(
+        &|c| c["events"][0] = json!({"Began": {"a": {"idx": 0, "version": 1}, "b": {"idx": 1, "version": 1}, "user_data_a": 0, "user_data_b": 0, "sensor": false}}),
+        "events has a key",
+    );
+    refused(
+        &|c| {
+            let count = last(&c["candidates"]);
+            let list = c["candidates"].as_array_mut().unwrap();
+            list.swap(0, count);
+        },
+        "candidates is out of order",
+    );
+    refused(
+        &|c| {
+            let first = c["candidates"][0].clone();
+            c["candidates"].as_array_mut().unwrap().insert(0, first);
+        },
+        "number 1 of the candidates is out of order",
+    );
+    refused(&|c| c["contacts"].as_array_mut().unwrap().reverse(), "contradicts");
+    refused(&|c| c["candidates"] = json!([]), "contact 0 contradicts");
+    refused(
+        &|c| (c["contacts"][0]["begun"], c["contacts"][0]["overlapping"]) = (json!(false), json!(true)),
+        "contact 0 contradicts",
+    );
+    refused(&|c| c["edited"] = json!([[]]), "contradicts");
+    let solid = whole["content"]["contacts"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .position(|c| c["manifolds"].as_array().is_some_and(|list| !list.is_empty()))
+        .unwrap();
+    refused(&|c| c["contacts"][solid]["sensor"] = json!(true), "contradicts");
+    refused(&|c| c["contacts"][solid]["manifolds"][0]["separation"] = json!(null), "null");
+    refused(&|c| c["contacts"][solid]["manifolds"][0]["error"] = json!(-1.0), "manifold that is none");
+    refused(
+        &|c| c["contacts"][solid]["manifolds"][0]["normal"] = json!([0.0, 0.0, 0.0]),
+        "manifold that is none",
+    );
+    refused(&|c| c["contacts"][solid]["manifolds"][0]["separation"] = json!(1e300), "manifold that is none");
+    refused(&|c| c["contacts"][solid]["manifolds"][0]["points"] = json!([]), "manifold that is none");
+    let body = whole["content"]["slots"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .position(|slot| !slot["body"].is_null())
+        .unwrap();
+    refused(&|c| c["slots"][body]["body"] = json!(null), "empty slots");
+    refused(&|c| c["slots"][body]["body"]["margin"] = json!(-1.0), "margin -1");
+    refused(
+        &|c| c["slots"][body]["body"]["shape"] = json!({"Polytope": {"index": 99, "radius": 0.0}}),
+        "there is no shape 99",
+    );
+    refused(&|c| c["slots"][body]["body"]["pose"]["position"][0] = json!(1e300), "beyond");
+}
+
+/// Every leaf of the text made something else, one at a time, the checksum mended: refused, or a world that works.
+#[test]
+fn a_snapshot_with_anything_changed_is_refused_or_works() {
+    let whole = eventful();
+    let mut leaves = Vec::new();
+    collect(&whole["content"], &mut String::from("/content"), &mut leaves);
+    let random = &mut Random::new(1004);
+    let (mut refused, mut taken) = (0, 0);
+    for _ in 0..2500 {
+        let mut changed = whole.clone();
+        for _ in 0..1 + random.below(2) {
+            let place = changed.pointer_mut(&leaves[random.below(leaves.len())]);
+            if let Some(place) = place {
+                *place = other(place, random);
+            }
+        }
+        match judged(changed) {
+            Err(_) => refused += 1,
+            Ok(world) => {
+                taken += 1;
+                if taken % 4 == 0 {
+                    exercise(world);
+                }
+            }
+        }
+    }
+    assert!(refused > 300 && taken > 300, "{refused} refused, {taken} taken");
+}
+
+fn collect(value: &Value, path: &mut String, leaves: &mut Vec<String>) {
+    leaves.push(path.clone());
+    let step = |name: &str, value: &Value, path: &mut String, leaves: &mut Vec<String>| {
+        let length = path.len();
+        *path += "/";
+        *path += name;
+        collect(value, path, leaves);
+        path.truncate(length);
+    };
+    match value {
+        Value::Object(map) => map.iter().for_each(|(name, value)| step(name, value, path, leaves)),
+        Value::Array(list) => {
+            list.iter().enumerate().for_each(|(i, value)| step(&i.to_string(), value, path, leaves))
+        }
+        _ => {}
+    }
+}
+
+fn other(value: &Value, random: &mut Random) -> Value {
+    match value {
+        Value::Bool(is) => json!(!is),
+        Value::Number(number) if number.is_f64() => {
+            let number = number.as_f64().unwrap_or(0.0);
+            random
+                .pick(&[
+                    json_of(number * 1.5),
+                    json_of(-number),
+                    json_of(1e300),
+                    json_of(0.0),
+                    json_of(number + 0.01),
+                ])
+                .value()
+        }
+        Value::Number(number) => {
+            let number = number.as_u64().unwrap_or(0);
+            json!(random.pick(&[
+                number + 1,
+                number.wrapping_sub(1),
+                0,
+                number + 2,
+                u64::from(u32::MAX),
+                u64::MAX,
+                1 << 40
+            ]))
+        }
+        Value::Array(list) => {
+            let mut list = list.clone();
+            match random.below(3) {
+                0 => list.reverse(),
+                1 => drop(list.pop()),
+                _ => list.extend(list.first().cloned()),
+            }
+            Value::Array(list)
+        }
+        _ => Value::Null,
+    }
+}
+
+/// A float that can be picked.
+#[derive(Clone, Copy)]
+struct Float(f64);
+
+fn json_of(number: f64) -> Float {
+    Float(number)
+}
+
+impl Float {
+    fn value(self) -> Value {
+        json!(self.0)
+    }
+}
+
+/// Cut anywhere, or with bytes changed: an error, never a panic.
+#[test]
+fn damaged_text_is_refused() {
+    let text = Volume::text(&judged(eventful()).unwrap());
+    let random = &mut Random::new(1005);
+    for _ in 0..400 {
+        let cut = random.below(text.len());
+        assert!(Volume::restored(&text[..cut]).is_err(), "cut at {cut}");
+        let mut bytes = text.clone().into_bytes();
+        for _ in 0..1 + random.below(3) {
+            let place = random.below(bytes.len());
+            bytes[place] = random.pick(b"0123456789,.-[]{}\":nulltruefalse ");
+        }
+        let Ok(damaged) = String::from_utf8(bytes) else { continue };
+        if damaged != text {
+            if let Ok(world) = Volume::restored(&damaged) {
+                assert_equal_texts(&Volume::text(&world), &text, 0);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_number_that_lost_a_bit_is_noticed() {
+    let mut world = World3::new();
+    world.insert(Collider3::new(asunder::Sphere::new(0.5).unwrap()).at(Pose3::at([0.1, 0.2, 0.3]).unwrap()));
+    let text = Volume::text(&world);
+    let said = Volume::restored(
+        &text.replace("0.3,", "0.30000000000000004,").replace("0.3]", "0.30000000000000004]"),
+    )
+    .unwrap_err();
+    assert!(said.contains("float_roundtrip"), "{said}");
+    assert!(world.snapshot().checksum() != World3::new().snapshot().checksum());
+}
+
+/// A slot that was reused many times: restored by its version, not by as many removals.
+#[test]
+fn old_slots_keep_their_versions() {
+    let mut world = World3::new();
+    let body = Volume::unit_at(0.0);
+    let mut last = world.insert(body.clone());
+    for _ in 0..1000 {
+        world.remove(last);
+        last = world.insert(body.clone());
+    }
+    let others: Vec<_> = (0..20).map(|_| world.insert(body.clone())).collect();
+    for place in [3, 17, 4, 0, 9] {
+        world.remove(others[place]);
+    }
+    let mut restored = Volume::restored(&Volume::text(&world)).unwrap();
+    assert!(restored.contains(last) && !restored.contains(others[3]));
+    for _ in 0..7 {
+        assert_eq!(world.insert(body.clone()), restored.insert(body.clone()));
+    }
+    world.clear();
+    let mut empty = Volume::restored(&Volume::text(&world)).unwrap();
+    assert_eq!(world.insert(body.clone()), empty.insert(body.clone()), "also when no body was left");
+}

@@ -78,7 +78,7 @@ impl<S: Saved> Snapshot<S> {
 }
 
 impl<S: Saved> World<S> {
-    /// Everything that the world's future depends on, as data for serde: see [`Snapshot`]. Shapes that bodies share are in it once.
+    /// Everything that the world's future depends on, as data for serde: see [`Snapshot`]. Shapes that bodies share, and equal ones, are in it once.
     /// Cost: a copy of all bodies and contacts, and a pass over all their numbers.
     pub fn snapshot(&self) -> Snapshot<S> {
         let content = Content::of(self);
@@ -87,7 +87,7 @@ impl<S: Saved> World<S> {
     }
 
     /// The world that a snapshot was taken of: equal keys, contacts and events, and an equal future, that of new bodies' keys
-    /// included. Bodies that shared a shape share it again. Cost: as for a first update, without the narrow phase; hulls are checked.
+    /// included. Bodies that shared a hull, polygon or compound, or had equal ones, share it. Cost: as for a first update, without the narrow phase; hulls are checked.
     ///
     /// # Errors
     /// Data that no snapshot has. A file that was damaged or made up is refused, or gives a world that works.

@@ -3,6 +3,7 @@
 //! A hull, a polygon and a compound keep their data behind a counted pointer, and clones share it. Bodies name such data by its
 //! place in a table; any other shape they keep themselves. A compound's parts may share data with other bodies too.
 
+use super::digest::digest;
 use super::error::SnapshotError;
 use crate::space::{Plane, Space, Volume};
 use asunder_geometry::{Compound2, Compound3, Hull, Polygon, Pose2, Pose3, RadiusError, Shape2, Shape3};
@@ -72,39 +73,58 @@ struct PartForm<S: Saved> {
     shape: ShapeRef<S::Shape>,
 }
 
-/// A table in the making. Addresses only look up what has been seen: they differ from run to run.
+/// A table in the making. Addresses only look up what has been seen: they differ from run to run. Equal data at two addresses
+/// have one place too, so that a snapshot does not depend on what happens to be shared: a game that was loaded makes its new
+/// bodies of shapes of its own.
 pub(super) struct Collected<S: Saved> {
     pub(super) table: Table<S>,
-    polytopes: BTreeMap<usize, u32>,
-    compounds: BTreeMap<usize, u32>,
+    polytopes: Seen,
+    compounds: Seen,
+}
+
+/// Places in a list, by address and by digest.
+#[derive(Default)]
+struct Seen {
+    by_address: BTreeMap<usize, u32>,
+    by_digest: BTreeMap<u64, Vec<u32>>,
+}
+
+impl Seen {
+    /// The place of an item in the list, at the end of which it is put if it is new.
+    fn place<T: PartialEq + Serialize>(&mut self, address: usize, list: &mut Vec<T>, item: T) -> u32 {
+        let alike = self.by_digest.entry(digest(&item)).or_default();
+        let known = alike.iter().copied().find(|&place| list.get(place as usize) == Some(&item));
+        let place = known.unwrap_or_else(|| {
+            alike.push(list.len() as u32);
+            list.push(item);
+            list.len() as u32 - 1
+        });
+        self.by_address.insert(address, place);
+        place
+    }
 }
 
 impl<S: Saved> Collected<S> {
     pub(super) fn new() -> Self {
         let table = Table { polytopes: Vec::new(), compounds: Vec::new() };
-        Self { table, polytopes: BTreeMap::new(), compounds: BTreeMap::new() }
+        Self { table, polytopes: Seen::default(), compounds: Seen::default() }
     }
 
     /// How a body names its shape.
     pub(super) fn name(&mut self, shape: &S::Shape) -> ShapeRef<S::Shape> {
         if let Some((polytope, address, radius)) = S::polytope(shape) {
-            let known = &mut self.table.polytopes;
-            let index = *self.polytopes.entry(address).or_insert_with(|| {
-                known.push(polytope);
-                known.len() as u32 - 1
-            });
+            let known = self.polytopes.by_address.get(&address).copied();
+            let index =
+                known.unwrap_or_else(|| self.polytopes.place(address, &mut self.table.polytopes, polytope));
             return ShapeRef::Polytope { index, radius };
         }
         let Some((address, parts)) = S::parts(shape) else { return ShapeRef::Own(shape.clone()) };
-        if let Some(&index) = self.compounds.get(&address) {
+        if let Some(&index) = self.compounds.by_address.get(&address) {
             return ShapeRef::Compound { index };
         }
-        let parts =
+        let parts: Vec<PartForm<S>> =
             parts.into_iter().map(|(pose, shape)| PartForm { pose, shape: self.name(shape) }).collect();
-        let index = self.table.compounds.len() as u32;
-        self.table.compounds.push(parts);
-        self.compounds.insert(address, index);
-        ShapeRef::Compound { index }
+        ShapeRef::Compound { index: self.compounds.place(address, &mut self.table.compounds, parts) }
     }
 }
 
