@@ -1,4 +1,0 @@
-#![allow(clippy::unwrap_used, clippy::panic)]
-//! tmp
-mod saved;
-mod snapshots;
