@@ -4,8 +4,8 @@ use crate::cases::Random;
 use crate::shapes::{Clay, KINDS2, KINDS3};
 use asunder::slotmap::Key;
 use asunder::{
-    Collider, Contact, Cuboid, Event, Hull, Layers, Pair2, Pair3, Plane, Polygon, Pose2, Pose3, Rect, Shape2,
-    Shape3, Space, Volume, World,
+    Collider, Contact, Cuboid, Event, Hit, Hull, Layers, Motion2, Motion3, Pair2, Pair3, Plane, Polygon,
+    Pose2, Pose3, Rect, Shape2, Shape3, Space, Volume, World,
 };
 use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
 use glam::{Vec2, Vec3};
@@ -67,6 +67,19 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose) -> bool;
     /// Whether the key was fresh, and so the change was made.
     fn change(world: &mut World<Self>, key: Self::Key, change: &Change<Self>) -> bool;
+    /// `World::set_motion`: whether the key was fresh.
+    fn set_motion(world: &mut World<Self>, key: Self::Key, motion: Self::Motion) -> bool;
+    /// `World::impacts`.
+    fn impacts(world: &World<Self>) -> &[Hit<Self::Key, Self::Impact>];
+    /// `Pair::impact`: the share of the motion, whether they overlap at the start, and all of it.
+    fn first_touch(
+        a: (&Collider<Self>, &Self::Motion),
+        b: (&Collider<Self>, &Self::Motion),
+    ) -> Option<(f64, bool, Self::Impact)>;
+    /// A motion by up to `reach` on each axis that turns, or does not.
+    fn random_motion(random: &mut Random, reach: f64) -> Self::Motion;
+    /// A motion along the first axis.
+    fn shift(x: f64) -> Self::Motion;
     /// `Collider::shape`.
     fn shape_of(body: &Collider<Self>) -> &Self::Shape;
     /// The same body with another shape.
@@ -183,6 +196,34 @@ impl Engine for Volume {
             Change::Replace(body) => world.replace(key, body).map(|_| ()),
         };
         done.is_ok()
+    }
+
+    fn set_motion(world: &mut World<Self>, key: Self::Key, motion: Self::Motion) -> bool {
+        world.set_motion(key, motion).is_ok()
+    }
+
+    fn impacts(world: &World<Self>) -> &[Hit<Self::Key, Self::Impact>] {
+        world.impacts()
+    }
+
+    fn first_touch(
+        a: (&Collider<Self>, &Self::Motion),
+        b: (&Collider<Self>, &Self::Motion),
+    ) -> Option<(f64, bool, Self::Impact)> {
+        let pair = Pair3::new(a.0.shape(), a.0.pose(), b.0.shape(), b.0.pose());
+        pair.impact(a.1, b.1).map(|impact| (impact.fraction, impact.overlapping, impact))
+    }
+
+    fn random_motion(random: &mut Random, reach: f64) -> Self::Motion {
+        let displacement = random.vector() * reach;
+        if random.below(2) == 0 {
+            return Motion3::shift(displacement).unwrap();
+        }
+        Motion3::new(displacement, random.quaternion()).unwrap()
+    }
+
+    fn shift(x: f64) -> Self::Motion {
+        Motion3::shift([x, 0.0, 0.0]).unwrap()
     }
 
     fn shape_of(body: &Collider<Self>) -> &Self::Shape {
@@ -322,6 +363,34 @@ impl Engine for Plane {
             Change::Replace(body) => world.replace(key, body).map(|_| ()),
         };
         done.is_ok()
+    }
+
+    fn set_motion(world: &mut World<Self>, key: Self::Key, motion: Self::Motion) -> bool {
+        world.set_motion(key, motion).is_ok()
+    }
+
+    fn impacts(world: &World<Self>) -> &[Hit<Self::Key, Self::Impact>] {
+        world.impacts()
+    }
+
+    fn first_touch(
+        a: (&Collider<Self>, &Self::Motion),
+        b: (&Collider<Self>, &Self::Motion),
+    ) -> Option<(f64, bool, Self::Impact)> {
+        let pair = Pair2::new(a.0.shape(), a.0.pose(), b.0.shape(), b.0.pose());
+        pair.impact(a.1, b.1).map(|impact| (impact.fraction, impact.overlapping, impact))
+    }
+
+    fn random_motion(random: &mut Random, reach: f64) -> Self::Motion {
+        let displacement = random.vector().truncate() * reach;
+        if random.below(2) == 0 {
+            return Motion2::shift(displacement).unwrap();
+        }
+        Motion2::new(displacement, random.rotation2()).unwrap()
+    }
+
+    fn shift(x: f64) -> Self::Motion {
+        Motion2::shift([x, 0.0]).unwrap()
     }
 
     fn shape_of(body: &Collider<Self>) -> &Self::Shape {

@@ -45,3 +45,18 @@ pub mod report;
 pub mod shapes;
 pub mod solid;
 pub mod solver;
+
+/// The guide's pages: what they show must run.
+#[cfg(doctest)]
+mod guide {
+    #[doc = include_str!("../../docs/guide/game-loops.md")]
+    struct GameLoops;
+    #[doc = include_str!("../../docs/guide/events.md")]
+    struct Events;
+    #[doc = include_str!("../../docs/guide/determinism.md")]
+    struct Determinism;
+    #[doc = include_str!("../../docs/guide/margins.md")]
+    struct Margins;
+    #[doc = include_str!("../../docs/guide/units.md")]
+    struct Units;
+}

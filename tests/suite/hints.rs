@@ -3,12 +3,16 @@
 //!
 //! Yes or no is the same bit. A separation may come from another axis, and is right within its own error all the same.
 
-use asunder_geometry::{Pose2, Pose3};
-use asunder_narrow::{Answer, Batch2, Batch3, Hint, Job2, Job3, collide2, collide3};
+use asunder_geometry::{
+    Capsule2, Compound2, Compound3, Cuboid, Hull, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3, Sphere,
+};
+use asunder_narrow::{
+    Answer, Batch2, Batch3, Hint, Job2, Job3, Pair2, Pair3, Separation2, Separation3, collide2, collide3,
+};
 use asunder_scenes::pairs::{FRAMES, PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, pairs2, pairs3};
 use asunder_scenes::random::Random;
 use asunder_tests::precise::{separation2, separation3};
-use glam::DVec3;
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// What an answer says, beside its hint.
 #[derive(Clone, Debug)]
@@ -29,8 +33,10 @@ impl Fact {
                 Self { hint: *hint, contact: None, measured: None, deepest: f64::INFINITY }
             }
             Answer::Contact { hint, overlapping, manifolds: range } => {
-                let found =
-                    manifolds.get(range.start as usize..range.end as usize).unwrap().first().map(read);
+                // Of compounds, the pair of parts that is the deepest.
+                let of_parts =
+                    manifolds.get(range.start as usize..range.end as usize).unwrap().iter().map(read);
+                let found = of_parts.min_by(|one, other| one.0.total_cmp(&other.0));
                 Self {
                     hint: *hint,
                     contact: Some(*overlapping),
@@ -262,4 +268,135 @@ fn shapes_in_the_plane() {
             assert!(hinted >= 20 * FRAMES, "{story}: {hinted} hints");
         }
     }
+}
+
+/// A hammer: a handle of all parts but one, of several kinds, and a head across it.
+fn hammer3(random: &mut Random, parts: usize) -> Shape3 {
+    let length = 1.6 / (parts - 1) as f32;
+    let mut all = vec![(Pose3::at([0.0, 0.9, 0.0]).unwrap(), part3(random, 0, Vec3::new(0.5, 0.2, 0.2)))];
+    for i in 0..parts - 1 {
+        let place = DVec3::new(0.0, 0.7 - f64::from(length) * (i as f64 + 0.5), 0.0);
+        let kind = random.below(4);
+        all.push((Pose3::at(place).unwrap(), part3(random, kind, Vec3::new(0.1, 0.5 * length, 0.1))));
+    }
+    Compound3::new(all).unwrap().into()
+}
+
+fn part3(random: &mut Random, kind: usize, half: Vec3) -> Shape3 {
+    match kind {
+        0 | 1 => Cuboid::from_half_extents(half).unwrap().into(),
+        2 => Sphere::new(half.y).unwrap().into(),
+        _ => {
+            let points: Vec<Vec3> = (0..24).map(|_| random.direction().as_vec3() * half).collect();
+            Hull::from_points(&points).unwrap().into()
+        }
+    }
+}
+
+/// The same in the plane.
+fn hammer2(random: &mut Random, parts: usize) -> Shape2 {
+    let length = 1.6 / (parts - 1) as f32;
+    let head = Rect::from_half_extents(Vec2::new(0.5, 0.2)).unwrap().into();
+    let mut all: Vec<(Pose2, Shape2)> = vec![(Pose2::at([0.0, 0.9]).unwrap(), head)];
+    for i in 0..parts - 1 {
+        let place = DVec2::new(0.0, 0.7 - f64::from(length) * (i as f64 + 0.5));
+        let part = match random.below(2) {
+            0 => Rect::from_half_extents(Vec2::new(0.1, 0.5 * length)).unwrap().into(),
+            _ => Capsule2::from_half_height(0.5 * length, 0.1).unwrap().into(),
+        };
+        all.push((Pose2::at(place).unwrap(), part));
+    }
+    Compound2::new(all).unwrap().into()
+}
+
+/// How deep pairs of compounds begin: deep, resting, within the margin, apart.
+const DEPTHS: [f64; 5] = [0.05, 1e-3, -1e-2, -0.1, -0.4];
+
+/// Sixty frames of hammers, and of a hammer against one shape, that turn past each other, each a little further each frame.
+fn hammers3(random: &mut Random) -> Vec<Vec<PosedPair3>> {
+    let mut tracks = Vec::new();
+    for (i, &depth) in (0..20).zip(DEPTHS.iter().cycle()) {
+        let shape_a = hammer3(random, [2, 3, 5, 8][i % 4]);
+        let shape_b =
+            if i % 7 == 6 { part3(random, i % 4, Vec3::splat(0.4)) } else { hammer3(random, 2 + i % 7) };
+        let pose_a = Pose3::new(random.direction() * 10.0, random.rotation()).unwrap();
+        let far = pose_a.position() + random.direction() * 6.0;
+        let rotation = random.rotation();
+        let pose_b = Pose3::new(far, rotation).unwrap();
+        let found = Pair3::new(&shape_a, &pose_a, &shape_b, &pose_b).separation(f32::INFINITY);
+        let Separation3::Measured(found) = found else { unreachable!("without a limit it is measured") };
+        let start = far - found.normal.as_dvec3() * (f64::from(found.separation) + depth);
+        let (drift, spin) =
+            (random.direction() * [0.0, 1e-3, 1e-2][i % 3], random.direction() * [0.0, 0.02][i % 2]);
+        let frame = |number: usize| {
+            let turn = glam::Quat::from_scaled_axis((spin * number as f64).as_vec3());
+            let pose_b = Pose3::new(start + drift * number as f64, turn * rotation).unwrap();
+            PosedPair3 { shape_a: shape_a.clone(), pose_a, shape_b: shape_b.clone(), pose_b }
+        };
+        tracks.push((0..FRAMES).map(frame).collect::<Vec<_>>());
+    }
+    (0..FRAMES).map(|number| tracks.iter().map(|track| track[number].clone()).collect()).collect()
+}
+
+/// The same in the plane.
+fn hammers2(random: &mut Random) -> Vec<Vec<PosedPair2>> {
+    let mut tracks = Vec::new();
+    for (i, &depth) in (0..20).zip(DEPTHS.iter().cycle()) {
+        let shape_a = hammer2(random, [2, 3, 5, 8][i % 4]);
+        let shape_b = if i % 7 == 6 {
+            Rect::from_half_extents(Vec2::splat(0.4)).unwrap().into()
+        } else {
+            hammer2(random, 2 + i % 7)
+        };
+        let (angle_a, angle_b) = (random.range(-3.0, 3.0), random.range(-3.0, 3.0));
+        let turned = |angle: f64| Rotation2::from_angle(angle as f32).unwrap();
+        let pose_a = Pose2::new(random.direction().truncate() * 10.0, turned(angle_a)).unwrap();
+        let far = pose_a.position() + random.direction().truncate().normalize_or(DVec2::X) * 6.0;
+        let pose_b = Pose2::new(far, turned(angle_b)).unwrap();
+        let found = Pair2::new(&shape_a, &pose_a, &shape_b, &pose_b).separation(f32::INFINITY);
+        let Separation2::Measured(found) = found else { unreachable!("without a limit it is measured") };
+        let start = far - found.normal.as_dvec2() * (f64::from(found.separation) + depth);
+        let drift = random.direction().truncate() * [0.0, 1e-3, 1e-2][i % 3];
+        let spin = [0.0, 0.02][i % 2];
+        let frame = |number: usize| {
+            let by = number as f64;
+            let pose_b = Pose2::new(start + drift * by, turned(angle_b + spin * by)).unwrap();
+            PosedPair2 { shape_a: shape_a.clone(), pose_a, shape_b: shape_b.clone(), pose_b }
+        };
+        tracks.push((0..FRAMES).map(frame).collect::<Vec<_>>());
+    }
+    (0..FRAMES).map(|number| tracks.iter().map(|track| track[number].clone()).collect()).collect()
+}
+
+#[test]
+fn compounds() {
+    let mut random = Random::new(41);
+    let frames = hammers3(&mut random);
+    // Of others of their own kind; of hulls, whose features are none of theirs; and of the plane.
+    let own = run(&frames, &[], 31, "hammers");
+    assert!(own >= frames.len() * frames[0].len(), "{own} hints");
+    run(&frames, &hints_of(&pairs3(SolidKind::Hull32, PairSet::Mixed, 40, 9)), 31, "hammers, hints of hulls");
+    run(&frames, &hints_of(&hammers2(&mut random)[0]), 31, "hammers, hints of the plane");
+    // Parts that are not there, of shapes that have none.
+    let hulls = resting(&pairs3(SolidKind::Hull16, PairSet::Touch, 10, 21));
+    run(&hulls, &hints_of(&frames[0]), 31, "hulls, hints of hammers");
+    let few: Vec<Vec<_>> = frames.iter().map(|pairs| vec![pairs[0].clone(), pairs[14].clone()]).collect();
+    run(&few, &hints_of(&frames[0]), 31, "small hammers, hints of large ones");
+}
+
+#[test]
+fn compounds_in_the_plane() {
+    let mut random = Random::new(42);
+    let frames = hammers2(&mut random);
+    let own = run(&frames, &[], 31, "hammers");
+    assert!(own >= frames.len() * frames[0].len(), "{own} hints");
+    run(
+        &frames,
+        &hints_of(&pairs2(PlaneKind::Poly64, PairSet::Mixed, 40, 9)),
+        31,
+        "hammers, hints of polygons",
+    );
+    run(&frames, &hints_of(&hammers3(&mut random)[0]), 31, "hammers, hints of space");
+    let polygons = resting(&pairs2(PlaneKind::Poly8, PairSet::Touch, 10, 21));
+    run(&polygons, &hints_of(&frames[0]), 31, "polygons, hints of hammers");
 }

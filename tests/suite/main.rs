@@ -26,6 +26,8 @@
 //! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair; what they keep of the faces; names that stay
 //! - [`plane`]: polygons of many edges against all edges, mirrored, and what hints may change: names, never a yes or no
 //! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
+//! - [`casts`]: moved and turning shapes, and rays, first meet a shape where sampling, exact overlaps and parry3d say
+//! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the exact yes or no say
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
@@ -37,6 +39,9 @@
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
 //! - [`snapshots`]: a world restored from text has the same outputs, keys and future, bit for bit; no damaged file breaks one
+//! - [`debug_lines`]: lines for a renderer lie on what they show
+//! - [`motions`]: what an update says of this frame's motions: contacts to come, and what bullets run into first
+//! - [`questions`]: overlaps, casts and what is near, against a loop over all bodies, at any time, from any thread
 //! - [`world_threads`]: every output has the same bits at any number of threads
 //!
 //! Stories
@@ -52,6 +57,9 @@ mod architecture;
 mod bounds;
 mod boxes;
 mod broad;
+mod casts;
+mod casts_plane;
+mod debug_lines;
 mod exactness;
 mod fuzzed;
 mod hard;
@@ -61,10 +69,12 @@ mod index;
 mod invariance;
 mod manifolds;
 mod mass;
+mod motions;
 mod oracles;
 mod peer;
 mod plane;
 mod polygons;
+mod questions;
 mod refusals;
 mod regressions;
 mod saved;

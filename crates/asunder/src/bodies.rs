@@ -12,6 +12,7 @@ impl<S: Space> World<S> {
         self.bodies.clear();
         for slot in 0..self.keys.len() {
             if !core::mem::replace(&mut self.keys[slot], S::Key::null()).is_null() {
+                self.motions.forget(slot as u32);
                 self.mark_dirty(slot as u32);
             }
         }
@@ -38,6 +39,7 @@ impl<S: Space> World<S> {
     pub(crate) fn remove_body(&mut self, key: S::Key) -> Option<Collider<S>> {
         let collider = self.bodies.remove(key)?;
         self.keys[slot_of(key) as usize] = S::Key::null();
+        self.motions.forget(slot_of(key));
         self.mark_dirty(slot_of(key));
         Some(collider)
     }
@@ -110,6 +112,7 @@ impl<S: Space> World<S> {
     }
 
     pub(crate) fn mark_dirty(&mut self, slot: u32) {
+        self.questions.told(slot);
         if !core::mem::replace(&mut self.is_dirty[slot as usize], true) {
             self.dirty.push(slot);
         }

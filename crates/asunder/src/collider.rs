@@ -102,6 +102,7 @@ pub struct Collider<S: Space> {
     pub(crate) sensor: bool,
     pub(crate) disabled: bool,
     pub(crate) asleep: bool,
+    pub(crate) bullet: bool,
 }
 
 /// A body in the plane.
@@ -195,6 +196,7 @@ impl<S: Space> Collider<S> {
             sensor: false,
             disabled: false,
             asleep: false,
+            bullet: false,
         }
     }
 
@@ -209,6 +211,14 @@ impl<S: Space> Collider<S> {
     #[must_use]
     pub fn sensor(mut self) -> Self {
         self.sensor = true;
+        self
+    }
+
+    /// Marks a body that must not pass through anything: an update says what it runs into first during its motion, if it is given one
+    /// ([`World3::set_motion`](crate::World3::set_motion), [`World3::impacts`](crate::World3::impacts)).
+    #[must_use]
+    pub fn bullet(mut self) -> Self {
+        self.bullet = true;
         self
     }
 
@@ -263,6 +273,11 @@ impl<S: Space> Collider<S> {
     /// Whether it only senses.
     pub fn is_sensor(&self) -> bool {
         self.sensor
+    }
+
+    /// Whether updates say what it runs into.
+    pub fn is_bullet(&self) -> bool {
+        self.bullet
     }
 
     /// Whether it takes part.

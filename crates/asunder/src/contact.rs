@@ -18,6 +18,9 @@ pub struct Contact<'a, K, M> {
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
+    /// Whether they are further apart than their margins, and here for what their motions may bring: a solver that lets no point come
+    /// nearer than its separation allows lets nothing through. Touches nobody until they overlap.
+    pub speculative: bool,
     /// One manifold for each pair of convex parts that touch. Normals point from `a` to `b`. None for a sensor, nor
     /// for two half-spaces that overlap without end: fix all but one of those, as a level's are, and they never pair.
     pub manifolds: &'a [M],
@@ -49,4 +52,6 @@ pub(crate) struct Record<K> {
     /// Whether it has begun and not ended: its bodies overlapped at some update since the record appeared.
     pub(crate) begun: bool,
     pub(crate) is_new: bool,
+    /// Beyond the margins, and within what motions may bring.
+    pub(crate) speculative: bool,
 }

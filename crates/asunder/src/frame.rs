@@ -10,14 +10,18 @@
 //! 5. **report**: events in pair order.
 //!
 //! Hooks are asked between the stages, by one thread, in pair order: who may pair after the sweep, what to make of a contact after the merge.
+//! What bullets run into is a function of one pair, and sorted.
 //!
 //! No stage walks a hash map, calls std's trigonometry or fuses a multiplication with an addition.
 
 mod collide;
+mod impacts;
 mod merge;
 mod refit;
 mod report;
 mod sweep;
+
+pub(crate) use impacts::Found;
 
 use crate::clock::Moment;
 use crate::hooks::{Hooks, edit_contacts};
@@ -46,6 +50,7 @@ impl<S: Space> World<S> {
         self.stats.collide = self.timed(collide::collide);
         self.stats.merge = self.timed(merge::merge);
         self.stats.hooks = self.timed(|world| edit_contacts(world, hooks));
+        self.stats.impacts = self.timed(impacts::impacts);
         self.stats.report = self.timed(report::report);
     }
 

@@ -40,13 +40,18 @@
 //!   traits for bodies, shapes, poses, rays, keys, events and manifolds. What comes in is checked as by the constructors.
 #![deny(missing_docs)]
 
+mod ask2;
+mod ask3;
 mod bodies;
 mod clock;
 mod collider;
 mod contact;
+mod debug;
 mod event;
 mod frame;
 mod hooks;
+mod motion;
+mod query;
 #[cfg(feature = "serde")]
 mod snapshot;
 mod space;
@@ -58,18 +63,26 @@ mod world3;
 pub use asunder_geometry::{
     Aabb2, Aabb3, Basis3, Bounds, Capsule2, Capsule3, CapsuleError, Circle, Compound2, Compound3,
     CompoundError, Core2, Core3, Cuboid, DecomposeError, DirectionError, ExtentError, HalfEdge, HalfPlane,
-    HalfSpace, Hull, HullError, HullFault, MassError, MassProperties2, MassProperties3, Part2, Part3,
-    Polygon, PolygonError, Pose2, Pose3, PoseError, RadiusError, Ray2, Ray3, RayError, Rect, Rotation2,
-    Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, VertexError, decompose, glam, tolerance,
+    HalfSpace, Hull, HullError, HullFault, MassError, MassProperties2, MassProperties3, Motion2, Motion3,
+    Part2, Part3, Polygon, PolygonError, Pose2, Pose3, PoseError, RadiusError, Ray2, Ray3, RayError, Rect,
+    Rotation2, Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, Turn3, VertexError,
+    decompose, glam, tolerance,
 };
 pub use asunder_narrow::{
-    ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Manifold2, Manifold3,
-    Measured2, Measured3, Pair2, Pair3, Separation2, Separation3, Tier, Verdict,
+    ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Impact2, Impact3,
+    Manifold2, Manifold3, Measured2, Measured3, Pair2, Pair3, RayHit2, RayHit3, Separation2, Separation3,
+    Tier, Verdict, cast_ray2, cast_ray3,
 };
 pub use collider::{Collider, Collider2, Collider3, Layers, MarginError};
 pub use contact::{Contact, Contact2, Contact3};
+pub use debug::{DebugLine, DebugOptions};
 pub use event::{Event, Event2, Event3};
 pub use hooks::{Hooks, Hooks2, Hooks3, Meeting, Meeting2, Meeting3, Side, Side2, Side3};
+pub use motion::{Hit, Hit2, Hit3};
+pub use query::{
+    CastAnswer, CastAnswer2, CastAnswer3, Filter, Filter2, Filter3, NearAnswer, NearAnswer2, NearAnswer3,
+    RayAnswer, RayAnswer2, RayAnswer3,
+};
 pub use slotmap;
 #[cfg(feature = "serde")]
 pub use snapshot::{Snapshot, Snapshot2, Snapshot3, SnapshotError};

@@ -2,9 +2,10 @@
 //!
 //! ```text
 //! kept         bodies with their slots, versions and the order in which empty slots are filled again; shared shapes, once each
-//!              which bodies moved or changed since the last update; candidates with hints; contacts; events; counts
+//!              which bodies moved or changed since the last update; motions; candidates with hints; contacts; events;
+//!              impacts; counts
 //! worked out   boxes, filters, the contacts of each body: functions of the bodies and contacts
-//! dropped      the memory of the broad phase, whose list depends on the boxes alone; scratch; times
+//! dropped      the memory of the broad phase, whose list depends on the boxes alone, and of the questions; scratch; times
 //! ```
 //! The world and its bodies are taken apart field by field, without `..`: what is added to them must be sorted into one of
 //! these rows before this compiles again.

@@ -1,8 +1,12 @@
 //! What differs between the plane and space: types, `bounds` and `collide`. All else is written once.
 
 use crate::collider::Collider;
-use asunder_geometry::{Aabb2, Aabb3, Bounds, Pose2, Pose3, Shape2, Shape3};
-use asunder_narrow::{Batch, Batch2, Batch3, Hint, Job2, Job3, Manifold2, Manifold3, collide2, collide3};
+use asunder_geometry::glam::{DVec2, DVec3};
+use asunder_geometry::{Aabb2, Aabb3, Bounds, Motion2, Motion3, Pose2, Pose3, Shape2, Shape3, tolerance};
+use asunder_narrow::{
+    Batch, Batch2, Batch3, Hint, Impact2, Impact3, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3, collide2,
+    collide3,
+};
 use core::fmt::Debug;
 
 slotmap::new_key_type! {
@@ -39,6 +43,10 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     type Aabb: Bounds;
     /// How two convex parts touch.
     type Manifold: Clone + PartialEq + Debug + Send + Sync;
+    /// How a body moves within a frame.
+    type Motion: Copy + PartialEq + Debug + Send + Sync;
+    /// When two bodies first touch.
+    type Impact: Copy + PartialEq + Debug + Send + Sync;
     /// One pair for the narrow phase.
     #[doc(hidden)]
     type Job<'a>: Send + Sync;
@@ -51,7 +59,26 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     #[doc(hidden)]
     fn bounds(shape: &Self::Shape, pose: &Self::Pose, margin: f32) -> Self::Aabb;
 
-    /// A job from two bodies; `margin` is the sum of theirs.
+    /// The box around a body throughout its motion, rounded outwards.
+    #[doc(hidden)]
+    fn swept_bounds(body: &Collider<Self>, motion: &Self::Motion) -> Self::Aabb;
+
+    /// By how many metres at most two bodies come nearer to each other in their motions.
+    #[doc(hidden)]
+    fn approach(bodies: [&Collider<Self>; 2], motions: [Option<Self::Motion>; 2]) -> f32;
+
+    /// When two bodies that are apart first touch in their motions, and the share of the motions that is done by then.
+    #[doc(hidden)]
+    fn impact(
+        bodies: [&Collider<Self>; 2],
+        motions: [Option<Self::Motion>; 2],
+    ) -> Option<(f64, Self::Impact)>;
+
+    /// The least separation of manifolds.
+    #[doc(hidden)]
+    fn least_separation(manifolds: &[Self::Manifold]) -> f32;
+
+    /// A job from two bodies; `margin` is the sum of theirs, and of what their motions may add.
     #[doc(hidden)]
     fn job<'a>(a: &'a Collider<Self>, b: &'a Collider<Self>, margin: f32, hint: Hint) -> Self::Job<'a>;
 
@@ -60,12 +87,35 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
 }
 
+/// No point of a body turns further than this from where it was, given how fast it turns: and never further than across.
+fn swing(turn_speed: f64, reach: f64) -> f64 {
+    // A half-space that does not turn: zero times infinity.
+    if turn_speed > 0.0 { turn_speed.min(2.0) * reach } else { 0.0 }
+}
+
+/// The margin for a box around both ends of a motion that holds everything in between.
+///
+/// A point that turns is at R(t) v, and the boxes hold (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no further than w t |v|
+/// from the first and w (1 - t) |v| from the second, and so 2 t (1 - t) w |v| from their mean: at most half of w |v|.
+fn grown(margin: f32, turn_speed: f64, reach: f64) -> f32 {
+    // Rotations in between are rounded to f32 at times, by less than 1.2e-7.
+    let most = if turn_speed > 0.0 { ((turn_speed / 2.0).min(2.0) + 2.4e-7) * reach } else { 0.0 };
+    if most > 0.0 { rounded_up(f64::from(margin) + most) } else { margin }
+}
+
+/// Rounded up to f32, and no more than any margin may be.
+fn rounded_up(metres: f64) -> f32 {
+    if metres > 0.0 { (metres as f32).next_up().min(tolerance::MAX_RADIUS) } else { 0.0 }
+}
+
 impl Space for Plane {
     type Key = BodyKey2;
     type Pose = Pose2;
     type Shape = Shape2;
     type Aabb = Aabb2;
     type Manifold = Manifold2;
+    type Motion = Motion2;
+    type Impact = Impact2;
     type Job<'a> = Job2<'a>;
 
     fn same_bits(one: &Pose2, other: &Pose2) -> bool {
@@ -74,6 +124,40 @@ impl Space for Plane {
 
     fn bounds(shape: &Shape2, pose: &Pose2, margin: f32) -> Aabb2 {
         shape.bounds(pose, margin)
+    }
+
+    fn swept_bounds(body: &Collider<Self>, motion: &Motion2) -> Aabb2 {
+        let grown = grown(
+            body.margin,
+            motion.turn_speed(&body.pose),
+            f64::from(body.shape.center().length() + body.shape.outer_radius()),
+        );
+        let end = motion.pose_at(&body.pose, 1.0);
+        body.shape.bounds(&body.pose, grown).union(&body.shape.bounds(&end, grown))
+    }
+
+    fn approach([a, b]: [&Collider<Self>; 2], motions: [Option<Motion2>; 2]) -> f32 {
+        let [moved_a, moved_b] =
+            motions.map(|motion| motion.map_or(DVec2::ZERO, |motion| motion.displacement()));
+        let turned = |body: &Collider<Self>, motion: Option<Motion2>| {
+            motion.map_or(0.0, |motion| {
+                swing(
+                    motion.turn_speed(&body.pose),
+                    f64::from(body.shape.center().length() + body.shape.outer_radius()),
+                )
+            })
+        };
+        rounded_up((moved_a - moved_b).length() + turned(a, motions[0]) + turned(b, motions[1]))
+    }
+
+    fn impact([a, b]: [&Collider<Self>; 2], motions: [Option<Motion2>; 2]) -> Option<(f64, Impact2)> {
+        let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion2::STILL));
+        let pair = Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose);
+        pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping).map(|impact| (impact.fraction, impact))
+    }
+
+    fn least_separation(manifolds: &[Manifold2]) -> f32 {
+        manifolds.iter().fold(f32::INFINITY, |least, manifold| least.min(manifold.separation))
     }
 
     fn job<'a>(a: &'a Collider<Self>, b: &'a Collider<Self>, margin: f32, hint: Hint) -> Job2<'a> {
@@ -99,6 +183,8 @@ impl Space for Volume {
     type Shape = Shape3;
     type Aabb = Aabb3;
     type Manifold = Manifold3;
+    type Motion = Motion3;
+    type Impact = Impact3;
     type Job<'a> = Job3<'a>;
 
     fn same_bits(one: &Pose3, other: &Pose3) -> bool {
@@ -107,6 +193,40 @@ impl Space for Volume {
 
     fn bounds(shape: &Shape3, pose: &Pose3, margin: f32) -> Aabb3 {
         shape.bounds(pose, margin)
+    }
+
+    fn swept_bounds(body: &Collider<Self>, motion: &Motion3) -> Aabb3 {
+        let grown = grown(
+            body.margin,
+            motion.turn_speed(&body.pose),
+            f64::from(body.shape.center().length() + body.shape.outer_radius()),
+        );
+        let end = motion.pose_at(&body.pose, 1.0);
+        body.shape.bounds(&body.pose, grown).union(&body.shape.bounds(&end, grown))
+    }
+
+    fn approach([a, b]: [&Collider<Self>; 2], motions: [Option<Motion3>; 2]) -> f32 {
+        let [moved_a, moved_b] =
+            motions.map(|motion| motion.map_or(DVec3::ZERO, |motion| motion.displacement()));
+        let turned = |body: &Collider<Self>, motion: Option<Motion3>| {
+            motion.map_or(0.0, |motion| {
+                swing(
+                    motion.turn_speed(&body.pose),
+                    f64::from(body.shape.center().length() + body.shape.outer_radius()),
+                )
+            })
+        };
+        rounded_up((moved_a - moved_b).length() + turned(a, motions[0]) + turned(b, motions[1]))
+    }
+
+    fn impact([a, b]: [&Collider<Self>; 2], motions: [Option<Motion3>; 2]) -> Option<(f64, Impact3)> {
+        let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion3::STILL));
+        let pair = Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose);
+        pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping).map(|impact| (impact.fraction, impact))
+    }
+
+    fn least_separation(manifolds: &[Manifold3]) -> f32 {
+        manifolds.iter().fold(f32::INFINITY, |least, manifold| least.min(manifold.separation))
     }
 
     fn job<'a>(a: &'a Collider<Self>, b: &'a Collider<Self>, margin: f32, hint: Hint) -> Job3<'a> {

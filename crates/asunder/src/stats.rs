@@ -24,6 +24,8 @@ pub struct Stats {
     pub merge: Duration,
     /// Between stages 4 and 5: the contact hook; nothing without one.
     pub hooks: Duration,
+    /// Between stages 4 and 5: what bullets run into; nothing without motions.
+    pub impacts: Duration,
     /// Stage 5: events, and the index by body.
     pub report: Duration,
     /// Bodies in the world.
@@ -45,6 +47,6 @@ pub struct Stats {
 impl Stats {
     /// The time of all stages.
     pub fn total(&self) -> Duration {
-        self.refit + self.sweep + self.collide + self.merge + self.hooks + self.report
+        self.refit + self.sweep + self.collide + self.merge + self.hooks + self.impacts + self.report
     }
 }

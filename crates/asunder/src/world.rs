@@ -3,7 +3,10 @@
 use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
+use crate::frame::Found;
 use crate::hooks::Edited;
+use crate::motion::{Hit, Motions};
+use crate::query::Boxes;
 use crate::space::Space;
 use crate::stats::Stats;
 use asunder_broad::{CoherentSweep, PairId};
@@ -54,7 +57,11 @@ pub struct World<S: Space> {
     pub(crate) is_moved: Vec<bool>,
     /// Slots whose body got another shape since then: what was learnt with the one before does not count.
     pub(crate) reshaped: Vec<u32>,
+    /// What bodies are about to do, until the next update.
+    pub(crate) motions: Motions<S>,
     pub(crate) max_pairs: usize,
+    /// What questions are asked of; nothing that an output depends on.
+    pub(crate) questions: Boxes<S>,
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,
     pub(crate) records: Vec<Record<S::Key>>,
@@ -62,6 +69,7 @@ pub struct World<S: Space> {
     /// What a contact hook made of them at the last update; nothing without one.
     pub(crate) edited: Option<Edited<S>>,
     pub(crate) events: Vec<Event<S::Key>>,
+    pub(crate) impacts: Vec<Hit<S::Key, S::Impact>>,
     /// Records by their second body, then their first: with the records themselves, every body's contacts.
     pub(crate) by_second: Vec<u32>,
     pub(crate) stats: Stats,
@@ -85,6 +93,11 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) ended: Vec<Record<S::Key>>,
     /// The manifolds that a contact hook is editing.
     pub(crate) editing: Vec<S::Manifold>,
+    /// Pairs with a bullet, the bullet first; and what they run into.
+    pub(crate) of_bullets: Vec<(S::Key, S::Key)>,
+    pub(crate) found: Vec<Found<S>>,
+    #[cfg(feature = "parallel")]
+    pub(crate) answered: Vec<Option<Found<S>>>,
     /// Where each slot's records end, in order of their second body.
     pub(crate) ends: Vec<u32>,
 }
@@ -111,12 +124,15 @@ impl<S: Space> World<S> {
             moved: Vec::new(),
             is_moved: Vec::new(),
             reshaped: Vec::new(),
+            motions: Motions::NONE,
             max_pairs: 1 << 24,
+            questions: Boxes::default(),
             candidates: Vec::new(),
             records: Vec::new(),
             manifolds: Vec::new(),
             edited: None,
             events: Vec::new(),
+            impacts: Vec::new(),
             by_second: Vec::new(),
             stats: Stats::default(),
             scratch: Scratch {
@@ -131,6 +147,10 @@ impl<S: Space> World<S> {
                 last_manifolds: Vec::new(),
                 ended: Vec::new(),
                 editing: Vec::new(),
+                of_bullets: Vec::new(),
+                found: Vec::new(),
+                #[cfg(feature = "parallel")]
+                answered: Vec::new(),
                 ends: Vec::new(),
             },
         }
@@ -180,12 +200,12 @@ impl<S: Space> World<S> {
     /// The contact of a record, with its manifolds as the contact hook left them.
     pub(crate) fn show(&self, index: usize) -> Contact<'_, S::Key, S::Manifold> {
         let record = &self.records[index];
-        let Record { keys: (a, b), sensor, overlapping, is_new, .. } = *record;
+        let Record { keys: (a, b), sensor, overlapping, is_new, speculative, .. } = *record;
         let manifolds = match &self.edited {
             Some(edited) => edited.of(index),
             None => &self.manifolds[record.manifolds.start as usize..record.manifolds.end as usize],
         };
-        Contact { a, b, sensor, overlapping, is_new, manifolds }
+        Contact { a, b, sensor, overlapping, is_new, speculative, manifolds }
     }
 
     /// The record of two bodies, by its index.

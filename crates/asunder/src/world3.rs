@@ -3,9 +3,10 @@
 use crate::collider::{Collider3, Layers};
 use crate::contact::Contact3;
 use crate::event::Event3;
+use crate::motion::Hit3;
 use crate::space::{BodyKey3, Volume};
 use crate::world::{StaleKey, World};
-use asunder_geometry::{Pose3, Shape3};
+use asunder_geometry::{Motion3, Pose3, Shape3};
 
 /// A world of bodies in space.
 ///
@@ -104,6 +105,24 @@ impl World<Volume> {
     /// A stale key among them; all the others are moved.
     pub fn set_poses(&mut self, poses: impl IntoIterator<Item = (BodyKey3, Pose3)>) -> Result<(), StaleKey> {
         self.move_bodies(poses)
+    }
+
+    /// Says what a body is about to do in this frame: the next update looks ahead that far, and then forgets it. Its pose stays.
+    ///
+    /// Contacts that the motion may bring are among [`contacts`](Self::contacts), as speculative ones: all pairs whose separation is at
+    /// most their margins and what their motions bring them nearer, which is an upper bound and at most 1e6 m. For a
+    /// [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. Sensors do not look ahead, but for bullets.
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_motion(&mut self, key: BodyKey3, motion: Motion3) -> Result<(), StaleKey> {
+        self.set_motion_of(key, motion)
+    }
+
+    /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the way, and the first body
+    /// that is none. What a bullet overlaps at the start is a contact, and not among them.
+    pub fn impacts(&self) -> &[Hit3] {
+        &self.impacts
     }
 
     /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update.

@@ -3,6 +3,14 @@
 //! A tolerance is always relative: it is multiplied by the size of what it is applied to, so that a scene of
 //! pebbles and a scene of mountains are answered alike. Only the *limits* at the end carry a unit.
 
+/// Share of a pair's size at which a cast in the plane calls two shapes that still have a gap touching.
+///
+/// A cast comes so close by axes alone, and then takes the last step along the axis that it has; what is left is in the
+/// impact's error, and is mostly rounding. A pair that passes by within it counts as touching. A larger value makes wider
+/// misses hits; with a smaller one the axis across the last gap is rounding (1e-16 of the size over the gap), and so are the
+/// normals.
+pub const CAST_GAP2: f64 = 1e-8;
+
 /// Share of a hull's outer radius within which neighbouring facets count as one flat face.
 ///
 /// f32 vertices of a truly flat face lie within 1.2e-7 of its plane, so this merges what rounding split. Larger
@@ -39,6 +47,20 @@ pub const ALIGNED_FACES: f64 = 0.995;
 
 /// Share of a pair's size at which the distance iteration stops: the gap between its two certified bounds.
 pub const DISTANCE_GAP: f64 = 1e-12;
+
+/// Share of a pair's size up to which shapes that move towards each other count as having met, where no certified step
+/// brings them closer at once.
+///
+/// A step is along one axis, and for polytopes the last one ends at the contact up to [`IMPACT_REST`]; only round or turning
+/// shapes stop here. It is part of every impact's stated error. A smaller value costs a step or two where shapes graze;
+/// a larger one stops bodies visibly short.
+pub const IMPACT_GAP: f64 = 1e-6;
+
+/// Share of a pair's size that a certified step leaves between moving shapes.
+///
+/// Closer, the distance iteration sees little but rounding: it has 1e-15 of the size. It is part of every impact's stated
+/// error, and far below an f32 rounding of the size.
+pub const IMPACT_REST: f64 = 1e-9;
 
 /// Share of a cloud's size by which a point must stand out of the hull of those before it to count as a vertex that no
 /// merging of facets takes away: 64 times [`COPLANAR`].

@@ -47,10 +47,15 @@
 
 mod answer;
 mod batch;
+mod cast2;
+mod cast3;
 mod counted;
 mod exact;
 mod feature;
+mod impact2;
+mod impact3;
 mod jobs3;
+mod kept;
 mod lanes;
 mod least;
 mod pair2;
@@ -59,6 +64,9 @@ mod polygon;
 mod polyhedron;
 mod precision;
 mod room;
+mod shadow;
+mod whole2;
+mod whole3;
 
 pub use answer::{
     Answer, Closest2, Closest3, ContactPoint2, ContactPoint3, Manifold2, Manifold3, Measured2, Measured3,
@@ -66,7 +74,11 @@ pub use answer::{
 };
 pub use arrayvec::ArrayVec;
 pub use batch::{Batch, Batch2, Batch3};
+pub use cast2::cast_ray2;
+pub use cast3::cast_ray3;
 pub use feature::{Feature, FeatureId, Hint};
+pub use impact2::{Impact2, RayHit2};
+pub use impact3::{Impact3, RayHit3};
 pub use jobs3::{Job3, collide3, separations3};
 pub use pair2::{Job2, Pair2, collide2};
 pub use pair3::Pair3;

@@ -1,5 +1,7 @@
 //! One pair in the plane, and batches of them.
 
+mod compounds;
+
 use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2, Tier, Verdict};
 use crate::batch::Batch2;
 use crate::exact::Site2;
@@ -41,10 +43,10 @@ use asunder_geometry::{Pose2, Shape2};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Pair2<'a> {
-    shape_a: &'a Shape2,
-    shape_b: &'a Shape2,
-    pose_a: Pose2,
-    pose_b: Pose2,
+    pub(crate) shape_a: &'a Shape2,
+    pub(crate) shape_b: &'a Shape2,
+    pub(crate) pose_a: Pose2,
+    pub(crate) pose_b: Pose2,
     turn_a: Turn,
     turn_b: Turn,
     /// B's position less A's.
@@ -236,26 +238,12 @@ impl<'a> Pair2<'a> {
             Some(Probe::Beyond(_, hint)) => return (hint, None),
             None => {}
         }
-        let (mut next_hint, mut touch) = (Hint::NONE, None);
-        self.any(reach, |parts| {
-            let near = match parts.convex.probe(&asked) {
-                Probe::Beyond(_, hint) => {
-                    next_hint = hint;
-                    return false;
-                }
-                Probe::Near(near) => near,
-            };
-            next_hint = near.hint;
-            if is_near(&near) {
-                touch = Some(touch.unwrap_or(false) || near.verdict.overlapping);
-                if let Some(touch) = &near.touch {
-                    keep(manifold(&near, touch, (parts.indices, parts.shifts())));
-                }
-            }
-            false
-        });
-        // A hint is one axis of one pair of parts: of no use where there are several.
-        (if self.is_compound() { Hint::NONE } else { next_hint }, touch)
+        if self.is_compound() {
+            return self.contact_of_parts(&asked, margin, &mut keep);
+        }
+        let [a, b] = [Part::whole(self.shape_a, &self.turn_a), Part::whole(self.shape_b, &self.turn_b)];
+        let (hint, found) = self.parts(a, b).contact(&asked, margin, &mut keep);
+        (hint, found.map(|found| found.0))
     }
 
     /// The pair of parts with the least separation, or a bound where all are beyond the limit.
@@ -369,6 +357,27 @@ fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>)
 }
 
 impl Parts<'_> {
+    /// The hint for the next frame; whether they overlap and how deep, if they are within the margin.
+    fn contact(
+        &self,
+        asked: &Asked,
+        margin: f32,
+        keep: &mut impl FnMut(Manifold2),
+    ) -> (Hint, Option<(bool, f32)>) {
+        let near = match self.convex.probe(asked) {
+            Probe::Beyond(_, hint) => return (hint, None),
+            Probe::Near(near) => near,
+        };
+        let overlapping = near.verdict.overlapping;
+        if !overlapping && near.separation > margin {
+            return (near.hint, None);
+        }
+        if let Some(touch) = &near.touch {
+            keep(manifold(&near, touch, (self.indices, self.shifts())));
+        }
+        (near.hint, Some((overlapping, near.separation)))
+    }
+
     /// From the frame of the pair to world vectors from A's position and from B's.
     fn shifts(&self) -> [DVec2; 2] {
         [self.shifts[0], self.shifts[1] - self.convex.offset]

@@ -1,4 +1,6 @@
-//! One pair in space, and batches of them.
+//! One pair in space.
+
+mod compounds;
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::exact::Site3;
@@ -42,23 +44,23 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Pair3<'a> {
-    shape_a: &'a Shape3,
-    shape_b: &'a Shape3,
-    pose_a: Pose3,
-    pose_b: Pose3,
+    pub(crate) shape_a: &'a Shape3,
+    pub(crate) shape_b: &'a Shape3,
+    pub(crate) pose_a: Pose3,
+    pub(crate) pose_b: Pose3,
     /// B's position less A's.
-    between: DVec3,
+    pub(crate) between: DVec3,
 }
 
 /// A convex part of a body, as the body stands.
 #[derive(Clone, Copy)]
-struct Part<'a> {
-    index: u32,
-    shape: &'a Shape3,
+pub(crate) struct Part<'a> {
+    pub(crate) index: u32,
+    pub(crate) shape: &'a Shape3,
     /// Where it is in its compound; a shape that is none is its own only part.
     local: Option<&'a Pose3>,
     /// Its bounding sphere's centre less the body's position, in world axes.
-    center: DVec3,
+    pub(crate) center: DVec3,
 }
 
 /// Two convex parts in the frame of the first, and the way back from there.
@@ -69,6 +71,12 @@ struct Parts<'a> {
     /// Each part's origin less its body's position, in world axes.
     shifts: [DVec3; 2],
     convex: Convex<'a>,
+}
+
+/// Two parts within the margin of each other.
+struct Found {
+    overlapping: bool,
+    separation: f32,
 }
 
 impl<'a> Pair3<'a> {
@@ -255,28 +263,15 @@ impl<'a> Pair3<'a> {
         if self.gap_of_spheres() > reach {
             return (hint, None);
         }
-        let (mut next_hint, mut touch) = (Hint::NONE, None);
         let wanted = if manifolds.is_wanted() { Wanted::Points } else { Wanted::Number };
-        self.any(reach, |parts| {
-            let mut found = Touch::NONE;
-            let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
-            let accept = |near: &Near| wanted == Wanted::Points && is_near(near);
-            match parts.convex.contact(Asked { limit: reach, hint, wanted }, accept, &mut found) {
-                (Probe::Beyond(_, hint), _) => next_hint = hint,
-                (Probe::Near(near), has_points) => {
-                    next_hint = near.hint;
-                    if is_near(&near) {
-                        touch = Some(touch.unwrap_or(false) || near.verdict.overlapping);
-                    }
-                    if has_points {
-                        next_hint = parts.add_manifold(&near, &found, manifolds);
-                    }
-                }
-            }
-            false
-        });
-        // A hint is one axis of one pair of parts: of no use where there are several.
-        (if self.is_compound() { Hint::NONE } else { next_hint }, touch)
+        let asked = Asked { limit: reach, hint, wanted };
+        if self.is_compound() {
+            return self.contact_of_parts(asked, margin, manifolds);
+        }
+        let bases = self.bases();
+        let [a, b] = [Part::whole(self.shape_a, &bases[0]), Part::whole(self.shape_b, &bases[1])];
+        let (hint, found) = self.parts(&bases, a, b).contact(asked, margin, manifolds);
+        (hint, found.map(|found| found.overlapping))
     }
 
     /// The pair of parts with the least separation, or a bound where all are beyond the limit.
@@ -328,7 +323,7 @@ impl<'a> Pair3<'a> {
     }
 
     /// Both bodies' axes in the world.
-    fn bases(&self) -> [Basis3; 2] {
+    pub(crate) fn bases(&self) -> [Basis3; 2] {
         [self.pose_a.basis(), self.pose_b.basis()]
     }
 
@@ -382,7 +377,7 @@ impl<'a> Pair3<'a> {
 
 impl<'a> Part<'a> {
     /// A shape as a part of nothing: a compound by its bounding sphere alone.
-    fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
+    pub(crate) fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
         let center = basis.turn(shape.center().as_dvec3());
         Self { index: 0, shape, local: None, center }
     }
@@ -393,12 +388,12 @@ impl<'a> Part<'a> {
     }
 
     /// Shape and poses as they were given, for exact questions.
-    fn site(&self, body: &Pose3) -> Site3<'a> {
+    pub(crate) fn site(&self, body: &Pose3) -> Site3<'a> {
         Site3 { shape: self.shape, body: *body, part: self.local }
     }
 
     /// Its axes in the world, and its origin less the body's position.
-    fn placed(&self, body: &Basis3) -> (Basis3, DVec3) {
+    pub(crate) fn placed(&self, body: &Basis3) -> (Basis3, DVec3) {
         let Some(pose) = self.local else { return (*body, DVec3::ZERO) };
         let local = pose.basis();
         let basis = Basis3 { x: body.turn(local.x), y: body.turn(local.y), z: body.turn(local.z) };
@@ -420,7 +415,11 @@ pub(crate) fn reach_of(margin: f32) -> f64 {
 }
 
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
-fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
+pub(crate) fn for_parts<'a>(
+    shape: &'a Shape3,
+    basis: &Basis3,
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
     let Shape3::Compound(compound) = shape else {
         return visit(Part::whole(shape, basis));
     };
@@ -431,6 +430,22 @@ fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'
 }
 
 impl Parts<'_> {
+    /// The hint for the next frame, and how they touch if they are within the margin.
+    #[inline(always)]
+    fn contact(&self, asked: Asked, margin: f32, manifolds: &mut impl Room) -> (Hint, Option<Found>) {
+        let mut touch = Touch::NONE;
+        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
+        let accept = |near: &Near| asked.wanted == Wanted::Points && is_near(near);
+        match self.convex.contact(asked, accept, &mut touch) {
+            (Probe::Beyond(_, hint), _) => (hint, None),
+            (Probe::Near(near), has_points) => {
+                let found = Found { overlapping: near.verdict.overlapping, separation: near.separation };
+                let hint = if has_points { self.add_manifold(&near, &touch, manifolds) } else { near.hint };
+                (hint, is_near(&near).then_some(found))
+            }
+        }
+    }
+
     /// Adds the contact points; returns the hint that keeps them where they are in the next frame.
     fn add_manifold(&self, near: &Near, touch: &Touch, to: &mut impl Room) -> Hint {
         if let Some(manifold) = to.room(near.separation) {

@@ -10,6 +10,7 @@
 
 use crate::collider::Collider;
 use crate::contact::{Candidate, Record};
+use crate::motion::Motions;
 use crate::space::Space;
 use crate::world::{ASKED, Scratch, World};
 use asunder_broad::PairId;
@@ -74,13 +75,13 @@ pub(super) fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
 
 /// Asks the narrow phase, in batches.
 fn ask<S: Space>(world: &mut World<S>) {
-    let World { bodies, keys, scratch, .. } = world;
+    let World { bodies, keys, motions, scratch, .. } = world;
     let Scratch { asked, batches, .. } = scratch;
     let batch_count = asked.len().div_ceil(BATCH);
     if batches.len() < batch_count {
         batches.resize_with(batch_count, Batch::default);
     }
-    let asker = Asker { bodies, keys };
+    let asker = Asker { bodies, keys, motions };
     let batches = &mut batches[..batch_count];
     #[cfg(feature = "parallel")]
     if batch_count > 1 {
@@ -96,6 +97,7 @@ fn ask<S: Space>(world: &mut World<S>) {
 struct Asker<'a, S: Space> {
     bodies: &'a SlotMap<S::Key, Collider<S>>,
     keys: &'a [S::Key],
+    motions: &'a Motions<S>,
 }
 
 impl<S: Space> Asker<'_, S> {
@@ -107,11 +109,22 @@ impl<S: Space> Asker<'_, S> {
             for &(pair, hint) in slice {
                 let [a, b] = [pair.a, pair.b].map(|slot| self.bodies.get(self.keys[slot as usize]));
                 if let Some((a, b)) = a.zip(b) {
-                    jobs.push(S::job(a, b, a.margin + b.margin, hint));
+                    jobs.push(S::job(a, b, a.margin + b.margin + self.approach(pair, [a, b]), hint));
                 }
             }
             S::collide(&jobs, batch);
         }
+    }
+}
+
+impl<S: Space> Asker<'_, S> {
+    /// By how much the bodies' motions may bring them nearer. A sensor looks no further than it reaches.
+    #[inline]
+    fn approach(&self, pair: PairId, bodies: [&Collider<S>; 2]) -> f32 {
+        if self.motions.is_empty() || bodies[0].sensor || bodies[1].sensor {
+            return 0.0;
+        }
+        S::approach(bodies, [self.motions.of(pair.a), self.motions.of(pair.b)])
     }
 }
 
@@ -158,7 +171,9 @@ fn gather<S: Space>(world: &mut World<S>) {
         if let (Some((overlapping, range)), Some(a), Some(b)) =
             (contact, bodies.get(keys.0), bodies.get(keys.1))
         {
-            manifolds.extend_from_slice(&of_batch[range.start as usize..range.end as usize]);
+            let found = &of_batch[range.start as usize..range.end as usize];
+            manifolds.extend_from_slice(found);
+            let is_beyond = || S::least_separation(found) > a.margin + b.margin;
             records.push(Record {
                 pair,
                 keys,
@@ -168,6 +183,7 @@ fn gather<S: Space>(world: &mut World<S>) {
                 overlapping,
                 begun: overlapping,
                 is_new: false,
+                speculative: !overlapping && !found.is_empty() && is_beyond(),
             });
         }
     }

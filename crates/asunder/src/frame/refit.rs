@@ -10,11 +10,15 @@ const MIN_PARALLEL: usize = 4096;
 
 /// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went, or are disabled, are empty sets.
 pub(super) fn refit<S: Space>(world: &mut World<S>) {
-    let World { bodies, keys, boxes, dirty, is_dirty, moved, is_moved, stats, scratch, .. } = world;
+    let World { bodies, keys, boxes, dirty, is_dirty, moved, is_moved, motions, stats, scratch, .. } = world;
     stats.moved = dirty.iter().filter(|&&slot| !keys[slot as usize].is_null()).count();
     let bounds = |&slot: &u32| {
         let body = bodies.get(keys[slot as usize]).filter(|body| !body.disabled);
-        body.map_or(asunder_geometry::Bounds::NOTHING, |body| S::bounds(&body.shape, &body.pose, body.margin))
+        match (body, motions.of(slot)) {
+            (None, _) => asunder_geometry::Bounds::NOTHING,
+            (Some(body), None) => S::bounds(&body.shape, &body.pose, body.margin),
+            (Some(body), Some(motion)) => S::swept_bounds(body, &motion),
+        }
     };
     scratch.refitted.clear();
     #[cfg(feature = "parallel")]

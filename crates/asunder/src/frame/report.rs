@@ -82,6 +82,7 @@ mod tests {
             overlapping: true,
             begun: true,
             is_new: false,
+            speculative: false,
         };
         let pairs = (0..40).flat_map(|a| (a + 1..60).step_by(7).map(move |b| (a, b)));
         let records: Vec<Record<BodyKey3>> = pairs.map(record).collect();

@@ -28,6 +28,8 @@ pub(super) struct BodyForm<Shape, Pose> {
     disabled: bool,
     #[serde(default)]
     asleep: bool,
+    #[serde(default)]
+    bullet: bool,
 }
 
 impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
@@ -46,6 +48,7 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             sensor,
             disabled,
             asleep,
+            bullet,
         } = body;
         Self {
             shape: shape(of_body),
@@ -58,12 +61,25 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             sensor: *sensor,
             disabled: *disabled,
             asleep: *asleep,
+            bullet: *bullet,
         }
     }
 
     /// The body, of this shape. Poses and shapes were checked when they were read.
     pub(super) fn body<S: Saved<Pose = Pose>>(&self, shape: S::Shape) -> Result<Collider<S>, MarginError> {
-        let Self { shape: _, pose, layers, owner, user_data, margin, fixed, sensor, disabled, asleep } = self;
+        let Self {
+            shape: _,
+            pose,
+            layers,
+            owner,
+            user_data,
+            margin,
+            fixed,
+            sensor,
+            disabled,
+            asleep,
+            bullet,
+        } = self;
         Collider::<S> {
             shape,
             pose: *pose,
@@ -75,6 +91,7 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             sensor: *sensor,
             disabled: *disabled,
             asleep: *asleep,
+            bullet: *bullet,
         }
         .margin(*margin)
     }

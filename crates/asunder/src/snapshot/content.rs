@@ -5,6 +5,7 @@ use super::shapes::{Collected, Saved, ShapeRef, Table};
 use super::slots::{key_of, keys_to_come, version_of};
 use crate::contact::{Candidate, Record};
 use crate::event::Event;
+use crate::motion::Hit;
 use crate::stats::Stats;
 use crate::world::{World, slot_of};
 use asunder_narrow::Hint;
@@ -27,12 +28,15 @@ pub(super) struct Content<S: Saved> {
     pub(super) dirty: Vec<u32>,
     pub(super) moved: Vec<u32>,
     pub(super) reshaped: Vec<u32>,
+    /// Slots with a motion for the next update, or that lost one with their body. Ascending.
+    pub(super) motions: Vec<(u32, Option<S::Motion>)>,
     pub(super) max_pairs: u64,
     pub(super) candidates: Vec<CandidateForm<S>>,
     pub(super) contacts: Vec<ContactForm<S>>,
     /// What a contact hook left of each contact's manifolds, if there was one.
     pub(super) edited: Option<Vec<Vec<S::Manifold>>>,
     pub(super) events: Vec<Event<S::Key>>,
+    pub(super) impacts: Vec<Hit<S::Key, S::Impact>>,
     pub(super) counts: Counts,
 }
 
@@ -60,6 +64,7 @@ pub(super) struct ContactForm<S: Saved> {
     pub(super) overlapping: bool,
     pub(super) begun: bool,
     pub(super) is_new: bool,
+    pub(super) speculative: bool,
     pub(super) manifolds: Vec<S::Manifold>,
 }
 
@@ -96,6 +101,9 @@ impl<S: Saved> Content<S> {
             events,
             by_second: _,
             stats,
+            motions,
+            questions: _,
+            impacts,
             scratch: _,
         } = world;
         let mut shapes = Collected::new();
@@ -122,11 +130,13 @@ impl<S: Saved> Content<S> {
             dirty: ascending(dirty),
             moved: ascending(moved),
             reshaped: ascending(reshaped),
+            motions: motions.list(),
             max_pairs: *max_pairs as u64,
             candidates: candidates.iter().map(CandidateForm::of).collect(),
             contacts: records.iter().map(|record| ContactForm::of(record, manifolds)).collect(),
             edited: edited.as_ref().map(|_| (0..records.len()).map(list).collect()),
             events: events.clone(),
+            impacts: impacts.clone(),
             counts: Counts::of(stats),
         }
     }
@@ -157,7 +167,8 @@ impl<S: Saved> CandidateForm<S> {
 
 impl<S: Saved> ContactForm<S> {
     fn of(record: &Record<S::Key>, all: &[S::Manifold]) -> Self {
-        let Record { pair: _, keys, user_data, manifolds, sensor, overlapping, begun, is_new } = record;
+        let Record { pair: _, keys, user_data, manifolds, sensor, overlapping, begun, is_new, speculative } =
+            record;
         Self {
             keys: *keys,
             user_data: *user_data,
@@ -165,6 +176,7 @@ impl<S: Saved> ContactForm<S> {
             overlapping: *overlapping,
             begun: *begun,
             is_new: *is_new,
+            speculative: *speculative,
             manifolds: all[manifolds.start as usize..manifolds.end as usize].to_vec(),
         }
     }
@@ -178,6 +190,7 @@ impl Counts {
             collide: _,
             merge: _,
             hooks: _,
+            impacts: _,
             report: _,
             bodies,
             moved,

@@ -6,6 +6,7 @@ use super::shapes::Saved;
 use super::slots::version_of;
 use crate::contact::{Candidate, Record};
 use crate::event::Event;
+use crate::motion::Hit;
 use crate::world::slot_of;
 use asunder_broad::PairId;
 
@@ -55,6 +56,15 @@ impl<S: Saved> Judge<'_, S> {
         Ok(())
     }
 
+    /// Hits name a bullet and what it meets, in no order of slots.
+    pub(super) fn impacts<I>(&self, impacts: &[Hit<S::Key, I>]) -> Result<(), SnapshotError> {
+        let is_stranger = |hit: &Hit<S::Key, I>| !self.has_been(hit.bullet) || !self.has_been(hit.other);
+        match impacts.iter().position(is_stranger) {
+            Some(index) => Err(SnapshotError::Key { list: "impacts", index }),
+            None => Ok(()),
+        }
+    }
+
     pub(super) fn candidates(
         &self,
         forms: &[CandidateForm<S>],
@@ -84,9 +94,12 @@ impl<S: Saved> Judge<'_, S> {
             let Some(candidate) = candidates.find(|candidate| candidate.keys == form.keys) else {
                 return Err(SnapshotError::Contact { index });
             };
-            let ContactForm { keys, user_data, sensor, overlapping, begun, is_new, manifolds } = form;
-            let contradicts =
-                (*overlapping && !begun) || (*is_new && !begun) || (*sensor && !manifolds.is_empty());
+            let ContactForm { keys, user_data, sensor, overlapping, begun, is_new, speculative, manifolds } =
+                form;
+            let contradicts = (*overlapping && !begun)
+                || (*is_new && !begun)
+                || (*speculative && *overlapping)
+                || (*sensor && !manifolds.is_empty());
             if contradicts {
                 return Err(SnapshotError::Contact { index });
             }
@@ -105,6 +118,7 @@ impl<S: Saved> Judge<'_, S> {
                 overlapping: *overlapping,
                 begun: *begun,
                 is_new: *is_new,
+                speculative: *speculative,
             });
         }
         Ok((records, all))

@@ -7,6 +7,8 @@ use super::shapes::{Revived, Saved};
 use super::slots::slot_map;
 use crate::collider::{Collider, Tag};
 use crate::hooks::Edited;
+use crate::motion::Motions;
+use crate::query::Boxes;
 use crate::world::World;
 use asunder_geometry::Bounds;
 use slotmap::Key;
@@ -21,11 +23,13 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
         dirty,
         moved,
         reshaped,
+        motions,
         max_pairs,
         candidates,
         contacts,
         edited,
         events,
+        impacts,
         counts,
     } = content;
     if *format != FORMAT {
@@ -35,8 +39,10 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
     let is_dirty = flags("changed bodies", dirty, slots.len())?;
     let is_moved = flags("moved bodies", moved, slots.len())?;
     flags("reshaped bodies", reshaped, slots.len())?;
+    check_motions(motions, slots)?;
     let judge = Judge { slots };
     judge.events(events)?;
+    judge.impacts(impacts)?;
     let candidates = judge.candidates(candidates)?;
     let (records, manifolds) = judge.records(contacts, &candidates)?;
     if let Some(index) = edited.as_ref().map(Vec::len).filter(|&lists| lists != records.len()) {
@@ -59,12 +65,15 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
         moved: moved.clone(),
         is_moved,
         reshaped: reshaped.clone(),
+        motions: Motions::of_list(motions),
         max_pairs: usize::try_from(*max_pairs).unwrap_or(usize::MAX),
         candidates,
         records,
         manifolds,
         edited: edited.as_deref().map(Edited::of_lists),
+        questions: Boxes::default(),
         events: events.clone(),
+        impacts: impacts.clone(),
         by_second,
         stats: counts.stats(),
         scratch: World::new().scratch,
@@ -98,6 +107,22 @@ fn flags(list: &'static str, named: &[u32], slots: usize) -> Result<Vec<bool>, S
         }
     }
     Ok(flags)
+}
+
+/// Only a body has a motion: a new one must not find one in its slot.
+fn check_motions<S: Saved>(
+    motions: &[(u32, Option<S::Motion>)],
+    slots: &[SlotForm<S>],
+) -> Result<(), SnapshotError> {
+    let list = "motions";
+    let named: Vec<u32> = motions.iter().map(|&(slot, _)| slot).collect();
+    flags(list, &named, slots.len())?;
+    let has_body =
+        |slot: u32| slots.get((slot as usize).wrapping_sub(1)).is_some_and(|slot| slot.body.is_some());
+    match motions.iter().position(|&(slot, motion)| motion.is_some() && !has_body(slot)) {
+        Some(index) => Err(SnapshotError::Key { list, index }),
+        None => Ok(()),
+    }
 }
 
 /// How long a list by slot is: a world that never had a body has none at all.

@@ -18,7 +18,10 @@ impl<T: Clone + PartialEq + Debug + Serialize + DeserializeOwned> Plain for T {}
 
 /// A dimension whose worlds can be saved: both. Here is what differs between the shapes of the two.
 pub trait Saved:
-    Space<Key: Plain, Pose: Plain, Shape: Plain, Manifold: Plain> + Clone + PartialEq + Debug
+    Space<Key: Plain, Pose: Plain, Shape: Plain, Manifold: Plain, Motion: Plain, Impact: Plain>
+    + Clone
+    + PartialEq
+    + Debug
 {
     /// A hull or a polygon.
     #[doc(hidden)]

@@ -5,6 +5,7 @@ use crate::circle::Circle;
 use crate::compound::{Compound2, CompoundError, Part2};
 use crate::direction::DirectionError;
 use crate::half_space::HalfPlane;
+use crate::motion2::Motion2;
 use crate::polygon::Polygon;
 use crate::pose2::{Pose2, Rotation2, StoredRotationError};
 use crate::pose3::PoseError;
@@ -20,6 +21,7 @@ use serde::{Deserialize, Serialize};
 stored_as! {
     Rotation2: RotationForm,
     Pose2: PoseForm,
+    Motion2: MotionForm,
     Ray2: RayForm,
     Circle: CircleForm,
     Capsule2: CapsuleForm,
@@ -67,6 +69,30 @@ impl Form for PoseForm {
 
     fn build(self) -> Result<Pose2, PoseError> {
         Pose2::new(self.position, self.rotation)
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Motion2", deny_unknown_fields)]
+struct MotionForm {
+    displacement: [f64; 2],
+    #[serde(default)]
+    rotation: Option<Rotation2>,
+}
+
+impl Form for MotionForm {
+    type Of = Motion2;
+    type Error = PoseError;
+
+    fn of(value: &Motion2) -> Self {
+        Self { displacement: value.displacement().to_array(), rotation: value.rotation() }
+    }
+
+    fn build(self) -> Result<Motion2, PoseError> {
+        match self.rotation {
+            Some(to) => Motion2::new(self.displacement, to),
+            None => Motion2::shift(self.displacement),
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use crate::cuboid::Cuboid;
 use crate::direction::DirectionError;
 use crate::half_space::HalfSpace;
 use crate::hull::Hull;
+use crate::motion3::Motion3;
 use crate::pose3::{Pose3, PoseError};
 use crate::radius::RadiusError;
 use crate::ray::{Ray3, RayError};
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 stored_as! {
     Pose3: PoseForm,
+    Motion3: MotionForm,
     Ray3: RayForm,
     Sphere: SphereForm,
     Capsule3: CapsuleForm,
@@ -47,6 +49,33 @@ impl Form for PoseForm {
 
     fn build(self) -> Result<Pose3, PoseError> {
         Pose3::new(self.position, Quat::from_array(self.rotation))
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Motion3", deny_unknown_fields)]
+struct MotionForm {
+    displacement: [f64; 3],
+    #[serde(default)]
+    rotation: Option<[f32; 4]>,
+}
+
+impl Form for MotionForm {
+    type Of = Motion3;
+    type Error = PoseError;
+
+    fn of(value: &Motion3) -> Self {
+        Self {
+            displacement: value.displacement().to_array(),
+            rotation: value.rotation().map(|rotation| rotation.to_array()),
+        }
+    }
+
+    fn build(self) -> Result<Motion3, PoseError> {
+        match self.rotation {
+            Some(to) => Motion3::new(self.displacement, Quat::from_array(to)),
+            None => Motion3::shift(self.displacement),
+        }
     }
 }
 

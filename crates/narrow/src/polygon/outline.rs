@@ -20,6 +20,11 @@ impl Turn {
         Self { cos: f64::from(rotation.cos()), sin: f64::from(rotation.sin()) }
     }
 
+    /// The rotation that takes the x axis to a unit vector.
+    pub(crate) fn to(unit: DVec2) -> Self {
+        Self { cos: unit.x, sin: unit.y }
+    }
+
     /// One over the matrix' stretch, within 3 roundings of 2^-53.
     ///
     /// The squared stretch is 1 + e with |e| < 3e-7, also for the product of two matrices: the third power of that is
@@ -60,7 +65,7 @@ pub(super) const FEW_VERTICES: usize = 16;
 
 /// What a searched support adds to the roundings of a projection, in units of 2^-53 of the reach: see
 /// [`Outline::climb`].
-pub(super) const OF_SEARCH: f64 = 4.0;
+pub(crate) const OF_SEARCH: f64 = 4.0;
 
 /// A core in the frame of a pair: the world's axes, about A's position. Most often a polygon; a segment has two edges
 /// back to back, a point none.

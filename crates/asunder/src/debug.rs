@@ -1,0 +1,84 @@
+//! Lines that show what the engine sees: no renderer, only where to draw.
+
+mod plane;
+mod volume;
+
+/// What [`World2::debug_lines`](crate::World2::debug_lines) and [`World3::debug_lines`](crate::World3::debug_lines) draw.
+///
+/// ```
+/// use asunder::DebugOptions;
+/// let options = DebugOptions { boxes: true, ..DebugOptions::default() };
+/// assert!(options.shapes && options.contacts && options.normals);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DebugOptions {
+    /// The outline of every body that is enabled, where it stands now. On at first.
+    pub shapes: bool,
+    /// The boxes of the broad phase, as of the last update; none around half-spaces. Off at first.
+    pub boxes: bool,
+    /// A cross at each contact point, half-way between both bodies, as of the last update. On at first.
+    pub contacts: bool,
+    /// The normal at each contact point, from there towards the body in the higher slot. On at first.
+    pub normals: bool,
+    /// Length of a normal, in metres; a cross is a quarter of it. 0.2 at first.
+    pub length: f32,
+    /// Half of the side of the patch that stands for a half-space, in metres. 20 at first.
+    pub endless: f32,
+}
+
+impl Default for DebugOptions {
+    fn default() -> Self {
+        Self { shapes: true, boxes: false, contacts: true, normals: true, length: 0.2, endless: 20.0 }
+    }
+}
+
+/// What a line is about, to be given a colour.
+///
+/// ```
+/// use asunder::DebugLine;
+/// assert_eq!(DebugLine::Contact.colour(), [255, 64, 64, 255]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DebugLine {
+    /// The outline of a body that may move.
+    Body,
+    /// The outline of a fixed body.
+    Fixed,
+    /// The outline of a sensor.
+    Sensor,
+    /// The outline of a body that sleeps.
+    Asleep,
+    /// A box of the broad phase.
+    Box,
+    /// A contact point.
+    Contact,
+    /// A contact's normal.
+    Normal,
+}
+
+impl DebugLine {
+    /// A colour that tells it from the others on dark and on light: red, green, blue and opacity, as sRGB.
+    pub const fn colour(self) -> [u8; 4] {
+        match self {
+            Self::Body => [80, 160, 255, 255],
+            Self::Fixed => [140, 140, 140, 255],
+            Self::Sensor => [90, 200, 120, 255],
+            Self::Asleep => [70, 90, 160, 255],
+            Self::Box => [200, 180, 60, 160],
+            Self::Contact => [255, 64, 64, 255],
+            Self::Normal => [255, 150, 40, 255],
+        }
+    }
+
+    fn of<S: crate::Space>(body: &crate::Collider<S>) -> Self {
+        match (body.is_sensor(), body.is_fixed(), body.is_asleep()) {
+            (true, ..) => Self::Sensor,
+            (_, true, _) => Self::Fixed,
+            (.., true) => Self::Asleep,
+            _ => Self::Body,
+        }
+    }
+}
+
+/// An arc of at most half a circle is halved so often: a quarter circle is off by at most 0.5 % of its radius.
+const HALVINGS: u32 = 3;

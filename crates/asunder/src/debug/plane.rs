@@ -1,0 +1,128 @@
+//! Outlines in the plane.
+
+use super::{DebugLine, DebugOptions, HALVINGS};
+use crate::space::Plane;
+use crate::world::World;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::{HalfPlane, Pose2, Shape2};
+
+impl World<Plane> {
+    /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it is about.
+    ///
+    /// Always the same lines in the same order for the same world. Cost: linear in what is drawn; nothing is allocated.
+    ///
+    /// ```
+    /// use asunder::{Collider2, DebugLine, DebugOptions, Rect, World2, glam::{DVec2, Vec2}};
+    /// let mut world = World2::new();
+    /// world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?));
+    /// let mut lines = vec![];
+    /// world.debug_lines(&DebugOptions::default(), &mut |from, to, what| lines.push((from, to, what)));
+    /// assert_eq!(lines.len(), 4);
+    /// assert_eq!(lines[0], (DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0), DebugLine::Body));
+    /// # Ok::<(), asunder::ExtentError>(())
+    /// ```
+    pub fn debug_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec2, DVec2, DebugLine)) {
+        if options.shapes {
+            for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
+                let what = DebugLine::of(body);
+                outline(body.shape(), body.pose(), options, &mut |from, to| line(from, to, what));
+            }
+        }
+        if options.boxes {
+            for bounds in self.boxes.iter().filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite())
+            {
+                let (low, high) = (bounds.min.as_dvec2(), bounds.max.as_dvec2());
+                let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+                around(&corners, &mut |from, to| line(from, to, DebugLine::Box));
+            }
+        }
+        if options.contacts || options.normals {
+            self.contact_lines(options, line);
+        }
+    }
+
+    fn contact_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec2, DVec2, DebugLine)) {
+        let length = f64::from(options.length);
+        for contact in self.contacts() {
+            let Some((a, b)) = self.get(contact.a).zip(self.get(contact.b)) else { continue };
+            for manifold in contact.manifolds {
+                let normal = manifold.normal.as_dvec2();
+                for point in &manifold.points {
+                    let on_a = a.pose().position() + point.anchor_a.as_dvec2();
+                    let on_b = b.pose().position() + point.anchor_b.as_dvec2();
+                    let middle = (on_a + on_b) / 2.0;
+                    if options.contacts {
+                        for arm in [normal, normal.perp()].map(|arm| arm * (length / 8.0)) {
+                            line(middle - arm, middle + arm, DebugLine::Contact);
+                        }
+                    }
+                    if options.normals {
+                        line(middle, middle + normal * length, DebugLine::Normal);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn around(corners: &[DVec2], line: &mut impl FnMut(DVec2, DVec2)) {
+    for (i, &corner) in corners.iter().enumerate() {
+        line(corner, corners[(i + 1) % corners.len()]);
+    }
+}
+
+/// The outline of a posed shape: edges moved out by the radius, and arcs between them.
+fn outline(shape: &Shape2, pose: &Pose2, options: &DebugOptions, line: &mut dyn FnMut(DVec2, DVec2)) {
+    match shape {
+        Shape2::HalfPlane(half_plane) => border(half_plane, pose, options, line),
+        Shape2::Compound(compound) => {
+            for part in compound.parts() {
+                // The part's pose, then the body's.
+                let mut moved = |from, to| line(pose.transform(from), pose.transform(to));
+                outline(part.shape(), part.pose(), options, &mut moved);
+            }
+        }
+        Shape2::Circle(circle) => {
+            let radius = f64::from(circle.radius());
+            let center = pose.position();
+            let quarters =
+                [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|q| pose.rotation().turn(q) * radius);
+            for i in 0..4 {
+                arc(center, [quarters[i], quarters[(i + 1) % 4]], HALVINGS, line);
+            }
+            line(center, center + quarters[0]);
+        }
+        _ => {
+            let (core, radius) = (shape.core(), f64::from(shape.radius()));
+            let normals = core.normals();
+            let corner = |i: usize| pose.transform(core.vertices()[i % normals.len()]);
+            let out = |i: usize| pose.rotation().turn(normals[i % normals.len()]) * radius;
+            for i in 0..normals.len() {
+                line(corner(i) + out(i), corner(i + 1) + out(i));
+                if radius > 0.0 {
+                    arc(corner(i + 1), [out(i), out(i + 1)], HALVINGS, line);
+                }
+            }
+        }
+    }
+}
+
+/// The line of a half-plane, and where its inside is.
+fn border(half_plane: &HalfPlane, pose: &Pose2, options: &DebugOptions, line: &mut dyn FnMut(DVec2, DVec2)) {
+    let normal = pose.rotation().turn(half_plane.unit_normal());
+    let (center, along) = (pose.position(), normal.perp() * f64::from(options.endless));
+    line(center - along, center + along);
+    line(center, center - normal * f64::from(options.length));
+}
+
+/// Around a centre, counter-clockwise from one arm to another of the same length, at most half a turn.
+fn arc(center: DVec2, [from, to]: [DVec2; 2], halvings: u32, line: &mut dyn FnMut(DVec2, DVec2)) {
+    if halvings == 0 {
+        return line(center + from, center + to);
+    }
+    let sum = from + to;
+    let length = from.length();
+    let middle = if sum.length() > 1e-3 * length { sum * (length / sum.length()) } else { from.perp() };
+    arc(center, [from, middle], halvings - 1, line);
+    arc(center, [middle, to], halvings - 1, line);
+}

@@ -1,0 +1,183 @@
+//! Outlines in space.
+
+use super::{DebugLine, DebugOptions, HALVINGS};
+use crate::space::Volume;
+use crate::world::World;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::{HalfSpace, Pose3, Shape3};
+
+impl World<Volume> {
+    /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it is about.
+    ///
+    /// Always the same lines in the same order for the same world. Cost: linear in what is drawn; nothing is allocated.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Cuboid, DebugLine, DebugOptions, Sphere, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?));
+    /// world.insert(Collider3::new(Sphere::new(1.5)?).sensor());
+    /// world.update();
+    /// let (mut edges, mut sphere, mut boxes) = (0, vec![], 0);
+    /// let options = DebugOptions { boxes: true, ..DebugOptions::default() };
+    /// world.debug_lines(&options, &mut |from, to, what| match what {
+    ///     DebugLine::Body => edges += 1,
+    ///     DebugLine::Sensor => sphere.extend([from, to]),
+    ///     _ => boxes += 1,
+    /// });
+    /// assert_eq!((edges, boxes), (12, 24));
+    /// assert!(sphere.iter().all(|point| (point.length() - 1.5).abs() < 1e-6));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn debug_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec3, DVec3, DebugLine)) {
+        if options.shapes {
+            for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
+                let what = DebugLine::of(body);
+                outline(body.shape(), body.pose(), options, &mut |from, to| line(from, to, what));
+            }
+        }
+        if options.boxes {
+            for bounds in self.boxes.iter().filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite())
+            {
+                box_edges(bounds.min.as_dvec3(), bounds.max.as_dvec3(), &mut |from, to| {
+                    line(from, to, DebugLine::Box);
+                });
+            }
+        }
+        if options.contacts || options.normals {
+            self.contact_lines(options, line);
+        }
+    }
+
+    fn contact_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec3, DVec3, DebugLine)) {
+        let length = f64::from(options.length);
+        for contact in self.contacts() {
+            let Some((a, b)) = self.get(contact.a).zip(self.get(contact.b)) else { continue };
+            for manifold in contact.manifolds {
+                let normal = manifold.normal.as_dvec3();
+                let (across, over) = normal.any_orthonormal_pair();
+                for point in &manifold.points {
+                    let on_a = a.pose().position() + point.anchor_a.as_dvec3();
+                    let on_b = b.pose().position() + point.anchor_b.as_dvec3();
+                    let middle = (on_a + on_b) / 2.0;
+                    if options.contacts {
+                        for arm in [across, over].map(|arm| arm * (length / 8.0)) {
+                            line(middle - arm, middle + arm, DebugLine::Contact);
+                        }
+                    }
+                    if options.normals {
+                        line(middle, middle + normal * length, DebugLine::Normal);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The twelve edges between corners that differ in one coordinate.
+fn box_edges(low: DVec3, high: DVec3, line: &mut impl FnMut(DVec3, DVec3)) {
+    let pick = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };
+    let corner = |corner: usize| DVec3::new(pick(corner, 0), pick(corner, 1), pick(corner, 2));
+    for axis in 0..3 {
+        for from in (0..8).filter(|from| from >> axis & 1 == 0) {
+            line(corner(from), corner(from | 1 << axis));
+        }
+    }
+}
+
+/// The outline of a posed shape: faces moved out by the radius, and arcs over the edges between them.
+fn outline(shape: &Shape3, pose: &Pose3, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3)) {
+    match shape {
+        Shape3::HalfSpace(half_space) => patch(half_space, pose, options, line),
+        Shape3::Compound(compound) => {
+            for part in compound.parts() {
+                // The part's pose, then the body's.
+                let mut moved = |from, to| line(pose.transform(from), pose.transform(to));
+                outline(part.shape(), part.pose(), options, &mut moved);
+            }
+        }
+        Shape3::Sphere(sphere) => {
+            let axes = [DVec3::X, DVec3::Y, DVec3::Z]
+                .map(|axis| pose.basis().turn(axis) * f64::from(sphere.radius()));
+            for axis in 0..3 {
+                circle(pose.position(), [axes[axis], axes[(axis + 1) % 3]], line);
+            }
+        }
+        Shape3::Capsule(capsule) => {
+            let ends = capsule.segment().ends().map(|end| pose.transform(end));
+            rod(ends, f64::from(capsule.radius()), line);
+        }
+        _ => polyhedron(shape, pose, line),
+    }
+}
+
+/// A segment, triangle, cuboid or hull, with or without a radius.
+fn polyhedron(shape: &Shape3, pose: &Pose3, line: &mut dyn FnMut(DVec3, DVec3)) {
+    let (core, basis, radius) = (shape.core(), pose.basis(), f64::from(shape.radius()));
+    let topology = core.topology();
+    let corner = |vertex: usize| pose.transform(core.vertices()[vertex]);
+    let half_edges = topology.half_edges();
+    for &edge in topology.edges() {
+        let (from, to) = topology.ends(edge.into());
+        if radius == 0.0 || core.normals().is_empty() {
+            line(corner(from), corner(to));
+            continue;
+        }
+        let half_edge = half_edges[usize::from(edge)];
+        let faces = [half_edge.face, half_edges[usize::from(half_edge.twin)].face];
+        let out = faces.map(|face| basis.turn(core.normals()[usize::from(face)]) * radius);
+        for out in out {
+            line(corner(from) + out, corner(to) + out);
+        }
+        for end in [from, to] {
+            arc(corner(end), out, HALVINGS, line);
+        }
+    }
+}
+
+/// A capsule: four lines along it, a ring and two half rings at each end.
+fn rod([from, to]: [DVec3; 2], radius: f64, line: &mut dyn FnMut(DVec3, DVec3)) {
+    let along = (to - from).normalize_or(DVec3::Y);
+    let (across, over) = along.any_orthonormal_pair();
+    let [along, across, over] = [along, across, over].map(|axis| axis * radius);
+    for (end, out) in [(from, -along), (to, along)] {
+        circle(end, [across, over], line);
+        for side in [across, -across, over, -over] {
+            arc(end, [side, out], HALVINGS, line);
+        }
+    }
+    for side in [across, -across, over, -over] {
+        line(from + side, to + side);
+    }
+}
+
+/// A square of a half-space's border, its diagonals, and where its inside is.
+fn patch(half_space: &HalfSpace, pose: &Pose3, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3)) {
+    let normal = pose.basis().turn(half_space.unit_normal());
+    let (across, over) = normal.any_orthonormal_pair();
+    let half = f64::from(options.endless);
+    let corners = [(-half, -half), (half, -half), (half, half), (-half, half)]
+        .map(|(x, y)| pose.position() + across * x + over * y);
+    for i in 0..4 {
+        line(corners[i], corners[(i + 1) % 4]);
+    }
+    line(corners[0], corners[2]);
+    line(corners[1], corners[3]);
+    line(pose.position(), pose.position() - normal * f64::from(options.length));
+}
+
+fn circle(center: DVec3, [x, y]: [DVec3; 2], line: &mut dyn FnMut(DVec3, DVec3)) {
+    for quarter in [[x, y], [y, -x], [-x, -y], [-y, x]] {
+        arc(center, quarter, HALVINGS, line);
+    }
+}
+
+/// Around a centre, the short way from one arm to another of the same length; straight where they are opposite.
+fn arc(center: DVec3, [from, to]: [DVec3; 2], halvings: u32, line: &mut dyn FnMut(DVec3, DVec3)) {
+    let (sum, length) = (from + to, from.length());
+    if halvings == 0 || sum.length() <= 1e-3 * length {
+        return line(center + from, center + to);
+    }
+    let middle = sum * (length / sum.length());
+    arc(center, [from, middle], halvings - 1, line);
+    arc(center, [middle, to], halvings - 1, line);
+}

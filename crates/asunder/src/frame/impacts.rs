@@ -1,0 +1,71 @@
+//! After the contacts: what bullets run into during their motions.
+//!
+//! ```text
+//! of each candidate pair with a bullet, and a motion: when do they first touch?      in parallel
+//! sort by bullet, then by time; cut each bullet's list after the first that is solid
+//! ```
+//! Pairs that overlap at the start are contacts already, and not asked.
+
+use crate::contact::Candidate;
+use crate::motion::Hit;
+use crate::space::Space;
+use crate::world::{World, slot_of};
+
+/// Below this many pairs, other threads cost more than they save.
+#[cfg(feature = "parallel")]
+const MIN_PARALLEL: usize = 64;
+
+/// One answer: the bullet's slot, the share of its motion, the other's slot; and what is told of it.
+pub(crate) type Found<S> = (u32, f64, u32, Hit<<S as Space>::Key, <S as Space>::Impact>);
+
+/// Brings the impacts up to date, and forgets the motions.
+pub(super) fn impacts<S: Space>(world: &mut World<S>) {
+    world.impacts.clear();
+    if !world.motions.is_empty() && !world.stats.overflow {
+        ask(world);
+        let World { impacts, scratch, .. } = world;
+        scratch.found.sort_unstable_by(|one, other| {
+            (one.0.cmp(&other.0)).then(one.1.total_cmp(&other.1)).then(one.2.cmp(&other.2))
+        });
+        let mut stopped = None;
+        for (bullet, _, _, hit) in &scratch.found {
+            if stopped != Some(bullet) {
+                impacts.push(*hit);
+            }
+            if !hit.sensor {
+                stopped = Some(bullet);
+            }
+        }
+    }
+    world.forget_motions();
+}
+
+/// Asks about every pair with a bullet; as both sides, where both are bullets.
+fn ask<S: Space>(world: &mut World<S>) {
+    let World { bodies, candidates, motions, scratch, .. } = world;
+    scratch.of_bullets.clear();
+    let is_bullet = |key| bodies.get(key).is_some_and(|body| body.bullet);
+    for Candidate { pair, keys: (a, b), .. } in &*candidates {
+        if motions.of(pair.a).is_none() && motions.of(pair.b).is_none() {
+            continue;
+        }
+        let both = [(*a, *b), (*b, *a)];
+        scratch.of_bullets.extend(both.into_iter().filter(|(bullet, _)| is_bullet(*bullet)));
+    }
+    let impact = |&(bullet, other): &(S::Key, S::Key)| {
+        let (slot, other_slot) = (slot_of(bullet), slot_of(other));
+        let (one, two) = bodies.get(bullet).zip(bodies.get(other))?;
+        let (fraction, impact) = S::impact([one, two], [motions.of(slot), motions.of(other_slot)])?;
+        let hit = Hit { bullet, other, sensor: one.sensor || two.sensor, impact };
+        Some((slot, fraction, other_slot, hit))
+    };
+    scratch.found.clear();
+    #[cfg(feature = "parallel")]
+    if scratch.of_bullets.len() >= MIN_PARALLEL {
+        use rayon::prelude::*;
+        scratch.of_bullets.par_iter().map(impact).collect_into_vec(&mut scratch.answered);
+        scratch.found.extend(scratch.answered.drain(..).flatten());
+        return;
+    }
+    scratch.found.extend(scratch.of_bullets.iter().filter_map(impact));
+}

@@ -1,0 +1,58 @@
+//! Contacts of compounds in the plane, with what the last frame left.
+
+use super::{Pair2, Part, for_parts};
+use crate::answer::Manifold2;
+use crate::feature::Hint;
+use crate::kept::Kept;
+use crate::polygon::measure::Asked;
+use crate::polygon::quick::Bodies;
+use crate::shadow::is_many;
+use crate::whole2::{Wholes2, part_count};
+
+impl Pair2<'_> {
+    /// A contact of compounds. A direction that parts them as wholes comes first, where there may be one or it saves much;
+    /// pairs of parts, with what two of them left, come next.
+    pub(super) fn contact_of_parts(
+        &self,
+        asked: &Asked,
+        margin: f32,
+        keep: &mut impl FnMut(Manifold2),
+    ) -> (Hint, Option<bool>) {
+        let Bodies { shapes, turns, between } = self.bodies();
+        let wholes = Wholes2 { shapes, turns, between };
+        let sought = asked.hint.sought();
+        let sought =
+            sought.and_then(|(direction, is_due)| Some((direction.truncate().try_normalize()?, is_due)));
+        // Where none is due, the middles part more pairs of parts than a direction that has failed.
+        let due = sought.filter(|&(_, is_due)| is_due);
+        let (from, is_due) = due.unwrap_or_else(|| (wholes.towards_b(), false));
+        let is_worth_it = is_due || is_many([self.shape_a, self.shape_b].map(part_count));
+        let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
+        if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
+            return (Hint::towards(from.extend(0.0)), None);
+        }
+        let whole_b = Part::whole(self.shape_b, &self.turn_b);
+        let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
+        let (mut kept, mut touch) = (Kept::new(asked.hint), None);
+        for_parts(self.shape_a, &self.turn_a, |a| {
+            let shadow = shadow.as_ref().map(|(shadow, _)| shadow);
+            if shadow.is_some_and(|shadow| shadow.parts_from_whole(a.index)) || is_far(&a, &whole_b) {
+                return false;
+            }
+            for_parts(self.shape_b, &self.turn_b, |b| {
+                if shadow.is_some_and(|shadow| shadow.parts(a.index, b.index)) || is_far(&a, &b) {
+                    return false;
+                }
+                let parts = self.parts(a, b);
+                let asked = Asked { hint: kept.of(parts.indices), ..*asked };
+                if let (hint, Some((overlapping, separation))) = parts.contact(&asked, margin, keep) {
+                    touch = Some(touch.unwrap_or(false) || overlapping);
+                    kept.offer(parts.indices, hint, separation);
+                }
+                false
+            })
+        });
+        let next = shadow.map_or(from, |(_, next)| next);
+        (if touch.is_some() { kept.hint() } else { asked.hint.seeking(next.extend(0.0)) }, touch)
+    }
+}

@@ -1,0 +1,262 @@
+//! What an update says of this frame's motions, against all pairs asked one by one.
+
+use asunder::slotmap::Key;
+use asunder::{
+    Circle, Collider2, Collider3, Cuboid, HalfSpace, Motion2, Motion3, Plane, Pose2, Pose3, Rotation2,
+    Sphere, Volume, World, World2, World3, glam::Quat, glam::Vec3,
+};
+use asunder_tests::cases::Random;
+use asunder_tests::engine::{Engine, slot_of};
+use rayon::ThreadPoolBuilder;
+use std::collections::BTreeMap;
+
+/// Bodies in a room, of which most are given a motion and some are bullets.
+struct Room<S: Engine> {
+    world: World<S>,
+    motions: BTreeMap<u32, S::Motion>,
+}
+
+impl<S: Engine> Room<S> {
+    fn new(random: &mut Random, bodies: usize, reach: f64) -> Self {
+        let mut room = Self { world: World::new(), motions: BTreeMap::new() };
+        for _ in 0..bodies {
+            let body = S::random_body(random, reach);
+            let body = if random.below(2) == 0 { body.bullet() } else { body };
+            S::insert(&mut room.world, body);
+        }
+        room
+    }
+
+    fn set_motions(&mut self, random: &mut Random, reach: f64) {
+        self.motions.clear();
+        for (key, _) in S::bodies(&self.world) {
+            if random.below(4) > 0 {
+                let motion = S::random_motion(random, reach);
+                assert!(S::set_motion(&mut self.world, key, motion));
+                self.motions.insert(slot_of(key), motion);
+            }
+        }
+    }
+
+    /// What bullets run into, by all pairs.
+    fn expected(&self) -> Vec<(S::Key, S::Key, bool, S::Impact)> {
+        let bodies = S::bodies(&self.world);
+        let still = S::shift(0.0);
+        let motion = |key: S::Key| self.motions.get(&slot_of(key)).unwrap_or(&still);
+        let mut all = Vec::new();
+        for (bullet, a) in bodies.iter().filter(|(_, body)| body.is_bullet()) {
+            let mut of_bullet = Vec::new();
+            for (other, b) in bodies.iter().filter(|(other, _)| other != bullet) {
+                let moves = self.motions.contains_key(&slot_of(*bullet))
+                    || self.motions.contains_key(&slot_of(*other));
+                if !moves || !may_meet(a, b) {
+                    continue;
+                }
+                let found = S::first_touch((a, motion(*bullet)), (b, motion(*other)));
+                let Some((fraction, false, impact)) = found else { continue };
+                of_bullet.push((
+                    fraction,
+                    slot_of(*other),
+                    (*bullet, *other, a.is_sensor() || b.is_sensor(), impact),
+                ));
+            }
+            of_bullet.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+            let solid = of_bullet.iter().position(|(.., (_, _, sensor, _))| !sensor);
+            of_bullet.truncate(solid.map_or(of_bullet.len(), |solid| solid + 1));
+            all.extend(of_bullet.into_iter().map(|(.., hit)| hit));
+        }
+        all
+    }
+
+    /// Fails unless the world, just updated, says what all pairs say; gives how many impacts and contacts to come there were.
+    fn check(&self) -> (usize, usize) {
+        let expected = self.expected();
+        let found: Vec<_> = S::impacts(&self.world)
+            .iter()
+            .map(|hit| (hit.bullet, hit.other, hit.sensor, hit.impact))
+            .collect();
+        assert_eq!(found, expected);
+        // Whoever meets in these motions has a contact now, sensors aside.
+        for &(bullet, other, sensor, _) in &expected {
+            let contact = S::contact(&self.world, bullet, other);
+            assert!(sensor || contact.is_some_and(|contact| !contact.overlapping));
+        }
+        let contacts = S::contacts(&self.world);
+        for contact in contacts.iter().filter(|contact| contact.speculative) {
+            assert!(!contact.overlapping && !contact.is_new && !contact.manifolds.is_empty());
+            assert!(!S::is_touching(&self.world, contact.a, contact.b));
+        }
+        (expected.len(), contacts.iter().filter(|contact| contact.speculative).count())
+    }
+}
+
+fn may_meet<S: Engine>(a: &asunder::Collider<S>, b: &asunder::Collider<S>) -> bool {
+    let one_owner = a.get_owner().is_some() && a.get_owner() == b.get_owner();
+    a.get_layers().meets(b.get_layers()) && !one_owner && !(a.is_fixed() && b.is_fixed())
+}
+
+fn rooms<S: Engine>(seed: u128) {
+    let mut random = Random::new(seed);
+    let (mut impacts, mut speculative) = (0, 0);
+    for _ in 0..12 {
+        let mut room = Room::<S>::new(&mut random, 24, 6.0);
+        for reach in [0.0, 1.0, 5.0, 40.0] {
+            room.set_motions(&mut random, reach);
+            room.world.update();
+            let (hit, to_come) = room.check();
+            (impacts, speculative) = (impacts + hit, speculative + to_come);
+        }
+        // Motions are this frame's alone.
+        room.world.update();
+        assert!(S::impacts(&room.world).is_empty());
+        assert!(S::contacts(&room.world).iter().all(|contact| !contact.speculative));
+        let boxes: Vec<_> = S::candidates(&room.world);
+        let mut fresh = World::<S>::new();
+        S::bodies(&room.world).into_iter().for_each(|(_, body)| drop(S::insert(&mut fresh, body)));
+        fresh.update();
+        assert_eq!(boxes, S::candidates(&fresh), "boxes are as tight as before");
+    }
+    assert!(impacts > 30 && speculative > 500, "{impacts} impacts, {speculative} contacts to come");
+}
+
+#[test]
+fn rooms_in_space() {
+    rooms::<Volume>(910);
+}
+
+#[test]
+fn rooms_in_the_plane() {
+    rooms::<Plane>(911);
+}
+
+fn one_pair<S: Engine>() {
+    let mut world = World::<S>::new();
+    let a = S::insert(&mut world, S::unit_at(0.0));
+    let b = S::insert(&mut world, S::unit_at(2.0).bullet());
+    // A gap of a metre; together they come nearer by 0.9 m, then by 1.5 m.
+    for (shift, is_near, is_hit) in [(0.9, false, false), (1.5, true, true), (0.0, false, false)] {
+        assert!(S::set_motion(&mut world, a, S::shift(shift / 3.0)));
+        assert!(S::set_motion(&mut world, b, S::shift(-shift * 2.0 / 3.0)));
+        world.update();
+        let contact = S::contact(&world, a, b);
+        assert_eq!(contact.is_some_and(|contact| contact.speculative && !contact.overlapping), is_near);
+        assert_eq!(S::impacts(&world).len(), usize::from(is_hit));
+        assert!(S::events(&world).is_empty());
+        if let [hit] = S::impacts(&world) {
+            assert_eq!((hit.bullet, hit.other, hit.sensor), (b, a, false));
+        }
+    }
+    // They touch, and part; a motion that brings them back does not put off the end.
+    assert!(S::set_pose(&mut world, b, S::pose_at(1.0)));
+    world.update();
+    assert!(S::events(&world)[0].is_began());
+    assert!(S::set_pose(&mut world, b, S::pose_at(1.5)));
+    assert!(S::set_motion(&mut world, b, S::shift(-1.0)));
+    world.update();
+    assert!(matches!(S::events(&world), [event] if !event.is_began()));
+    assert!(S::contact(&world, a, b).is_some_and(|contact| contact.speculative));
+    assert!(!S::is_touching(&world, a, b));
+    // What overlaps at the start is a contact, not an impact.
+    assert!(S::set_pose(&mut world, b, S::pose_at(0.5)));
+    assert!(S::set_motion(&mut world, b, S::shift(-1.0)));
+    world.update();
+    assert!(S::impacts(&world).is_empty() && S::is_touching(&world, a, b));
+    // A body that goes takes its motion along, and one that comes to its slot has none.
+    assert!(S::set_motion(&mut world, b, S::shift(-9.0)));
+    S::remove(&mut world, b);
+    assert!(!S::set_motion(&mut world, b, S::shift(1.0)), "a stale key moves nobody");
+    let c = S::insert(&mut world, S::unit_at(5.0).bullet());
+    assert_eq!(slot_of(c), slot_of(b));
+    world.update();
+    assert!(S::impacts(&world).is_empty());
+    assert!(!S::set_motion(&mut world, S::Key::null(), S::shift(1.0)));
+}
+
+#[test]
+fn one_pair_in_space() {
+    one_pair::<Volume>();
+}
+
+#[test]
+fn one_pair_in_the_plane() {
+    one_pair::<Plane>();
+}
+
+#[test]
+fn too_many_pairs_are_no_impacts() {
+    let mut world = World3::new();
+    let ball = Collider3::new(Sphere::new(0.5).unwrap()).bullet();
+    let bullet = world.insert(ball.clone());
+    world.insert(ball.at(Pose3::at([3.0, 0.0, 0.0]).unwrap()));
+    world.set_max_pairs(0);
+    world.set_motion(bullet, Motion3::shift([9.0, 0.0, 0.0]).unwrap()).unwrap();
+    world.update();
+    assert!(world.stats().overflow && world.impacts().is_empty());
+    world.set_max_pairs(9);
+    world.update();
+    assert!(!world.stats().overflow && world.impacts().is_empty() && world.contacts().len() == 0);
+}
+
+#[test]
+fn nothing_tunnels() {
+    // 500 m/s at 60 steps a second, at a wall of a centimetre; and a rod that turns half round past a post.
+    let mut world = World3::new();
+    let wall = Cuboid::from_half_extents(Vec3::new(0.005, 5.0, 5.0)).unwrap();
+    let wall = world.insert(Collider3::new(wall).fixed());
+    let ball = Collider3::new(Sphere::new(0.05).unwrap()).bullet();
+    let ball = world.insert(ball.at(Pose3::at([-4.0, 1.0, 0.0]).unwrap()));
+    world.set_motion(ball, Motion3::shift([500.0 / 60.0, 0.0, 0.0]).unwrap()).unwrap();
+    world.update();
+    let [hit] = world.impacts() else { panic!("{:?}", world.impacts()) };
+    assert_eq!((hit.bullet, hit.other), (ball, wall));
+    let expected = (4.0 - 0.005 - 0.05) / (500.0 / 60.0);
+    assert!(hit.impact.fraction <= expected && hit.impact.fraction > expected - 1e-5);
+    assert!((hit.impact.normal - Vec3::X).length() < 1e-5);
+
+    let mut flat = World2::new();
+    let rod = asunder::Capsule2::new([-2.0, 0.0].into(), [2.0, 0.0].into(), 0.05).unwrap();
+    let rod = flat.insert(Collider2::new(rod).bullet());
+    let post = Circle::new(0.1).unwrap();
+    let post = flat.insert(Collider2::new(post).at(Pose2::at([0.0, 1.5]).unwrap()));
+    let half_turn = Motion2::new([0.0, 0.0], Rotation2::new(-1.0, 0.0).unwrap()).unwrap();
+    flat.set_motion(rod, half_turn).unwrap();
+    flat.update();
+    assert!(matches!(flat.impacts(), [hit] if (hit.bullet, hit.other) == (rod, post)));
+    assert!(flat.contact(rod, post).is_some_and(|contact| contact.speculative));
+}
+
+#[test]
+fn what_has_no_end_may_turn() {
+    let mut world = World3::new();
+    let ground = world.insert(Collider3::new(HalfSpace::new(Vec3::Y).unwrap()));
+    let ball = Collider3::new(Sphere::new(0.5).unwrap()).bullet();
+    let ball = world.insert(ball.at(Pose3::at([100.0, 3.0, 0.0]).unwrap()));
+    let tilt = Motion3::new([0.0; 3], Quat::from_xyzw(0.0, 0.0, 0.1, 1.0)).unwrap();
+    world.set_motion(ground, tilt).unwrap();
+    world.update();
+    assert!(world.contact(ground, ball).is_some());
+    assert!(matches!(world.impacts(), [hit] if hit.other == ground && hit.impact.fraction < 0.5));
+    let away = Motion3::new([1e9, 0.0, 0.0], Quat::from_xyzw(1.0, 0.0, 0.0, 0.0)).unwrap();
+    world.set_motion(ball, away).unwrap();
+    world.set_motion(ground, Motion3::shift([0.0, -1e9, 0.0]).unwrap()).unwrap();
+    world.update();
+    assert!(world.impacts().is_empty());
+}
+
+/// So many bullets that several threads look at them.
+#[test]
+fn every_number_of_threads_says_the_same() {
+    let run = |threads: usize| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut random = Random::new(912);
+            let mut room = Room::<Volume>::new(&mut random, 200, 5.0);
+            room.set_motions(&mut random, 6.0);
+            room.world.update();
+            assert!(room.world.impacts().len() > 10);
+            format!("{:?} {:?}", room.world.impacts(), Volume::contacts(&room.world))
+        })
+    };
+    let alone = run(1);
+    assert!([2, 8].into_iter().all(|threads| run(threads) == alone));
+}
