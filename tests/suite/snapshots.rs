@@ -2,12 +2,12 @@
 
 use asunder::slotmap::Key;
 use asunder::{
-    Collider, Collider3, Compound3, Hooks, Hull, Meeting, Motion2, Motion3, Plane, Pose3, Shape3, Side,
-    Snapshot, Snapshot3, SnapshotError, Space, Volume, World, World3,
+    Collider, Collider3, Compound3, Hooks, Hull, Meeting, Plane, Pose3, Shape3, Side, Snapshot, Snapshot3,
+    SnapshotError, Space, Volume, World, World3,
 };
 use asunder_tests::cases::Random;
 use asunder_tests::engine::{Change, Engine};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -17,12 +17,10 @@ trait Stored: Engine {
     fn snapshot(world: &World<Self>) -> impl Serialize + DeserializeOwned + PartialEq + core::fmt::Debug;
     fn text(world: &World<Self>) -> String;
     fn restored(text: &str) -> Result<World<Self>, String>;
-    fn set_motion(world: &mut World<Self>, key: Self::Key, by: DVec3, to: Option<Self::Pose>);
-    fn impacts(world: &World<Self>) -> String;
 }
 
 macro_rules! stored {
-    ($($space:ty: $motion:expr;)*) => {$(
+    ($($space:ty),*) => {$(
         impl Stored for $space {
             fn snapshot(world: &World<Self>) -> impl Serialize + DeserializeOwned + PartialEq + core::fmt::Debug {
                 world.snapshot()
@@ -36,29 +34,11 @@ macro_rules! stored {
                 let snapshot: Snapshot<Self> = serde_json::from_str(text).map_err(|error| error.to_string())?;
                 World::restore(&snapshot).map_err(|error| error.to_string())
             }
-
-            fn set_motion(world: &mut World<Self>, key: Self::Key, by: DVec3, to: Option<Self::Pose>) {
-                let motion: fn(DVec3, Option<Self::Pose>) -> Self::Motion = $motion;
-                let _ = world.set_motion(key, motion(by, to));
-            }
-
-            fn impacts(world: &World<Self>) -> String {
-                format!("{:?}", world.impacts())
-            }
         }
     )*};
 }
 
-stored! {
-    Plane: |by, to| match to {
-        Some(pose) => Motion2::new(by.truncate(), pose.rotation()).unwrap(),
-        None => Motion2::shift(by.truncate()).unwrap(),
-    };
-    Volume: |by, to| match to {
-        Some(pose) => Motion3::new(by, pose.rotation()).unwrap(),
-        None => Motion3::shift(by).unwrap(),
-    };
-}
+stored!(Plane, Volume);
 
 /// Half of the side of the room, in metres: bodies of a metre meet often in it.
 const ROOM: f64 = 1.6;
@@ -67,7 +47,7 @@ const ROOM: f64 = 1.6;
 fn shown<S: Stored>(world: &World<S>) -> String {
     let mut shown = format!("{:?}", S::bodies(world));
     shown += &format!("{:?}{:?}{:?}", S::candidates(world), S::contacts(world), S::events(world));
-    shown += &S::impacts(world);
+    shown += &format!("{:?}", S::impacts(world));
     for (key, _) in S::bodies(world) {
         shown += &format!("{:?}{:?}", S::contacts_of(world, key), S::touching(world, key));
     }
@@ -100,9 +80,8 @@ fn act<S: Stored>(worlds: &mut [World<S>], keys: &mut Vec<S::Key>, random: &mut 
         }
         9..11 => worlds.iter_mut().for_each(|world| drop(S::remove(world, key))),
         16..19 => {
-            let (by, to) = (random.vector() * 2.0, S::random_pose(random, ROOM));
-            let to = (random.below(2) == 0).then_some(to);
-            worlds.iter_mut().for_each(|world| S::set_motion(world, key, by, to));
+            let motion = S::random_motion(random, 2.0);
+            worlds.iter_mut().for_each(|world| _ = S::set_motion(world, key, motion));
         }
         11..13 => {
             let change = Change::random(random);
