@@ -96,10 +96,9 @@ impl<S: Saved> Judge<'_, S> {
             };
             let ContactForm { keys, user_data, sensor, overlapping, begun, is_new, speculative, manifolds } =
                 form;
-            let contradicts = (*overlapping && !begun)
-                || (*is_new && !begun)
-                || (*speculative && *overlapping)
-                || (*sensor && !manifolds.is_empty());
+            let unfounded = !begun && (*overlapping || *is_new);
+            let contradicts =
+                unfounded || (*speculative && *overlapping) || (*sensor && !manifolds.is_empty());
             if contradicts {
                 return Err(SnapshotError::Contact { index });
             }

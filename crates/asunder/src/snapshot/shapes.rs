@@ -16,6 +16,9 @@ use std::collections::BTreeMap;
 pub trait Plain: Clone + PartialEq + Debug + Serialize + DeserializeOwned {}
 impl<T: Clone + PartialEq + Debug + Serialize + DeserializeOwned> Plain for T {}
 
+/// A compound's parts.
+type PosedShapes<'a, S> = Vec<(<S as Space>::Pose, &'a <S as Space>::Shape)>;
+
 /// A dimension whose worlds can be saved: both. Here is what differs between the shapes of the two.
 pub trait Saved:
     Space<Key: Plain, Pose: Plain, Shape: Plain, Manifold: Plain, Motion: Plain, Impact: Plain>
@@ -41,7 +44,7 @@ pub trait Saved:
 
     /// The address of a compound, and its parts.
     #[doc(hidden)]
-    fn parts(shape: &Self::Shape) -> Option<(usize, Vec<(Self::Pose, &Self::Shape)>)>;
+    fn parts(shape: &Self::Shape) -> Option<(usize, PosedShapes<'_, Self>)>;
 
     /// A compound of parts.
     #[doc(hidden)]
@@ -184,7 +187,7 @@ impl Saved for Plane {
         polygon.clone().rounded(radius).map(Shape2::from)
     }
 
-    fn parts(shape: &Shape2) -> Option<(usize, Vec<(Pose2, &Shape2)>)> {
+    fn parts(shape: &Shape2) -> Option<(usize, PosedShapes<'_, Self>)> {
         let Shape2::Compound(compound) = shape else { return None };
         let parts = compound.parts().iter().map(|part| (*part.pose(), part.shape())).collect();
         Some((compound.shared_address(), parts))
@@ -220,7 +223,7 @@ impl Saved for Volume {
         hull.clone().rounded(radius).map(Shape3::from)
     }
 
-    fn parts(shape: &Shape3) -> Option<(usize, Vec<(Pose3, &Shape3)>)> {
+    fn parts(shape: &Shape3) -> Option<(usize, PosedShapes<'_, Self>)> {
         let Shape3::Compound(compound) = shape else { return None };
         let parts = compound.parts().iter().map(|part| (*part.pose(), part.shape())).collect();
         Some((compound.shared_address(), parts))
