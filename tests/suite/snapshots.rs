@@ -12,7 +12,7 @@ use asunder_tests::engine::{Change, Engine};
 use glam::Vec3;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// What the tests need of both dimensions.
 trait Stored: Engine {
