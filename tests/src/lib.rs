@@ -53,6 +53,8 @@ mod guide {
     struct GameLoops;
     #[doc = include_str!("../../docs/guide/events.md")]
     struct Events;
+    #[doc = include_str!("../../docs/guide/determinism.md")]
+    struct Determinism;
     #[doc = include_str!("../../docs/guide/margins.md")]
     struct Margins;
     #[doc = include_str!("../../docs/guide/queries.md")]

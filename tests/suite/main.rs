@@ -9,6 +9,7 @@
 //! - [`hulls`]: parry3d's vertices, errors that hold, and clouds of 65,535 points
 //! - [`polygons`]: hulls of points in the plane, simplified ones, and outlines cut into convex parts, against exact integers
 //! - [`fuzzed`]: the fuzz targets' bodies, on tens of thousands of seeded strings
+//! - [`saved`]: what is stored of poses, shapes, rays and hints comes back in every bit, or is refused by what the constructors say
 //! - [`mass`]: mass, centre and inertia of every shape, against exact fractions, textbooks, sampling and inclusion-exclusion
 //!
 //! Broad phase
@@ -37,6 +38,7 @@
 //! World
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
+//! - [`snapshots`]: a world restored from text has the same outputs, keys and future, bit for bit; no damaged file breaks one
 //! - [`debug_lines`]: lines for a renderer lie on what they show
 //! - [`motions`]: what an update says of this frame's motions: contacts to come, and what bullets run into first
 //! - [`questions`]: overlaps, casts and what is near, against a loop over all bodies, at any time, from any thread
@@ -75,9 +77,11 @@ mod polygons;
 mod questions;
 mod refusals;
 mod regressions;
+mod saved;
 mod separation;
 mod shapes;
 mod shapes_peer;
+mod snapshots;
 mod solver;
 mod steady;
 mod theory;

@@ -13,6 +13,7 @@ use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 /// assert!(player.meets(Layers::default()));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Layers {
     /// A bit a group that the body is in.
     pub member_of: u32,

@@ -6,6 +6,7 @@ use crate::space::{BodyKey2, BodyKey3};
 ///
 /// From a `Began` to its contact it is one call: `world.contact(a, b)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Event<K> {
     /// Two bodies share a point for the first time since they were last apart.
     Began {

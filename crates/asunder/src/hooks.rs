@@ -134,6 +134,17 @@ pub(crate) struct Edited<S: Space> {
 }
 
 impl<S: Space> Edited<S> {
+    /// From a list a record.
+    #[cfg(feature = "serde")]
+    pub(crate) fn of_lists(lists: &[Vec<S::Manifold>]) -> Self {
+        let mut edited = Self { manifolds: Vec::new(), ends: Vec::new() };
+        for list in lists {
+            edited.manifolds.extend_from_slice(list);
+            edited.ends.push(edited.manifolds.len() as u32);
+        }
+        edited
+    }
+
     /// How many manifolds there are.
     pub(crate) fn len(&self) -> usize {
         self.manifolds.len()

@@ -36,6 +36,8 @@
 //!
 //! # Feature flags
 //! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
+//! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and serde's
+//!   traits for bodies, shapes, poses, rays, keys, events and manifolds. What comes in is checked as by the constructors.
 #![deny(missing_docs)]
 
 mod ask2;
@@ -50,6 +52,8 @@ mod frame;
 mod hooks;
 mod motion;
 mod query;
+#[cfg(feature = "serde")]
+mod snapshot;
 mod space;
 mod stats;
 mod world;
@@ -80,6 +84,8 @@ pub use query::{
     RayAnswer, RayAnswer2, RayAnswer3,
 };
 pub use slotmap;
+#[cfg(feature = "serde")]
+pub use snapshot::{Snapshot, Snapshot2, Snapshot3, SnapshotError};
 pub use space::{BodyKey2, BodyKey3, Plane, Space, Volume};
 pub use stats::Stats;
 pub use world::{StaleKey, World};

@@ -6,6 +6,7 @@ use asunder_narrow::{Impact2, Impact3};
 
 /// What a bullet runs into during its motion: see [`Collider::bullet`](crate::Collider::bullet).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hit<K, I> {
     /// The bullet: A of the impact.
     pub bullet: K,
@@ -45,6 +46,28 @@ impl<S: Space> Motions<S> {
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.slots.is_empty()
+    }
+
+    /// Slots that have one or had one, ascending, each with its motion.
+    #[cfg(feature = "serde")]
+    pub(crate) fn list(&self) -> Vec<(u32, Option<S::Motion>)> {
+        let mut slots = self.slots.clone();
+        slots.sort_unstable();
+        slots.dedup();
+        slots.into_iter().map(|slot| (slot, self.of(slot))).collect()
+    }
+
+    /// What a list says, whose slots have been checked.
+    #[cfg(feature = "serde")]
+    pub(crate) fn of_list(list: &[(u32, Option<S::Motion>)]) -> Self {
+        let mut motions = Self::NONE;
+        for &(slot, motion) in list {
+            match motion {
+                Some(motion) => motions.set(slot, motion),
+                None => motions.slots.push(slot),
+            }
+        }
+        motions
     }
 
     pub(crate) fn forget(&mut self, slot: u32) {

@@ -24,11 +24,11 @@ mod sealed {
 }
 
 /// The plane: what makes a [`World`](crate::World) a [`World2`](crate::World2).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {}
 
 /// Space: what makes a [`World`](crate::World) a [`World3`](crate::World3).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Volume {}
 
 /// A dimension. Sealed: [`Plane`] and [`Volume`] are all there is.

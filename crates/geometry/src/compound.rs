@@ -112,6 +112,14 @@ impl Compound2 {
         Ok(Self { parts, center, outer_radius })
     }
 
+    /// An address that two compounds have in common exactly when they share their parts; only good while both live. It
+    /// differs from run to run: look up by it, and let no output depend on it.
+    #[cfg(feature = "serde")]
+    #[doc(hidden)]
+    pub fn shared_address(&self) -> usize {
+        Arc::as_ptr(&self.parts).addr()
+    }
+
     /// The parts, in the order given: a manifold's `part_a` and `part_b` count them.
     #[inline]
     pub fn parts(&self) -> &[Part2] {
@@ -250,6 +258,14 @@ impl Compound3 {
         let outer = parts.iter().map(reach).fold(0.0, f64::max);
         let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
         Ok(Self { parts, center, outer_radius })
+    }
+
+    /// An address that two compounds have in common exactly when they share their parts; only good while both live. It
+    /// differs from run to run: look up by it, and let no output depend on it.
+    #[cfg(feature = "serde")]
+    #[doc(hidden)]
+    pub fn shared_address(&self) -> usize {
+        Arc::as_ptr(&self.parts).addr()
     }
 
     /// The parts, in the order given: a manifold's `part_a` and `part_b` count them.

@@ -29,6 +29,8 @@ mod pose3;
 mod radius;
 mod ray;
 mod rect;
+#[cfg(feature = "serde")]
+mod saved;
 mod segment;
 mod shape;
 mod sphere;

@@ -37,6 +37,17 @@ impl Rotation2 {
         Ok(Self { cos: (c / length) as f32, sin: (s / length) as f32 })
     }
 
+    /// The rotation that was stored as these, bit for bit: [`Rotation2::new`] would round them once more.
+    #[cfg(feature = "serde")]
+    pub(crate) fn restored(cos: f32, sin: f32) -> Result<Self, StoredRotationError> {
+        check_rotation(&[cos, sin]).map_err(StoredRotationError::Pose)?;
+        let (c, s) = (f64::from(cos), f64::from(sin));
+        if (c * c + s * s - 1.0).abs() > crate::tolerance::UNIT_ROTATION {
+            return Err(StoredRotationError::NotUnit { cos, sin });
+        }
+        Ok(Self { cos, sin })
+    }
+
     /// A counter-clockwise rotation by an angle in radians, by `libm`: the same bits on every platform.
     ///
     /// # Errors
@@ -65,6 +76,33 @@ impl Rotation2 {
     pub fn turn(&self, v: DVec2) -> DVec2 {
         let (c, s) = (f64::from(self.cos), f64::from(self.sin));
         DVec2::new(c * v.x - s * v.y, s * v.x + c * v.y)
+    }
+}
+
+/// Why a stored rotation was refused.
+#[cfg(feature = "serde")]
+#[derive(Debug, PartialEq)]
+pub(crate) enum StoredRotationError {
+    Pose(PoseError),
+    /// Its square is not one up to rounding.
+    NotUnit {
+        cos: f32,
+        sin: f32,
+    },
+}
+
+#[cfg(feature = "serde")]
+impl core::fmt::Display for StoredRotationError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Pose(error) => error.fmt(f),
+            Self::NotUnit { cos, sin } => {
+                write!(
+                    f,
+                    "cosine {cos} and sine {sin} are not of length 1 to the last bit: store what a rotation shows"
+                )
+            }
+        }
     }
 }
 

@@ -31,6 +31,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// # Ok::<(), asunder_geometry::ExtentError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shape2 {
     /// A disc.
     Circle(Circle),
@@ -60,6 +61,7 @@ pub enum Shape2 {
 /// # Ok::<(), asunder_geometry::ExtentError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shape3 {
     /// A ball.
     Sphere(Sphere),

@@ -70,6 +70,19 @@ pub const IMPACT_REST: f64 = 1e-9;
 /// refused.
 pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 
+/// Share of a hull's half diagonal up to which a stored hull's vertices may lie beyond one of its faces: what merging at
+/// [`COPLANAR`] may leave, with room.
+///
+/// Faces are derived data that prove nothing, so a larger value costs depth accuracy (the planarity error enters every
+/// reported error) and a smaller one would refuse hulls that were built here.
+pub const MERGED_PLANARITY: f64 = 8.0 * COPLANAR;
+
+/// How far the square of a stored rotation's length in the plane may be from one: both components are rounded to f32 once.
+///
+/// Twice the rounding of f32, and a little for its square. A larger value would let stored rotations stretch shapes; a
+/// smaller one would refuse rotations that were made here.
+pub const UNIT_ROTATION: f64 = 1.000_001 * (f32::EPSILON as f64);
+
 /// The smallest bounding radius a shape may have, in metres.
 pub const MIN_RADIUS: f32 = 1e-6;
 

@@ -131,6 +131,7 @@ pub struct Closest3 {
 
 /// One point of a manifold in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactPoint2 {
     /// Distance along the normal from A's point to B's, in metres: negative where they overlap.
     pub separation: f32,
@@ -144,6 +145,7 @@ pub struct ContactPoint2 {
 
 /// One point of a manifold in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactPoint3 {
     /// Distance along the normal from A's point to B's, in metres: negative where they overlap.
     pub separation: f32,
@@ -157,6 +159,7 @@ pub struct ContactPoint3 {
 
 /// How two convex shapes in the plane touch: one normal, and one or two points, in order of their feature ids.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold2 {
     /// Which part of A, for shapes made of several; else 0.
     pub part_a: u32,
@@ -175,6 +178,7 @@ pub struct Manifold2 {
 
 /// How two convex shapes in space touch: one normal, and one to four points, in order of their feature ids.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold3 {
     /// Which part of A, for shapes made of several; else 0.
     pub part_a: u32,

@@ -7,6 +7,7 @@ use asunder_geometry::glam::{DVec3, Vec3};
 /// Vertices count as in `vertices()`. Edges of a polyhedron count by their lower half-edge
 /// ([`Topology::edge_of`](asunder_geometry::Topology::edge_of)), edges of a polygon by the vertex they start from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Feature {
     /// A vertex.
     Vertex(u32),
@@ -48,6 +49,7 @@ impl Feature {
 /// assert_eq!(FeatureId::from_bits(id.to_bits()), id);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FeatureId(u64);
 
 impl FeatureId {
@@ -90,6 +92,7 @@ impl FeatureId {
 /// assert_eq!(Hint::default(), Hint::NONE);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hint(Known);
 
 /// A face of either shape.
@@ -100,6 +103,7 @@ pub(crate) enum OnFace {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Known {
     #[default]
     Nothing,

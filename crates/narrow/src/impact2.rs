@@ -15,6 +15,7 @@ use asunder_geometry::glam::Vec2;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact2 {
     /// The share of the motion that is done, 0 to 1. Conservative: before it they do not touch.
     pub fraction: f64,

@@ -16,6 +16,7 @@ use asunder_geometry::glam::Vec3;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact3 {
     /// Share of the motion that is done, from 0 to 1. Before it the shapes do not touch.
     pub fraction: f64,

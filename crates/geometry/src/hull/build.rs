@@ -13,6 +13,7 @@
 use super::cloud::Cloud;
 use super::merge::{Merged, merge_facets};
 use super::normal::{areas_and_normals, neighbours};
+use super::predicate::canonical;
 use super::quick::{Growth, Measure, hull_facets};
 use super::{Hull, HullData, HullError};
 use crate::octets::Octets;
@@ -192,26 +193,39 @@ impl Solid<'_> {
         self.finish(&facets)
     }
 
-    /// Derives everything else from the loops of places in `kept`: numbers first, which must not depend on the order
-    /// of the user's points, then the vertices in that order.
+    /// Derives everything else from the loops of places in `kept`.
     fn finish(self, faces: &[Vec<u32>]) -> Result<Hull, HullError> {
-        let count = self.kept.len();
+        let at = |i: &u32| self.cloud.points[*i as usize];
+        let source: Vec<u32> = self.kept.iter().map(|&i| self.cloud.source[i as usize]).collect();
+        Hull::of_faces(self.kept.iter().map(at).collect(), faces.to_vec(), &source, |hull| {
+            let error = self.outlying + hull.furthest_outside(self.dropped.iter().map(|i| at(i).as_dvec3()));
+            if error > 0.0 { round_up(error + 64.0 * f64::EPSILON * self.cloud.scale) } else { 0.0 }
+        })
+    }
+}
+
+impl Hull {
+    /// A hull from the vertices in the order of a cloud, the faces as loops of them, and where in the user's list each
+    /// vertex stood. Numbers first, which must depend on nothing but the places and which of them share a face, so that
+    /// a stored hull gets the same ones when it comes back; then the user's order.
+    pub(super) fn of_faces(
+        vertices: Vec<Vec3>,
+        faces: Vec<Vec<u32>>,
+        source: &[u32],
+        error: impl FnOnce(&HullData) -> f32,
+    ) -> Result<Self, HullError> {
+        let count = vertices.len();
         if count > MAX_HULL_VERTICES {
             return Err(HullError::TooManyVertices { at_least: count });
         }
-        let at = |i: &u32| self.cloud.points[*i as usize];
         let loops: Vec<Vec<u16>> =
-            faces.iter().map(|face| face.iter().map(|&i| i as u16).collect()).collect();
-        let mut hull = solid_data(self.kept.iter().map(at).collect(), &loops)?;
-        let error = self.outlying + hull.furthest_outside(self.dropped.iter().map(|i| at(i).as_dvec3()));
-        if error > 0.0 {
-            hull.error = round_up(error + 64.0 * f64::EPSILON * self.cloud.scale);
-        }
-        let source = |place: usize| self.cloud.source[self.kept[place] as usize];
+            canonical(faces).iter().map(|face| face.iter().map(|&i| i as u16).collect()).collect();
+        let mut hull = solid_data(vertices, &loops)?;
+        hull.error = error(&hull);
         let mut in_order: Vec<usize> = (0..count).collect();
-        in_order.sort_unstable_by_key(|&place| source(place));
+        in_order.sort_unstable_by_key(|&place| source[place]);
         renumber(&mut hull, loops, &in_order);
-        Ok(Hull { data: Arc::new(hull.finished()), radius: 0.0 })
+        Ok(Self { data: Arc::new(hull.finished()), radius: 0.0 })
     }
 }
 

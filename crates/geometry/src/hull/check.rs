@@ -119,7 +119,7 @@ impl Hull {
     }
 }
 
-struct Examiner<'a> {
+pub(super) struct Examiner<'a> {
     hull: &'a Hull,
     topology: &'a Topology,
     vertices: Vec<DVec3>,
@@ -131,7 +131,7 @@ struct Examiner<'a> {
 }
 
 impl<'a> Examiner<'a> {
-    fn of(hull: &'a Hull, points: &[Vec3]) -> Self {
+    pub(super) fn of(hull: &'a Hull, points: &[Vec3]) -> Self {
         let topology = hull.topology();
         let vertices: Vec<DVec3> = hull.vertices().iter().map(|v| v.as_dvec3()).collect();
         let faces = (0..topology.face_count()).map(|face| topology.face_vertices(face).collect()).collect();
@@ -179,7 +179,7 @@ impl<'a> Examiner<'a> {
     }
 
     /// Unit, along the loop's own area: with convexity, that is outwards.
-    fn normals(&self) -> Result<(), HullFault> {
+    pub(super) fn normals(&self) -> Result<(), HullFault> {
         let normals = self.hull.normals();
         let expected = if self.hull.dimension() >= 2 { self.faces.len() } else { 0 };
         if normals.len() != expected {
@@ -223,7 +223,7 @@ impl<'a> Examiner<'a> {
         Ok(())
     }
 
-    fn spheres(&self) -> Result<(), HullFault> {
+    pub(super) fn spheres(&self) -> Result<(), HullFault> {
         let (center, data) = (self.hull.center().as_dvec3(), &self.hull.data);
         let is_held = self.vertices.iter().all(|v| (*v - center).length() <= f64::from(data.outer_radius));
         let is_inside = |face: usize| self.height(face, center) <= -f64::from(data.inner_radius) + self.slack;

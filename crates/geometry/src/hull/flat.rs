@@ -45,11 +45,16 @@ impl Hull {
 
     fn flat(cloud: &Cloud) -> Result<Self, HullError> {
         let count = cloud.points.len() as u32;
-        let Some(third) = (2..count).find(|&i| !is_collinear(&cloud.points, [0, 1, i])) else {
-            return Err(HullError::Flat { dimension: 1 });
-        };
-        let all: Vec<u32> = (0..count).collect();
-        let around = planar_hull(&cloud.points, &all, [0, 1, third]);
+        match (2..count).find(|&i| !is_collinear(&cloud.points, [0, 1, i])) {
+            Some(third) => Self::flat_around(cloud, [0, 1, third]),
+            None => Err(HullError::Flat { dimension: 1 }),
+        }
+    }
+
+    /// The flat hull of a cloud in one plane that turns as a triangle of its points does.
+    pub(super) fn flat_around(cloud: &Cloud, triangle: [u32; 3]) -> Result<Self, HullError> {
+        let all: Vec<u32> = (0..cloud.points.len() as u32).collect();
+        let around = planar_hull(&cloud.points, &all, triangle);
         if around.len() > MAX_HULL_VERTICES {
             return Err(HullError::TooManyVertices { at_least: around.len() });
         }

@@ -10,6 +10,8 @@ mod merge;
 pub(crate) mod normal;
 mod predicate;
 mod quick;
+#[cfg(feature = "serde")]
+mod restore;
 mod simplify;
 #[cfg(test)]
 mod wrap;
@@ -155,6 +157,14 @@ impl Hull {
         check_rounding(radius, reach)?;
         self.radius = radius;
         Ok(self)
+    }
+
+    /// An address that two hulls have in common exactly when they share their data, whatever their rounding; only good while
+    /// both live. It differs from run to run: look up by it, and let no output depend on it.
+    #[cfg(feature = "serde")]
+    #[doc(hidden)]
+    pub fn shared_address(&self) -> usize {
+        std::sync::Arc::as_ptr(&self.data).addr()
     }
 
     /// Radius of the rounding, in metres; zero for sharp edges.

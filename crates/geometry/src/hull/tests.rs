@@ -1,4 +1,6 @@
 mod clouds;
+#[cfg(feature = "serde")]
+mod restored;
 
 use super::*;
 use crate::tolerance::{COPLANAR, MIN_RADIUS};

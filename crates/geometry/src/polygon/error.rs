@@ -100,3 +100,28 @@ impl core::fmt::Display for PolygonError {
 }
 
 impl core::error::Error for PolygonError {}
+
+/// Why stored data are no polygon.
+#[cfg(feature = "serde")]
+#[derive(Debug, PartialEq)]
+pub(crate) enum StoredPolygonError {
+    Outline(PolygonError),
+    /// A vertex lies on the line between its neighbours: no polygon keeps one.
+    NoCorner,
+    /// The error is negative, not finite, or larger than any polygon.
+    BadError {
+        value: f32,
+    },
+}
+
+#[cfg(feature = "serde")]
+impl core::fmt::Display for StoredPolygonError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "stored polygon: ")?;
+        match self {
+            Self::Outline(error) => error.fmt(f),
+            Self::NoCorner => write!(f, "a vertex lies on the line between its neighbours"),
+            Self::BadError { value } => write!(f, "{value} m is no error of a polygon"),
+        }
+    }
+}

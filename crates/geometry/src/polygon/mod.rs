@@ -17,6 +17,8 @@ mod simplify;
 mod tests;
 
 pub use error::PolygonError;
+#[cfg(feature = "serde")]
+pub(crate) use error::StoredPolygonError;
 
 /// A convex polygon of 3 to 4096 vertices in metres, counter-clockwise. Clones share the data.
 ///
@@ -152,6 +154,19 @@ impl Polygon {
         Ok(Self { data: Arc::new(data), radius: 0.0 })
     }
 
+    /// The polygon, without rounding, that was stored as these.
+    #[cfg(feature = "serde")]
+    pub(crate) fn restored(vertices: &[Vec2], error: f32) -> Result<Self, StoredPolygonError> {
+        let checked = Self::new(vertices).map_err(StoredPolygonError::Outline)?;
+        if checked.vertices().len() != vertices.len() {
+            return Err(StoredPolygonError::NoCorner);
+        }
+        if !(0.0..=2.0 * MAX_RADIUS).contains(&error) {
+            return Err(StoredPolygonError::BadError { value: error });
+        }
+        Self::from_convex(vertices.to_vec(), error).map_err(StoredPolygonError::Outline)
+    }
+
     /// The vertices, counter-clockwise, bit for bit as given.
     #[inline]
     pub fn vertices(&self) -> &[Vec2] {
@@ -202,6 +217,14 @@ impl Polygon {
         check_rounding(radius, reach)?;
         self.radius = radius;
         Ok(self)
+    }
+
+    /// An address that two polygons have in common exactly when they share their data, whatever their rounding; only good while
+    /// both live. It differs from run to run: look up by it, and let no output depend on it.
+    #[cfg(feature = "serde")]
+    #[doc(hidden)]
+    pub fn shared_address(&self) -> usize {
+        std::sync::Arc::as_ptr(&self.data).addr()
     }
 
     /// Radius of the rounding, in metres; zero for sharp corners.

@@ -1,0 +1,227 @@
+//! What a snapshot holds.
+
+use super::body::BodyForm;
+use super::shapes::{Collected, Saved, ShapeRef, Table};
+use super::slots::{key_of, keys_to_come, version_of};
+use crate::contact::{Candidate, Record};
+use crate::event::Event;
+use crate::motion::Hit;
+use crate::stats::Stats;
+use crate::world::{World, slot_of};
+use asunder_narrow::Hint;
+use serde::{Deserialize, Serialize};
+
+/// The number of this format: another one whenever a field comes, goes or changes its meaning.
+pub(super) const FORMAT: u32 = 1;
+
+/// A world, but for what can be worked out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "World", bound = "", deny_unknown_fields)]
+pub(super) struct Content<S: Saved> {
+    pub(super) format: u32,
+    pub(super) shapes: Table<S>,
+    /// From slot 1 on; slot 0 is never used.
+    pub(super) slots: Vec<SlotForm<S>>,
+    /// Empty slots in the order in which they will be filled.
+    pub(super) free: Vec<u32>,
+    /// Slots whose box is out of date; whose body moved since contacts were made; whose shape changed since then. Ascending.
+    pub(super) dirty: Vec<u32>,
+    pub(super) moved: Vec<u32>,
+    pub(super) reshaped: Vec<u32>,
+    /// Slots with a motion for the next update, or that lost one with their body. Ascending.
+    pub(super) motions: Vec<(u32, Option<S::Motion>)>,
+    pub(super) max_pairs: u64,
+    pub(super) candidates: Vec<CandidateForm<S>>,
+    pub(super) contacts: Vec<ContactForm<S>>,
+    /// What a contact hook left of each contact's manifolds, if there was one.
+    pub(super) edited: Option<Vec<Vec<S::Manifold>>>,
+    pub(super) events: Vec<Event<S::Key>>,
+    pub(super) impacts: Vec<Hit<S::Key, S::Impact>>,
+    pub(super) counts: Counts,
+}
+
+/// A slot: the body in it and the version of its key; or, of an empty one, the version of the key to come.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "Slot", bound = "", deny_unknown_fields)]
+pub(super) struct SlotForm<S: Saved> {
+    pub(super) version: u32,
+    pub(super) body: Option<BodyForm<ShapeRef<S::Shape>, S::Pose>>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "Candidate", bound = "", deny_unknown_fields)]
+pub(super) struct CandidateForm<S: Saved> {
+    pub(super) keys: (S::Key, S::Key),
+    pub(super) hint: Hint,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "Contact", bound = "", deny_unknown_fields)]
+pub(super) struct ContactForm<S: Saved> {
+    pub(super) keys: (S::Key, S::Key),
+    pub(super) user_data: (u64, u64),
+    pub(super) sensor: bool,
+    pub(super) overlapping: bool,
+    pub(super) begun: bool,
+    pub(super) is_new: bool,
+    pub(super) speculative: bool,
+    pub(super) manifolds: Vec<S::Manifold>,
+}
+
+/// What the last update counted; its times are not kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Counts {
+    bodies: u64,
+    moved: u64,
+    candidates: u64,
+    contacts: u64,
+    touching: u64,
+    manifolds: u64,
+    overflow: bool,
+}
+
+impl<S: Saved> Content<S> {
+    pub(super) fn of(world: &World<S>) -> Self {
+        let World {
+            bodies,
+            keys,
+            boxes: _,
+            tags: _,
+            dirty,
+            is_dirty: _,
+            moved,
+            is_moved: _,
+            reshaped,
+            max_pairs,
+            candidates,
+            records,
+            manifolds,
+            edited,
+            events,
+            by_second: _,
+            stats,
+            motions,
+            questions: _,
+            impacts,
+            scratch: _,
+        } = world;
+        let mut shapes = Collected::new();
+        let mut slots: Vec<SlotForm<S>> =
+            vec![SlotForm { version: 1, body: None }; keys.len().saturating_sub(1)];
+        for (key, body) in bodies {
+            if let Some(slot) = slots.get_mut((slot_of(key) as usize).wrapping_sub(1)) {
+                let body = BodyForm::of(body, |shape| shapes.name(shape));
+                *slot = SlotForm { version: version_of(key), body: Some(body) };
+            }
+        }
+        let to_come = keys_to_come(bodies, keys.len());
+        for &key in &to_come {
+            if let Some(slot) = slots.get_mut((slot_of(key) as usize).wrapping_sub(1)) {
+                slot.version = version_of(key);
+            }
+        }
+        let list = |index: usize| edited.as_ref().map_or(Vec::new(), |edited| edited.of(index).to_vec());
+        Self {
+            format: FORMAT,
+            shapes: shapes.table,
+            slots,
+            free: to_come.into_iter().map(slot_of).collect(),
+            dirty: ascending(dirty),
+            moved: ascending(moved),
+            reshaped: ascending(reshaped),
+            motions: motions.list(),
+            max_pairs: *max_pairs as u64,
+            candidates: candidates.iter().map(CandidateForm::of).collect(),
+            contacts: records.iter().map(|record| ContactForm::of(record, manifolds)).collect(),
+            edited: edited.as_ref().map(|_| (0..records.len()).map(list).collect()),
+            events: events.clone(),
+            impacts: impacts.clone(),
+            counts: Counts::of(stats),
+        }
+    }
+}
+
+/// No output depends on their order, so that equal worlds have equal snapshots.
+fn ascending(slots: &[u32]) -> Vec<u32> {
+    let mut slots = slots.to_vec();
+    slots.sort_unstable();
+    slots.dedup();
+    slots
+}
+
+impl<S: Saved> SlotForm<S> {
+    /// The key of the body in this slot, or of the one to come.
+    pub(super) fn key(&self, slot: usize) -> S::Key {
+        key_of(slot, self.version)
+    }
+}
+
+impl<S: Saved> CandidateForm<S> {
+    fn of(candidate: &Candidate<S::Key>) -> Self {
+        // The pair is that of the keys' slots.
+        let Candidate { pair: _, keys, hint } = candidate;
+        Self { keys: *keys, hint: *hint }
+    }
+}
+
+impl<S: Saved> ContactForm<S> {
+    fn of(record: &Record<S::Key>, all: &[S::Manifold]) -> Self {
+        let Record { pair: _, keys, user_data, manifolds, sensor, overlapping, begun, is_new, speculative } =
+            record;
+        Self {
+            keys: *keys,
+            user_data: *user_data,
+            sensor: *sensor,
+            overlapping: *overlapping,
+            begun: *begun,
+            is_new: *is_new,
+            speculative: *speculative,
+            manifolds: all[manifolds.start as usize..manifolds.end as usize].to_vec(),
+        }
+    }
+}
+
+impl Counts {
+    fn of(stats: &Stats) -> Self {
+        let Stats {
+            refit: _,
+            sweep: _,
+            collide: _,
+            merge: _,
+            hooks: _,
+            impacts: _,
+            report: _,
+            bodies,
+            moved,
+            candidates,
+            contacts,
+            touching,
+            manifolds,
+            overflow,
+        } = *stats;
+        Self {
+            bodies: bodies as u64,
+            moved: moved as u64,
+            candidates: candidates as u64,
+            contacts: contacts as u64,
+            touching: touching as u64,
+            manifolds: manifolds as u64,
+            overflow,
+        }
+    }
+
+    pub(super) fn stats(&self) -> Stats {
+        let Self { bodies, moved, candidates, contacts, touching, manifolds, overflow } = *self;
+        Stats {
+            bodies: bodies as usize,
+            moved: moved as usize,
+            candidates: candidates as usize,
+            contacts: contacts as usize,
+            touching: touching as usize,
+            manifolds: manifolds as usize,
+            overflow,
+            ..Stats::default()
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Why a snapshot was refused.
+
+use crate::collider::MarginError;
+
+/// Why a snapshot was refused.
+///
+/// ```
+/// use asunder::{Snapshot2, SnapshotError, World2};
+/// let text = serde_json::to_string(&World2::new().snapshot())?.replace("\"max_pairs\":16777216", "\"max_pairs\":1");
+/// let damaged: Snapshot2 = serde_json::from_str(&text)?;
+/// assert!(matches!(World2::restore(&damaged), Err(SnapshotError::Checksum { .. })));
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum SnapshotError {
+    /// Of another version of the format than this library's.
+    Format {
+        /// What was found.
+        found: u32,
+    },
+    /// A shared shape is none, or a body or a part names one that is not there.
+    Shape {
+        /// Which shape, counted among those of its kind; or the slot of the body.
+        index: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The margin of a body.
+    Margin {
+        /// The body's slot.
+        slot: usize,
+        /// What is wrong with it.
+        error: MarginError,
+    },
+    /// A slot has a body and a version of an empty one, or the other way round.
+    Slot {
+        /// The slot.
+        slot: usize,
+    },
+    /// The list of empty slots does not name each of them once.
+    Free,
+    /// A key that no body of this world has or ever had.
+    Key {
+        /// In which list it stands.
+        list: &'static str,
+        /// Where in the list.
+        index: usize,
+    },
+    /// A list is not sorted, or names something twice.
+    Order {
+        /// Which list.
+        list: &'static str,
+        /// The place of the first that is out of order.
+        index: usize,
+    },
+    /// A contact that contradicts itself, or that no candidate belongs to.
+    Contact {
+        /// Its place in the list.
+        index: usize,
+    },
+    /// A manifold without points, with a number that is not finite, or with a normal that is not of unit length.
+    Manifold {
+        /// The place of its contact in the list.
+        index: usize,
+    },
+    /// The numbers are not those that were saved. Either the file was damaged, or the format does not keep every bit of a float:
+    /// serde_json does with its feature `float_roundtrip`.
+    Checksum {
+        /// What the snapshot says.
+        stored: u64,
+        /// What its numbers give.
+        found: u64,
+    },
+}
+
+impl core::fmt::Display for SnapshotError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "snapshot: ")?;
+        match self {
+            Self::Format { found } => write!(f, "format {found} is not that of this version of asunder"),
+            Self::Shape { index, reason } => write!(f, "shape {index}: {reason}"),
+            Self::Margin { slot, error } => write!(f, "body in slot {slot}: {error}"),
+            Self::Slot { slot } => write!(f, "the version of slot {slot} does not go with its body"),
+            Self::Free => write!(f, "the list of empty slots does not name each of them once"),
+            Self::Key { list, index } => {
+                write!(f, "number {index} of the {list} has a key that no body of this world ever had")
+            }
+            Self::Order { list, index } => write!(f, "number {index} of the {list} is out of order"),
+            Self::Contact { index } => write!(f, "contact {index} contradicts itself or the candidates"),
+            Self::Manifold { index } => write!(f, "contact {index} has a manifold that is none"),
+            Self::Checksum { stored, found } => write!(
+                f,
+                "checksum {found:016x} is not {stored:016x}: the file is damaged, or its format does not keep every bit of a float \
+                 (turn on `float_roundtrip` of serde_json)"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for SnapshotError {}

@@ -1,0 +1,125 @@
+//! Pairs that a snapshot names: candidates, contacts and events.
+
+use super::content::{CandidateForm, ContactForm, SlotForm};
+use super::error::SnapshotError;
+use super::shapes::Saved;
+use super::slots::version_of;
+use crate::contact::{Candidate, Record};
+use crate::event::Event;
+use crate::motion::Hit;
+use crate::world::slot_of;
+use asunder_broad::PairId;
+
+/// Judges pairs by the slots and their versions.
+pub(super) struct Judge<'a, S: Saved> {
+    pub(super) slots: &'a [SlotForm<S>],
+}
+
+/// Contacts, and the manifolds that they point into.
+type Records<S> = (Vec<Record<<S as crate::space::Space>::Key>>, Vec<<S as crate::space::Space>::Manifold>);
+
+impl<S: Saved> Judge<'_, S> {
+    /// Whether a body has this key, or had it: a key of the future would be handed out once more.
+    fn has_been(&self, key: S::Key) -> bool {
+        let slot = self.slots.get((slot_of(key) as usize).wrapping_sub(1));
+        slot.is_some_and(|slot| {
+            let version = version_of(key);
+            version < slot.version || (version == slot.version && slot.body.is_some())
+        })
+    }
+
+    /// The pair of two keys, the one in the lower slot first.
+    fn pair(
+        &self,
+        list: &'static str,
+        index: usize,
+        (a, b): (S::Key, S::Key),
+    ) -> Result<PairId, SnapshotError> {
+        if !self.has_been(a) || !self.has_been(b) {
+            return Err(SnapshotError::Key { list, index });
+        }
+        let pair = PairId { a: slot_of(a), b: slot_of(b) };
+        if pair.a < pair.b { Ok(pair) } else { Err(SnapshotError::Order { list, index }) }
+    }
+
+    /// In pair order; where a slot was reused, two may have the same pair.
+    pub(super) fn events(&self, events: &[Event<S::Key>]) -> Result<(), SnapshotError> {
+        let list = "events";
+        let mut last = None;
+        for (index, event) in events.iter().enumerate() {
+            let pair = self.pair(list, index, event.bodies())?;
+            if last.is_some_and(|last| last > pair) {
+                return Err(SnapshotError::Order { list, index });
+            }
+            last = Some(pair);
+        }
+        Ok(())
+    }
+
+    /// Hits name a bullet and what it meets, in no order of slots.
+    pub(super) fn impacts<I>(&self, impacts: &[Hit<S::Key, I>]) -> Result<(), SnapshotError> {
+        let is_stranger = |hit: &Hit<S::Key, I>| !self.has_been(hit.bullet) || !self.has_been(hit.other);
+        match impacts.iter().position(is_stranger) {
+            Some(index) => Err(SnapshotError::Key { list: "impacts", index }),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn candidates(
+        &self,
+        forms: &[CandidateForm<S>],
+    ) -> Result<Vec<Candidate<S::Key>>, SnapshotError> {
+        let list = "candidates";
+        let mut candidates: Vec<Candidate<S::Key>> = Vec::with_capacity(forms.len());
+        for (index, form) in forms.iter().enumerate() {
+            let pair = self.pair(list, index, form.keys)?;
+            if candidates.last().is_some_and(|last| last.pair >= pair) {
+                return Err(SnapshotError::Order { list, index });
+            }
+            candidates.push(Candidate { pair, keys: form.keys, hint: form.hint });
+        }
+        Ok(candidates)
+    }
+
+    /// Each contact is that of a candidate: two sorted lists, walked once.
+    pub(super) fn records(
+        &self,
+        forms: &[ContactForm<S>],
+        candidates: &[Candidate<S::Key>],
+    ) -> Result<Records<S>, SnapshotError> {
+        let mut candidates = candidates.iter();
+        let (mut records, mut all) = (Vec::with_capacity(forms.len()), Vec::new());
+        for (index, form) in forms.iter().enumerate() {
+            // Candidates have been judged. A contact out of order finds none left.
+            let Some(candidate) = candidates.find(|candidate| candidate.keys == form.keys) else {
+                return Err(SnapshotError::Contact { index });
+            };
+            let ContactForm { keys, user_data, sensor, overlapping, begun, is_new, speculative, manifolds } =
+                form;
+            let unfounded = !begun && (*overlapping || *is_new);
+            let contradicts =
+                unfounded || (*speculative && *overlapping) || (*sensor && !manifolds.is_empty());
+            if contradicts {
+                return Err(SnapshotError::Contact { index });
+            }
+            if !manifolds.iter().all(S::is_sound) {
+                return Err(SnapshotError::Manifold { index });
+            }
+            let start = all.len() as u32;
+            all.extend_from_slice(manifolds);
+            let end = u32::try_from(all.len()).map_err(|_| SnapshotError::Contact { index })?;
+            records.push(Record {
+                pair: candidate.pair,
+                keys: *keys,
+                user_data: *user_data,
+                manifolds: start..end,
+                sensor: *sensor,
+                overlapping: *overlapping,
+                begun: *begun,
+                is_new: *is_new,
+                speculative: *speculative,
+            });
+        }
+        Ok((records, all))
+    }
+}

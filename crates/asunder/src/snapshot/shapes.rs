@@ -1,0 +1,253 @@
+//! The shapes of a world, those that several bodies share once.
+//!
+//! A hull, a polygon and a compound keep their data behind a counted pointer, and clones share it. Bodies name such data by its
+//! place in a table; any other shape they keep themselves. A compound's parts may share data with other bodies too.
+
+use super::digest::digest;
+use super::error::SnapshotError;
+use crate::space::{Plane, Space, Volume};
+use asunder_geometry::{Compound2, Compound3, Hull, Polygon, Pose2, Pose3, RadiusError, Shape2, Shape3};
+use core::fmt::{Debug, Display};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What is stored as it is.
+pub trait Plain: Clone + PartialEq + Debug + Serialize + DeserializeOwned {}
+impl<T: Clone + PartialEq + Debug + Serialize + DeserializeOwned> Plain for T {}
+
+/// A compound's parts.
+type PosedShapes<'a, S> = Vec<(<S as Space>::Pose, &'a <S as Space>::Shape)>;
+
+/// A dimension whose worlds can be saved: both. Here is what differs between the shapes of the two.
+pub trait Saved:
+    Space<Key: Plain, Pose: Plain, Shape: Plain, Manifold: Plain, Motion: Plain, Impact: Plain>
+    + Clone
+    + PartialEq
+    + Debug
+{
+    /// A hull or a polygon.
+    #[doc(hidden)]
+    type Polytope: Plain;
+
+    /// How serde names the shape that is nothing but a radius.
+    #[doc(hidden)]
+    const BALL: &'static str;
+
+    /// The polytope of a shape, without rounding; its address, and its rounding.
+    #[doc(hidden)]
+    fn polytope(shape: &Self::Shape) -> Option<(Self::Polytope, usize, f32)>;
+
+    /// The polytope as a shape, with rounding.
+    #[doc(hidden)]
+    fn rounded(polytope: &Self::Polytope, radius: f32) -> Result<Self::Shape, RadiusError>;
+
+    /// The address of a compound, and its parts.
+    #[doc(hidden)]
+    fn parts(shape: &Self::Shape) -> Option<(usize, PosedShapes<'_, Self>)>;
+
+    /// A compound of parts.
+    #[doc(hidden)]
+    fn compound(parts: Vec<(Self::Pose, Self::Shape)>) -> Result<Self::Shape, impl Display>;
+
+    /// Whether a manifold has points, finite numbers and a unit normal.
+    #[doc(hidden)]
+    fn is_sound(manifold: &Self::Manifold) -> bool;
+}
+
+/// The shape of a body or of a compound's part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "Shape")]
+pub(super) enum ShapeRef<Shape> {
+    Own(Shape),
+    Polytope { index: u32, radius: f32 },
+    Compound { index: u32 },
+}
+
+/// Shared shapes, in the order in which the bodies name them first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "", deny_unknown_fields)]
+pub(super) struct Table<S: Saved> {
+    polytopes: Vec<S::Polytope>,
+    compounds: Vec<Vec<PartForm<S>>>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "Part", bound = "", deny_unknown_fields)]
+struct PartForm<S: Saved> {
+    pose: S::Pose,
+    shape: ShapeRef<S::Shape>,
+}
+
+/// A table in the making. Addresses only look up what has been seen: they differ from run to run. Equal data at two addresses
+/// have one place too, so that a snapshot does not depend on what happens to be shared: a game that was loaded makes its new
+/// bodies of shapes of its own.
+pub(super) struct Collected<S: Saved> {
+    pub(super) table: Table<S>,
+    polytopes: Seen,
+    compounds: Seen,
+}
+
+/// Places in a list, by address and by digest.
+#[derive(Default)]
+struct Seen {
+    by_address: BTreeMap<usize, u32>,
+    by_digest: BTreeMap<u64, Vec<u32>>,
+}
+
+impl Seen {
+    /// The place of an item in the list, at the end of which it is put if it is new.
+    fn place<T: PartialEq + Serialize>(&mut self, address: usize, list: &mut Vec<T>, item: T) -> u32 {
+        let alike = self.by_digest.entry(digest(&item)).or_default();
+        let known = alike.iter().copied().find(|&place| list.get(place as usize) == Some(&item));
+        let place = known.unwrap_or_else(|| {
+            alike.push(list.len() as u32);
+            list.push(item);
+            list.len() as u32 - 1
+        });
+        self.by_address.insert(address, place);
+        place
+    }
+}
+
+impl<S: Saved> Collected<S> {
+    pub(super) fn new() -> Self {
+        let table = Table { polytopes: Vec::new(), compounds: Vec::new() };
+        Self { table, polytopes: Seen::default(), compounds: Seen::default() }
+    }
+
+    /// How a body names its shape.
+    pub(super) fn name(&mut self, shape: &S::Shape) -> ShapeRef<S::Shape> {
+        if let Some((polytope, address, radius)) = S::polytope(shape) {
+            let known = self.polytopes.by_address.get(&address).copied();
+            let index =
+                known.unwrap_or_else(|| self.polytopes.place(address, &mut self.table.polytopes, polytope));
+            return ShapeRef::Polytope { index, radius };
+        }
+        let Some((address, parts)) = S::parts(shape) else { return ShapeRef::Own(shape.clone()) };
+        if let Some(&index) = self.compounds.by_address.get(&address) {
+            return ShapeRef::Compound { index };
+        }
+        let parts: Vec<PartForm<S>> =
+            parts.into_iter().map(|(pose, shape)| PartForm { pose, shape: self.name(shape) }).collect();
+        ShapeRef::Compound { index: self.compounds.place(address, &mut self.table.compounds, parts) }
+    }
+}
+
+/// A table brought back to life: compounds are made once, and handed out as clones.
+pub(super) struct Revived<'a, S: Saved> {
+    polytopes: &'a [S::Polytope],
+    compounds: Vec<S::Shape>,
+}
+
+impl<'a, S: Saved> Revived<'a, S> {
+    pub(super) fn of(table: &'a Table<S>) -> Result<Self, SnapshotError> {
+        let mut revived = Self { polytopes: &table.polytopes, compounds: Vec::new() };
+        for (index, parts) in table.compounds.iter().enumerate() {
+            let refused = |reason: String| SnapshotError::Shape { index, reason };
+            let part = |part: &PartForm<S>| Ok((part.pose, revived.shape(&part.shape)?));
+            let parts = parts.iter().map(part).collect::<Result<_, String>>().map_err(refused)?;
+            let compound = S::compound(parts).map_err(|error| refused(error.to_string()))?;
+            revived.compounds.push(compound);
+        }
+        Ok(revived)
+    }
+
+    /// The shape that a body names, or what is wrong with the name.
+    pub(super) fn shape(&self, name: &ShapeRef<S::Shape>) -> Result<S::Shape, String> {
+        match name {
+            ShapeRef::Own(shape) => Ok(shape.clone()),
+            ShapeRef::Polytope { index, radius } => {
+                let polytope = self.polytopes.get(*index as usize).ok_or_else(|| missing(*index))?;
+                S::rounded(polytope, *radius).map_err(|error| error.to_string())
+            }
+            ShapeRef::Compound { index } => {
+                self.compounds.get(*index as usize).cloned().ok_or_else(|| missing(*index))
+            }
+        }
+    }
+}
+
+fn missing(index: u32) -> String {
+    format!("there is no shape {index}")
+}
+
+impl Saved for Plane {
+    type Polytope = Polygon;
+
+    const BALL: &'static str = "Circle";
+
+    fn polytope(shape: &Shape2) -> Option<(Polygon, usize, f32)> {
+        let Shape2::Polygon(polygon) = shape else { return None };
+        let sharp = polygon.clone().rounded(0.0).ok()?;
+        Some((sharp, polygon.shared_address(), polygon.radius()))
+    }
+
+    fn rounded(polygon: &Polygon, radius: f32) -> Result<Shape2, RadiusError> {
+        polygon.clone().rounded(radius).map(Shape2::from)
+    }
+
+    fn parts(shape: &Shape2) -> Option<(usize, PosedShapes<'_, Self>)> {
+        let Shape2::Compound(compound) = shape else { return None };
+        let parts = compound.parts().iter().map(|part| (*part.pose(), part.shape())).collect();
+        Some((compound.shared_address(), parts))
+    }
+
+    fn compound(parts: Vec<(Pose2, Shape2)>) -> Result<Shape2, impl Display> {
+        Compound2::new(parts).map(Shape2::from)
+    }
+
+    fn is_sound(manifold: &Self::Manifold) -> bool {
+        let points = manifold.points.iter();
+        let are_finite = |point: &asunder_narrow::ContactPoint2| {
+            point.separation.is_finite() && point.anchor_a.is_finite() && point.anchor_b.is_finite()
+        };
+        is_number(manifold.separation, manifold.error, manifold.normal.as_dvec2().length_squared())
+            && !manifold.points.is_empty()
+            && points.into_iter().all(are_finite)
+    }
+}
+
+impl Saved for Volume {
+    type Polytope = Hull;
+
+    const BALL: &'static str = "Sphere";
+
+    fn polytope(shape: &Shape3) -> Option<(Hull, usize, f32)> {
+        let Shape3::Hull(hull) = shape else { return None };
+        let sharp = hull.clone().rounded(0.0).ok()?;
+        Some((sharp, hull.shared_address(), hull.radius()))
+    }
+
+    fn rounded(hull: &Hull, radius: f32) -> Result<Shape3, RadiusError> {
+        hull.clone().rounded(radius).map(Shape3::from)
+    }
+
+    fn parts(shape: &Shape3) -> Option<(usize, PosedShapes<'_, Self>)> {
+        let Shape3::Compound(compound) = shape else { return None };
+        let parts = compound.parts().iter().map(|part| (*part.pose(), part.shape())).collect();
+        Some((compound.shared_address(), parts))
+    }
+
+    fn compound(parts: Vec<(Pose3, Shape3)>) -> Result<Shape3, impl Display> {
+        Compound3::new(parts).map(Shape3::from)
+    }
+
+    fn is_sound(manifold: &Self::Manifold) -> bool {
+        let points = manifold.points.iter();
+        let are_finite = |point: &asunder_narrow::ContactPoint3| {
+            point.separation.is_finite() && point.anchor_a.is_finite() && point.anchor_b.is_finite()
+        };
+        is_number(manifold.separation, manifold.error, manifold.normal.as_dvec3().length_squared())
+            && !manifold.points.is_empty()
+            && points.into_iter().all(are_finite)
+    }
+}
+
+/// Whether a separation is finite, its error one, and its normal of unit length up to the rounding of f32.
+fn is_number(separation: f32, error: f32, squared_length: f64) -> bool {
+    separation.is_finite()
+        && error.is_finite()
+        && error >= 0.0
+        && (squared_length - 1.0).abs() <= 8.0 * f64::from(f32::EPSILON)
+}

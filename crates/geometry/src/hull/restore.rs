@@ -1,0 +1,175 @@
+//! A hull from what is stored of it: vertices, face loops, and the error that simplification left.
+//!
+//! The builder fed with its own vertices might merge other facets, because what is one flat face depends on points that
+//! are no vertices. So the loops are stored, and believed only as far as they are checked: closed, of Euler's formula,
+//! convex up to what merging may cost. All else is worked out again, by the code that worked it out first and from the same
+//! order of vertices and faces: the hull comes back equal in every bit.
+
+use super::check::Examiner;
+use super::cloud::{Cloud, half_diagonal};
+use super::predicate::is_collinear;
+use super::{Hull, HullError, HullFault};
+use crate::tolerance::{MAX_HULL_VERTICES, MAX_RADIUS, MERGED_PLANARITY};
+use glam::Vec3;
+use std::collections::BTreeSet;
+
+/// Why stored data are no hull.
+#[derive(Debug, PartialEq)]
+pub(crate) enum StoredHullError {
+    Points(HullError),
+    Faces(HullFault),
+    /// Two vertices are the same point.
+    Repeated,
+    /// A face has too few corners, one twice, or one that is no vertex.
+    BadLoop {
+        face: usize,
+    },
+    /// The faces close no surface.
+    Open,
+    /// A vertex lies so far beyond a face, in metres, that no merging would have left it there.
+    NotConvex {
+        beyond: f32,
+    },
+    /// The error is negative, not finite, or larger than any hull.
+    BadError {
+        value: f32,
+    },
+    /// Vertices or faces are not in the order, or not those, that such a hull has.
+    OutOfOrder,
+}
+
+impl core::fmt::Display for StoredHullError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "stored hull: ")?;
+        match self {
+            Self::Points(error) => error.fmt(f),
+            Self::Faces(fault) => fault.fmt(f),
+            Self::Repeated => write!(f, "two vertices are the same point"),
+            Self::BadLoop { face } => write!(f, "face {face} is no loop of three or more vertices"),
+            Self::Open => write!(f, "the faces close no surface around the vertices"),
+            Self::NotConvex { beyond } => write!(f, "a vertex lies {beyond} m beyond a face"),
+            Self::BadError { value } => write!(f, "{value} m is no error of a hull"),
+            Self::OutOfOrder => write!(f, "vertices or faces are not as such a hull has them"),
+        }
+    }
+}
+
+impl From<HullError> for StoredHullError {
+    fn from(error: HullError) -> Self {
+        Self::Points(error)
+    }
+}
+
+impl From<HullFault> for StoredHullError {
+    fn from(fault: HullFault) -> Self {
+        Self::Faces(fault)
+    }
+}
+
+impl Hull {
+    /// The vertices around each face.
+    pub(crate) fn loops(&self) -> Vec<Vec<u16>> {
+        let topology = self.topology();
+        let around = |face| topology.face_vertices(face).map(|vertex| vertex as u16).collect();
+        (0..topology.face_count()).map(around).collect()
+    }
+
+    /// The hull, without rounding, that these were stored of.
+    pub(crate) fn restored(
+        vertices: &[Vec3],
+        faces: Vec<Vec<u16>>,
+        error: f32,
+    ) -> Result<Self, StoredHullError> {
+        let cloud = Cloud::new(vertices, 1)?;
+        if cloud.points.len() != vertices.len() {
+            return Err(StoredHullError::Repeated);
+        }
+        if vertices.len() > MAX_HULL_VERTICES {
+            return Err(HullError::TooManyVertices { at_least: vertices.len() }.into());
+        }
+        if !(0.0..=2.0 * MAX_RADIUS).contains(&error) {
+            return Err(StoredHullError::BadError { value: error });
+        }
+        // Two faces, back to back, are a flat hull, or one with a volume that is no more than rounding.
+        let low = if faces.len() > 2 { None } else { Some(Self::of_any_dimension(vertices)?) };
+        let hull = match low {
+            Some(low) if low.dimension() < 2 => low,
+            Some(low) if low.dimension() == 2 => Self::restored_flat(&cloud)?,
+            _ => Self::restored_solid(cloud, vertices, &faces, error)?,
+        };
+        let bits = |vertex: &Vec3| vertex.to_array().map(f32::to_bits);
+        let has_vertices = hull.vertices().iter().map(bits).eq(vertices.iter().map(bits));
+        if has_vertices && hull.loops() == faces && hull.error().to_bits() == error.to_bits() {
+            Ok(hull)
+        } else {
+            Err(StoredHullError::OutOfOrder)
+        }
+    }
+
+    /// A flat hull is exact anyway, save that it may turn either way, which its first corners show.
+    fn restored_flat(cloud: &Cloud) -> Result<Self, StoredHullError> {
+        let place =
+            |vertex: u32| cloud.source.iter().position(|&source| source == vertex).unwrap_or(0) as u32;
+        let corners = [0, 1, 2].map(place);
+        if is_collinear(&cloud.points, corners) {
+            return Err(StoredHullError::OutOfOrder);
+        }
+        Ok(Self::flat_around(cloud, corners)?)
+    }
+
+    fn restored_solid(
+        cloud: Cloud,
+        vertices: &[Vec3],
+        faces: &[Vec<u16>],
+        error: f32,
+    ) -> Result<Self, StoredHullError> {
+        check_surface(vertices.len(), faces)?;
+        let mut place = vec![0_u32; vertices.len()];
+        for (number, &source) in (0..).zip(&cloud.source) {
+            place[source as usize] = number;
+        }
+        let faces = faces
+            .iter()
+            .map(|face| face.iter().map(|&vertex| place[usize::from(vertex)]).collect())
+            .collect();
+        let hull = Self::of_faces(cloud.points, faces, &cloud.source, |_| error)?;
+        let examiner = Examiner::of(&hull, vertices);
+        examiner.normals()?;
+        examiner.spheres()?;
+        let beyond = hull.planarity_error();
+        if f64::from(beyond) > MERGED_PLANARITY * half_diagonal(vertices) {
+            return Err(StoredHullError::NotConvex { beyond });
+        }
+        Ok(hull)
+    }
+}
+
+/// Whether loops of vertices close a surface like that of a ball: each edge is run along once each way.
+fn check_surface(vertices: usize, faces: &[Vec<u16>]) -> Result<(), StoredHullError> {
+    let mut sides = BTreeSet::new();
+    let mut is_visited = vec![false; vertices];
+    for (face, corners) in faces.iter().enumerate() {
+        let bad = StoredHullError::BadLoop { face };
+        if corners.len() < 3 {
+            return Err(bad);
+        }
+        let different: BTreeSet<&u16> = corners.iter().collect();
+        if different.len() != corners.len() {
+            return Err(bad);
+        }
+        for (i, &from) in corners.iter().enumerate() {
+            let Some(is_visited) = is_visited.get_mut(usize::from(from)) else { return Err(bad) };
+            *is_visited = true;
+            if !sides.insert((from, corners[(i + 1) % corners.len()])) {
+                return Err(StoredHullError::Open);
+            }
+        }
+    }
+    let is_closed = sides.iter().all(|&(from, to)| sides.contains(&(to, from)));
+    let edges = sides.len() / 2;
+    if is_closed && is_visited.iter().all(|&is| is) && vertices + faces.len() == edges + 2 {
+        Ok(())
+    } else {
+        Err(StoredHullError::Open)
+    }
+}
