@@ -37,6 +37,10 @@
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
 //! - [`world_threads`]: every output has the same bits at any number of threads
 //!
+//! Binaries of their own
+//! - `tests/golden`: what every named scene says over sixty frames, by hash, on any number of threads and in any build
+//! - `tests/allocation`: a steady scene allocates nothing, a million operations let no memory grow, and what a body takes
+//!
 //! Stories
 //! - [`regressions`]: what went wrong once
 //!
