@@ -31,9 +31,19 @@ pub(crate) fn live_bytes() -> i64 {
     LIVE.load(Relaxed)
 }
 
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// Runs the work on this thread, which is in no pool; no other counts.
+pub(crate) fn counted_here<T>(work: impl FnOnce() -> T) -> T {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    IS_COUNTED.set(true);
+    let done = work();
+    IS_COUNTED.set(false);
+    done
+}
+
 /// Runs the work in a pool of so many threads, which are the only ones that count while it runs.
 pub(crate) fn counted<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    static ALONE: Mutex<()> = Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let pool = ThreadPoolBuilder::new().num_threads(threads);
     pool.start_handler(|_| IS_COUNTED.set(true)).build().unwrap().install(work)

@@ -1,6 +1,6 @@
 //! A steady scene allocates nothing per frame.
 
-use crate::counting::{allocations, counted};
+use crate::counting::{allocations, counted, counted_here};
 use asunder::{Hooks, Plane, Volume};
 use asunder_scenes::worlds::WorldScene;
 use asunder_tests::recorded::{Fnv1a, Recorded, Recording};
@@ -13,26 +13,28 @@ const CYCLE: u32 = 30;
 /// With more threads, the least of some more: which thread takes which pairs is chance, and each must have met its longest exact
 /// question once.
 fn allocations_a_cycle<S: Recording>(scene: WorldScene, count: usize, threads: usize) -> u64 {
-    counted(threads, || {
-        let mut recorded = Recorded::<S>::new(scene, count);
-        let (mut events, mut contacts) = (Fnv1a::default(), Fnv1a::default());
-        let mut cycle = || {
-            let before = allocations();
-            for frame in 0..CYCLE {
-                recorded.play(frame);
-                recorded.hash(&mut events, &mut contacts);
-            }
-            allocations() - before
-        };
-        let early = cycle() + cycle();
-        let mut least = cycle();
-        for _ in 0..if threads > 1 { 6 } else { 0 } {
-            least = if least > 0 { cycle() } else { 0 };
+    counted(threads, || third_cycle::<S>(scene, count, threads > 1))
+}
+
+fn third_cycle<S: Recording>(scene: WorldScene, count: usize, by_chance: bool) -> u64 {
+    let mut recorded = Recorded::<S>::new(scene, count);
+    let (mut events, mut contacts) = (Fnv1a::default(), Fnv1a::default());
+    let mut cycle = || {
+        let before = allocations();
+        for frame in 0..CYCLE {
+            recorded.play(frame);
+            recorded.hash(&mut events, &mut contacts);
         }
-        // There was something to be counted, and something to be read.
-        assert!(early > 0 && recorded.world.stats().candidates > 0, "{}", scene.name());
-        least
-    })
+        allocations() - before
+    };
+    let early = cycle() + cycle();
+    let mut least = cycle();
+    for _ in 0..if by_chance { 6 } else { 0 } {
+        least = if least > 0 { cycle() } else { 0 };
+    }
+    // There was something to be counted, and something to be read.
+    assert!(early > 0 && recorded.world.stats().candidates > 0, "{}", scene.name());
+    least
 }
 
 /// Bodies: enough that the narrow phase, and in one scene refit too, is shared out where there is more than one thread.
@@ -71,6 +73,13 @@ fn nor_do_sweeps_of_many_threads() {
         assert_eq!(allocations_a_cycle::<Plane>(scene, count, 2), 0, "{}", scene.name());
     }
     assert_eq!(allocations_a_cycle::<Volume>(WorldScene::MostlyStatic, 31_000, 2), 0);
+}
+
+/// Who is in no pool hands each stage's work to one: rayon keeps it in a queue, whose blocks of 63 it makes anew now and then.
+#[test]
+fn a_thread_of_no_pool_allocates_a_block_of_the_queue_now_and_then() {
+    let taken = counted_here(|| third_cycle::<Volume>(WorldScene::ManyPyramids, 4201, false));
+    assert!(taken <= u64::from(CYCLE) / 10, "{taken} in {CYCLE} frames");
 }
 
 #[test]
