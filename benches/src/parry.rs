@@ -26,7 +26,9 @@ pub struct Shapes {
 impl Shapes {
     /// The same shape for parry3d; nothing where it refuses the hull. Cost: a search among the different shapes.
     pub fn convert(&mut self, shape: &Shape3) -> Option<SharedShape> {
-        if let Some((_, known)) = self.known.iter().find(|(known, _)| known == shape) {
+        // A city has a million cuboids, no two of them alike; what costs to convert comes in few kinds.
+        let is_dear = matches!(shape, Shape3::Hull(_));
+        if is_dear && let Some((_, known)) = self.known.iter().find(|(known, _)| known == shape) {
             return Some(known.clone());
         }
         let converted = match shape {
@@ -52,7 +54,9 @@ impl Shapes {
             // No scene here has one.
             Shape3::Compound(_) => return None,
         };
-        self.known.push((shape.clone(), converted.clone()));
+        if is_dear {
+            self.known.push((shape.clone(), converted.clone()));
+        }
         Some(converted)
     }
 }

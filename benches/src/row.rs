@@ -2,6 +2,7 @@
 
 use crate::accuracy::Accuracy;
 use crate::broad::figures::Figures;
+use crate::world;
 use serde::Serialize;
 
 /// The result of one case.
@@ -45,6 +46,9 @@ pub struct Row {
     /// Broad phase: its parts, and what they cost by box, by pair, and by memory.
     #[serde(flatten)]
     pub broad: Option<Figures>,
+    /// Whole frames: their stages.
+    #[serde(flatten)]
+    pub world: Option<world::Figures>,
     /// What a reader should know: how far a row came, what was found.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub note: String,
@@ -88,6 +92,9 @@ impl Row {
             note = format!("{}  {note}", accuracy.to_text());
         }
         if let Some(figures) = &self.broad {
+            note = format!("{}  {note}", figures.to_text());
+        }
+        if let Some(figures) = &self.world {
             note = format!("{}  {note}", figures.to_text());
         }
         let line = format!(

@@ -2,6 +2,9 @@
 //!
 //! Both sides keep contacts up to 2 cm apart. Rows that start with `plane/` are in the plane and have no peer.
 
+mod stages;
+pub mod threads;
+
 use crate::clock::{Effort, Samples, time};
 use crate::lean::{Lean, LeanBody, Walked};
 use crate::parry::{self, Shapes};
@@ -10,6 +13,8 @@ use asunder::{BodyKey2, BodyKey3, Collider2, Collider3, MarginError, World2, Wor
 use asunder_geometry::Pose3;
 use asunder_scenes::worlds::{Body3, Replay2, Replay3, WorldScene};
 use parry3d::math::Pose;
+use stages::Stages;
+pub use stages::{Figures, heading};
 
 /// Gap within which two bodies are a contact, in metres: half of it is each body's margin.
 const MARGIN: f32 = 0.02;
@@ -80,14 +85,14 @@ fn measure_volume(
     ours.world.update();
     peer.update();
     let (mut ours_samples, mut peer_samples) = (Samples::default(), Samples::default());
+    let mut stages = Stages::default();
     let (mut found, mut peer_found) = (Walked::default(), Walked::default());
     for frame in 1..=effort.rounds as u32 {
-        replay.advance(frame);
-        let poses: Vec<(u32, Pose3)> =
-            replay.movers().iter().map(|&i| (i, replay.bodies[i as usize].pose)).collect();
+        let poses = poses_at(&mut replay, frame);
         let converted: Vec<(u32, Pose)> = poses.iter().map(|(i, pose)| (*i, parry::pose(pose))).collect();
         let (ns, walked) = time(|| ours.frame(&poses));
         ours_samples.push(ns, ns);
+        stages.push(ours.world.stats());
         found = walked;
         let (ns, walked) = time(|| peer_frame(&mut peer, &converted));
         peer_samples.push(ns, ns);
@@ -100,6 +105,7 @@ fn measure_volume(
     row.ours_ns = ours_samples.median();
     (row.peer, row.peer_ns) = (Some("lean parry3d"), peer_samples.median());
     let stats = ours.world.stats();
+    row.world = Some(stages.figures(stats));
     row.remark(&format!(
         "{} candidates, {} touching, {} contacts, {} points",
         stats.candidates, stats.touching, found.contacts, found.points
@@ -114,6 +120,13 @@ fn measure_volume(
     Ok(row)
 }
 
+/// Where the bodies that move are at a frame.
+fn poses_at(replay: &mut Replay3, frame: u32) -> Vec<(u32, Pose3)> {
+    replay.advance(frame);
+    replay.movers().iter().map(|&i| (i, replay.bodies[i as usize].pose)).collect()
+}
+
+#[derive(Clone)]
 struct Ours {
     world: World3,
     keys: Vec<BodyKey3>,
@@ -188,7 +201,7 @@ fn measure_plane(scene: WorldScene, count: usize, effort: &Effort, mut row: Row)
         keys.push(world.insert(if body.fixed { collider.fixed() } else { collider }));
     }
     world.update();
-    let (mut samples, mut points) = (Samples::default(), 0);
+    let (mut samples, mut stages, mut points) = (Samples::default(), Stages::default(), 0);
     for frame in 1..=effort.rounds as u32 {
         replay.advance(frame);
         let (ns, count) = time(|| {
@@ -201,6 +214,7 @@ fn measure_plane(scene: WorldScene, count: usize, effort: &Effort, mut row: Row)
             manifolds.flat_map(|manifold| &manifold.points).filter(|point| point.separation < 1.0).count()
         });
         samples.push(ns, ns);
+        stages.push(world.stats());
         points = count;
         if samples.spent() > effort.nanoseconds() {
             break;
@@ -209,6 +223,7 @@ fn measure_plane(scene: WorldScene, count: usize, effort: &Effort, mut row: Row)
     row.done = samples.len();
     row.ours_ns = samples.median();
     let stats = world.stats();
+    row.world = Some(stages.figures(stats));
     row.remark(&format!("{} candidates, {} touching, {points} points", stats.candidates, stats.touching));
     row.finish();
     Ok(row)

@@ -17,6 +17,7 @@
 //! - [`fuzzed`]: hulls, polygons and outlines from raw bytes, with all that must hold of them; `fuzz/` runs the same
 //! - [`report`]: hard cases, family by family: what we and parry3d get wrong, and at what cost
 //! - [`solver`]: a small rigid-body solver, for bodies that shall stand on our manifolds
+//! - [`recorded`]: the named worlds, played frame by frame, and what they say in one number
 //! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
 //!
 //! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
@@ -41,6 +42,7 @@ pub mod naive_world;
 pub mod outlines;
 pub mod placed;
 pub mod precise;
+pub mod recorded;
 pub mod report;
 pub mod shapes;
 pub mod solid;

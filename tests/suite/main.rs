@@ -44,6 +44,10 @@
 //! - [`questions`]: overlaps, casts and what is near, against a loop over all bodies, at any time, from any thread
 //! - [`world_threads`]: every output has the same bits at any number of threads
 //!
+//! Binaries of their own
+//! - `tests/golden`: what every named scene says over sixty frames, by hash, on any number of threads and in any build
+//! - `tests/allocation`: a steady scene allocates nothing, a million operations let no memory grow, and what a body takes
+//!
 //! Stories
 //! - [`regressions`]: what went wrong once
 //!

@@ -3,7 +3,7 @@
 use asunder_benches::broad::queries;
 use asunder_benches::clock::Effort;
 use asunder_benches::judge::Judge;
-use asunder_benches::row::{Row, heading, heading_with_accuracy, heading_with_figures};
+use asunder_benches::row::{Row, heading_with_accuracy, heading_with_figures};
 use asunder_benches::{broad, certain, flat, narrow, world};
 use clap::{Args, Parser, Subcommand};
 use std::error::Error;
@@ -23,7 +23,7 @@ enum Part {
     /// One question about many pairs of shapes.
     Narrow(Options),
     /// Whole frames, from poses to contact points.
-    World(Options),
+    World(WorldOptions),
     /// What certainty costs: yes or no that is never wrong, beside the first tier alone.
     Certain(Options),
 }
@@ -36,6 +36,15 @@ struct BroadOptions {
     #[arg(long)]
     large: bool,
     /// Our own wall-clock time on so many threads beside one, in place of the peer.
+    #[arg(long, value_parser = at_least_one, value_name = "COUNT")]
+    threads: Option<usize>,
+}
+
+#[derive(Args)]
+struct WorldOptions {
+    #[command(flatten)]
+    all: Options,
+    /// Our wall-clock time on so many threads beside one, and beside the peer on one; in space.
     #[arg(long, value_parser = at_least_one, value_name = "COUNT")]
     threads: Option<usize>,
 }
@@ -57,7 +66,8 @@ impl Part {
     const fn options(&self) -> &Options {
         match self {
             Self::Broad(broad) => &broad.all,
-            Self::Narrow(options) | Self::World(options) | Self::Certain(options) => options,
+            Self::World(world) => &world.all,
+            Self::Narrow(options) | Self::Certain(options) => options,
         }
     }
 
@@ -66,7 +76,7 @@ impl Part {
             Self::Certain(_) => certain::heading(),
             Self::Narrow(_) => heading_with_accuracy(),
             Self::Broad(_) => heading_with_figures(),
-            Self::World(_) => heading(),
+            Self::World(_) => world::heading(),
         }
     }
 }
@@ -79,6 +89,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     if let Part::Broad(BroadOptions { threads: Some(threads), large, .. }) = part {
         return compare_threads(threads, large, options);
+    }
+    if let Part::World(WorldOptions { threads: Some(threads), .. }) = part {
+        return compare_frames_on_threads(threads, options);
     }
     // One thread, so that its CPU time is all the time there is.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
@@ -99,6 +112,15 @@ fn compare_threads(threads: usize, large: bool, options: &Options) -> Result<(),
         if broad::name(&case).contains(&options.only) {
             show(&broad::threads::measure(&case, threads, &options.effort())?, options);
         }
+    }
+    Ok(())
+}
+
+/// Rows of whole frames with several threads.
+fn compare_frames_on_threads(threads: usize, options: &Options) -> Result<(), Box<dyn Error>> {
+    let in_space = world::cases().into_iter().filter(|(_, in_plane)| !in_plane);
+    for case in in_space.filter(|case| world::name(case).contains(&options.only)) {
+        show(&world::threads::measure(&case, case.0.usual_count(), threads, &options.effort())?, options);
     }
     Ok(())
 }

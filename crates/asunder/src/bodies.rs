@@ -70,7 +70,7 @@ impl<S: Space> World<S> {
     /// Gives a body another shape, and forgets what was learnt with the one before.
     pub(crate) fn reshape_body(&mut self, key: S::Key, shape: S::Shape) -> Result<(), StaleKey> {
         self.bodies.get_mut(key).ok_or(StaleKey)?.shape = shape;
-        self.reshaped.push(slot_of(key));
+        self.note_reshaped(slot_of(key));
         self.mark_dirty(slot_of(key));
         Ok(())
     }
@@ -82,13 +82,23 @@ impl<S: Space> World<S> {
         collider: Collider<S>,
     ) -> Result<Collider<S>, StaleKey> {
         let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
-        if body.shape != collider.shape {
-            self.reshaped.push(slot_of(key));
-        }
+        let is_reshaped = body.shape != collider.shape;
         self.tags[slot_of(key) as usize] = Tag::of(&collider);
         let before = core::mem::replace(body, collider);
+        if is_reshaped {
+            self.note_reshaped(slot_of(key));
+        }
         self.mark_dirty(slot_of(key));
         Ok(before)
+    }
+
+    /// Without this, bodies that are reshaped again and again before an update would be noted each time.
+    fn note_reshaped(&mut self, slot: u32) {
+        if self.reshaped.len() >= 2 * self.keys.len() {
+            self.reshaped.sort_unstable();
+            self.reshaped.dedup();
+        }
+        self.reshaped.push(slot);
     }
 
     /// Changes what is neither shape nor pose. Its pairs are asked about anew, since whom it meets, and how, may be

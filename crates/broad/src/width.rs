@@ -45,11 +45,11 @@ mod avx2 {
     impl Width for Avx2 {}
 
     impl Avx2 {
-        /// The only way to one.
+        /// The only way to one. None with the feature `portable`.
         #[inline]
         pub(crate) fn detect() -> Option<Self> {
             use std::arch::is_x86_feature_detected as has;
-            (has!("avx2") && has!("bmi1")).then_some(Self(()))
+            (!cfg!(feature = "portable") && has!("avx2") && has!("bmi1")).then_some(Self(()))
         }
 
         #[inline]

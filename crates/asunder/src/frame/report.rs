@@ -38,7 +38,7 @@ fn index_by_second<K: Key>(records: &[Record<K>], slots: usize, into: &mut Vec<u
     into.clear();
     let second = |index: u32| records[index as usize].pair.b;
     let all = 0..records.len() as u32;
-    if slots > 4 * records.len() {
+    if slots > 16 * records.len() {
         into.extend(all);
         into.sort_unstable_by_key(|&index| (second(index), index));
         return;
@@ -88,7 +88,7 @@ mod tests {
         let records: Vec<Record<BodyKey3>> = pairs.map(record).collect();
         let (mut counted, mut sorted, mut ends) = (vec![9], vec![], vec![7; 3]);
         index_by_second(&records, 60, &mut counted, &mut ends);
-        index_by_second(&records, 10 * records.len(), &mut sorted, &mut ends);
+        index_by_second(&records, 20 * records.len(), &mut sorted, &mut ends);
         let by_second = |&index: &u32| (records[index as usize].pair.b, records[index as usize].pair.a);
         assert!(counted.is_sorted_by_key(by_second) && counted.len() == records.len());
         assert_eq!(counted, sorted);

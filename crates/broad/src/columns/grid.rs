@@ -167,6 +167,9 @@ struct Spread {
     crowding: f64,
 }
 
+/// Boxes in a sample, at most: it lies on the stack, so that a steady scene allocates nothing.
+const SAMPLE: usize = 512;
+
 /// 2^32 over the golden ratio: its multiples are spread evenly, and in step with nothing.
 const GOLDEN: u32 = 0x9e37_79b9;
 
@@ -177,26 +180,31 @@ const GIANT: f32 = 32.0;
 type Corners = ([f32; 3], [f32; 3]);
 
 impl Spread {
+    // Not inlined: columns within columns would each keep its stack.
+    #[inline(never)]
     fn of<B: Bounds>(count: usize, over: Over, pick: impl Fn(usize) -> B) -> Self {
-        let wanted = (count / 16).clamp(32, 512);
+        let wanted = (count / 16).clamp(32, SAMPLE).min(count) as u32;
         // Not at a stride: who makes boxes in turns, one here and one there, would be seen in one place only.
         let place = |number: u32| ((u64::from(number.wrapping_mul(GOLDEN)) * count as u64) >> 32) as usize;
         let is_finite =
             |b: &Corners| (0..3).all(|axis| b.0[axis] <= b.1[axis] && (b.1[axis] - b.0[axis]).is_finite());
-        let sample: Vec<_> = (0..wanted.min(count) as u32)
-            .map(|number| pick(place(number)).corners())
-            .filter(is_finite)
-            .collect();
-        let mut scratch = Vec::with_capacity(sample.len());
+        let (mut sample, mut len) = ([([0.0; 3], [0.0; 3]); SAMPLE], 0);
+        let drawn = (0..wanted).map(|number| pick(place(number)).corners()).filter(is_finite);
+        for (to, corners) in sample.iter_mut().zip(drawn) {
+            *to = corners;
+            len += 1;
+        }
+        let sample = &sample[..len];
+        let mut scratch = [0.0; SAMPLE];
         let mut quantile = |of: &dyn Fn(&Corners) -> f32, percent: usize| -> f32 {
-            scratch.clear();
-            scratch.extend(sample.iter().map(of));
-            let place = scratch.len() * percent / 100;
-            let last = scratch.len().saturating_sub(1);
-            if scratch.is_empty() {
+            if len == 0 {
                 return 0.0;
             }
-            *scratch.select_nth_unstable_by(place.min(last), f32::total_cmp).1
+            for (to, corners) in scratch.iter_mut().zip(sample) {
+                *to = of(corners);
+            }
+            let place = (len * percent / 100).min(len - 1);
+            *scratch[..len].select_nth_unstable_by(place, f32::total_cmp).1
         };
         let (first, last, widened) = match over {
             Over::All => (1, 98, 0.06),
@@ -214,7 +222,7 @@ impl Spread {
             let sum: f64 = sample.iter().map(|b| f64::from((b.1[axis] - b.0[axis]).min(most))).sum();
             sum / sample.len().max(1) as f64
         });
-        let crowding = crowding(&sample, &range);
+        let crowding = crowding(sample, &range);
         Self { range, size, crowding }
     }
 

@@ -55,7 +55,7 @@ use core::ops::ControlFlow;
 use level::{Level, Scratch};
 use settle::Question;
 
-/// All overlapping pairs of boxes. Keep one between frames: a steady scene then allocates no more than a small sample's worth.
+/// All overlapping pairs of boxes. Keep one between frames: a steady scene then allocates nothing.
 ///
 /// It holds no history: the list depends on the boxes and the filter alone, and is the same at any thread count and vector width.
 /// In [`Sweep::pairs`], from 30,000 boxes on, the threads of the current rayon pool share the work (feature `parallel`).

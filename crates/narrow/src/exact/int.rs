@@ -1,8 +1,8 @@
 //! Signed integers of any length, made for a few hundred products of one to five limbs.
 //!
 //! Representation: sign and magnitude. The magnitude is a row of 64-bit limbs, little-endian, trimmed (zero has none),
-//! held in the value itself up to twelve limbs (768 bits, 128 bytes in all) and in one boxed slice beyond. What is
-//! typical here, factors of 1 to 5 limbs and their sums of products, never allocates.
+//! held in the value itself up to twelve limbs (768 bits, 136 bytes in all) and in a row beyond ([`spill`]). What is
+//! typical here, factors of 1 to 5 limbs and their sums of products, needs none; rows are used again.
 //!
 //! Why sign and magnitude: the sign, which is all that most callers ask for, is read and not searched; a product needs
 //! no correction; and the length says how large a number is. Two's complement is better at one thing, sums whose sign
@@ -37,11 +37,13 @@
 
 mod limbs;
 mod operators;
+mod spill;
 #[cfg(test)]
 mod tests;
 
 use asunder_geometry::glam::DVec3;
 use core::cmp::Ordering;
+use spill::Spill;
 
 /// Limbs held in place.
 const INLINE: usize = 12;
@@ -52,7 +54,7 @@ pub(crate) struct Int {
     /// The magnitude where it fits, little-endian; every limb from `len` on is zero.
     inline: [u64; INLINE],
     /// The whole magnitude where `len` is above `INLINE`; absent otherwise.
-    spilled: Option<Box<[u64]>>,
+    spilled: Option<Spill>,
     /// Limbs up to the highest that is not zero.
     len: usize,
     /// Never set for zero.
@@ -81,8 +83,10 @@ impl Int {
             int.trim(low + 2);
             int
         } else {
-            let mut limbs = vec![0; low];
-            limbs.extend(top);
+            let mut limbs = Spill::zeros(low + 2);
+            for (limb, top) in limbs.iter_mut().skip(low).zip(top) {
+                *limb = top;
+            }
             Self::from_limbs(limbs)
         };
         int.negative = mantissa < 0;
@@ -140,18 +144,18 @@ impl Int {
     fn limbs(&self) -> &[u64] {
         match &self.spilled {
             None => &self.inline[..self.len.min(INLINE)],
-            Some(limbs) => limbs,
+            Some(limbs) => &limbs[..],
         }
     }
 
     /// A number that is not negative, from limbs in any state.
-    fn from_limbs(mut limbs: Vec<u64>) -> Self {
+    fn from_limbs(mut limbs: Spill) -> Self {
         limbs.truncate(limbs::trimmed(&limbs));
         let mut int = Self::ZERO;
         int.len = limbs.len();
         match int.inline.get_mut(..limbs.len()) {
             Some(inline) => inline.copy_from_slice(&limbs),
-            None => int.spilled = Some(limbs.into_boxed_slice()),
+            None => int.spilled = Some(limbs),
         }
         int
     }
@@ -200,7 +204,7 @@ impl Int {
 
     #[cold]
     fn product_long(&self, other: &Self) -> Self {
-        let mut limbs = vec![0; self.len + other.len];
+        let mut limbs = Spill::zeros(self.len + other.len);
         limbs::multiply_long(&mut limbs, self.limbs(), other.limbs());
         let mut product = Self::from_limbs(limbs);
         product.negative = product.len > 0 && self.negative != other.negative;
@@ -263,16 +267,14 @@ impl Int {
     fn sum_long(&self, term: &[u64], negative: bool) -> Self {
         if self.negative == negative {
             let (longer, shorter) = limbs::ordered(self.limbs(), term);
-            let mut sum = Vec::with_capacity(longer.len() + 1);
-            sum.extend_from_slice(longer);
-            if limbs::add_long(&mut sum, shorter) {
-                sum.push(1);
-            }
+            // The limb above takes the carry.
+            let mut sum = Spill::copied(longer, 1);
+            limbs::add_long(&mut sum, shorter);
             Self { negative, ..Self::from_limbs(sum) }
         } else {
             let order = limbs::compare(self.limbs(), term);
             let (larger, smaller) = if order.is_ge() { (self.limbs(), term) } else { (term, self.limbs()) };
-            let mut difference = larger.to_vec();
+            let mut difference = Spill::copied(larger, 0);
             limbs::subtract_long(&mut difference, smaller);
             let negative = if order.is_ge() { self.negative } else { negative };
             Self { negative: negative && order.is_ne(), ..Self::from_limbs(difference) }

@@ -10,11 +10,11 @@ use glam::{DVec3, Vec3};
 /// Metres from one street to the next.
 const BLOCK: f64 = 20.0;
 
-/// One body of 101 moves: traffic along the streets between buildings on square lots, one box a lot.
-pub(super) fn streets(count: usize, seed: u64) -> Replay3 {
+/// One body of `one_of` moves, and one at least: traffic along the streets between buildings on square lots, one box a lot.
+pub(super) fn streets(count: usize, one_of: usize, seed: u64) -> Replay3 {
     let mut random = Random::new(seed ^ 0xc177);
     let mut replay = Replay3::default();
-    let movers = (count.saturating_sub(1)) / 101;
+    let movers = (count.saturating_sub(1) / one_of.max(1)).max(1);
     let lots = count.saturating_sub(1 + movers);
     let side = ((lots as f64).sqrt().ceil() as usize).max(1);
     let half = 0.5 * BLOCK * side as f64;

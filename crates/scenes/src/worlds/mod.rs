@@ -48,12 +48,24 @@ pub enum WorldScene {
     Crowd,
     /// A city of fixed boxes in which one body of a hundred moves.
     MostlyStatic,
+    /// A far larger city in which one body of ten thousand moves.
+    World1m,
+    /// Shapes far apart that could move; one of a hundred does.
+    Spread1,
 }
 
 impl WorldScene {
     /// Every world, in the order in which results are listed.
-    pub const ALL: [Self; 6] =
-        [Self::BoxesPile, Self::ConvexPile, Self::ManyPyramids, Self::Mixed, Self::Crowd, Self::MostlyStatic];
+    pub const ALL: [Self; 8] = [
+        Self::BoxesPile,
+        Self::ConvexPile,
+        Self::ManyPyramids,
+        Self::Mixed,
+        Self::Crowd,
+        Self::MostlyStatic,
+        Self::World1m,
+        Self::Spread1,
+    ];
 
     /// The name used in result rows.
     pub const fn name(self) -> &'static str {
@@ -64,6 +76,8 @@ impl WorldScene {
             Self::Mixed => "mixed",
             Self::Crowd => "crowd",
             Self::MostlyStatic => "mostly_static",
+            Self::World1m => "world1m",
+            Self::Spread1 => "spread1",
         }
     }
 
@@ -81,6 +95,8 @@ impl WorldScene {
             Self::Mixed => 10_000,
             Self::Crowd => 3801,
             Self::MostlyStatic => 101_001,
+            Self::World1m => 1_000_101,
+            Self::Spread1 => 10_000,
         }
     }
 }
@@ -149,7 +165,9 @@ impl Replay3 {
             WorldScene::ManyPyramids => piles::pyramids(count, seed),
             WorldScene::Mixed => piles::mixed(count, seed),
             WorldScene::Crowd => crowd::walkers(count, seed),
-            WorldScene::MostlyStatic => city::streets(count, seed),
+            WorldScene::MostlyStatic => city::streets(count, 101, seed),
+            WorldScene::World1m => city::streets(count, 10_001, seed),
+            WorldScene::Spread1 => piles::spread(count, seed),
         };
         replay.advance(0);
         replay
@@ -246,6 +264,8 @@ mod tests {
             assert!(replay.movers().iter().all(|&i| !replay.bodies[i as usize].fixed));
         }
         assert_eq!(Replay3::new(WorldScene::MostlyStatic, 101_001, 1).movers().len(), 1000);
+        assert_eq!(Replay3::new(WorldScene::World1m, 1_000_101, 1).movers().len(), 100);
+        assert_eq!(Replay3::new(WorldScene::Spread1, 10_000, 1).movers().len(), 100);
         assert_eq!(Replay3::new(WorldScene::Mixed, 1000, 1).movers().len(), 500);
     }
 

@@ -101,6 +101,16 @@ pub(super) fn pyramid_places() -> impl Iterator<Item = (f64, f64)> {
 
 /// Shapes in the air on a loose lattice. Every other one turns, and drifts to and fro.
 pub(super) fn mixed(count: usize, seed: u64) -> Replay3 {
+    in_the_air(count, (2, 1.17), seed)
+}
+
+/// The same, further apart: a few touch. One of a hundred turns, and drifts to and fro.
+pub(super) fn spread(count: usize, seed: u64) -> Replay3 {
+    in_the_air(count, (100, 1.3), seed)
+}
+
+/// One of so many moves, and cells are so many metres wide.
+fn in_the_air(count: usize, (one_of, cell_size): (usize, f64), seed: u64) -> Replay3 {
     let mut random = Random::new(seed ^ 0x313d);
     let kinds = [SolidKind::Box, SolidKind::Hull8, SolidKind::Hull16, SolidKind::Hull32];
     let shapes: Vec<Shape3> = kinds.iter().flat_map(|&kind| solids(kind, 16, seed)).collect();
@@ -110,8 +120,8 @@ pub(super) fn mixed(count: usize, seed: u64) -> Replay3 {
         let cell = DVec3::new((i % side) as f64, (i / (side * side)) as f64, (i / side % side) as f64);
         let stray = random.within(DVec3::splat(-0.05), DVec3::splat(0.05));
         let shape = shapes[random.below(shapes.len())].clone();
-        let mut motion = Motion3::still(cell * 1.17 + stray).turned(random.turn());
-        if i % 2 == 0 {
+        let mut motion = Motion3::still(cell * cell_size + stray).turned(random.turn());
+        if i % one_of == 0 {
             motion = motion.swaying(0.15, &mut random);
             motion.axis = random.direction();
             motion.spin = random.range(0.2, 2.0);

@@ -136,8 +136,8 @@ fn add_product<const L: usize>(out: &mut [u64], a: &[u64; L], b: &[u64]) {
     }
 }
 
-/// `acc += term`; returns the carry out of the top limb. `acc` is at least as long as `term`.
-pub(super) fn add_long(acc: &mut [u64], term: &[u64]) -> bool {
+/// `acc += term`. `acc` is at least as long as `term`, and has room for the carry.
+pub(super) fn add_long(acc: &mut [u64], term: &[u64]) {
     let mut carry = false;
     let (low, high) = acc.split_at_mut(term.len());
     for (limb, &term) in low.iter_mut().zip(term) {
@@ -149,7 +149,6 @@ pub(super) fn add_long(acc: &mut [u64], term: &[u64]) -> bool {
         }
         (*limb, carry) = limb.overflowing_add(1);
     }
-    carry
 }
 
 /// `acc -= term`, where `acc >= term`.

@@ -47,7 +47,7 @@ impl Numbers {
         let negative = self.0.rand_u64() & 1 == 1;
         let digits = limbs.iter().flat_map(|limb| [*limb as u32, (limb >> 32) as u32]).collect();
         let big = BigInt::from_biguint(if negative { Sign::Minus } else { Sign::Plus }, BigUint::new(digits));
-        let int = Int::from_limbs(limbs);
+        let int = Int::from_limbs(super::spill::Spill::copied(&limbs, 0));
         (if negative { -int } else { int }, big)
     }
 

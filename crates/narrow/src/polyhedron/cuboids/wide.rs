@@ -6,11 +6,11 @@
 
 use super::eight::{Asked8, Seen8};
 
-/// Looks at eight pairs.
+/// Looks at eight pairs. With the feature `portable`, by the twin, whatever the processor has.
 #[inline]
 pub(super) fn look<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
     #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
+    if !cfg!(feature = "portable") && std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has been asked, and has AVX2. There is no other condition.
         return unsafe { look_with_avx2::<GRADED>(asked, seen) };
     }

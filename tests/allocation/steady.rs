@@ -1,0 +1,103 @@
+//! A steady scene allocates nothing per frame.
+
+use crate::counting::{allocations, counted, counted_here};
+use asunder::{Hooks, Plane, Volume};
+use asunder_scenes::worlds::WorldScene;
+use asunder_tests::recorded::{Fnv1a, Recorded, Recording};
+
+/// Frames after which everything begins anew.
+const CYCLE: u32 = 30;
+
+/// What the third cycle allocates: the first began in another place than it ended.
+///
+/// With more threads, the least of some more: which thread takes which pairs is chance, and each must have met its longest exact
+/// question once.
+fn allocations_a_cycle<S: Recording>(scene: WorldScene, count: usize, threads: usize) -> u64 {
+    counted(threads, || third_cycle::<S>(scene, count, threads > 1))
+}
+
+fn third_cycle<S: Recording>(scene: WorldScene, count: usize, by_chance: bool) -> u64 {
+    let mut recorded = Recorded::<S>::new(scene, count);
+    let (mut events, mut contacts) = (Fnv1a::default(), Fnv1a::default());
+    let mut cycle = || {
+        let before = allocations();
+        for frame in 0..CYCLE {
+            recorded.play(frame);
+            recorded.hash(&mut events, &mut contacts);
+        }
+        allocations() - before
+    };
+    let early = cycle() + cycle();
+    let mut least = cycle();
+    for _ in 0..if by_chance { 6 } else { 0 } {
+        least = if least > 0 { cycle() } else { 0 };
+    }
+    // There was something to be counted, and something to be read.
+    assert!(early > 0 && recorded.world.stats().candidates > 0, "{}", scene.name());
+    least
+}
+
+/// Bodies: enough that the narrow phase, and in one scene refit too, is shared out where there is more than one thread.
+fn count(scene: WorldScene) -> usize {
+    match scene {
+        WorldScene::ManyPyramids => 4201,
+        WorldScene::ConvexPile => 505,
+        _ => 1805,
+    }
+}
+
+#[test]
+fn a_steady_scene_in_space_allocates_nothing() {
+    for threads in [1, 2] {
+        for scene in WorldScene::ALL {
+            let taken = allocations_a_cycle::<Volume>(scene, count(scene), threads);
+            assert_eq!(taken, 0, "{} on {threads} threads", scene.name());
+        }
+    }
+}
+
+#[test]
+fn a_steady_scene_in_the_plane_allocates_nothing() {
+    for threads in [1, 2] {
+        for scene in [WorldScene::ManyPyramids, WorldScene::Mixed] {
+            let taken = allocations_a_cycle::<Plane>(scene, 4201, threads);
+            assert_eq!(taken, 0, "{} on {threads} threads", scene.name());
+        }
+    }
+}
+
+/// So many boxes, most of them moving, that the sweep is shared out; and so many at rest.
+#[test]
+fn nor_do_sweeps_of_many_threads() {
+    for (scene, count) in [(WorldScene::ManyPyramids, 31_000), (WorldScene::Mixed, 31_000)] {
+        assert_eq!(allocations_a_cycle::<Plane>(scene, count, 2), 0, "{}", scene.name());
+    }
+    assert_eq!(allocations_a_cycle::<Volume>(WorldScene::MostlyStatic, 31_000, 2), 0);
+}
+
+/// Who is in no pool hands each stage's work to one: rayon keeps it in a queue, whose blocks of 63 it makes anew now and then.
+#[test]
+fn a_thread_of_no_pool_allocates_a_block_of_the_queue_now_and_then() {
+    let taken = counted_here(|| third_cycle::<Volume>(WorldScene::ManyPyramids, 4201, false));
+    assert!(taken <= u64::from(CYCLE) / 10, "{taken} in {CYCLE} frames");
+}
+
+#[test]
+fn nor_do_hooks() {
+    let taken = counted(1, || {
+        let mut recorded = Recorded::<Volume>::new(WorldScene::ManyPyramids, 421);
+        let upright = |meeting: asunder::Meeting3<'_>| meeting.manifolds.retain(|m| m.normal.y.abs() > 0.5);
+        let all = |_: asunder::Side3<'_>, _: asunder::Side3<'_>| true;
+        let hooks = Hooks::new().pair(&all).contact(&upright);
+        let mut taken = 0;
+        for frame in 0..3 * CYCLE {
+            let before = allocations();
+            recorded.pose(frame % CYCLE);
+            recorded.world.update_with(&hooks);
+            taken = if frame < 2 * CYCLE { 0 } else { taken + allocations() - before };
+        }
+        assert!(recorded.world.stats().manifolds > 0);
+        taken
+    });
+    assert_eq!(taken, 0);
+}

@@ -1,0 +1,178 @@
+//! The named worlds of `asunder-scenes`, played into a world frame by frame; and what a frame says, in one number.
+
+use crate::engine::Engine;
+use asunder::slotmap::Key;
+use asunder::{Collider, Event, Plane, Volume, World};
+use asunder_scenes::worlds::{Body2, Body3, Replay2, Replay3, WorldScene};
+
+/// Gap within which two bodies are a contact, in metres: half of it is each body's margin.
+const MARGIN: f32 = 0.02;
+
+/// A world and the motion of its bodies.
+pub struct Recorded<S: Recording> {
+    /// The world, as of the last frame.
+    pub world: World<S>,
+    keys: Vec<S::Key>,
+    replay: S::Replay,
+}
+
+impl<S: Recording> Recorded<S> {
+    /// A world of `count` bodies or a few less, not updated yet. Seed 1.
+    pub fn new(scene: WorldScene, count: usize) -> Self {
+        Self::with(S::open(scene, count))
+    }
+
+    /// A world of these bodies, not updated yet.
+    pub fn with((replay, colliders): (S::Replay, Vec<Collider<S>>)) -> Self {
+        let mut world = World::new();
+        let keys = colliders.into_iter().map(|collider| S::insert(&mut world, collider)).collect();
+        Self { world, keys, replay }
+    }
+
+    /// Poses whatever moves as at this frame. Allocates nothing itself.
+    pub fn pose(&mut self, frame: u32) {
+        let Self { world, keys, replay } = self;
+        S::advance(replay, frame, |body, pose| assert!(S::set_pose(world, keys[body], pose)));
+    }
+
+    /// The same, and an update.
+    pub fn play(&mut self, frame: u32) {
+        self.pose(frame);
+        self.world.update();
+    }
+
+    /// Takes what the last frame said into both hashes, events into the first and contacts into the second. Allocates nothing.
+    pub fn hash(&self, events: &mut Fnv1a, contacts: &mut Fnv1a) {
+        for event in S::events(&self.world) {
+            let (Event::Began { a, b, .. } | Event::Ended { a, b, .. }) = *event;
+            let (user_data_a, user_data_b) = event.user_data();
+            let flags = u64::from(event.is_began()) << 1 | u64::from(event.is_sensor());
+            events.add([bits(a), bits(b), user_data_a, user_data_b, flags]);
+        }
+        S::hash_contacts(&self.world, contacts);
+    }
+}
+
+fn bits(key: impl Key) -> u64 {
+    key.data().as_ffi()
+}
+
+/// The hash of Fowler, Noll and Vo, variant 1a, of 64 bits: plain enough to be written out, so that it never changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fnv1a(pub u64);
+
+impl Default for Fnv1a {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Fnv1a {
+    /// Takes in words, least byte first.
+    pub fn add<const N: usize>(&mut self, words: [u64; N]) {
+        for byte in words.into_iter().flat_map(u64::to_le_bytes) {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+
+    /// Takes in numbers, bit for bit.
+    pub fn add_floats<const N: usize>(&mut self, numbers: [f32; N]) {
+        self.add(numbers.map(|number| u64::from(number.to_bits())));
+    }
+}
+
+/// A dimension's recorded worlds.
+pub trait Recording: Engine {
+    /// Where bodies are at a frame.
+    type Replay: Send;
+    /// The motion, and the bodies at its start.
+    fn open(scene: WorldScene, count: usize) -> (Self::Replay, Vec<Collider<Self>>);
+    /// Hands over the pose of every body that moves, by its number.
+    fn advance(replay: &mut Self::Replay, frame: u32, set: impl FnMut(usize, Self::Pose));
+    /// Takes in candidates and contacts: every key, flag, number and name.
+    fn hash_contacts(world: &World<Self>, into: &mut Fnv1a);
+}
+
+impl Recording for Volume {
+    type Replay = Replay3;
+
+    fn open(scene: WorldScene, count: usize) -> (Replay3, Vec<Collider<Self>>) {
+        let replay = Replay3::new(scene, count, 1);
+        let collider = |(number, body): (u64, &Body3)| {
+            let collider = Collider::<Self>::new(body.shape.clone()).at(body.pose).user_data(number);
+            let collider = if body.fixed { collider.fixed() } else { collider };
+            body.owner.into_iter().fold(collider, Collider::owner).margin(0.5 * MARGIN).unwrap()
+        };
+        let colliders = (0..).zip(&replay.bodies).map(collider).collect();
+        (replay, colliders)
+    }
+
+    fn advance(replay: &mut Replay3, frame: u32, mut set: impl FnMut(usize, Self::Pose)) {
+        replay.advance(frame);
+        for &body in replay.movers() {
+            set(body as usize, replay.bodies[body as usize].pose);
+        }
+    }
+
+    fn hash_contacts(world: &World<Self>, into: &mut Fnv1a) {
+        world.candidates().for_each(|(a, b)| into.add([bits(a), bits(b)]));
+        for contact in world.contacts() {
+            let flags = [contact.sensor, contact.overlapping, contact.is_new].map(u64::from);
+            into.add([bits(contact.a), bits(contact.b)]);
+            into.add(flags);
+            for manifold in contact.manifolds {
+                into.add([manifold.part_a, manifold.part_b, manifold.points.len() as u32].map(u64::from));
+                into.add_floats(manifold.normal.to_array());
+                into.add_floats([manifold.separation, manifold.error]);
+                for point in &manifold.points {
+                    into.add_floats(point.anchor_a.to_array());
+                    into.add_floats(point.anchor_b.to_array());
+                    into.add_floats([point.separation]);
+                    into.add([point.feature.to_bits()]);
+                }
+            }
+        }
+    }
+}
+
+impl Recording for Plane {
+    type Replay = Replay2;
+
+    fn open(scene: WorldScene, count: usize) -> (Replay2, Vec<Collider<Self>>) {
+        let replay = Replay2::new(scene, count, 1);
+        let collider = |(number, body): (u64, &Body2)| {
+            let collider = Collider::<Self>::new(body.shape.clone()).at(body.pose).user_data(number);
+            let collider = if body.fixed { collider.fixed() } else { collider };
+            body.owner.into_iter().fold(collider, Collider::owner).margin(0.5 * MARGIN).unwrap()
+        };
+        let colliders = (0..).zip(&replay.bodies).map(collider).collect();
+        (replay, colliders)
+    }
+
+    fn advance(replay: &mut Replay2, frame: u32, mut set: impl FnMut(usize, Self::Pose)) {
+        replay.advance(frame);
+        for &body in replay.movers() {
+            set(body as usize, replay.bodies[body as usize].pose);
+        }
+    }
+
+    fn hash_contacts(world: &World<Self>, into: &mut Fnv1a) {
+        world.candidates().for_each(|(a, b)| into.add([bits(a), bits(b)]));
+        for contact in world.contacts() {
+            let flags = [contact.sensor, contact.overlapping, contact.is_new].map(u64::from);
+            into.add([bits(contact.a), bits(contact.b)]);
+            into.add(flags);
+            for manifold in contact.manifolds {
+                into.add([manifold.part_a, manifold.part_b, manifold.points.len() as u32].map(u64::from));
+                into.add_floats(manifold.normal.to_array());
+                into.add_floats([manifold.separation, manifold.error]);
+                for point in &manifold.points {
+                    into.add_floats(point.anchor_a.to_array());
+                    into.add_floats(point.anchor_b.to_array());
+                    into.add_floats([point.separation]);
+                    into.add([point.feature.to_bits()]);
+                }
+            }
+        }
+    }
+}
