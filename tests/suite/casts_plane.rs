@@ -9,6 +9,11 @@ use asunder_tests::cases::Random;
 use asunder_tests::shapes::{Clay, KINDS2, Kind, PLACES, pair2};
 use glam::{DVec2, Vec2};
 
+/// An exact power of two, of a normal f64.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
+}
+
 /// One pair and how both move.
 struct Ride<'a> {
     shapes: [&'a Shape2; 2],
@@ -40,7 +45,7 @@ impl Ride<'_> {
         }
         // Evenly, and ever closer to the impact.
         let evenly = (0..samples).map(|i| end * f64::from(i) / f64::from(samples));
-        let near = (1..40).map(|i| end * (1.0 - 0.5_f64.powf(f64::from(i))));
+        let near = (1..40).map(|i| end * (1.0 - power_of_two(-i)));
         for fraction in evenly.chain(near).filter(|&fraction| fraction < end) {
             assert!(!self.at(fraction).overlaps(), "{name}: they touch at {fraction} already: {found:?}");
         }
@@ -212,7 +217,7 @@ fn tiny_bodies_far_from_the_origin_meet_as_well_as_positions_can_say() {
 #[test]
 fn what_grazes_is_a_hit_within_its_error_or_a_certain_miss() {
     for exponent in 1..40 {
-        let by_less = 0.5_f64.powf(f64::from(exponent));
+        let by_less = power_of_two(-exponent);
         for sign in [-1.0, 1.0] {
             let ball: Shape2 = Circle::new(0.5).unwrap().into();
             let many = polygon(4096, 0.5);
@@ -419,7 +424,7 @@ fn whether_a_ray_starts_inside_is_what_the_shape_says_of_its_corners() {
         };
         for beside in [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y] {
             // Eighths have room for this.
-            let origin = on + beside * 2.0_f64.powf(-50.0);
+            let origin = on + beside * power_of_two(-50);
             let ray = Ray2::new(origin, random.direction2().as_vec2()).unwrap();
             let inside = cast_ray2(&shape, &Pose2::IDENTITY, &ray, 1.0).is_some_and(|hit| hit.inside);
             assert_eq!(inside, shape.contains(origin), "{} in round {round}, {origin}", kind.0);

@@ -2,13 +2,16 @@
 
 use asunder::slotmap::Key;
 use asunder::{
-    Circle, Collider2, Collider3, Cuboid, HalfSpace, Motion2, Motion3, Plane, Pose2, Pose3, Rotation2,
+    Circle, Collider2, Collider3, Cuboid, HalfSpace, Motion2, Motion3, Plane, Pose2, Pose3, Rotation2, Space,
     Sphere, Volume, World, World2, World3, glam::Quat, glam::Vec3,
 };
 use asunder_tests::cases::Random;
 use asunder_tests::engine::{Engine, slot_of};
 use rayon::ThreadPoolBuilder;
 use std::collections::BTreeMap;
+
+/// A bullet, what it runs into, whether either is a sensor, and when.
+type Expected<S> = (<S as Space>::Key, <S as Space>::Key, bool, <S as Space>::Impact);
 
 /// Bodies in a room, of which most are given a motion and some are bullets.
 struct Room<S: Engine> {
@@ -39,7 +42,7 @@ impl<S: Engine> Room<S> {
     }
 
     /// What bullets run into, by all pairs.
-    fn expected(&self) -> Vec<(S::Key, S::Key, bool, S::Impact)> {
+    fn expected(&self) -> Vec<Expected<S>> {
         let bodies = S::bodies(&self.world);
         let still = S::shift(0.0);
         let motion = |key: S::Key| self.motions.get(&slot_of(key)).unwrap_or(&still);

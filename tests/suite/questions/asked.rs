@@ -222,7 +222,10 @@ fn check_casts<S: Questioned>(
     known
 }
 
-fn check_near<S: Questioned>(asked: &Asked<S>, judged: &[(S::Key, Option<(f32, f32)>)], found: &[Near<S>]) {
+/// A body, and its distance with the judge's error, if it is apart.
+type Truth<S> = (<S as asunder::Space>::Key, Option<(f32, f32)>);
+
+fn check_near<S: Questioned>(asked: &Asked<S>, judged: &[Truth<S>], found: &[Near<S>]) {
     let ranks: Vec<_> = found.iter().map(|near| (near.distance, slot_of(near.body))).collect();
     assert!(ranks.windows(2).all(|pair| pair[0] < pair[1]), "by distance, then by slot: {ranks:?}");
     let limit = f64::from(asked.within.max(0.0));
