@@ -35,6 +35,7 @@
 //! World
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
+//! - [`questions`]: overlaps, casts and what is near, against a loop over all bodies, at any time, from any thread
 //! - [`world_threads`]: every output has the same bits at any number of threads
 //!
 //! Stories
@@ -63,6 +64,7 @@ mod oracles;
 mod peer;
 mod plane;
 mod polygons;
+mod questions;
 mod refusals;
 mod regressions;
 mod separation;

@@ -110,6 +110,7 @@ impl<S: Space> World<S> {
     }
 
     pub(crate) fn mark_dirty(&mut self, slot: u32) {
+        self.questions.told(slot);
         if !core::mem::replace(&mut self.is_dirty[slot as usize], true) {
             self.dirty.push(slot);
         }

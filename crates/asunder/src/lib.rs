@@ -39,6 +39,8 @@
 #![deny(missing_docs)]
 
 mod bodies;
+mod ask2;
+mod ask3;
 mod clock;
 mod collider;
 mod contact;
@@ -46,6 +48,7 @@ mod debug;
 mod event;
 mod frame;
 mod hooks;
+mod query;
 mod space;
 mod stats;
 mod world;
@@ -55,19 +58,25 @@ mod world3;
 pub use asunder_geometry::{
     Aabb2, Aabb3, Basis3, Bounds, Capsule2, Capsule3, CapsuleError, Circle, Compound2, Compound3,
     CompoundError, Core2, Core3, Cuboid, DecomposeError, DirectionError, ExtentError, HalfEdge, HalfPlane,
-    HalfSpace, Hull, HullError, HullFault, MassError, MassProperties2, MassProperties3, Part2, Part3,
-    Polygon, PolygonError, Pose2, Pose3, PoseError, RadiusError, Ray2, Ray3, RayError, Rect, Rotation2,
-    Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, VertexError, decompose, glam, tolerance,
+    HalfSpace, Hull, HullError, HullFault, MassError, MassProperties2, MassProperties3, Motion2, Part2,
+    Part3, Polygon, PolygonError, Pose2, Pose3, PoseError, RadiusError, Ray2, Ray3, RayError, Rect,
+    Rotation2, Segment2, Segment3, Shape2, Shape3, Sphere, Topology, Triangle3, VertexError, decompose, glam,
+    tolerance,
 };
 pub use asunder_narrow::{
-    ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Manifold2, Manifold3,
-    Measured2, Measured3, Pair2, Pair3, Separation2, Separation3, Tier, Verdict,
+    ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Impact2, Manifold2,
+    Manifold3, Measured2, Measured3, Pair2, Pair3, RayHit2, Separation2, Separation3, Tier, Verdict,
+    cast_ray2,
 };
 pub use collider::{Collider, Collider2, Collider3, Layers, MarginError};
 pub use contact::{Contact, Contact2, Contact3};
 pub use debug::{DebugLine, DebugOptions};
 pub use event::{Event, Event2, Event3};
 pub use hooks::{Hooks, Hooks2, Hooks3, Meeting, Meeting2, Meeting3, Side, Side2, Side3};
+pub use query::{
+    CastAnswer, CastAnswer2, CastAnswer3, Filter, Filter2, Filter3, NearAnswer, NearAnswer2, NearAnswer3,
+    RayAnswer, RayAnswer2, RayAnswer3,
+};
 pub use slotmap;
 pub use space::{BodyKey2, BodyKey3, Plane, Space, Volume};
 pub use stats::Stats;

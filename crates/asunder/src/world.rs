@@ -4,6 +4,7 @@ use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
 use crate::hooks::Edited;
+use crate::query::Boxes;
 use crate::space::Space;
 use crate::stats::Stats;
 use asunder_broad::{CoherentSweep, PairId};
@@ -55,6 +56,8 @@ pub struct World<S: Space> {
     /// Slots whose body got another shape since then: what was learnt with the one before does not count.
     pub(crate) reshaped: Vec<u32>,
     pub(crate) max_pairs: usize,
+    /// What questions are asked of; nothing that an output depends on.
+    pub(crate) questions: Boxes<S>,
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,
     pub(crate) records: Vec<Record<S::Key>>,
@@ -112,6 +115,7 @@ impl<S: Space> World<S> {
             is_moved: Vec::new(),
             reshaped: Vec::new(),
             max_pairs: 1 << 24,
+            questions: Boxes::default(),
             candidates: Vec::new(),
             records: Vec::new(),
             manifolds: Vec::new(),

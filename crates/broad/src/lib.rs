@@ -25,7 +25,7 @@ mod sweep;
 mod width;
 
 pub use coherent::CoherentSweep;
-pub use index::{Cast, Found, Index, Queue};
+pub use index::{Cast, Found, Index, Queue, least_distance};
 pub use pair::{PairId, TooManyPairs};
 pub use plain::PlainSweep;
 pub use sweep::Sweep;

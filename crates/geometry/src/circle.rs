@@ -26,6 +26,10 @@ pub struct Circle {
 }
 
 impl Circle {
+    /// A point, for questions about points; no body may be one.
+    #[doc(hidden)]
+    pub const POINT: Self = Self { radius: 0.0 };
+
     /// A circle from its radius, in metres.
     ///
     /// # Errors

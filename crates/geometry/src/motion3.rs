@@ -145,7 +145,13 @@ impl Motion3 {
         if sine <= STILL {
             return Turn3 { from: start, to: start, axis: DVec3::X, sine: 0.0, cosine: 1.0 };
         }
-        Turn3 { from: start, to: end, axis: across / sine, sine: sine.min(1.0), cosine: cosine.abs().min(1.0) }
+        Turn3 {
+            from: start,
+            to: end,
+            axis: across / sine,
+            sine: sine.min(1.0),
+            cosine: cosine.abs().min(1.0),
+        }
     }
 
     /// No less than the angular speed of a body that starts at `from`, in radians for the whole motion: at most 4, and never
@@ -324,6 +330,9 @@ mod tests {
         let motion = Motion3::shift([9e8, 1.0, 0.0]).unwrap();
         assert_eq!(motion.pose_at(&edge, 1.0).position(), DVec3::new(1e9, 1.0, 0.0));
         assert!(Motion3::shift([2e9, 0.0, 0.0]).is_err());
-        assert_eq!(Motion3::new(DVec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0)), Err(PoseError::ZeroRotation));
+        assert_eq!(
+            Motion3::new(DVec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0)),
+            Err(PoseError::ZeroRotation)
+        );
     }
 }

@@ -26,6 +26,10 @@ pub struct Sphere {
 }
 
 impl Sphere {
+    /// A point, for questions about points; no body may be one.
+    #[doc(hidden)]
+    pub const POINT: Self = Self { radius: 0.0 };
+
     /// A sphere from its radius, in metres.
     ///
     /// # Errors

@@ -3,6 +3,14 @@
 //! A tolerance is always relative: it is multiplied by the size of what it is applied to, so that a scene of
 //! pebbles and a scene of mountains are answered alike. Only the *limits* at the end carry a unit.
 
+/// Share of a pair's size at which a cast in the plane calls two shapes that still have a gap touching.
+///
+/// A cast comes so close by axes alone, and then takes the last step along the axis that it has; what is left is in the
+/// impact's error, and is mostly rounding. A pair that passes by within it counts as touching. A larger value makes wider
+/// misses hits; with a smaller one the axis across the last gap is rounding (1e-16 of the size over the gap), and so are the
+/// normals.
+pub const CAST_GAP2: f64 = 1e-8;
+
 /// Share of a hull's outer radius within which neighbouring facets count as one flat face.
 ///
 /// f32 vertices of a truly flat face lie within 1.2e-7 of its plane, so this merges what rounding split. Larger

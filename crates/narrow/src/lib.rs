@@ -47,9 +47,11 @@
 
 mod answer;
 mod batch;
+mod cast2;
 mod counted;
 mod exact;
 mod feature;
+mod impact2;
 mod jobs3;
 mod lanes;
 mod least;
@@ -66,7 +68,9 @@ pub use answer::{
 };
 pub use arrayvec::ArrayVec;
 pub use batch::{Batch, Batch2, Batch3};
+pub use cast2::cast_ray2;
 pub use feature::{Feature, FeatureId, Hint};
+pub use impact2::{Impact2, RayHit2};
 pub use jobs3::{Job3, collide3, separations3};
 pub use pair2::{Job2, Pair2, collide2};
 pub use pair3::Pair3;

@@ -41,10 +41,10 @@ use asunder_geometry::{Pose2, Shape2};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Pair2<'a> {
-    shape_a: &'a Shape2,
-    shape_b: &'a Shape2,
-    pose_a: Pose2,
-    pose_b: Pose2,
+    pub(crate) shape_a: &'a Shape2,
+    pub(crate) shape_b: &'a Shape2,
+    pub(crate) pose_a: Pose2,
+    pub(crate) pose_b: Pose2,
     turn_a: Turn,
     turn_b: Turn,
     /// B's position less A's.

@@ -39,11 +39,13 @@ mod node;
 mod order;
 mod queue;
 mod reach;
+mod single;
 pub(crate) mod wide;
 
 pub use cast::Cast;
 pub use queue::Queue;
 pub use reach::Found;
+pub use single::least_distance;
 
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;

@@ -26,7 +26,7 @@ pub struct Found {
 }
 
 /// A question about distances: one rule for nodes and boxes, which is monotone, so that no box is nearer than the node around it.
-trait Ask: Copy {
+pub(super) trait Ask: Copy {
     fn ask<W: Width>(&self, width: W, node: &Node, limit: f32) -> Far;
     fn told(&self, within: f32) -> f64;
     fn within(&self, limit: f64) -> f32;
@@ -51,7 +51,7 @@ impl Ask for &Cast {
 
 /// How near to a box others are. Distances within are squares.
 #[derive(Clone, Copy, Debug)]
-struct To(Sides);
+pub(super) struct To(pub(super) Sides);
 
 /// Some roundings to f32 stand between corners and a distance; in its square, five of at most 2^-24 each.
 const LOST: f64 = 1.0 / 4_194_304.0;

@@ -21,6 +21,15 @@ type Rotation = [Int; 2];
 
 /// The question whether two shapes meet. `cores` are theirs.
 pub(super) fn question<'a>(sites: [&'a Site2<'a>; 2], cores: [&'a Core2<'a>; 2]) -> Question<'a> {
+    question_of(sites, cores, sites.map(|site| site.shape.radius()))
+}
+
+/// The same of shapes with radii that are not theirs, but multiples of the same unit: theirs, and zero.
+pub(super) fn question_of<'a>(
+    sites: [&'a Site2<'a>; 2],
+    cores: [&'a Core2<'a>; 2],
+    radii: [f32; 2],
+) -> Question<'a> {
     let [site_a, site_b] = sites;
     let vertices = cores.map(|core| Vertices::Plane(core.vertices()));
     let unit = common_unit(sites.iter().zip(&vertices).flat_map(|(site, vertices)| lengths(site, vertices)));
@@ -66,12 +75,12 @@ pub(super) fn question<'a>(sites: [&'a Site2<'a>; 2], cores: [&'a Core2<'a>; 2])
         }
     };
     let [vertices_a, vertices_b] = vertices;
-    let radius = |site: &Site2| in_units(f64::from(site.shape.radius()), unit);
+    let [radius_a, radius_b] = radii.map(|radius| in_units(f64::from(radius), unit));
     Question {
         a: body(site_a, vertices_a),
         b: body(site_b, vertices_b),
         offset: [&origin_b[0] - &origin_a[0], &origin_b[1] - &origin_a[1], Int::ZERO],
-        radii: &weight * &(&radius(site_a) + &radius(site_b)),
+        radii: &weight * &(&radius_a + &radius_b),
         unit,
     }
 }

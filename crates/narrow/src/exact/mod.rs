@@ -58,6 +58,12 @@ pub(crate) fn overlaps2(sites: [&Site2; 2], start: &[Corner]) -> bool {
     frame2::question(sites, [&cores[0], &cores[1]]).answer(start)
 }
 
+/// Whether a shape holds the position of a body, which is told by a circle there.
+pub(crate) fn holds2(site: &Site2, point: &Site2) -> bool {
+    let cores = [site, point].map(|site| site.shape.core());
+    frame2::question_of([site, point], [&cores[0], &cores[1]], [site.shape.radius(), 0.0]).answer(&[])
+}
+
 /// As [`are_opposed3`], in the plane.
 pub(crate) fn are_opposed2(sites: [&Site2; 2]) -> bool {
     let cores = sites.map(|site| site.shape.core());

@@ -11,7 +11,7 @@
 //! What each trick buys stands above its kernel; the definition of the best axis is `sat::plain`.
 
 pub(crate) mod convex;
-mod distance;
+pub(crate) mod distance;
 mod few;
 mod half_plane;
 pub(crate) mod manifold;

@@ -20,6 +20,11 @@ impl Turn {
         Self { cos: f64::from(rotation.cos()), sin: f64::from(rotation.sin()) }
     }
 
+    /// The rotation that takes the x axis to a unit vector.
+    pub(crate) fn to(unit: DVec2) -> Self {
+        Self { cos: unit.x, sin: unit.y }
+    }
+
     /// One over the matrix' stretch, within 3 roundings of 2^-53.
     ///
     /// The squared stretch is 1 + e with |e| < 3e-7, also for the product of two matrices: the third power of that is

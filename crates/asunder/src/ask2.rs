@@ -1,0 +1,324 @@
+//! Questions to a world in the plane, in plain types.
+
+use crate::query::{
+    Asked, CastAnswer2, Filter2, Met, NearAnswer2, RayAnswer2, bodies_along, bodies_along_ray, bodies_near,
+    bodies_over, boxes_over,
+};
+use crate::space::{BodyKey2, Plane};
+use crate::world::{StaleKey, World};
+
+use asunder_geometry::glam::{DVec2, Vec2};
+use asunder_geometry::{Aabb2, Motion2, Pose2, Ray2, Shape2};
+use asunder_narrow::{Impact2, Pair2};
+use core::ops::ControlFlow;
+
+/// # Questions
+/// Questions see bodies where they are, also before the next update. Any number of threads may ask at once. What comes in a list is
+/// sorted by distance, then by the bodies' slots (lists without distances by slots), and lists are cleared first; visitors get answers in no
+/// promised order, until they break off. A [`Filter2`] says whom a question may find.
+///
+/// Cost: the first question makes a tree of all boxes, in 45 ns a body, and it is kept while few bodies move; of those that have moved since, a
+/// second one is made by the first question after an update. Then, a question takes a walk down both trees, and the narrow phase of
+/// every body whose box is met. Once memory is there, nothing allocates but the caller's lists.
+impl World<Plane> {
+    /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse way to ask what is in a region. A body's
+    /// box is that around its shape as it stands, rounded outwards, without its margin.
+    ///
+    /// ```
+    /// use asunder::{Aabb2, Motion2, Ray2, Circle, Collider2, Filter2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let ball = world.insert(Collider2::new(Circle::new(1.0)?));
+    /// let corner = Aabb2::new(Vec2::splat(0.9), Vec2::splat(2.0));
+    /// let mut found = vec![];
+    /// world.boxes_overlapping(&corner, &Filter2::new(), &mut found);
+    /// assert_eq!(found, [ball], "the ball's box reaches there, the ball does not");
+    /// # Ok::<(), asunder::RadiusError>(())
+    /// ```
+    pub fn boxes_overlapping(&self, bounds: &Aabb2, filter: &Filter2<'_>, into: &mut Vec<BodyKey2>) {
+        boxes_over(self, bounds, filter).keys(into);
+    }
+
+    /// [`World::boxes_overlapping`], one by one in no promised order.
+    pub fn visit_boxes_overlapping(
+        &self,
+        bounds: &Aabb2,
+        filter: &Filter2<'_>,
+        mut visitor: impl FnMut(BodyKey2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        boxes_over(self, bounds, filter).visit(|Met(body)| visitor(body))
+    }
+
+    /// Bodies that hold a point, in metres; the surface counts. Exact. None hold a point that is not finite, or beyond 1e9 m on an axis.
+    ///
+    /// ```
+    /// use asunder::{Collider2, Filter2, Rect, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let unit = world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?));
+    /// let mut found = vec![];
+    /// world.overlapping_point(Vec2::ONE, &Filter2::new(), &mut found);
+    /// assert_eq!(found, [unit], "a corner");
+    /// world.overlapping_point([1.0 + f64::EPSILON, 0.0], &Filter2::new(), &mut found);
+    /// assert_eq!(found, []);
+    /// # Ok::<(), asunder::ExtentError>(())
+    /// ```
+    pub fn overlapping_point(&self, point: impl Into<DVec2>, filter: &Filter2<'_>, into: &mut Vec<BodyKey2>) {
+        into.clear();
+        if let Some((shape, pose)) = Plane::point(point.into()) {
+            bodies_over(self, (&shape, &pose), filter).keys(into);
+        }
+    }
+
+    /// [`World::overlapping_point`], one by one in no promised order.
+    pub fn visit_overlapping_point(
+        &self,
+        point: impl Into<DVec2>,
+        filter: &Filter2<'_>,
+        mut visitor: impl FnMut(BodyKey2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Some((shape, pose)) = Plane::point(point.into()) else { return ControlFlow::Continue(()) };
+        bodies_over(self, (&shape, &pose), filter).visit(|Met(body)| visitor(body))
+    }
+
+    /// Bodies that share a point with a posed shape; touching counts. Exact.
+    ///
+    /// ```
+    /// use asunder::{Collider2, Filter2, Pose2, Rect, Shape2, World2, glam::Vec2};
+    /// let unit = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
+    /// let mut world = World2::new();
+    /// let body = world.insert(Collider2::new(unit.clone()));
+    /// let mut found = vec![];
+    /// world.overlapping((&unit, &Pose2::at([2.0, 0.0])?), &Filter2::new(), &mut found);
+    /// assert_eq!(found, [body], "they share a side");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn overlapping(&self, at: (&Shape2, &Pose2), filter: &Filter2<'_>, into: &mut Vec<BodyKey2>) {
+        bodies_over(self, at, filter).keys(into);
+    }
+
+    /// [`World::overlapping`], one by one in no promised order.
+    pub fn visit_overlapping(
+        &self,
+        at: (&Shape2, &Pose2),
+        filter: &Filter2<'_>,
+        mut visitor: impl FnMut(BodyKey2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_over(self, at, filter).visit(|Met(body)| visitor(body))
+    }
+
+    /// The body closest to a point, both in metres, and the closest point on it, if one is within a distance; of bodies equally near, that
+    /// of the lowest slot. A body that holds the point is at distance 0.
+    ///
+    /// A NaN counts as no limit, and a negative distance as zero. Nothing is near a point that is not finite, or beyond 1e9 m on an axis.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, World2, glam::DVec2};
+    /// let mut world = World2::new();
+    /// let ball = world.insert(Collider2::new(Circle::new(1.0)?).at(Pose2::at([4.0, 0.0])?));
+    /// let near = world.closest(DVec2::ZERO, 10.0, &Filter2::new()).ok_or("it is near")?;
+    /// assert_eq!((near.body, near.distance, near.point), (ball, 3.0, DVec2::X * 3.0));
+    /// assert!(world.closest(DVec2::ZERO, 2.0, &Filter2::new()).is_none());
+    /// let inside = world.closest(DVec2::X * 4.5, 2.0, &Filter2::new()).ok_or("it is inside")?;
+    /// assert_eq!((inside.overlapping, inside.distance), (true, 0.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn closest(&self, point: impl Into<DVec2>, within: f32, filter: &Filter2<'_>) -> Option<NearAnswer2> {
+        let (shape, pose) = Plane::point(point.into())?;
+        bodies_near(self, (&shape, &pose), within, filter).first()
+    }
+
+    /// All bodies within a distance of a point, as [`World::closest`] tells of the first.
+    pub fn within(
+        &self,
+        point: impl Into<DVec2>,
+        within: f32,
+        filter: &Filter2<'_>,
+        into: &mut Vec<NearAnswer2>,
+    ) {
+        into.clear();
+        if let Some((shape, pose)) = Plane::point(point.into()) {
+            bodies_near(self, (&shape, &pose), within, filter).all(into);
+        }
+    }
+
+    /// [`World::within`], one by one in no promised order.
+    pub fn visit_within(
+        &self,
+        point: impl Into<DVec2>,
+        within: f32,
+        filter: &Filter2<'_>,
+        visitor: impl FnMut(NearAnswer2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Some((shape, pose)) = Plane::point(point.into()) else { return ControlFlow::Continue(()) };
+        bodies_near(self, (&shape, &pose), within, filter).visit(visitor)
+    }
+
+    /// The body closest to a posed shape, and the closest points of both, if one is within a distance; of bodies equally near, that of the
+    /// lowest slot. One that overlaps the shape is at distance 0.
+    ///
+    /// A NaN counts as no limit, and a negative distance as zero.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::DVec2};
+    /// let ball = Shape2::from(Circle::new(1.0)?);
+    /// let mut world = World2::new();
+    /// let body = world.insert(Collider2::new(ball.clone()).at(Pose2::at([4.0, 0.0])?));
+    /// let near = world.closest_to_shape((&ball, &Pose2::IDENTITY), 10.0, &Filter2::new()).ok_or("it is near")?;
+    /// assert_eq!((near.body, near.distance), (body, 2.0));
+    /// assert_eq!((near.from, near.point), (DVec2::X, DVec2::X * 3.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn closest_to_shape(
+        &self,
+        at: (&Shape2, &Pose2),
+        within: f32,
+        filter: &Filter2<'_>,
+    ) -> Option<NearAnswer2> {
+        bodies_near(self, at, within, filter).first()
+    }
+
+    /// All bodies within a distance of a posed shape, as [`World::closest_to_shape`] tells of the first.
+    pub fn within_shape(
+        &self,
+        at: (&Shape2, &Pose2),
+        within: f32,
+        filter: &Filter2<'_>,
+        into: &mut Vec<NearAnswer2>,
+    ) {
+        bodies_near(self, at, within, filter).all(into);
+    }
+
+    /// [`World::within_shape`], one by one in no promised order.
+    pub fn visit_within_shape(
+        &self,
+        at: (&Shape2, &Pose2),
+        within: f32,
+        filter: &Filter2<'_>,
+        visitor: impl FnMut(NearAnswer2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_near(self, at, within, filter).visit(visitor)
+    }
+
+    /// The first body that a ray meets no later than at `limit`, which is in lengths of its direction and may be infinite; of bodies met
+    /// at the same distance, that of the lowest slot. A body that the ray starts in is met at 0.
+    ///
+    /// A NaN counts as no limit, and a negative limit as zero. Looks at bodies in order of their boxes, and at none behind the first.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
+    /// let mut world = World2::new();
+    /// let ball = world.insert(Collider2::new(Circle::new(1.0)?).at(Pose2::at(DVec2::X * 4.0)?));
+    /// let ray = Ray2::new(DVec2::ZERO, Vec2::X * 2.0)?;
+    /// let hit = world.cast_ray(&ray, f64::INFINITY, &Filter2::new()).ok_or("it is in the way")?;
+    /// assert_eq!((hit.body, hit.normal), (ball, Vec2::NEG_X));
+    /// assert!((hit.distance - 1.5).abs() < 1e-6 && hit.point.distance(DVec2::X * 3.0) < 1e-6);
+    /// assert!(world.cast_ray(&ray, 1.0, &Filter2::new()).is_none(), "one length of the direction is two metres");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_ray(&self, ray: &Ray2, limit: f64, filter: &Filter2<'_>) -> Option<RayAnswer2> {
+        bodies_along_ray(self, ray, limit, filter).first()
+    }
+
+    /// All bodies that a ray meets, as [`World::cast_ray`] tells of the first: through all that is in the way.
+    pub fn cast_ray_all(&self, ray: &Ray2, limit: f64, filter: &Filter2<'_>, into: &mut Vec<RayAnswer2>) {
+        bodies_along_ray(self, ray, limit, filter).all(into);
+    }
+
+    /// [`World::cast_ray_all`], one by one in no promised order: to know whether anything is in the way, break off at once.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// world.insert(Collider2::new(Circle::new(1.0)?).at(Pose2::at(DVec2::X * 4.0)?));
+    /// let sight = Ray2::new(DVec2::ZERO, Vec2::X * 10.0)?;
+    /// let is_free = world.visit_ray(&sight, 1.0, &Filter2::new(), |_| ControlFlow::Break(())).is_continue();
+    /// assert!(!is_free);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_ray(
+        &self,
+        ray: &Ray2,
+        limit: f64,
+        filter: &Filter2<'_>,
+        visitor: impl FnMut(RayAnswer2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_along_ray(self, ray, limit, filter).visit(visitor)
+    }
+
+    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of bodies met at
+    /// the same time, that of the lowest slot. One that it touches already is met at fraction 0.
+    ///
+    /// A displacement of zero meets what the shape overlaps, and one that is not finite meets nothing.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::{DVec2, Vec2}};
+    /// let ball = Shape2::from(Circle::new(1.0)?);
+    /// let mut world = World2::new();
+    /// let body = world.insert(Collider2::new(ball.clone()).at(Pose2::at(DVec2::X * 4.0)?));
+    /// let from = (&ball, &Pose2::IDENTITY);
+    /// let hit = world.cast_shape(from, Vec2::X * 4.0, &Filter2::new()).ok_or("it is in the way")?;
+    /// assert_eq!((hit.body, hit.overlapping), (body, false));
+    /// assert!(hit.fraction <= 0.5 && hit.fraction > 0.499_99 && hit.point.distance(DVec2::X * 3.0) < 1e-4);
+    /// assert!(world.cast_shape(from, Vec2::X * 1.9, &Filter2::new()).is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_shape(
+        &self,
+        from: (&Shape2, &Pose2),
+        displacement: Vec2,
+        filter: &Filter2<'_>,
+    ) -> Option<CastAnswer2> {
+        bodies_along(self, from, displacement, filter).first()
+    }
+
+    /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
+    pub fn cast_shape_all(
+        &self,
+        from: (&Shape2, &Pose2),
+        displacement: Vec2,
+        filter: &Filter2<'_>,
+        into: &mut Vec<CastAnswer2>,
+    ) {
+        bodies_along(self, from, displacement, filter).all(into);
+    }
+
+    /// [`World::cast_shape_all`], one by one in no promised order.
+    pub fn visit_cast_shape(
+        &self,
+        from: (&Shape2, &Pose2),
+        displacement: Vec2,
+        filter: &Filter2<'_>,
+        visitor: impl FnMut(CastAnswer2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_along(self, from, displacement, filter).visit(visitor)
+    }
+
+    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not. What stands
+    /// gets a motion of zero.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Motion2, Pose2, StaleKey, World2, glam::DVec2};
+    /// let mut world = World2::new();
+    /// let one = world.insert(Collider2::new(Circle::new(1.0)?));
+    /// let other = world.insert(Collider2::new(Circle::new(1.0)?).at(Pose2::at(DVec2::X * 6.0)?));
+    /// let (right, left) = (Motion2::shift(DVec2::X * 4.0)?, Motion2::shift(DVec2::X * -4.0)?);
+    /// let impact = world.impact(one, other, &right, &left)?.ok_or("they meet")?;
+    /// assert!(impact.fraction <= 0.5 && impact.fraction > 0.499_99);
+    /// world.remove(other);
+    /// assert_eq!(world.impact(one, other, &right, &left), Err(StaleKey));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn impact(
+        &self,
+        a: BodyKey2,
+        b: BodyKey2,
+        motion_a: &Motion2,
+        motion_b: &Motion2,
+    ) -> Result<Option<Impact2>, StaleKey> {
+        let (a, b) = (self.bodies.get(a).ok_or(StaleKey)?, self.bodies.get(b).ok_or(StaleKey)?);
+        Ok(Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
+    }
+}

@@ -1,0 +1,324 @@
+//! Questions to a world in space, in plain types.
+
+use crate::query::{
+    Asked, CastAnswer3, Filter3, Met, NearAnswer3, RayAnswer3, bodies_along, bodies_along_ray, bodies_near,
+    bodies_over, boxes_over,
+};
+use crate::space::{BodyKey3, Volume};
+use crate::world::{StaleKey, World};
+
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Aabb3, Motion3, Pose3, Ray3, Shape3};
+use asunder_narrow::{Impact3, Pair3};
+use core::ops::ControlFlow;
+
+/// # Questions
+/// Questions see bodies where they are, also before the next update. Any number of threads may ask at once. What comes in a list is
+/// sorted by distance, then by the bodies' slots (lists without distances by slots), and lists are cleared first; visitors get answers in no
+/// promised order, until they break off. A [`Filter3`] says whom a question may find.
+///
+/// Cost: the first question makes a tree of all boxes, in 45 ns a body, and it is kept while few bodies move; of those that have moved since, a
+/// second one is made by the first question after an update. Then, a question takes a walk down both trees, and the narrow phase of
+/// every body whose box is met. Once memory is there, nothing allocates but the caller's lists.
+impl World<Volume> {
+    /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse way to ask what is in a region. A body's
+    /// box is that around its shape as it stands, rounded outwards, without its margin.
+    ///
+    /// ```
+    /// use asunder::{Aabb3, Motion3, Ray3, Sphere, Collider3, Filter3, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let ball = world.insert(Collider3::new(Sphere::new(1.0)?));
+    /// let corner = Aabb3::new(Vec3::splat(0.9), Vec3::splat(2.0));
+    /// let mut found = vec![];
+    /// world.boxes_overlapping(&corner, &Filter3::new(), &mut found);
+    /// assert_eq!(found, [ball], "the ball's box reaches there, the ball does not");
+    /// # Ok::<(), asunder::RadiusError>(())
+    /// ```
+    pub fn boxes_overlapping(&self, bounds: &Aabb3, filter: &Filter3<'_>, into: &mut Vec<BodyKey3>) {
+        boxes_over(self, bounds, filter).keys(into);
+    }
+
+    /// [`World::boxes_overlapping`], one by one in no promised order.
+    pub fn visit_boxes_overlapping(
+        &self,
+        bounds: &Aabb3,
+        filter: &Filter3<'_>,
+        mut visitor: impl FnMut(BodyKey3) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        boxes_over(self, bounds, filter).visit(|Met(body)| visitor(body))
+    }
+
+    /// Bodies that hold a point, in metres; the surface counts. Exact. None hold a point that is not finite, or beyond 1e9 m on an axis.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Cuboid, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let unit = world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?));
+    /// let mut found = vec![];
+    /// world.overlapping_point(Vec3::ONE, &Filter3::new(), &mut found);
+    /// assert_eq!(found, [unit], "a corner");
+    /// world.overlapping_point([1.0 + f64::EPSILON, 0.0, 0.0], &Filter3::new(), &mut found);
+    /// assert_eq!(found, []);
+    /// # Ok::<(), asunder::ExtentError>(())
+    /// ```
+    pub fn overlapping_point(&self, point: impl Into<DVec3>, filter: &Filter3<'_>, into: &mut Vec<BodyKey3>) {
+        into.clear();
+        if let Some((shape, pose)) = Volume::point(point.into()) {
+            bodies_over(self, (&shape, &pose), filter).keys(into);
+        }
+    }
+
+    /// [`World::overlapping_point`], one by one in no promised order.
+    pub fn visit_overlapping_point(
+        &self,
+        point: impl Into<DVec3>,
+        filter: &Filter3<'_>,
+        mut visitor: impl FnMut(BodyKey3) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Some((shape, pose)) = Volume::point(point.into()) else { return ControlFlow::Continue(()) };
+        bodies_over(self, (&shape, &pose), filter).visit(|Met(body)| visitor(body))
+    }
+
+    /// Bodies that share a point with a posed shape; touching counts. Exact.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Cuboid, Shape3, World3, glam::Vec3};
+    /// let unit = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
+    /// let mut world = World3::new();
+    /// let body = world.insert(Collider3::new(unit.clone()));
+    /// let mut found = vec![];
+    /// world.overlapping((&unit, &Pose3::at([2.0, 0.0, 0.0])?), &Filter3::new(), &mut found);
+    /// assert_eq!(found, [body], "they share a side");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn overlapping(&self, at: (&Shape3, &Pose3), filter: &Filter3<'_>, into: &mut Vec<BodyKey3>) {
+        bodies_over(self, at, filter).keys(into);
+    }
+
+    /// [`World::overlapping`], one by one in no promised order.
+    pub fn visit_overlapping(
+        &self,
+        at: (&Shape3, &Pose3),
+        filter: &Filter3<'_>,
+        mut visitor: impl FnMut(BodyKey3) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_over(self, at, filter).visit(|Met(body)| visitor(body))
+    }
+
+    /// The body closest to a point, both in metres, and the closest point on it, if one is within a distance; of bodies equally near, that
+    /// of the lowest slot. A body that holds the point is at distance 0.
+    ///
+    /// A NaN counts as no limit, and a negative distance as zero. Nothing is near a point that is not finite, or beyond 1e9 m on an axis.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Collider3, Filter3, Pose3, World3, glam::DVec3};
+    /// let mut world = World3::new();
+    /// let ball = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let near = world.closest(DVec3::ZERO, 10.0, &Filter3::new()).ok_or("it is near")?;
+    /// assert_eq!((near.body, near.distance, near.point), (ball, 3.0, DVec3::X * 3.0));
+    /// assert!(world.closest(DVec3::ZERO, 2.0, &Filter3::new()).is_none());
+    /// let inside = world.closest(DVec3::X * 4.5, 2.0, &Filter3::new()).ok_or("it is inside")?;
+    /// assert_eq!((inside.overlapping, inside.distance), (true, 0.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn closest(&self, point: impl Into<DVec3>, within: f32, filter: &Filter3<'_>) -> Option<NearAnswer3> {
+        let (shape, pose) = Volume::point(point.into())?;
+        bodies_near(self, (&shape, &pose), within, filter).first()
+    }
+
+    /// All bodies within a distance of a point, as [`World::closest`] tells of the first.
+    pub fn within(
+        &self,
+        point: impl Into<DVec3>,
+        within: f32,
+        filter: &Filter3<'_>,
+        into: &mut Vec<NearAnswer3>,
+    ) {
+        into.clear();
+        if let Some((shape, pose)) = Volume::point(point.into()) {
+            bodies_near(self, (&shape, &pose), within, filter).all(into);
+        }
+    }
+
+    /// [`World::within`], one by one in no promised order.
+    pub fn visit_within(
+        &self,
+        point: impl Into<DVec3>,
+        within: f32,
+        filter: &Filter3<'_>,
+        visitor: impl FnMut(NearAnswer3) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Some((shape, pose)) = Volume::point(point.into()) else { return ControlFlow::Continue(()) };
+        bodies_near(self, (&shape, &pose), within, filter).visit(visitor)
+    }
+
+    /// The body closest to a posed shape, and the closest points of both, if one is within a distance; of bodies equally near, that of the
+    /// lowest slot. One that overlaps the shape is at distance 0.
+    ///
+    /// A NaN counts as no limit, and a negative distance as zero.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Collider3, Filter3, Pose3, Shape3, World3, glam::DVec3};
+    /// let ball = Shape3::from(Sphere::new(1.0)?);
+    /// let mut world = World3::new();
+    /// let body = world.insert(Collider3::new(ball.clone()).at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let near = world.closest_to_shape((&ball, &Pose3::IDENTITY), 10.0, &Filter3::new()).ok_or("it is near")?;
+    /// assert_eq!((near.body, near.distance), (body, 2.0));
+    /// assert_eq!((near.from, near.point), (DVec3::X, DVec3::X * 3.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn closest_to_shape(
+        &self,
+        at: (&Shape3, &Pose3),
+        within: f32,
+        filter: &Filter3<'_>,
+    ) -> Option<NearAnswer3> {
+        bodies_near(self, at, within, filter).first()
+    }
+
+    /// All bodies within a distance of a posed shape, as [`World::closest_to_shape`] tells of the first.
+    pub fn within_shape(
+        &self,
+        at: (&Shape3, &Pose3),
+        within: f32,
+        filter: &Filter3<'_>,
+        into: &mut Vec<NearAnswer3>,
+    ) {
+        bodies_near(self, at, within, filter).all(into);
+    }
+
+    /// [`World::within_shape`], one by one in no promised order.
+    pub fn visit_within_shape(
+        &self,
+        at: (&Shape3, &Pose3),
+        within: f32,
+        filter: &Filter3<'_>,
+        visitor: impl FnMut(NearAnswer3) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_near(self, at, within, filter).visit(visitor)
+    }
+
+    /// The first body that a ray meets no later than at `limit`, which is in lengths of its direction and may be infinite; of bodies met
+    /// at the same distance, that of the lowest slot. A body that the ray starts in is met at 0.
+    ///
+    /// A NaN counts as no limit, and a negative limit as zero. Looks at bodies in order of their boxes, and at none behind the first.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Collider3, Filter3, Pose3, Ray3, World3, glam::{DVec3, Vec3}};
+    /// let mut world = World3::new();
+    /// let ball = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at(DVec3::X * 4.0)?));
+    /// let ray = Ray3::new(DVec3::ZERO, Vec3::X * 2.0)?;
+    /// let hit = world.cast_ray(&ray, f64::INFINITY, &Filter3::new()).ok_or("it is in the way")?;
+    /// assert_eq!((hit.body, hit.normal), (ball, Vec3::NEG_X));
+    /// assert!((hit.distance - 1.5).abs() < 1e-6 && hit.point.distance(DVec3::X * 3.0) < 1e-6);
+    /// assert!(world.cast_ray(&ray, 1.0, &Filter3::new()).is_none(), "one length of the direction is two metres");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_ray(&self, ray: &Ray3, limit: f64, filter: &Filter3<'_>) -> Option<RayAnswer3> {
+        bodies_along_ray(self, ray, limit, filter).first()
+    }
+
+    /// All bodies that a ray meets, as [`World::cast_ray`] tells of the first: through all that is in the way.
+    pub fn cast_ray_all(&self, ray: &Ray3, limit: f64, filter: &Filter3<'_>, into: &mut Vec<RayAnswer3>) {
+        bodies_along_ray(self, ray, limit, filter).all(into);
+    }
+
+    /// [`World::cast_ray_all`], one by one in no promised order: to know whether anything is in the way, break off at once.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Collider3, Filter3, Pose3, Ray3, World3, glam::{DVec3, Vec3}};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World3::new();
+    /// world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at(DVec3::X * 4.0)?));
+    /// let sight = Ray3::new(DVec3::ZERO, Vec3::X * 10.0)?;
+    /// let is_free = world.visit_ray(&sight, 1.0, &Filter3::new(), |_| ControlFlow::Break(())).is_continue();
+    /// assert!(!is_free);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_ray(
+        &self,
+        ray: &Ray3,
+        limit: f64,
+        filter: &Filter3<'_>,
+        visitor: impl FnMut(RayAnswer3) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_along_ray(self, ray, limit, filter).visit(visitor)
+    }
+
+    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of bodies met at
+    /// the same time, that of the lowest slot. One that it touches already is met at fraction 0.
+    ///
+    /// A displacement of zero meets what the shape overlaps, and one that is not finite meets nothing.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Collider3, Filter3, Pose3, Shape3, World3, glam::{DVec3, Vec3}};
+    /// let ball = Shape3::from(Sphere::new(1.0)?);
+    /// let mut world = World3::new();
+    /// let body = world.insert(Collider3::new(ball.clone()).at(Pose3::at(DVec3::X * 4.0)?));
+    /// let from = (&ball, &Pose3::IDENTITY);
+    /// let hit = world.cast_shape(from, Vec3::X * 4.0, &Filter3::new()).ok_or("it is in the way")?;
+    /// assert_eq!((hit.body, hit.overlapping), (body, false));
+    /// assert!(hit.fraction <= 0.5 && hit.fraction > 0.499_99 && hit.point.distance(DVec3::X * 3.0) < 1e-4);
+    /// assert!(world.cast_shape(from, Vec3::X * 1.9, &Filter3::new()).is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_shape(
+        &self,
+        from: (&Shape3, &Pose3),
+        displacement: Vec3,
+        filter: &Filter3<'_>,
+    ) -> Option<CastAnswer3> {
+        bodies_along(self, from, displacement, filter).first()
+    }
+
+    /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
+    pub fn cast_shape_all(
+        &self,
+        from: (&Shape3, &Pose3),
+        displacement: Vec3,
+        filter: &Filter3<'_>,
+        into: &mut Vec<CastAnswer3>,
+    ) {
+        bodies_along(self, from, displacement, filter).all(into);
+    }
+
+    /// [`World::cast_shape_all`], one by one in no promised order.
+    pub fn visit_cast_shape(
+        &self,
+        from: (&Shape3, &Pose3),
+        displacement: Vec3,
+        filter: &Filter3<'_>,
+        visitor: impl FnMut(CastAnswer3) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_along(self, from, displacement, filter).visit(visitor)
+    }
+
+    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not. What stands
+    /// gets a motion of zero.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Collider3, Motion3, Pose3, StaleKey, World3, glam::DVec3};
+    /// let mut world = World3::new();
+    /// let one = world.insert(Collider3::new(Sphere::new(1.0)?));
+    /// let other = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at(DVec3::X * 6.0)?));
+    /// let (right, left) = (Motion3::shift(DVec3::X * 4.0)?, Motion3::shift(DVec3::X * -4.0)?);
+    /// let impact = world.impact(one, other, &right, &left)?.ok_or("they meet")?;
+    /// assert!(impact.fraction <= 0.5 && impact.fraction > 0.499_99);
+    /// world.remove(other);
+    /// assert_eq!(world.impact(one, other, &right, &left), Err(StaleKey));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn impact(
+        &self,
+        a: BodyKey3,
+        b: BodyKey3,
+        motion_a: &Motion3,
+        motion_b: &Motion3,
+    ) -> Result<Option<Impact3>, StaleKey> {
+        let (a, b) = (self.bodies.get(a).ok_or(StaleKey)?, self.bodies.get(b).ok_or(StaleKey)?);
+        Ok(Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
+    }
+}

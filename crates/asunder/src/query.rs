@@ -1,0 +1,34 @@
+//! Questions to a world: what is here, what is in the way, what is near.
+//!
+//! ```text
+//! index       which boxes a question is about, nearest first, from two trees and a list
+//! walk        box after box: filter, the box around the body as it stands, the narrow phase; the best, all, or whatever comes
+//! questions   each as the boxes that it is about and what it asks of a body
+//! space       the narrow phase's part, for the plane and for space
+//! answer      what is told
+//! ```
+//! The methods themselves stand in `ask2.rs` and `ask3.rs`, in plain types.
+//!
+//! # Why answers depend on the bodies alone
+//! Trees are made when somebody asks, by any thread, and boxes of the last update may be larger than they need be. So a box from a tree
+//! only says who is looked at. What decides is the box around the shape as it stands, made on the spot: a body is in an answer only if that box
+//! is, and is told to be no nearer than that box. Then a body that is passed over because its box in the tree is further than
+//! what was found would have been told to be further, too; and the order in which bodies are looked at does not matter, since
+//! equal distances go by slot.
+
+mod answer;
+mod filter;
+mod index;
+mod questions;
+mod space;
+mod walk;
+
+pub(crate) use answer::Met;
+pub use answer::{
+    CastAnswer, CastAnswer2, CastAnswer3, NearAnswer, NearAnswer2, NearAnswer3, RayAnswer, RayAnswer2,
+    RayAnswer3,
+};
+pub use filter::{Filter, Filter2, Filter3};
+pub(crate) use index::Boxes;
+pub(crate) use questions::{bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over};
+pub(crate) use space::Asked;

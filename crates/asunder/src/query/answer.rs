@@ -1,0 +1,136 @@
+//! What a question is answered with.
+
+use crate::space::{BodyKey2, BodyKey3};
+use crate::world::slot_of;
+use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
+use slotmap::Key;
+
+/// A body that a ray meets. `N` is a vector of f32, `P` a point of f64; use it as [`RayAnswer2`] or [`RayAnswer3`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayAnswer<K, N, P> {
+    /// The body.
+    pub body: K,
+    /// Where the ray enters it, in lengths of the ray's direction, as [`Ray3::at`](crate::Ray3::at) takes it; 0 where the ray starts inside.
+    pub distance: f64,
+    /// Metres along the ray that the distance may be off by.
+    pub error: f32,
+    /// The point at that distance, in metres.
+    pub point: P,
+    /// Unit outward normal of the body there; against the ray's direction where it starts inside.
+    pub normal: N,
+    /// Whether the ray starts in the body; touching counts. Exact.
+    pub inside: bool,
+    /// Which part of the body, for a compound; else 0.
+    pub part: u32,
+}
+
+/// A body of a [`World2`](crate::World2) that a ray meets.
+pub type RayAnswer2 = RayAnswer<BodyKey2, Vec2, DVec2>;
+
+/// A body of a [`World3`](crate::World3) that a ray meets.
+pub type RayAnswer3 = RayAnswer<BodyKey3, Vec3, DVec3>;
+
+/// A body that a moved shape meets. `N` is a vector of f32, `P` a point of f64; use it as [`CastAnswer2`] or [`CastAnswer3`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CastAnswer<K, N, P> {
+    /// The body.
+    pub body: K,
+    /// The share of the displacement after which they touch, 0 to 1. Before it they do not: it is never too great.
+    pub fraction: f64,
+    /// Metres that they may still be apart then; 0 where they touch at the start.
+    pub error: f32,
+    /// Whether they touch at the start. Exact; then the fraction is 0, and the normal that of the least depth.
+    pub overlapping: bool,
+    /// Unit normal in world axes, from the moved shape to the body.
+    pub normal: N,
+    /// Where they meet, on the body, in metres.
+    pub point: P,
+    /// Where they meet, on the moved shape, in world axes, relative to its position then, in metres.
+    pub anchor: N,
+    /// Which part of the body, for a compound; else 0.
+    pub part: u32,
+    /// Which part of the moved shape, for a compound; else 0.
+    pub part_of_moved: u32,
+}
+
+/// A body of a [`World2`](crate::World2) that a moved shape meets.
+pub type CastAnswer2 = CastAnswer<BodyKey2, Vec2, DVec2>;
+
+/// A body of a [`World3`](crate::World3) that a moved shape meets.
+pub type CastAnswer3 = CastAnswer<BodyKey3, Vec3, DVec3>;
+
+/// A body near a point or a shape, and the points of both that are closest. `N` is a vector of f32, `P` a point of f64; use it as
+/// [`NearAnswer2`] or [`NearAnswer3`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearAnswer<K, N, P> {
+    /// The body.
+    pub body: K,
+    /// The distance in metres: 0 where they overlap, and positive elsewhere.
+    pub distance: f64,
+    /// |true - reported| <= error, in metres.
+    pub error: f32,
+    /// Whether they share a point: whether the body holds the point that was asked about. Exact.
+    pub overlapping: bool,
+    /// Unit normal in world axes towards the body. Zero where they overlap.
+    pub normal: N,
+    /// The point of what was asked about that is closest to the body, in metres.
+    pub from: P,
+    /// The point of the body that is closest to it, in metres. Where a point is in the body, that point; where shapes overlap,
+    /// both points are those of their deepest contact (of two half-spaces, the asked one's position).
+    pub point: P,
+}
+
+/// A body of a [`World2`](crate::World2) near a point or a shape.
+pub type NearAnswer2 = NearAnswer<BodyKey2, Vec2, DVec2>;
+
+/// A body of a [`World3`](crate::World3) near a point or a shape.
+pub type NearAnswer3 = NearAnswer<BodyKey3, Vec3, DVec3>;
+
+/// What answers are compared by, and how far they are.
+pub(crate) trait Ranked {
+    /// The distance, and the slot that decides between equals.
+    fn rank(&self) -> (f64, u32);
+    /// Tells the distance anew. What depends on it stays: it is off by less than the error.
+    fn put_at(&mut self, distance: f64);
+}
+
+impl<K: Key, N, P> Ranked for RayAnswer<K, N, P> {
+    fn rank(&self) -> (f64, u32) {
+        (self.distance, slot_of(self.body))
+    }
+
+    fn put_at(&mut self, distance: f64) {
+        self.distance = distance;
+    }
+}
+
+impl<K: Key, N, P> Ranked for CastAnswer<K, N, P> {
+    fn rank(&self) -> (f64, u32) {
+        (self.fraction, slot_of(self.body))
+    }
+
+    fn put_at(&mut self, fraction: f64) {
+        self.fraction = fraction;
+    }
+}
+
+impl<K: Key, N, P> Ranked for NearAnswer<K, N, P> {
+    fn rank(&self) -> (f64, u32) {
+        (self.distance, slot_of(self.body))
+    }
+
+    fn put_at(&mut self, distance: f64) {
+        self.distance = distance;
+    }
+}
+
+/// What is only found: at no distance.
+pub(crate) struct Met<K>(pub(crate) K);
+
+impl<K: Key> Ranked for Met<K> {
+    fn rank(&self) -> (f64, u32) {
+        (0.0, slot_of(self.0))
+    }
+
+    fn put_at(&mut self, _: f64) {}
+}

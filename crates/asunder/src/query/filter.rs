@@ -1,0 +1,141 @@
+//! Whom a question is about.
+
+use crate::collider::{Collider, Layers};
+use crate::space::{Plane, Space, Volume};
+use core::fmt;
+
+/// Which bodies a question may find; use it as [`Filter2`] or [`Filter3`].
+///
+/// Every condition must hold. Without any, all bodies are found, sensors among them.
+///
+/// ```
+/// use asunder::{Collider3, Cuboid, Filter3, Layers, Ray3, World3, glam::Vec3};
+/// let mut world = World3::new();
+/// let unit = Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?);
+/// let player = world.insert(unit.clone().owner(1));
+/// let coin = world.insert(unit.clone().sensor());
+/// let wall = world.insert(unit.layers(Layers { member_of: 0b10, ..Layers::default() }));
+///
+/// let mut found = vec![];
+/// world.overlapping_point(Vec3::ZERO, &Filter3::new(), &mut found);
+/// assert_eq!(found, [player, coin, wall]);
+/// world.overlapping_point(Vec3::ZERO, &Filter3::new().without(player), &mut found);
+/// assert_eq!(found, [coin, wall]);
+/// world.overlapping_point(Vec3::ZERO, &Filter3::new().without_owner(1).solid(), &mut found);
+/// assert_eq!(found, [wall]);
+/// let shot = Layers { member_of: u32::MAX, collides_with: 0b01 };
+/// world.overlapping_point(Vec3::ZERO, &Filter3::new().layers(shot), &mut found);
+/// assert_eq!(found, [player, coin]);
+/// let is_odd = |_, body: &Collider3| body.get_user_data() % 2 == 1;
+/// world.overlapping_point(Vec3::ZERO, &Filter3::new().only(&is_odd), &mut found);
+/// assert_eq!(found, []);
+/// # Ok::<(), asunder::ExtentError>(())
+/// ```
+pub struct Filter<'a, S: Space> {
+    layers: Option<Layers>,
+    without: Option<S::Key>,
+    without_owner: Option<u64>,
+    is_solid: bool,
+    only: Option<Only<'a, S>>,
+}
+
+type Only<'a, S> = &'a (dyn Fn(<S as Space>::Key, &Collider<S>) -> bool + Sync);
+
+/// Which bodies of a [`World2`](crate::World2) a question may find.
+///
+/// ```
+/// use asunder::{Circle, Collider2, Filter2, World2};
+/// let mut world = World2::new();
+/// let coin = world.insert(Collider2::new(Circle::new(0.1)?).sensor());
+/// assert!(world.closest([1.0, 0.0], 5.0, &Filter2::new()).is_some_and(|near| near.body == coin));
+/// assert!(world.closest([1.0, 0.0], 5.0, &Filter2::new().solid()).is_none());
+/// # Ok::<(), asunder::RadiusError>(())
+/// ```
+pub type Filter2<'a> = Filter<'a, Plane>;
+
+/// Which bodies of a [`World3`](crate::World3) a question may find. See [`Filter`].
+pub type Filter3<'a> = Filter<'a, Volume>;
+
+impl<'a, S: Space> Filter<'a, S> {
+    /// Lets all bodies pass.
+    pub const fn new() -> Self {
+        Self { layers: None, without: None, without_owner: None, is_solid: false, only: None }
+    }
+
+    /// Asks as a body of these layers would: only bodies that these meet, where both sides must agree, are found.
+    #[must_use]
+    pub const fn layers(mut self, layers: Layers) -> Self {
+        self.layers = Some(layers);
+        self
+    }
+
+    /// Leaves out one body: who asks, say. A stale key leaves out nobody.
+    #[must_use]
+    pub const fn without(mut self, body: S::Key) -> Self {
+        self.without = Some(body);
+        self
+    }
+
+    /// Leaves out all bodies of an owner, as the parts of who asks.
+    #[must_use]
+    pub const fn without_owner(mut self, owner: u64) -> Self {
+        self.without_owner = Some(owner);
+        self
+    }
+
+    /// Leaves out sensors.
+    #[must_use]
+    pub const fn solid(mut self) -> Self {
+        self.is_solid = true;
+        self
+    }
+
+    /// Finds only bodies of which this says yes. It is asked last, of bodies whose boxes are met, in no promised order; it may ask
+    /// the world in turn.
+    #[must_use]
+    pub const fn only(mut self, only: &'a (dyn Fn(S::Key, &Collider<S>) -> bool + Sync)) -> Self {
+        self.only = Some(only);
+        self
+    }
+
+    /// What can be told without a call.
+    #[inline]
+    pub(super) fn admits(&self, key: S::Key, body: &Collider<S>) -> bool {
+        !body.disabled
+            && self.without != Some(key)
+            && !(self.is_solid && body.sensor)
+            && (self.without_owner.is_none() || self.without_owner != body.owner)
+            && self.layers.is_none_or(|layers| layers.meets(body.layers))
+    }
+
+    #[inline]
+    pub(super) fn agrees(&self, key: S::Key, body: &Collider<S>) -> bool {
+        self.only.is_none_or(|only| only(key, body))
+    }
+}
+
+impl<S: Space> Default for Filter<'_, S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<S: Space> Clone for Filter<'_, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Space> Copy for Filter<'_, S> {}
+
+impl<S: Space> fmt::Debug for Filter<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Filter")
+            .field("layers", &self.layers)
+            .field("without", &self.without)
+            .field("without_owner", &self.without_owner)
+            .field("is_solid", &self.is_solid)
+            .field("has_only", &self.only.is_some())
+            .finish()
+    }
+}

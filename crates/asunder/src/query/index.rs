@@ -1,0 +1,209 @@
+//! The boxes that questions are asked of first, kept while few bodies move.
+//!
+//! ```text
+//! rest     a tree of all boxes, as they were when it was made
+//! moved    a tree of those that changed since
+//! recent   a list of those that changed since that one was made
+//! ```
+//! A body counts in the last of the three that it is in. Trees are made by the first question that needs them, behind `&World`,
+//! and not at all in a world that is never asked; a list that has grown too long is given up, with the tree before it.
+//!
+//! 1. Two trees instead of one and a list: where a twentieth of all bodies moves every frame, a list of them would have to be
+//!    gone through by every question, and a tree of all would have to be made anew every frame.
+//! 2. A list instead of two trees: a game that moves one body, asks, and moves the next, would make the second tree for every question.
+//!
+//! No answer depends on which of them a body is in: see [`walk`](super::walk).
+
+use crate::space::Space;
+use crate::world::World;
+use asunder_broad::Index;
+use asunder_geometry::Bounds;
+use core::fmt;
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// Where a body's box is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Level {
+    #[default]
+    Rest,
+    Moved,
+    Recent,
+}
+
+/// What is known of all bodies' boxes; of no influence on any answer.
+pub(crate) struct Boxes<S: Space> {
+    rest: Tree<S::Aabb>,
+    moved: Tree<S::Aabb>,
+    /// Slots by what they are in; those not here are at rest.
+    levels: Vec<Level>,
+    /// Slots that are not at rest, in the order in which they changed: what numbers in the second tree mean.
+    changed: Vec<u32>,
+    recent: Vec<u32>,
+}
+
+impl<S: Space> Boxes<S> {
+    /// Takes note that a body's box has changed, or will: it was moved, came or went. Cost: constant.
+    #[inline]
+    pub(crate) fn told(&mut self, slot: u32) {
+        if self.rest.made.get().is_some() {
+            self.take_note(slot);
+        }
+    }
+
+    fn take_note(&mut self, slot: u32) {
+        let index = slot as usize;
+        if index >= self.levels.len() {
+            self.levels.resize(index + 1, Level::Rest);
+        }
+        match self.levels[index] {
+            Level::Recent => return,
+            Level::Moved => {}
+            Level::Rest => self.changed.push(slot),
+        }
+        if self.moved.made.get().is_some() {
+            self.levels[index] = Level::Recent;
+            self.recent.push(slot);
+        } else {
+            self.levels[index] = Level::Moved;
+        }
+        let at_rest = self.rest.made.get().map_or(0, |made| made.index.len());
+        if self.changed.len() > most_changed(at_rest) {
+            self.forget();
+        } else if self.recent.len() > most_recent(self.changed.len()) {
+            self.moved.forget();
+            self.recent.drain(..).for_each(|slot| self.levels[slot as usize] = Level::Moved);
+        }
+    }
+
+    fn forget(&mut self) {
+        self.rest.forget();
+        self.moved.forget();
+        self.changed.drain(..).for_each(|slot| self.levels[slot as usize] = Level::Rest);
+        self.recent.clear();
+    }
+}
+
+/// Boxes in the second tree, before both are made anew. The first costs as much a box as the second.
+const fn most_changed(at_rest: usize) -> usize {
+    64 + at_rest / 4
+}
+
+/// Boxes in the list, before the second tree is made anew. A question takes some 20 ns for each, and the tree 45 ns for each in it: between
+/// one question a move and many, this keeps both small.
+const fn most_recent(changed: usize) -> usize {
+    64 + (4 * changed).isqrt()
+}
+
+/// A tree that is made when it is needed, and the memory of the last one.
+struct Tree<B: Bounds> {
+    made: OnceLock<Made<B>>,
+    last: Mutex<Option<Made<B>>>,
+}
+
+struct Made<B> {
+    index: Index<B>,
+    boxes: Vec<B>,
+}
+
+impl<B: Bounds> Tree<B> {
+    /// The tree, made now if it is not there. Threads that come meanwhile wait for it.
+    fn get(&self, make: impl FnOnce(&mut Made<B>)) -> &Index<B> {
+        let made = self.made.get_or_init(|| {
+            // A lock that a panic has poisoned holds memory for reuse, whatever is in it.
+            let last = self.last.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let mut made = last.unwrap_or_else(|| Made { index: Index::new(), boxes: Vec::new() });
+            make(&mut made);
+            made
+        });
+        &made.index
+    }
+
+    fn forget(&mut self) {
+        if let Some(made) = self.made.take() {
+            *self.last.get_mut().unwrap_or_else(PoisonError::into_inner) = Some(made);
+        }
+    }
+}
+
+/// All bodies' boxes as they are now.
+pub(super) struct Sight<'w, S: Space> {
+    boxes: &'w Boxes<S>,
+    rest: &'w Index<S::Aabb>,
+    moved: &'w Index<S::Aabb>,
+}
+
+impl<S: Space> World<S> {
+    /// Makes the trees that are missing.
+    pub(super) fn sight(&self) -> Sight<'_, S> {
+        let boxes = &self.questions;
+        let rest = boxes.rest.get(|Made { index, boxes }| {
+            if self.dirty.is_empty() {
+                return index.build(&self.boxes);
+            }
+            boxes.clear();
+            boxes.extend((0..self.keys.len() as u32).map(|slot| self.box_now(slot)));
+            index.build(boxes);
+        });
+        let moved = boxes.moved.get(|made| {
+            made.boxes.clear();
+            made.boxes.extend(boxes.changed.iter().map(|&slot| self.box_now(slot)));
+            made.index.build(&made.boxes);
+        });
+        Sight { boxes, rest, moved }
+    }
+
+    /// A box around the body in a slot: that of the last update, which may be larger than it need be, if nothing was done to it since.
+    fn box_now(&self, slot: u32) -> S::Aabb {
+        let index = slot as usize;
+        if !self.is_dirty[index] {
+            return self.boxes[index];
+        }
+        let body = self.bodies.get(self.keys[index]);
+        body.map_or(S::Aabb::NOTHING, |body| S::bounds(&body.shape, &body.pose, 0.0))
+    }
+}
+
+impl<'w, S: Space> Sight<'w, S> {
+    /// Slots whose boxes are in no tree.
+    pub(super) fn recent(&self) -> &'w [u32] {
+        &self.boxes.recent
+    }
+
+    /// Both trees, and which slot a number in each of them means, if the body is not elsewhere by now.
+    pub(super) fn trees(&self) -> [(&'w Index<S::Aabb>, impl Fn(u32) -> Option<u32> + use<'w, S>); 2] {
+        let Boxes { levels, changed, .. } = self.boxes;
+        let slot_in = |level: Level| {
+            move |number: u32| {
+                let slot = if level == Level::Rest { number } else { *changed.get(number as usize)? };
+                let now = levels.get(slot as usize).copied().unwrap_or_default();
+                (now == level).then_some(slot)
+            }
+        };
+        [(self.rest, slot_in(Level::Rest)), (self.moved, slot_in(Level::Moved))]
+    }
+}
+
+impl<S: Space> Default for Boxes<S> {
+    fn default() -> Self {
+        Self {
+            rest: Tree { made: OnceLock::new(), last: Mutex::new(None) },
+            moved: Tree { made: OnceLock::new(), last: Mutex::new(None) },
+            levels: Vec::new(),
+            changed: Vec::new(),
+            recent: Vec::new(),
+        }
+    }
+}
+
+impl<S: Space> Clone for Boxes<S> {
+    /// A world's clone makes its own when it is asked.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl<S: Space> fmt::Debug for Boxes<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Boxes").finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,68 @@
+//! Questions, each as the boxes that it is about and what it asks of a body.
+
+use super::answer::Met;
+use super::filter::Filter;
+use super::space::{Asked, Enter, Meet, Near, Posed};
+use super::walk::{Along, Around, Asks, Over, Question};
+use crate::world::World;
+
+/// Bodies at a distance of at most `limit`: a NaN counts as no limit, and a negative limit as zero.
+fn limit_of(limit: f64) -> f64 {
+    if limit.is_nan() { f64::INFINITY } else { limit.max(0.0) }
+}
+
+/// Which boxes overlap one.
+pub(crate) fn boxes_over<'q, S: Asked>(
+    world: &'q World<S>,
+    bounds: &S::Aabb,
+    filter: &'q Filter<'q, S>,
+) -> Question<'q, S, Over<S::Aabb>, impl Asks<S, Met<S::Key>>> {
+    let ask = |key, _: &_| Some(Met(key));
+    Question { world, filter, reach: Over(*bounds), limit: 0.0, ask }
+}
+
+/// Which bodies overlap a shape.
+pub(crate) fn bodies_over<'q, S: Asked>(
+    world: &'q World<S>,
+    at: Posed<'q, S>,
+    filter: &'q Filter<'q, S>,
+) -> Question<'q, S, Over<S::Aabb>, impl Asks<S, Met<S::Key>>> {
+    let ask = move |key, body: &_| S::overlaps(at, body).then_some(Met(key));
+    Question { world, filter, reach: Over(S::bounds(at.0, at.1, 0.0)), limit: 0.0, ask }
+}
+
+/// Which bodies are near a shape.
+pub(crate) fn bodies_near<'q, S: Asked>(
+    world: &'q World<S>,
+    at: Posed<'q, S>,
+    within: f32,
+    filter: &'q Filter<'q, S>,
+) -> Question<'q, S, Around<S::Aabb>, impl Asks<S, Near<S>>> {
+    let ask = move |key, body: &_| Some(S::near(at, key, body));
+    let reach = Around(S::bounds(at.0, at.1, 0.0));
+    Question { world, filter, reach, limit: limit_of(within.into()), ask }
+}
+
+/// Which bodies a ray meets.
+pub(crate) fn bodies_along_ray<'q, S: Asked>(
+    world: &'q World<S>,
+    ray: &'q S::Ray,
+    limit: f64,
+    filter: &'q Filter<'q, S>,
+) -> Question<'q, S, Along, impl Asks<S, Enter<S>>> {
+    let limit = limit_of(limit);
+    let ask = move |key, body: &_| S::enter(ray, limit, key, body);
+    Question { world, filter, reach: Along(S::along_ray(ray)), limit, ask }
+}
+
+/// Which bodies a moved shape meets.
+pub(crate) fn bodies_along<'q, S: Asked>(
+    world: &'q World<S>,
+    at: Posed<'q, S>,
+    displacement: S::Vector,
+    filter: &'q Filter<'q, S>,
+) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
+    let ask = move |key, body: &_| S::meet(at, displacement, key, body);
+    let reach = Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
+    Question { world, filter, reach, limit: 1.0, ask }
+}

@@ -1,0 +1,200 @@
+//! What the narrow phase says of one body: for the plane, and for space.
+
+use super::answer::{CastAnswer, NearAnswer, RayAnswer};
+use crate::collider::Collider;
+use crate::space::{Plane, Space, Volume};
+use asunder_broad::Cast;
+use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
+use asunder_geometry::{Aabb2, Aabb3, Circle, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere};
+use asunder_narrow::{Pair2, Pair3, cast_ray2, cast_ray3};
+
+/// A shape, and where it is.
+pub(crate) type Posed<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
+
+/// A dimension that can be asked.
+pub(crate) trait Asked: Space {
+    /// A vector of f32.
+    type Vector: Copy;
+    /// A point of f64.
+    type Point: Copy;
+    /// A ray.
+    type Ray: Copy;
+
+    /// A point as a shape; nothing if no pose can be there.
+    fn point(at: Self::Point) -> Option<(Self::Shape, Self::Pose)>;
+    /// Whether the body shares a point with the shape; exact.
+    fn overlaps(at: Posed<'_, Self>, body: &Collider<Self>) -> bool;
+    /// How near the body is.
+    fn near(at: Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self>;
+    /// A ray, for boxes.
+    fn along_ray(ray: &Self::Ray) -> Cast;
+    /// A moved box, for boxes.
+    fn along(bounds: &Self::Aabb, displacement: Self::Vector) -> Cast;
+    /// Where the ray enters the body.
+    fn enter(ray: &Self::Ray, limit: f64, key: Self::Key, body: &Collider<Self>) -> Option<Enter<Self>>;
+    /// Where the shape, moved, meets the body.
+    fn meet(
+        at: Posed<'_, Self>,
+        displacement: Self::Vector,
+        key: Self::Key,
+        body: &Collider<Self>,
+    ) -> Option<Meet<Self>>;
+}
+
+pub(crate) type Enter<S> = RayAnswer<<S as Space>::Key, <S as Asked>::Vector, <S as Asked>::Point>;
+
+pub(crate) type Meet<S> = CastAnswer<<S as Space>::Key, <S as Asked>::Vector, <S as Asked>::Point>;
+
+pub(crate) type Near<S> = NearAnswer<<S as Space>::Key, <S as Asked>::Vector, <S as Asked>::Point>;
+
+impl Asked for Plane {
+    type Vector = Vec2;
+    type Point = DVec2;
+    type Ray = Ray2;
+
+    fn point(at: DVec2) -> Option<(Shape2, Pose2)> {
+        Some((Circle::POINT.into(), Pose2::at(at).ok()?))
+    }
+
+    fn overlaps((shape, pose): Posed<'_, Self>, body: &Collider<Self>) -> bool {
+        Pair2::new(shape, pose, &body.shape, &body.pose).overlaps()
+    }
+
+    fn near((shape, pose): Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self> {
+        let pair = Pair2::new(shape, pose, &body.shape, &body.pose);
+        let (here, there) = (pose.position(), body.pose.position());
+        let place =
+            |anchor_a: Vec2, anchor_b: Vec2| (here + anchor_a.as_dvec2(), there + anchor_b.as_dvec2());
+        if let Some(closest) = pair.distance() {
+            let (from, point) = place(closest.anchor_a, closest.anchor_b);
+            let (error, normal) = (closest.error, closest.normal);
+            let distance = closest.distance.into();
+            return NearAnswer { body: key, distance, error, overlapping: false, normal, from, point };
+        }
+        let is_point = matches!(shape, Shape2::Circle(Circle::POINT));
+        let deepest = if is_point { None } else { pair.manifold(0.0) };
+        let points = deepest.as_ref().map_or(&[][..], |manifold| &manifold.points);
+        let deepest = points.iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
+        let (from, point) = deepest.map_or((here, here), |deepest| place(deepest.anchor_a, deepest.anchor_b));
+        NearAnswer {
+            body: key,
+            distance: 0.0,
+            error: 0.0,
+            overlapping: true,
+            normal: Vec2::ZERO,
+            from,
+            point,
+        }
+    }
+
+    fn along_ray(ray: &Ray2) -> Cast {
+        Cast::from(*ray)
+    }
+
+    fn along(bounds: &Aabb2, displacement: Vec2) -> Cast {
+        Cast::of_box2(bounds, displacement)
+    }
+
+    fn enter(ray: &Ray2, limit: f64, key: Self::Key, body: &Collider<Self>) -> Option<Enter<Self>> {
+        let hit = cast_ray2(&body.shape, &body.pose, ray, limit)?;
+        let (distance, error, normal) = (hit.distance, hit.error, hit.normal);
+        let (inside, part) = (hit.inside, hit.part);
+        Some(RayAnswer { body: key, distance, error, point: ray.at(distance), normal, inside, part })
+    }
+
+    fn meet(
+        (shape, pose): Posed<'_, Self>,
+        displacement: Vec2,
+        key: Self::Key,
+        body: &Collider<Self>,
+    ) -> Option<Meet<Self>> {
+        let impact = Pair2::new(shape, pose, &body.shape, &body.pose).cast(displacement)?;
+        Some(CastAnswer {
+            body: key,
+            fraction: impact.fraction,
+            error: impact.error,
+            overlapping: impact.overlapping,
+            normal: impact.normal,
+            point: body.pose.position() + impact.anchor_b.as_dvec2(),
+            anchor: impact.anchor_a,
+            part: impact.part_b,
+            part_of_moved: impact.part_a,
+        })
+    }
+}
+
+impl Asked for Volume {
+    type Vector = Vec3;
+    type Point = DVec3;
+    type Ray = Ray3;
+
+    fn point(at: DVec3) -> Option<(Shape3, Pose3)> {
+        Some((Sphere::POINT.into(), Pose3::at(at).ok()?))
+    }
+
+    fn overlaps((shape, pose): Posed<'_, Self>, body: &Collider<Self>) -> bool {
+        Pair3::new(shape, pose, &body.shape, &body.pose).overlaps()
+    }
+
+    fn near((shape, pose): Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self> {
+        let pair = Pair3::new(shape, pose, &body.shape, &body.pose);
+        let (here, there) = (pose.position(), body.pose.position());
+        let place =
+            |anchor_a: Vec3, anchor_b: Vec3| (here + anchor_a.as_dvec3(), there + anchor_b.as_dvec3());
+        if let Some(closest) = pair.distance() {
+            let (from, point) = place(closest.anchor_a, closest.anchor_b);
+            let (error, normal) = (closest.error, closest.normal);
+            let distance = closest.distance.into();
+            return NearAnswer { body: key, distance, error, overlapping: false, normal, from, point };
+        }
+        let is_point = matches!(shape, Shape3::Sphere(Sphere::POINT));
+        let deepest = if is_point { None } else { pair.manifold(0.0) };
+        let points = deepest.as_ref().map_or(&[][..], |manifold| &manifold.points);
+        let deepest = points.iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
+        let (from, point) = deepest.map_or((here, here), |deepest| place(deepest.anchor_a, deepest.anchor_b));
+        NearAnswer {
+            body: key,
+            distance: 0.0,
+            error: 0.0,
+            overlapping: true,
+            normal: Vec3::ZERO,
+            from,
+            point,
+        }
+    }
+
+    fn along_ray(ray: &Ray3) -> Cast {
+        Cast::from(*ray)
+    }
+
+    fn along(bounds: &Aabb3, displacement: Vec3) -> Cast {
+        Cast::of_box3(bounds, displacement)
+    }
+
+    fn enter(ray: &Ray3, limit: f64, key: Self::Key, body: &Collider<Self>) -> Option<Enter<Self>> {
+        let hit = cast_ray3(&body.shape, &body.pose, ray, limit)?;
+        let (distance, error, normal) = (hit.distance, hit.error, hit.normal);
+        let (inside, part) = (hit.inside, hit.part);
+        Some(RayAnswer { body: key, distance, error, point: ray.at(distance), normal, inside, part })
+    }
+
+    fn meet(
+        (shape, pose): Posed<'_, Self>,
+        displacement: Vec3,
+        key: Self::Key,
+        body: &Collider<Self>,
+    ) -> Option<Meet<Self>> {
+        let impact = Pair3::new(shape, pose, &body.shape, &body.pose).cast(displacement)?;
+        Some(CastAnswer {
+            body: key,
+            fraction: impact.fraction,
+            error: impact.error,
+            overlapping: impact.overlapping,
+            normal: impact.normal,
+            point: body.pose.position() + impact.anchor_b.as_dvec3(),
+            anchor: impact.anchor_a,
+            part: impact.part_b,
+            part_of_moved: impact.part_a,
+        })
+    }
+}

@@ -1,0 +1,225 @@
+//! From boxes to answers: the best, all, or whatever comes.
+
+use super::answer::{Met, Ranked};
+use super::filter::Filter;
+use crate::collider::Collider;
+use crate::space::Space;
+use crate::world::{World, slot_of};
+use asunder_broad::{Cast, Found, Index, Queue, least_distance};
+use asunder_geometry::Bounds;
+use core::cell::Cell;
+use core::ops::ControlFlow;
+
+/// Which boxes a question is about.
+pub(crate) trait Reach<B: Bounds> {
+    /// At what distance a box is met, at least, if it is within the limit.
+    fn meets(&self, bounds: &B, limit: f64) -> Option<f64>;
+
+    /// Hands all boxes within the limit to the visitor, until it breaks off.
+    fn visit(
+        &self,
+        index: &Index<B>,
+        limit: f64,
+        visitor: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()>;
+
+    /// Hands boxes to the visitor, nearest first; what it returns is the limit from then on.
+    fn in_order(&self, index: &Index<B>, limit: f64, visitor: impl FnMut(u32) -> f64);
+}
+
+/// Those that overlap a box.
+pub(crate) struct Over<B>(pub(super) B);
+
+/// Those that a ray or a moved box crosses.
+pub(crate) struct Along(pub(super) Cast);
+
+/// Those near a box.
+pub(crate) struct Around<B>(pub(super) B);
+
+thread_local! {
+    /// Scratch memory of whoever asks on this thread. A question within a question finds none, and gets its own.
+    static QUEUE: Cell<Queue> = Cell::new(Queue::new());
+}
+
+fn with_queue(ask: impl FnOnce(&mut Queue)) {
+    let mut queue = QUEUE.try_with(Cell::take).unwrap_or_default();
+    ask(&mut queue);
+    // A thread that is about to end has no place for it any more.
+    let _ = QUEUE.try_with(|place| place.set(queue));
+}
+
+impl<B: Bounds> Reach<B> for Over<B> {
+    fn meets(&self, bounds: &B, _: f64) -> Option<f64> {
+        self.0.overlaps(bounds).then_some(0.0)
+    }
+
+    fn visit(
+        &self,
+        index: &Index<B>,
+        _: f64,
+        visitor: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        index.visit_overlapping(&self.0, visitor)
+    }
+
+    fn in_order(&self, index: &Index<B>, _: f64, mut visitor: impl FnMut(u32) -> f64) {
+        let _ = index.visit_overlapping(&self.0, |number| {
+            if visitor(number) < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+    }
+}
+
+impl<B: Bounds> Reach<B> for Along {
+    fn meets(&self, bounds: &B, limit: f64) -> Option<f64> {
+        self.0.meets(bounds, limit)
+    }
+
+    fn visit(
+        &self,
+        index: &Index<B>,
+        limit: f64,
+        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        index.visit_crossed(&self.0, limit, |found| visitor(found.number))
+    }
+
+    fn in_order(&self, index: &Index<B>, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
+        with_queue(|queue| {
+            index.crossed_in_order(&self.0, limit, queue, |found: Found| visitor(found.number));
+        });
+    }
+}
+
+impl<B: Bounds> Reach<B> for Around<B> {
+    fn meets(&self, bounds: &B, limit: f64) -> Option<f64> {
+        least_distance(&self.0, bounds).filter(|&distance| distance <= limit)
+    }
+
+    fn visit(
+        &self,
+        index: &Index<B>,
+        limit: f64,
+        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let mut flow = ControlFlow::Continue(());
+        self.in_order(index, limit, |number| {
+            flow = visitor(number);
+            if flow.is_break() { -1.0 } else { limit }
+        });
+        flow
+    }
+
+    fn in_order(&self, index: &Index<B>, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
+        with_queue(|queue| {
+            index.nearest_in_order(&self.0, limit, queue, |found: Found| visitor(found.number));
+        });
+    }
+}
+
+/// What the narrow phase says of a body, if it is an answer.
+pub(crate) trait Asks<S: Space, A>: Fn(S::Key, &Collider<S>) -> Option<A> {}
+
+impl<S: Space, A, F: Fn(S::Key, &Collider<S>) -> Option<A>> Asks<S, A> for F {}
+
+/// A question to all bodies that a filter lets pass.
+pub(crate) struct Question<'q, S: Space, R, F> {
+    pub(super) world: &'q World<S>,
+    pub(super) filter: &'q Filter<'q, S>,
+    pub(super) reach: R,
+    /// Nothing that is further is an answer.
+    pub(super) limit: f64,
+    pub(super) ask: F,
+}
+
+impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, R, F> {
+    /// The answer of a body, if it is within a limit that may be nearer by now.
+    fn answer(&self, slot: u32, limit: f64) -> Option<A> {
+        let key = *self.world.keys.get(slot as usize)?;
+        let body = self.world.bodies.get(key).filter(|body| self.filter.admits(key, body))?;
+        let bound = self.reach.meets(&S::bounds(&body.shape, &body.pose, 0.0), limit)?;
+        if !self.filter.agrees(key, body) {
+            return None;
+        }
+        let mut answer = (self.ask)(key, body)?;
+        if answer.rank().0 < bound {
+            answer.put_at(bound);
+        }
+        (answer.rank().0 <= limit).then_some(answer)
+    }
+
+    /// The answer of the least rank.
+    ///
+    /// Each body that is looked at may bring the limit nearer, so that trees are walked no further than need be.
+    pub(crate) fn first(&self) -> Option<A> {
+        let (mut best, mut limit) = (None::<A>, self.limit);
+        let mut look = |slot: u32| {
+            let found = self.answer(slot, limit);
+            if let Some(found) =
+                found.filter(|found| best.as_ref().is_none_or(|best| found.rank() < best.rank()))
+            {
+                limit = limit.min(found.rank().0);
+                best = Some(found);
+            }
+            limit
+        };
+        let sight = self.world.sight();
+        let mut limit = self.limit;
+        for &slot in sight.recent() {
+            limit = look(slot);
+        }
+        for (tree, slot_of_number) in sight.trees() {
+            let start = limit;
+            self.reach.in_order(tree, start, |number| {
+                if let Some(slot) = slot_of_number(number) {
+                    limit = look(slot);
+                }
+                limit
+            });
+        }
+        best
+    }
+
+    /// Hands all answers to a visitor, in no promised order, until it breaks off.
+    pub(crate) fn visit(&self, mut visitor: impl FnMut(A) -> ControlFlow<()>) -> ControlFlow<()> {
+        let mut look = |slot: u32| match self.answer(slot, self.limit) {
+            Some(answer) => visitor(answer),
+            None => ControlFlow::Continue(()),
+        };
+        let sight = self.world.sight();
+        for &slot in sight.recent() {
+            look(slot)?;
+        }
+        for (tree, slot_of_number) in sight.trees() {
+            self.reach.visit(tree, self.limit, |number| match slot_of_number(number) {
+                Some(slot) => look(slot),
+                None => ControlFlow::Continue(()),
+            })?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Replaces `into` by all answers, by their rank.
+    pub(crate) fn all(&self, into: &mut Vec<A>) {
+        into.clear();
+        let _ = self.visit(|answer| {
+            into.push(answer);
+            ControlFlow::Continue(())
+        });
+        into.sort_unstable_by(|a, b| {
+            let ((one, slot), (other, other_slot)) = (a.rank(), b.rank());
+            one.total_cmp(&other).then(slot.cmp(&other_slot))
+        });
+    }
+}
+
+impl<S: Space, R: Reach<S::Aabb>, F: Fn(S::Key, &Collider<S>) -> Option<Met<S::Key>>> Question<'_, S, R, F> {
+    /// Replaces `into` by the bodies found, by their slots.
+    pub(crate) fn keys(&self, into: &mut Vec<S::Key>) {
+        into.clear();
+        let _ = self.visit(|Met(key)| {
+            into.push(key);
+            ControlFlow::Continue(())
+        });
+        into.sort_unstable_by_key(|&key| slot_of(key));
+    }
+}

@@ -1,0 +1,374 @@
+//! Two convex parts on their way: the gap between them at a time, and for how long it lasts.
+
+use super::piece::Piece;
+use super::stretch::Stretch;
+use super::sum;
+use crate::answer::Separation2;
+use crate::pair2::Pair2;
+use crate::polygon::distance::{Reached, Until, Witness, distance};
+use crate::polygon::outline::{Outline, Turn};
+use crate::precision::Precision;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::tolerance::CAST_GAP2;
+use asunder_geometry::{Core2, Pose2, Rotation2, Shape2};
+
+/// Rounds after which a cast says how far it came. Those that graze take some 25, the others 1 to 10.
+const MAX_ROUNDS: usize = 96;
+
+/// Tries for one round's step of shapes that turn.
+const MAX_TRIES: usize = 20;
+
+/// Share of the gap that a step of shapes that turn may leave unused.
+const UNUSED: f64 = 0.03;
+
+/// Roundings of a projection, in units of 2^-53 of the reach: those of parts of compounds (16) and of searched supports (4),
+/// the root and quotient of a rotation in between (3), and the product and sum for the offset (3); rounded up.
+const ROUNDINGS: f64 = 32.0;
+
+/// Two convex parts over a stretch of their bodies' motion.
+pub(super) struct Course<'a> {
+    stretch: &'a Stretch,
+    pieces: [&'a Piece<'a>; 2],
+    cores: [Core2<'a>; 2],
+    /// Before the first time circles around both are apart, after the second too.
+    times: [f64; 2],
+    radii: f64,
+    precision: Precision,
+    /// How far the poses that are given may be beside the smooth way, in metres: a gap of more is one.
+    slack: f64,
+    /// The gap that a step aims at, and the one at which the way ends.
+    aim: f64,
+    enough: f64,
+    /// Bounds on how fast a vertex turns along an axis, and on its second derivative.
+    pace: f64,
+    bend: f64,
+}
+
+/// Two parts that touch, or are as good as touching.
+pub(super) struct Touching {
+    /// The time within the stretch.
+    pub(super) at: f64,
+    /// Unit axis from A to B.
+    pub(super) axis: DVec2,
+    /// No further apart than this, in metres.
+    pub(super) apart: f64,
+    /// Points of both surfaces, relative to A's position.
+    pub(super) points: [DVec2; 2],
+}
+
+/// What there is to see at a time.
+struct Look {
+    /// Unit axis from A to B, and bounds on the separation: what it shows, and that of the points. Neither holds the slack.
+    axis: DVec2,
+    least: f64,
+    most: f64,
+    /// Points of both cores, relative to A's position.
+    points: [DVec2; 2],
+}
+
+/// When circles around both parts may meet, from when to when.
+pub(super) fn meeting(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Option<[f64; 2]> {
+    let mut radii = 0.0;
+    let mut offset = stretch.offset;
+    for (which, sign) in [(0, -1.0), (1, 1.0)] {
+        let (piece, spin) = (pieces[which], &stretch.spins[which]);
+        radii += piece.outer;
+        // A body that turns may have its part anywhere around it.
+        if spin.rounding > 0.0 {
+            radii += piece.center.length() * (1.0 + 1e-6);
+        } else {
+            offset += spin.turn_at(0.0).turn(piece.center) * sign;
+        }
+    }
+    if radii == f64::INFINITY {
+        return Some([0.0, end]);
+    }
+    // By the time that B's centre is as far beyond as it was before, all is over: what is longer is not rounded.
+    radii += stretch.lost(0.0) + 32.0 * f64::EPSILON * (sum(stretch.offset) + sum(offset) + radii);
+    let (velocity, towards) = (stretch.velocity, offset.dot(stretch.velocity));
+    let squared = velocity.length_squared();
+    if squared == 0.0 || towards <= 0.0 {
+        if offset.length_squared() > radii * radii {
+            return None;
+        }
+        return Some([0.0, if squared == 0.0 { end } else { end.min((radii + radii) / squared.sqrt()) }]);
+    }
+    let nearest = towards / squared;
+    let beside = (offset - velocity * nearest).length_squared();
+    if beside > radii * radii {
+        return None;
+    }
+    let half = ((radii * radii - beside) / squared).sqrt();
+    let (first, last) = ((nearest - half).max(0.0), (nearest + half).min(end));
+    (first <= last).then_some([first, last])
+}
+
+impl<'a> Course<'a> {
+    /// Nothing where circles tell that they do not touch before `end`.
+    pub(super) fn new(stretch: &'a Stretch, pieces: [&'a Piece<'a>; 2], end: f64) -> Option<Self> {
+        let times = meeting(stretch, pieces, end)?;
+        let finite = |length: f64| if length < f64::INFINITY { length } else { 0.0 };
+        let radius = |piece: &Piece| f64::from(piece.shape.radius());
+        let furthest = times.map(|time| stretch.offset_at(time).length()).into_iter().fold(0.0, f64::max);
+        let (mut radii, mut size, mut reach) = (0.0, 0.0, furthest);
+        let (mut pace, mut bend, mut slack) = (0.0, 0.0, stretch.lost(times[1]));
+        for (piece, spin) in pieces.into_iter().zip(&stretch.spins) {
+            radii += radius(piece);
+            size += finite(piece.outer);
+            let part = piece.local.map_or(0.0, |pose| pose.position().length());
+            reach += finite(piece.outer) + part + f64::from(piece.shape.center().length());
+            pace += spin.speed * piece.arm;
+            bend += spin.swerve * piece.arm;
+            slack += spin.rounding * piece.arm;
+        }
+        for (which, spin) in stretch.spins.iter().enumerate().filter(|&(which, _)| pieces[which].is_line()) {
+            // Seen from a line that turns, everything turns about it.
+            let around = furthest + pieces[0].arm + pieces[1].arm;
+            let other = pieces[1 - which].arm * stretch.spins[1 - which].speed;
+            bend += spin.swerve * around + 2.0 * spin.speed * (stretch.velocity.length() + pace + other);
+            pace += spin.speed * around;
+            slack += spin.rounding * around;
+        }
+        let precision = Precision { size: size - radii, reach, planarity: 0.0, roundings: ROUNDINGS };
+        let (gap, rounding) = (CAST_GAP2 * size, precision.projection());
+        let (aim, enough) = (slack + 0.5 * gap + 2.0 * rounding, slack + gap + 6.0 * rounding);
+        let cores = pieces.map(|piece| piece.shape.core());
+        Some(Self { stretch, pieces, cores, times, radii, precision, slack, aim, enough, pace, bend })
+    }
+
+    /// Where they first touch, before the end.
+    pub(super) fn first_touch(&self) -> Option<Touching> {
+        if self.pieces[0].is_line() && self.pieces[1].is_line() && self.stretch.is_turning() {
+            return Some(self.lines_that_turn());
+        }
+        let mut now = self.times[0];
+        let mut axis = self.towards_b(now);
+        for round in 1..=MAX_ROUNDS {
+            let Some(look) = self.look(now, axis) else { return Some(self.too_close(now, axis)) };
+            axis = look.axis;
+            let rest = self.times[1] - now;
+            if look.least > self.slack && self.keeps_apart(&look, now, rest) {
+                return None;
+            }
+            if look.least <= self.aim || look.most <= self.enough || round == MAX_ROUNDS {
+                return Some(self.settled(&look, now));
+            }
+            now = (now + self.step(&look, now, rest)).min(self.times[1]);
+        }
+        None
+    }
+
+    /// Whether an axis, at least so far, shows a gap for all the time there is.
+    fn keeps_apart(&self, look: &Look, now: f64, rest: f64) -> bool {
+        if self.bend == 0.0 && self.pace == 0.0 {
+            let closing = self.closing(look.axis);
+            return closing <= 0.0 || look.least - self.slack > closing * rest;
+        }
+        self.certain(look, now, rest) > self.slack
+    }
+
+    /// An upper bound on the speed at which the gap along an axis closes, turning left out.
+    fn closing(&self, axis: DVec2) -> f64 {
+        let velocity = self.stretch.velocity;
+        axis.dot(velocity) + 4.0 * f64::EPSILON * velocity.length()
+    }
+
+    /// What gap there is for certain, along the axis of a look, from then on until some time later.
+    fn certain(&self, look: &Look, now: f64, later: f64) -> f64 {
+        let then = self.gap(look.axis, (now + later).min(self.times[1]));
+        look.least.min(then) - self.bend * later * later * 0.125 * (1.0 + 1e-9)
+    }
+
+    /// For how long the axis shows more than the gap aimed at. The look does.
+    fn step(&self, look: &Look, now: f64, rest: f64) -> f64 {
+        let over = look.least - self.aim;
+        let closing = self.closing(look.axis);
+        if self.bend == 0.0 && self.pace == 0.0 {
+            // It closes, or they would be apart for good.
+            return over / closing;
+        }
+        // Regula falsi, in the manner of Illinois: the side that stays counts half.
+        let ([mut low, mut high], mut at_low) = ([0.0, rest], over);
+        let mut at_high = self.certain(look, now, rest) - self.aim;
+        if at_high >= 0.0 {
+            return rest;
+        }
+        let mut found = 0.0;
+        for _ in 0..MAX_TRIES {
+            let try_at = (low + (high - low) * (at_low / (at_low - at_high))).clamp(low, high);
+            let sure = self.certain(look, now, try_at) - self.aim;
+            if sure < 0.0 {
+                (high, at_high, at_low) = (try_at, sure, at_low * 0.5);
+                continue;
+            }
+            found = try_at;
+            if sure <= UNUSED * over {
+                break;
+            }
+            (low, at_low, at_high) = (try_at, sure, at_high * 0.5);
+        }
+        // However fast the points turn, and whichever way.
+        found.max(over / (closing.max(0.0) + self.pace)).min(rest)
+    }
+
+    /// The impact that a look shows. Where nothing turns, its axis leads on to where there is no gap along it, if that is nearer.
+    fn settled(&self, look: &Look, now: f64) -> Touching {
+        let [on_a, on_b] = look.points;
+        let rounding = self.precision.projection() + self.slack;
+        let closing = self.closing(look.axis);
+        let mut best = Touching {
+            at: now,
+            axis: look.axis,
+            apart: look.most + self.slack,
+            points: self.on_surfaces([on_a, on_b], look.axis),
+        };
+        if self.bend == 0.0 && self.pace == 0.0 && closing > 0.0 {
+            let on = ((look.least - self.slack).max(0.0) / closing).min(self.times[1] - now);
+            let moved = self.stretch.velocity * on;
+            let points = match [self.pieces[0].is_line(), self.pieces[1].is_line()] {
+                [false, false] => [on_a, on_b - moved],
+                // The foot on a line goes with the other's point.
+                [true, _] => [on_b - moved - look.axis * look.axis.dot(on_b - moved - on_a), on_b - moved],
+                [false, true] => [on_a, on_a + look.axis * look.axis.dot(on_b - moved - on_a)],
+            };
+            let apart = (points[1] - points[0]).length() - self.radii + rounding;
+            if apart <= best.apart {
+                best = Touching { at: now + on, apart, points: self.on_surfaces(points, look.axis), ..best };
+            }
+        }
+        best
+    }
+
+    /// Cores that no axis tells apart, for all that rounding lets see: along the axis of poses next to these.
+    fn too_close(&self, now: f64, axis: DVec2) -> Touching {
+        let beside = |which: usize| {
+            let (turn, origin) = self.place(which, now);
+            let along = turn.axes()[0].as_vec2();
+            Rotation2::new(along.x, along.y)
+                .and_then(|rotation| Pose2::new(origin, rotation))
+                .unwrap_or_default()
+        };
+        let (pose_a, pose_b) = (beside(0), beside(1));
+        let pair = Pair2::new(self.pieces[0].shape, &pose_a, self.pieces[1].shape, &pose_b);
+        let axis = match pair.separation(0.0) {
+            Separation2::Measured(measured) => measured.normal.as_dvec2(),
+            Separation2::AtLeast(_) => axis,
+        };
+        let [a, b] = self.outlines(now);
+        let points = [a.point(a.support(axis).vertex), b.point(b.support(-axis).vertex)];
+        Touching { at: now, axis, apart: self.enough, points: self.on_surfaces(points, axis) }
+    }
+
+    /// Lines that look away from each other meet as soon as one of them turns.
+    fn lines_that_turn(&self) -> Touching {
+        let now = self.times[0];
+        let look = self.look_from_line(0, now);
+        let apart = look.most.max(0.0) + self.slack;
+        Touching { at: now, axis: look.axis, apart, points: look.points }
+    }
+
+    /// The gap at a time, and the axis that shows it; nothing where the cores are too close to tell.
+    fn look(&self, now: f64, axis: DVec2) -> Option<Look> {
+        if let Some(line) = self.line() {
+            return Some(self.look_from_line(line, now));
+        }
+        let [a, b] = self.outlines(now);
+        let rounding = self.precision.projection();
+        let bounds = |axis: DVec2, least: f64, most: f64, points: [DVec2; 2]| Look {
+            axis,
+            least: least - self.radii - rounding,
+            most: most - self.radii + rounding,
+            points,
+        };
+        if a.edge_count() + b.edge_count() == 0 {
+            let points = [a.point(0), b.point(0)];
+            let apart = points[1] - points[0];
+            let length = apart.length();
+            return (length > 0.0).then(|| bounds(apart / length, length, length, points));
+        }
+        let Reached::Between(found) = distance(&a, &b, axis, &Until::met(&self.precision)) else {
+            return None;
+        };
+        let Witness { normal, at_least, distance, point_a, point_b, .. } = found;
+        // Corners that all but touch leave no axis.
+        normal.is_normalized().then(|| bounds(normal, at_least, distance, [point_a, point_b]))
+    }
+
+    /// The same, where one is a half-plane: its own normal is the only axis.
+    fn look_from_line(&self, line: usize, now: f64) -> Look {
+        let (normal, origin, point, height) = self.height(line, now);
+        let foot = point - normal * height;
+        let rounding = self.precision.projection();
+        let (axis, points) = if line == 0 { (normal, [foot, point]) } else { (-normal, [point, foot]) };
+        debug_assert!(origin.is_finite());
+        let height = height - self.radii;
+        Look { axis, least: height - rounding, most: height + rounding, points }
+    }
+
+    /// A lower bound on the gap along an axis at a time; along a half-plane's own, where there is one.
+    fn gap(&self, axis: DVec2, now: f64) -> f64 {
+        let between = match self.line() {
+            Some(line) => self.height(line, now).3,
+            None => {
+                let [a, b] = self.outlines(now);
+                -a.support(axis).reach - b.support(-axis).reach
+            }
+        };
+        between - self.radii - self.precision.projection()
+    }
+
+    /// A half-plane's unit normal and origin at a time, the other's lowest vertex, and its height.
+    fn height(&self, line: usize, now: f64) -> (DVec2, DVec2, DVec2, f64) {
+        let (turn, origin) = self.place(line, now);
+        let normal = match self.pieces[line].shape {
+            Shape2::HalfPlane(half_plane) => turn.turn(half_plane.unit_normal()).normalize(),
+            _ => DVec2::Y,
+        };
+        let other = 1 - line;
+        let point = if self.pieces[other].is_line() {
+            self.place(other, now).1
+        } else {
+            let outline = self.outline(other, now);
+            outline.point(outline.support(-normal).vertex)
+        };
+        (normal, origin, point, normal.dot(point - origin))
+    }
+
+    fn line(&self) -> Option<usize> {
+        self.pieces.iter().position(|piece| piece.is_line())
+    }
+
+    /// How a part is turned at a time, and its origin relative to A's position.
+    fn place(&self, which: usize, now: f64) -> (Turn, DVec2) {
+        let turn = self.stretch.spins[which].turn_at(now);
+        let body = if which == 0 { DVec2::ZERO } else { self.stretch.offset_at(now) };
+        match self.pieces[which].local {
+            Some(local) => (turn.of_part(local.rotation()), body + turn.turn(local.position())),
+            None => (turn, body),
+        }
+    }
+
+    fn outline(&self, which: usize, now: f64) -> Outline<'_> {
+        let (turn, origin) = self.place(which, now);
+        Outline::new(self.pieces[which].shape, &self.cores[which], turn, origin)
+    }
+
+    fn outlines(&self, now: f64) -> [Outline<'_>; 2] {
+        [self.outline(0, now), self.outline(1, now)]
+    }
+
+    /// From one part's centre to the other's: any axis to begin with.
+    fn towards_b(&self, now: f64) -> DVec2 {
+        let center = |which: usize| {
+            let (turn, origin) = self.place(which, now);
+            origin + turn.turn(self.pieces[which].shape.center().as_dvec2())
+        };
+        (center(1) - center(0)).try_normalize().unwrap_or(DVec2::Y)
+    }
+
+    /// Points of the cores moved out to the surfaces.
+    fn on_surfaces(&self, [on_a, on_b]: [DVec2; 2], axis: DVec2) -> [DVec2; 2] {
+        let [radius_a, radius_b] = self.pieces.map(|piece| f64::from(piece.shape.radius()));
+        [on_a + axis * radius_a, on_b - axis * radius_b]
+    }
+}

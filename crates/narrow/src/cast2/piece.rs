@@ -1,0 +1,49 @@
+//! The convex parts of a body, as a cast sees them: where they are in the body, and how far they reach.
+
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::{Pose2, Shape2};
+
+/// A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
+const STRETCH: f64 = 1.0 + 4.0 * f32::EPSILON as f64;
+
+/// A convex part of a body, or all of it.
+pub(super) struct Piece<'a> {
+    pub(super) index: u32,
+    pub(super) shape: &'a Shape2,
+    /// Where it is in its compound; a shape that is none is its own only part.
+    pub(super) local: Option<&'a Pose2>,
+    /// Its bounding circle's centre, in the body's axes.
+    pub(super) center: DVec2,
+    /// That circle's radius, however the body is turned; infinite for a half-plane.
+    pub(super) outer: f64,
+    /// The furthest that the body's position is from any vertex of the core, or from the origin of a half-plane.
+    pub(super) arm: f64,
+}
+
+impl<'a> Piece<'a> {
+    /// A shape as a whole: a compound by its bounding circle alone.
+    pub(super) fn whole(shape: &'a Shape2) -> Self {
+        Self::new(shape, shape.center().as_dvec2(), None, 0)
+    }
+
+    fn new(shape: &'a Shape2, center: DVec2, local: Option<&'a Pose2>, index: u32) -> Self {
+        let radius = f64::from(shape.outer_radius());
+        let core = if radius < f64::INFINITY { radius - f64::from(shape.radius()) } else { 0.0 };
+        let (outer, arm) = (radius * STRETCH, (center.length() + core) * STRETCH);
+        Self { index, shape, local, center, outer, arm }
+    }
+
+    pub(super) fn is_line(&self) -> bool {
+        matches!(self.shape, Shape2::HalfPlane(_))
+    }
+}
+
+/// Visits the convex parts of a shape, in order.
+pub(super) fn for_pieces<'a>(shape: &'a Shape2, mut visit: impl FnMut(&Piece<'a>)) {
+    let Shape2::Compound(compound) = shape else {
+        return visit(&Piece::whole(shape));
+    };
+    for (part, index) in compound.parts().iter().zip(0..) {
+        visit(&Piece::new(part.shape(), part.center(), Some(part.pose()), index));
+    }
+}

@@ -1,0 +1,169 @@
+use crate::{Impact2, Pair2, RayHit2, cast_ray2};
+use asunder_geometry::glam::{DVec2, Vec2};
+use asunder_geometry::{
+    Capsule2, Circle, Compound2, HalfPlane, Motion2, Polygon, Pose2, Ray2, Rect, Rotation2, Segment2, Shape2,
+};
+
+fn circle(radius: f32) -> Shape2 {
+    Circle::new(radius).unwrap().into()
+}
+
+fn rect(x: f32, y: f32) -> Shape2 {
+    Rect::from_half_extents(Vec2::new(x, y)).unwrap().into()
+}
+
+fn floor() -> Shape2 {
+    HalfPlane::new(Vec2::Y).unwrap().into()
+}
+
+fn at(x: f64, y: f64) -> Pose2 {
+    Pose2::at([x, y]).unwrap()
+}
+
+fn cast(a: (&Shape2, Pose2), b: (&Shape2, Pose2), by: Vec2) -> Option<Impact2> {
+    Pair2::new(a.0, &a.1, b.0, &b.1).cast(by)
+}
+
+fn ray(shape: &Shape2, from: DVec2, along: Vec2) -> Option<RayHit2> {
+    cast_ray2(shape, &Pose2::IDENTITY, &Ray2::new(from, along).unwrap(), f64::INFINITY)
+}
+
+#[test]
+fn a_circle_meets_another_where_the_textbook_says() {
+    // Centres 5 apart and 3 beside: they touch at a distance of 5 = 3, 4, 5; so after 16 of 20 m.
+    let impact = cast((&circle(2.0), at(-20.0, 0.0)), (&circle(3.0), at(0.0, 3.0)), Vec2::X * 20.0).unwrap();
+    assert!(impact.fraction <= 0.8 && impact.fraction > 0.8 - 1e-10, "{impact:?}");
+    assert!((impact.normal - Vec2::new(0.8, 0.6)).length() < 1e-6, "{impact:?}");
+    assert!((impact.anchor_a - Vec2::new(1.6, 1.2)).length() < 1e-5 && impact.error < 1e-6);
+    assert!((impact.anchor_b + Vec2::new(2.4, 1.8)).length() < 1e-5);
+}
+
+#[test]
+fn touching_at_the_start_is_an_impact_at_once_also_on_the_way_out() {
+    let (a, b) = (rect(1.0, 1.0), rect(1.0, 1.0));
+    for by in [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::ZERO] {
+        let impact = cast((&a, at(0.0, 0.0)), (&b, at(2.0, 0.0)), by).unwrap();
+        assert_eq!((impact.fraction, impact.error, impact.overlapping), (0.0, 0.0, true));
+        assert_eq!(impact.normal, Vec2::X);
+    }
+    let deep = cast((&a, at(0.0, 0.0)), (&b, at(0.25, 1.5)), Vec2::X).unwrap();
+    assert_eq!((deep.overlapping, deep.normal, deep.anchor_b.y), (true, Vec2::Y, -1.0));
+    for by in [Vec2::NEG_X, Vec2::Y, Vec2::NAN, Vec2::new(f32::INFINITY, 0.0)] {
+        assert_eq!(cast((&a, at(0.0, 0.0)), (&b, at(2.0 + 1e-14, 0.0)), by), None, "{by}");
+    }
+}
+
+#[test]
+fn half_planes_meet_what_they_are_told_to() {
+    let impact =
+        cast((&circle(0.5), at(3.0, 10.5)), (&floor(), at(0.0, 0.0)), Vec2::new(7.0, -20.0)).unwrap();
+    assert!((impact.fraction - 0.5).abs() < 1e-9 && impact.normal == Vec2::NEG_Y, "{impact:?}");
+    assert!((impact.anchor_b - Vec2::new(6.5, 0.0)).length() < 1e-5 && impact.anchor_a == Vec2::NEG_Y * 0.5);
+    assert_eq!(cast((&circle(0.5), at(3.0, 10.5)), (&floor(), at(0.0, 0.0)), Vec2::new(1e9, 1e-3)), None);
+    // Two that look away from each other, and two that overlap without end.
+    let ceiling: Shape2 = HalfPlane::new(Vec2::NEG_Y).unwrap().into();
+    let down = cast((&ceiling, at(5.0, 2.0)), (&floor(), at(0.0, 0.0)), Vec2::new(9.0, -4.0)).unwrap();
+    assert!((down.fraction - 0.5).abs() < 1e-9 && down.normal == Vec2::NEG_Y, "{down:?}");
+    assert_eq!(cast((&ceiling, at(5.0, 2.0)), (&floor(), at(0.0, 0.0)), Vec2::X), None);
+    let endless = cast((&floor(), at(5.0, 2.0)), (&floor(), at(0.0, 0.0)), Vec2::X).unwrap();
+    assert_eq!((endless.overlapping, endless.anchor_a, endless.normal), (true, Vec2::ZERO, Vec2::Y));
+    let tilt = Motion2::new([0.0, 0.0], Rotation2::new(1.0, 1e-6).unwrap()).unwrap();
+    let (above, below) = (at(5.0, 2.0), at(0.0, 0.0));
+    let turning =
+        Pair2::new(&ceiling, &above, &floor(), &below).impact(&tilt, &Motion2::shift([0.0, 0.0]).unwrap());
+    let turning = turning.unwrap();
+    assert!(turning.fraction == 0.0 && turning.error >= 2.0 && !turning.overlapping);
+}
+
+#[test]
+fn of_a_compound_the_part_that_touches_first_is_named() {
+    let parts = [(at(5.0, 1.0), circle(0.5)), (at(3.0, 0.0), circle(0.5)), (at(3.0, 0.0), circle(0.5))];
+    let compound: Shape2 = Compound2::new(parts).unwrap().into();
+    let impact = cast((&circle(0.5), at(0.0, 0.0)), (&compound, at(0.0, 0.0)), Vec2::X * 10.0).unwrap();
+    assert!(impact.part_b == 1 && (impact.fraction - 0.2).abs() < 1e-9, "{impact:?}");
+    let hit = ray(&compound, DVec2::ZERO, Vec2::X).unwrap();
+    assert!(hit.part == 1 && (hit.distance - 2.5).abs() < 1e-12);
+    let hit = ray(&compound, DVec2::new(3.0, 3.0), Vec2::new(2.0, -2.0)).unwrap();
+    assert!(hit.part == 0 && hit.normal.dot(Vec2::new(-1.0, 1.0).normalize()) > 0.999_999);
+}
+
+#[test]
+fn a_rod_that_spins_meets_a_post_however_thin_both_are() {
+    let (rod, post) = (rect(4.0, 1e-4), circle(1e-4));
+    let here = at(0.0, 0.0);
+    for (x, y, to, hits) in [
+        (0.0, 3.0, (-1.0, 0.0), true),
+        (-2.0, 2.0, (-1.0, 0.0), true),
+        (-2.0, -2.0, (-1.0, 0.0), true),
+        (0.0, -3.0, (0.6, 0.8), false),
+        (0.0, 4.1, (-1.0, 0.0), false),
+    ] {
+        let there = at(x, y);
+        let motion = Motion2::new([0.0, 0.0], Rotation2::new(to.0, to.1).unwrap()).unwrap();
+        let found =
+            Pair2::new(&rod, &here, &post, &there).impact(&motion, &Motion2::shift([0.0, 0.0]).unwrap());
+        assert_eq!(found.is_some(), hits, "{x} {y}: {found:?}");
+        if let Some(found) = found {
+            assert!(found.error < 4.0 * 4e-7, "{found:?}");
+            let pose = motion.pose_at(&here, found.fraction + 1e-6);
+            assert!(Pair2::new(&rod, &pose, &post, &there).overlaps(), "{x} {y}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn rays_enter_every_shape_where_it_is() {
+    let polygon = |count: usize| -> Shape2 {
+        let corner = |i: usize| {
+            let turn = Rotation2::from_angle(i as f32 * core::f32::consts::TAU / count as f32).unwrap();
+            Vec2::new(turn.cos(), turn.sin()) * 2.0
+        };
+        Polygon::hull_of(&(0..count).map(corner).collect::<Vec<_>>()).unwrap().into()
+    };
+    let capsule: Shape2 = Capsule2::new(Vec2::NEG_X, Vec2::X, 1.0).unwrap().into();
+    let segment: Shape2 = Segment2::new(Vec2::NEG_Y * 3.0, Vec2::Y * 3.0).unwrap().into();
+    let rounded = |shape: Rect| -> Shape2 { shape.rounded(1.0).unwrap().into() };
+    let round_rect = rounded(Rect::from_half_extents(Vec2::ONE).unwrap());
+    let diagonal = Vec2::new(-1.0, -1.0).normalize();
+    let corner = 1.0 + 0.5f64.sqrt();
+    for (name, shape, from, along, distance, normal) in [
+        ("rectangle", &rect(2.0, 1.0), DVec2::new(-5.0, 0.5), Vec2::X, 3.0, Vec2::NEG_X),
+        ("capsule's side", &capsule, DVec2::new(0.5, 5.0), Vec2::NEG_Y, 4.0, Vec2::Y),
+        ("capsule's end", &capsule, DVec2::new(-7.0, 0.0), Vec2::X, 5.0, Vec2::NEG_X),
+        ("segment", &segment, DVec2::new(-7.0, 1.0), Vec2::X * 7.0, 1.0, Vec2::NEG_X),
+        ("segment's end", &segment, DVec2::new(0.0, -7.0), Vec2::Y, 4.0, Vec2::NEG_Y),
+        ("floor", &floor(), DVec2::new(1.0, 4.0), Vec2::new(3.0, -2.0), 2.0, Vec2::Y),
+        ("round corner", &round_rect, DVec2::splat(-1.0 - corner), Vec2::ONE, 1.0, diagonal),
+        ("round side", &round_rect, DVec2::new(-4.0, -0.9), Vec2::X, 2.0, Vec2::NEG_X),
+        ("circle of edges", &polygon(4096), DVec2::new(-6.0, 1e-4), Vec2::X, 4.0, Vec2::NEG_X),
+        ("few edges", &polygon(8), DVec2::new(-6.0, 0.0), Vec2::X, 4.0, Vec2::NEG_X),
+    ] {
+        let hit = ray(shape, from, along).unwrap_or_else(|| panic!("{name} is missed"));
+        assert!((hit.distance - distance).abs() < 1e-6 && !hit.inside, "{name}: {hit:?}");
+        assert!(hit.normal.dot(normal) > 0.9 && hit.error < 1e-6, "{name}: {hit:?}");
+        assert!(ray(shape, from, -along).is_none(), "{name} is behind");
+        let within = ray(shape, from + along.as_dvec2() * distance * 1.001, along);
+        assert!(name.starts_with("segment") || within.is_some_and(|hit| hit.inside), "{name}: {within:?}");
+    }
+}
+
+#[test]
+fn a_ray_that_starts_on_the_outline_is_inside_and_one_a_rounding_away_is_not() {
+    let turned = Pose2::new([1e6, 0.25], Rotation2::new(0.0, 1.0).unwrap()).unwrap();
+    for shape in [rect(0.5, 0.5), circle(0.5), floor()] {
+        let (x, normal) = if shape == floor() { (1e6, Vec2::NEG_X) } else { (1e6 + 0.5, Vec2::X) };
+        for along in [Vec2::X, Vec2::NEG_X, Vec2::Y] {
+            let from = |x: f64| Ray2::new([x, 0.25], along).unwrap();
+            let on = cast_ray2(&shape, &turned, &from(x), 1.0).unwrap();
+            assert_eq!((on.inside, on.distance, on.normal), (true, 0.0, -along), "{shape:?}");
+            let outside = if normal == Vec2::X { x.next_up() } else { x.next_down() };
+            let beside = cast_ray2(&shape, &turned, &from(outside), 1.0);
+            assert!(beside.is_none_or(|hit| !hit.inside), "{shape:?} {along}: {beside:?}");
+            if along == -normal {
+                assert_eq!(beside.map(|hit| hit.normal), Some(normal), "{shape:?}");
+            } else if along == normal {
+                assert_eq!(beside, None, "{shape:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! What a cast in the plane says: impacts, and hits of rays.
+
+use asunder_geometry::glam::Vec2;
+
+/// When and where a moved shape in the plane first touches another.
+///
+/// ```
+/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
+/// use asunder_narrow::Pair2;
+/// let ball = Shape2::from(Circle::new(0.5)?);
+/// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
+/// let impact = Pair2::new(&ball, &here, &ball, &there).cast(Vec2::X * 4.0).ok_or("they meet")?;
+/// assert!((impact.fraction - 0.5).abs() * 4.0 <= f64::from(impact.error) && impact.error < 1e-6);
+/// assert_eq!((impact.normal, impact.anchor_a, impact.anchor_b), (Vec2::X, Vec2::X * 0.5, Vec2::X * -0.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact2 {
+    /// The share of the motion that is done, 0 to 1. Conservative: before it they do not touch.
+    pub fraction: f64,
+    /// Metres: at `fraction` the shapes are at most this far apart, where their poses round to included. Zero where they
+    /// touch at the start.
+    pub error: f32,
+    /// Whether they touch at the start already, exactly. Then the fraction is 0, and the normal that of the least depth.
+    pub overlapping: bool,
+    /// Unit normal in world axes, from A to B, at the impact.
+    pub normal: Vec2,
+    /// Where they meet, on A: in world axes, relative to A's position at the impact.
+    pub anchor_a: Vec2,
+    /// Where they meet, on B: in world axes, relative to B's position at the impact.
+    pub anchor_b: Vec2,
+    /// Which part of A, for shapes made of several; else 0.
+    pub part_a: u32,
+    /// Which part of B, for shapes made of several; else 0.
+    pub part_b: u32,
+}
+
+/// Where a ray in the plane enters a shape.
+///
+/// ```
+/// use asunder_geometry::{Pose2, Ray2, Rect, Shape2, glam::Vec2};
+/// use asunder_narrow::cast_ray2;
+/// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
+/// let within = Ray2::new([0.5, 0.0], Vec2::X)?;
+/// let hit = cast_ray2(&square, &Pose2::IDENTITY, &within, 10.0).ok_or("it starts inside")?;
+/// assert_eq!((hit.inside, hit.distance, hit.error, hit.normal), (true, 0.0, 0.0, Vec2::NEG_X));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayHit2 {
+    /// How far along the ray, in lengths of its direction: what `Ray2::at` takes.
+    pub distance: f64,
+    /// Metres along the ray that the distance may be off by. A ray that misses by less than rounding may be called a hit, and
+    /// one that goes in by less than it a miss.
+    pub error: f32,
+    /// Outward unit normal of the shape there, in world axes; against the ray where it starts inside.
+    pub normal: Vec2,
+    /// Whether the ray starts in the shape, exactly; touching counts. Then the distance is 0.
+    pub inside: bool,
+    /// Which part, for a shape made of several; else 0.
+    pub part: u32,
+}
