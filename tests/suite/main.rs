@@ -28,6 +28,7 @@
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
+//! - [`casts`]: what moves and turns meets nothing before it is said to, and is as near there as told; rays; parry3d's word
 //! - [`theory`]: the textbook's own examples
 //! - [`peer`]: parry3d says the same on 160,000 pairs
 //! - [`solver`]: stacks, pyramids and leaning cards stand on the manifolds, by the names of their points
@@ -51,6 +52,7 @@ mod architecture;
 mod bounds;
 mod boxes;
 mod broad;
+mod casts;
 mod exactness;
 mod fuzzed;
 mod hard;

@@ -26,17 +26,17 @@ const BAND: f64 = 1e-3;
 /// What parry has no answer for, of overlap, distance and contact.
 const UNSUPPORTED: [(&str, &str); 1] = [("half-space", "half-space")];
 
-fn vector(v: Vec3) -> Vector {
+pub(crate) fn vector(v: Vec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }
 
-fn pose_of(position: DVec3, rotation: Quat) -> Pose {
+pub(crate) fn pose_of(position: DVec3, rotation: Quat) -> Pose {
     let (p, q) = (position.as_vec3(), rotation.normalize());
     Pose::from_parts(vector(p), Rotation::from_xyzw(q.x, q.y, q.z, q.w))
 }
 
 /// Parry's twin of a shape; nothing where it has none.
-fn twin(shape: &Shape3) -> Option<SharedShape> {
+pub(crate) fn twin(shape: &Shape3) -> Option<SharedShape> {
     let round = |radius: f32| radius > 0.0;
     Some(match shape {
         Shape3::Sphere(sphere) => SharedShape(std::sync::Arc::new(Ball::new(sphere.radius()))),

@@ -42,7 +42,7 @@ pub struct Motion3 {
 /// let turn = half.turn(&Pose3::IDENTITY);
 /// assert_eq!((turn.axis(), turn.speed_at(0.5), turn.top_speed()), (DVec3::Z, 4.0, half.turn_speed(&Pose3::IDENTITY)));
 /// assert!((turn.basis_at(0.5).x - DVec3::Y).length() < 1e-15);
-/// assert!(turn.top_acceleration() >= 16.0 && !turn.is_still());
+/// assert!(!turn.is_still());
 /// # Ok::<(), asunder_geometry::PoseError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -216,14 +216,32 @@ impl Turn3 {
     /// A bound on the angular speed, in radians for the whole motion: that of the middle.
     #[inline]
     pub fn top_speed(&self) -> f64 {
-        if self.sine == 0.0 { 0.0 } else { (4.0 * self.sine / (1.0 + self.cosine) * ROUNDED_UP).min(4.0) }
+        self.bounds_within(0.0, 1.0)[0]
     }
 
-    /// A bound on how fast the angular speed changes.
-    #[inline]
-    pub fn top_acceleration(&self) -> f64 {
-        let middle = 1.0 + self.cosine;
-        16.0 * self.sine * (1.0 - self.cosine).max(0.0) / (middle * middle) * ROUNDED_UP
+    /// Bounds on the angular speed and on how fast it changes, from one fraction to another, in radians for the whole
+    /// motion and for its square.
+    ///
+    /// ```
+    /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};
+    /// let turn = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 0.0))?.turn(&Pose3::IDENTITY);
+    /// let [speed, change] = turn.bounds_within(0.0, 0.25);
+    /// assert!(speed >= turn.speed_at(0.25) && speed < 3.3 && change > 4.0);
+    /// assert_eq!(turn.bounds_within(0.0, 1.0)[0], turn.top_speed());
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    pub fn bounds_within(&self, from: f64, to: f64) -> [f64; 2] {
+        if self.is_still() {
+            return [0.0; 2];
+        }
+        // Fastest where nearest to the middle; its square's rate is greatest furthest from there.
+        let nearest = (from - 0.5).max(0.5 - to).max(0.0);
+        let furthest = (from - 0.5).abs().max((to - 0.5).abs());
+        let share = 1.0 - self.cosine;
+        // |q(t)|^2 about the middle, and what it changes by.
+        let squared = 1.0 - share * (0.5 - 2.0 * nearest * nearest);
+        let speed = 2.0 * self.sine / squared * ROUNDED_UP;
+        [speed.min(4.0), speed * (4.0 * share.max(0.0) * furthest) / squared * ROUNDED_UP]
     }
 }
 
@@ -313,13 +331,20 @@ mod tests {
     }
 
     #[test]
-    fn the_angular_speed_changes_no_faster_than_told() {
+    fn the_angular_speed_and_its_change_stay_within_their_bounds() {
         for to in ROTATIONS.map(Quat::from_array) {
             let turn = Motion3::new(DVec3::ZERO, to).unwrap().turn(&pose([0.2, 0.1, -0.5, 0.9]));
             for step in 0..1000 {
                 let t = f64::from(step) / 1000.0;
                 let change = (turn.speed_at(t + 1e-3) - turn.speed_at(t)).abs();
-                assert!(change <= turn.top_acceleration() * 1e-3 + 1e-12, "{t}: {change}");
+                for (from, to) in [(0.0, 1.0), (t, t + 1e-3), (t * 0.5, 1.0), (0.0, (t + 1e-3).max(0.25))] {
+                    let [fastest, changing] = turn.bounds_within(from, to);
+                    assert!(
+                        turn.speed_at(t) <= fastest && turn.speed_at(t + 1e-3) <= fastest,
+                        "{t} {from} {to}"
+                    );
+                    assert!(change <= changing * 1e-3 + 1e-12, "{t} {from} {to}: {change}");
+                }
             }
         }
     }

@@ -48,10 +48,12 @@
 mod answer;
 mod batch;
 mod cast2;
+mod cast3;
 mod counted;
 mod exact;
 mod feature;
 mod impact2;
+mod impact3;
 mod jobs3;
 mod lanes;
 mod least;
@@ -69,8 +71,10 @@ pub use answer::{
 pub use arrayvec::ArrayVec;
 pub use batch::{Batch, Batch2, Batch3};
 pub use cast2::cast_ray2;
+pub use cast3::cast_ray3;
 pub use feature::{Feature, FeatureId, Hint};
 pub use impact2::{Impact2, RayHit2};
+pub use impact3::{Impact3, RayHit3};
 pub use jobs3::{Job3, collide3, separations3};
 pub use pair2::{Job2, Pair2, collide2};
 pub use pair3::Pair3;

@@ -42,23 +42,23 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Pair3<'a> {
-    shape_a: &'a Shape3,
-    shape_b: &'a Shape3,
-    pose_a: Pose3,
-    pose_b: Pose3,
+    pub(crate) shape_a: &'a Shape3,
+    pub(crate) shape_b: &'a Shape3,
+    pub(crate) pose_a: Pose3,
+    pub(crate) pose_b: Pose3,
     /// B's position less A's.
-    between: DVec3,
+    pub(crate) between: DVec3,
 }
 
 /// A convex part of a body, as the body stands.
 #[derive(Clone, Copy)]
-struct Part<'a> {
-    index: u32,
-    shape: &'a Shape3,
+pub(crate) struct Part<'a> {
+    pub(crate) index: u32,
+    pub(crate) shape: &'a Shape3,
     /// Where it is in its compound; a shape that is none is its own only part.
     local: Option<&'a Pose3>,
     /// Its bounding sphere's centre less the body's position, in world axes.
-    center: DVec3,
+    pub(crate) center: DVec3,
 }
 
 /// Two convex parts in the frame of the first, and the way back from there.
@@ -328,7 +328,7 @@ impl<'a> Pair3<'a> {
     }
 
     /// Both bodies' axes in the world.
-    fn bases(&self) -> [Basis3; 2] {
+    pub(crate) fn bases(&self) -> [Basis3; 2] {
         [self.pose_a.basis(), self.pose_b.basis()]
     }
 
@@ -382,7 +382,7 @@ impl<'a> Pair3<'a> {
 
 impl<'a> Part<'a> {
     /// A shape as a part of nothing: a compound by its bounding sphere alone.
-    fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
+    pub(crate) fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
         let center = basis.turn(shape.center().as_dvec3());
         Self { index: 0, shape, local: None, center }
     }
@@ -393,12 +393,12 @@ impl<'a> Part<'a> {
     }
 
     /// Shape and poses as they were given, for exact questions.
-    fn site(&self, body: &Pose3) -> Site3<'a> {
+    pub(crate) fn site(&self, body: &Pose3) -> Site3<'a> {
         Site3 { shape: self.shape, body: *body, part: self.local }
     }
 
     /// Its axes in the world, and its origin less the body's position.
-    fn placed(&self, body: &Basis3) -> (Basis3, DVec3) {
+    pub(crate) fn placed(&self, body: &Basis3) -> (Basis3, DVec3) {
         let Some(pose) = self.local else { return (*body, DVec3::ZERO) };
         let local = pose.basis();
         let basis = Basis3 { x: body.turn(local.x), y: body.turn(local.y), z: body.turn(local.z) };
@@ -420,7 +420,11 @@ pub(crate) fn reach_of(margin: f32) -> f64 {
 }
 
 /// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
-fn for_parts<'a>(shape: &'a Shape3, basis: &Basis3, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
+pub(crate) fn for_parts<'a>(
+    shape: &'a Shape3,
+    basis: &Basis3,
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
     let Shape3::Compound(compound) = shape else {
         return visit(Part::whole(shape, basis));
     };

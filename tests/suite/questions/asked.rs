@@ -1,7 +1,7 @@
 //! All questions about one shape, one point and one ray, and what each body of the world has to do with them.
 
 use asunder::{
-    Circle, Collider, Filter, Layers, NearAnswer, Pair2, Pair3, Plane, Pose2, Pose3, Ray2, Ray3, RayAnswer,
+    CastAnswer, Circle, Collider, Filter, Layers, NearAnswer, Pair2, Pair3, Plane, Pose2, Pose3, Ray2, Ray3, RayAnswer,
     Shape2, Shape3, Space, Sphere, Volume, World,
 };
 use asunder_broad::Cast;

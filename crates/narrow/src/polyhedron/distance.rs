@@ -62,6 +62,8 @@ pub(crate) struct Close {
     pub(crate) is_proved: bool,
     /// No further apart than this, in metres: as far as the last points were.
     pub(crate) within: f64,
+    /// Those points, on A and on B.
+    pub(crate) points: [DVec3; 2],
 }
 
 /// Witness points and the bounds they leave.
@@ -126,7 +128,8 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
     'steps: for _ in 0..MAX_STEPS {
         let length = simplex.nearest.length();
         if length <= f64::EPSILON * size {
-            return Reached::Origin(Close { corners: simplex.vertices(), is_proved: false, within: length });
+            let (corners, points) = (simplex.vertices(), simplex.points(a, b));
+            return Reached::Origin(Close { corners, is_proved: false, within: length, points });
         }
         let straight = simplex.nearest / -length;
         for direction in [Some(straight), None] {
@@ -145,14 +148,15 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
                     Grown::Around(around) => {
                         let is_proved = is_around_origin(around.map(|corner| corner.1), precision);
                         let corners = around.iter().map(|corner| corner.0).collect();
-                        return Reached::Origin(Close { corners, is_proved, within: length });
+                        let points = simplex.points(a, b);
+                        return Reached::Origin(Close { corners, is_proved, within: length, points });
                     }
                 }
             }
         }
         break;
     }
-    let (point_a, point_b) = (simplex.weighted(a, 0), simplex.weighted(b, 1));
+    let [point_a, point_b] = simplex.points(a, b);
     let corners = simplex.vertices();
     let distance = (point_b - point_a).length();
     let mut witness = Witness { distance, at_least, normal, across: normal, point_a, point_b, corners };
@@ -218,6 +222,11 @@ impl Simplex {
         };
         let square = square.try_normalize().unwrap_or(straight);
         if square.dot(straight) < 0.0 { -square } else { square }
+    }
+
+    /// The points of A and B that the weights make.
+    fn points(&self, a: &Solid, b: &Solid) -> [DVec3; 2] {
+        [self.weighted(a, 0), self.weighted(b, 1)]
     }
 
     /// The point of A or B that the weights make. Of differences from the first corner, and not of the corners: what

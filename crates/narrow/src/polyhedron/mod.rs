@@ -2,10 +2,11 @@
 //!
 //! This is the definition. It is meant to be read, and to be what faster kernels are measured against.
 
+pub(crate) mod closest;
 pub(crate) mod convex;
 pub(crate) mod cuboids;
 mod distance;
-mod half_space;
+pub(crate) mod half_space;
 pub(crate) mod manifold;
 mod portal;
 mod reduce;
@@ -13,4 +14,4 @@ mod rods;
 pub(crate) mod sat;
 mod simplex;
 mod slender;
-mod solid;
+pub(crate) mod solid;

@@ -1,0 +1,169 @@
+//! Casts in space: when a shape that moves first touches another.
+
+mod advance;
+mod passage;
+mod ray;
+#[cfg(test)]
+mod tests;
+
+use crate::answer::Separation3;
+use crate::impact3::Impact3;
+use crate::pair3::{Pair3, Part, for_parts};
+use advance::{End, Met, advance};
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Motion3, Shape3};
+use passage::{Course, Passage};
+pub use ray::cast_ray3;
+
+impl Pair3<'_> {
+    /// When A, moved by this displacement in metres, first touches B, which stands; nothing where it never does.
+    ///
+    /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most 1e-6 of
+    /// the pair's size for round shapes, 1e-9 for others, save where the displacement is so long or the bodies so far from
+    /// the origin that f64 has no nearer place. A miss is certain too. Shapes that pass each other within `error` may be told
+    /// as an impact.
+    ///
+    /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal with the
+    /// displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own, and both anchors
+    /// are the bodies' positions. A displacement that is not finite counts as none. Of compounds, the parts that meet first.
+    /// Cost: a few distances.
+    ///
+    /// ```
+    /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
+    /// use asunder_narrow::Pair3;
+    /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?);
+    /// let (here, there) = (Pose3::IDENTITY, Pose3::at([5.0, 0.25, 0.0])?);
+    /// let pair = Pair3::new(&cube, &here, &cube, &there);
+    /// let impact = pair.cast(Vec3::X * 16.0).ok_or("it is in the way")?;
+    /// assert!((impact.fraction - 0.25).abs() < 1e-9 && impact.normal == Vec3::X);
+    /// assert_eq!(pair.cast(Vec3::NEG_X), None);
+    /// let start = Pair3::new(&cube, &here, &cube, &here).cast(Vec3::X).ok_or("they overlap")?;
+    /// assert!(start.overlapping && start.fraction == 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast(&self, displacement: Vec3) -> Option<Impact3> {
+        let drift = if displacement.is_finite() { displacement.as_dvec3() } else { DVec3::ZERO };
+        self.first_touch(&Passage::straight(self, drift))
+    }
+
+    /// When two bodies that both move, and may turn, first touch; nothing where they never do.
+    ///
+    /// As [`cast`](Self::cast), along the path that [`Motion3`] describes, taken exactly: before the fraction that is told the
+    /// shapes do not touch on it. [`Motion3::pose_at`] rounds rotations to f32 and positions to f64; poses from it may
+    /// overlap by that rounding just before the fraction, and at the fraction are at most `error` apart with it. Where many
+    /// steps lead no nearer, as for shapes that graze each other while they turn, the fraction is that of the last step,
+    /// and `error` the gap that is left there. Cost: four to eight distances for most pairs that meet while turning.
+    ///
+    /// ```
+    /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::{Quat, Vec3}};
+    /// use asunder_narrow::Pair3;
+    /// let rod = Shape3::from(Cuboid::from_half_extents(Vec3::new(2.0, 0.1, 0.1))?);
+    /// let ball = Shape3::from(Sphere::new(0.2)?);
+    /// let (here, beside) = (Pose3::IDENTITY, Pose3::at([0.0, 1.5, 0.0])?);
+    /// let (quarter, still) =
+    ///     (Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 1.0))?, Motion3::shift(Vec3::ZERO)?);
+    /// let pair = Pair3::new(&rod, &here, &ball, &beside);
+    /// let impact = pair.impact(&quarter, &still).ok_or("it turns into the ball")?;
+    /// // 0.3 m before it points at the ball's centre, 1.5 m out.
+    /// let angle = 2.0 * (impact.fraction * 0.5_f64.sqrt()).atan2(1.0 - impact.fraction * (1.0 - 0.5_f64.sqrt()));
+    /// assert!((1.5 * angle.cos() - 0.3).abs() < 1e-5);
+    /// assert_eq!(pair.impact(&still, &still), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn impact(&self, motion_a: &Motion3, motion_b: &Motion3) -> Option<Impact3> {
+        self.first_touch(&Passage::of_motions(self, [motion_a, motion_b]))
+    }
+
+    fn first_touch(&self, passage: &Passage) -> Option<Impact3> {
+        let are_planes = |shape: &Shape3| matches!(shape, Shape3::HalfSpace(_));
+        // Planes that overlap only far out look parted from near.
+        if passage.is_still() || are_planes(self.shape_a) && are_planes(self.shape_b) {
+            if self.overlaps() {
+                return Some(self.touching_at_start());
+            }
+            if passage.is_still() {
+                return None;
+            }
+        }
+        let mut first: Option<Impact3> = None;
+        let mut is_asked = false;
+        let whole_b = Part::whole(self.shape_b, &passage.bases[1]);
+        let overlaps = for_parts(self.shape_a, &passage.bases[0], |a| {
+            let until = first.map_or(1.0, |known| known.fraction);
+            if passage.stay_apart([&a, &whole_b], until) {
+                return false;
+            }
+            for_parts(self.shape_b, &passage.bases[1], |b| {
+                let until = first.map_or(1.0, |known| known.fraction);
+                if passage.stay_apart([&a, &b], until) {
+                    return false;
+                }
+                let met = match part_end(passage, [a, b], until) {
+                    End::Apart => return false,
+                    End::Met(met) => met,
+                    End::Unclear(met) => {
+                        if !is_asked && self.overlaps() {
+                            return true;
+                        }
+                        is_asked = true;
+                        met
+                    }
+                };
+                if first.is_none_or(|known| met.fraction < known.fraction) {
+                    first = Some(impact_of(&met, [a.index, b.index]));
+                }
+                false
+            })
+        });
+        if overlaps { Some(self.touching_at_start()) } else { first }
+    }
+
+    /// Shapes that touch before anything has moved.
+    fn touching_at_start(&self) -> Impact3 {
+        let mut impact = Impact3 {
+            fraction: 0.0,
+            error: 0.0,
+            overlapping: true,
+            normal: Vec3::X,
+            anchor_a: Vec3::ZERO,
+            anchor_b: Vec3::ZERO,
+            part_a: 0,
+            part_b: 0,
+        };
+        let Some(manifold) = self.manifold(0.0) else {
+            if let Separation3::Measured(measured) = self.separation(0.0) {
+                impact.normal = measured.normal;
+            }
+            return impact;
+        };
+        (impact.normal, impact.part_a, impact.part_b) = (manifold.normal, manifold.part_a, manifold.part_b);
+        let deepest = manifold
+            .points
+            .iter()
+            .reduce(|best, next| if next.separation < best.separation { next } else { best });
+        if let Some(point) = deepest {
+            (impact.anchor_a, impact.anchor_b) = (point.anchor_a, point.anchor_b);
+        }
+        impact
+    }
+}
+
+fn part_end(passage: &Passage, [a, b]: [Part; 2], until: f64) -> End {
+    let core_a = a.shape.core();
+    let core_b = b.shape.core();
+    advance(&Course::new(passage, [a, b], [&core_a, &core_b]), until)
+}
+
+fn impact_of(met: &Met, [part_a, part_b]: [u32; 2]) -> Impact3 {
+    let [anchor_a, anchor_b] = met.anchors.map(|anchor| anchor.as_vec3());
+    Impact3 {
+        fraction: met.fraction,
+        error: (met.gap as f32).next_up(),
+        overlapping: false,
+        normal: met.normal.as_vec3(),
+        anchor_a,
+        anchor_b,
+        part_a,
+        part_b,
+    }
+}

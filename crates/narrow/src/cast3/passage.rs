@@ -1,0 +1,216 @@
+//! How two bodies move past each other, and how two of their parts stand at any moment of it.
+
+use crate::pair3::{Pair3, Part};
+use crate::polyhedron::closest::Placed;
+use crate::polyhedron::half_space::Plane;
+use crate::polyhedron::solid::Solid;
+use crate::precision::{IN_SPACE, Precision};
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::{IMPACT_GAP, IMPACT_REST};
+use asunder_geometry::{Basis3, Core3, Motion3, Pose3, Shape3, Turn3};
+
+/// The motion of two bodies, seen from A's position, in world axes.
+pub(super) struct Passage {
+    /// B's position less A's, at the start.
+    pub(super) between: DVec3,
+    /// How far A moves in all, less B.
+    pub(super) drift: DVec3,
+    /// Both bodies' axes at the start.
+    pub(super) bases: [Basis3; 2],
+    /// How they turn; nothing for one that does not.
+    pub(super) turns: [Option<Turn3>; 2],
+    /// What rounding the positions of moved bodies may add to a gap.
+    pub(super) rounding: f64,
+}
+
+/// Two convex parts of moving bodies.
+pub(super) struct Course<'a> {
+    pub(super) passage: &'a Passage,
+    pub(super) parts: [Part<'a>; 2],
+    cores: [&'a Core3<'a>; 2],
+    /// Both radii, in metres.
+    pub(super) radii: f64,
+    pub(super) fineness: Fineness,
+    /// Bounding radii together, in metres; a half-space has none.
+    size: f64,
+    /// Those of the cores.
+    core_size: f64,
+    /// For each part, how far its core reaches from its body's axis of turning, in metres, and from its body's position.
+    pub(super) arms: [Arm; 2],
+}
+
+/// How near is near enough: at least so many metres, and some roundings of a projection.
+#[derive(Clone, Copy)]
+pub(super) struct Fineness {
+    gap: f64,
+    rest: f64,
+}
+
+impl Fineness {
+    /// Rounding alone.
+    pub(super) const FINEST: Self = Self { gap: 0.0, rest: 0.0 };
+
+    /// Closer than this counts as met, where a projection is off by `doubt`.
+    pub(super) fn gap(self, doubt: f64) -> f64 {
+        self.gap.max(16.0 * doubt)
+    }
+
+    /// What a step leaves.
+    pub(super) fn rest(self, doubt: f64) -> f64 {
+        self.rest.max(4.0 * doubt)
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Arm {
+    pub(super) from_axis: f64,
+    pub(super) from_position: f64,
+}
+
+/// Both parts at a fraction of the motion.
+pub(super) struct Moment<'a> {
+    pub(super) a: Placed<'a>,
+    pub(super) b: Placed<'a>,
+    /// B's position less A's.
+    pub(super) between: DVec3,
+    pub(super) precision: Precision,
+    /// How far each body is turning just then, as vectors along the axes; zero for one that does not.
+    pub(super) spins: [DVec3; 2],
+}
+
+/// A sum of coordinates bounds a length, and needs no root.
+pub(super) fn length(v: DVec3) -> f64 {
+    v.abs().element_sum()
+}
+
+impl Passage {
+    /// A moves and B stands; nobody turns.
+    pub(super) fn straight(pair: &Pair3, drift: DVec3) -> Self {
+        let rounding = f64::EPSILON * (length(pair.pose_a.position()) + length(drift));
+        Self { between: pair.between, drift, bases: pair.bases(), turns: [None; 2], rounding }
+    }
+
+    pub(super) fn of_motions(pair: &Pair3, motions: [&Motion3; 2]) -> Self {
+        let poses = [&pair.pose_a, &pair.pose_b];
+        let moved = |i: usize| match motions[i].displacement() {
+            DVec3::ZERO => 0.0,
+            displacement => f64::EPSILON * (length(poses[i].position()) + length(displacement)),
+        };
+        let turn = |motion: &Motion3, pose: &Pose3| Some(motion.turn(pose)).filter(|turn| !turn.is_still());
+        Self {
+            between: pair.between,
+            drift: motions[0].displacement() - motions[1].displacement(),
+            bases: pair.bases(),
+            turns: [turn(motions[0], poses[0]), turn(motions[1], poses[1])],
+            rounding: moved(0) + moved(1),
+        }
+    }
+
+    /// Whether nothing changes between the bodies.
+    pub(super) fn is_still(&self) -> bool {
+        self.drift == DVec3::ZERO && self.turns.iter().all(Option::is_none)
+    }
+
+    /// Whether two parts stay out of each other's bounding spheres from the start until a fraction. Those of a body that
+    /// turns are about its position.
+    pub(super) fn stay_apart(&self, parts: [&Part; 2], until: f64) -> bool {
+        let sphere = |i: usize| {
+            let (center, radius) = (parts[i].center, f64::from(parts[i].shape.outer_radius()));
+            match self.turns[i] {
+                None => (center, radius),
+                Some(_) => (DVec3::ZERO, radius + center.length()),
+            }
+        };
+        let ((from, radius_a), (to, radius_b)) = (sphere(0), sphere(1));
+        let radii = radius_a + radius_b;
+        let apart = self.between + (to - from);
+        let squared = self.drift.length_squared();
+        let nearest = if squared > 0.0 { (apart.dot(self.drift) / squared).clamp(0.0, until) } else { 0.0 };
+        let doubt = 64.0 * f64::EPSILON * (self.between.length() + radii + length(from) + length(to))
+            + 64.0 * f64::EPSILON * nearest * length(self.drift);
+        (apart - self.drift * nearest).length() - radii > doubt
+    }
+}
+
+impl<'a> Course<'a> {
+    pub(super) fn new(passage: &'a Passage, parts: [Part<'a>; 2], cores: [&'a Core3<'a>; 2]) -> Self {
+        let [a, b] = parts.map(|part| part.shape);
+        let finite = |radius: f32| if radius.is_finite() { f64::from(radius) } else { 0.0 };
+        let radii = f64::from(a.radius()) + f64::from(b.radius());
+        let size = finite(a.outer_radius()) + finite(b.outer_radius());
+        let arms = [0, 1].map(|i| passage.arm(i, &parts[i], cores[i]));
+        let fineness = Fineness { gap: IMPACT_GAP * size, rest: IMPACT_REST * size };
+        Self { passage, parts, cores, radii, fineness, size, core_size: (size - radii).max(0.0), arms }
+    }
+
+    /// The same, moved until they are as near as that.
+    pub(super) fn as_fine_as(self, fineness: Fineness) -> Self {
+        Self { fineness, ..self }
+    }
+
+    /// Where both are at a fraction.
+    pub(super) fn at(&self, fraction: f64) -> Moment<'a> {
+        let passage = self.passage;
+        let between = passage.between - passage.drift * fraction;
+        let basis = |i: usize| passage.turns[i].map_or(passage.bases[i], |turn| turn.basis_at(fraction));
+        let spin =
+            |i: usize| passage.turns[i].map_or(DVec3::ZERO, |turn| turn.axis() * turn.speed_at(fraction));
+        let ((basis_a, shift_a), (basis_b, shift_b)) =
+            (self.parts[0].placed(&basis(0)), self.parts[1].placed(&basis(1)));
+        let [a, b] = self.parts.map(|part| part.shape);
+        // What the positions and their difference lost is a few roundings of the way, where a projection has over a hundred.
+        let way = (length(passage.between) + fraction * length(passage.drift)) / 32.0;
+        let off_center = length(a.center().as_dvec3()) + length(b.center().as_dvec3());
+        let reach = self.size + off_center + length(shift_a) + length(shift_b) + length(between) + way;
+        Moment {
+            a: placed((a, self.cores[0]), basis_a, shift_a, false),
+            b: placed((b, self.cores[1]), basis_b, between + shift_b, true),
+            between,
+            precision: Precision { size: self.core_size, reach, planarity: 0.0, roundings: IN_SPACE[1] },
+            spins: [spin(0), spin(1)],
+        }
+    }
+
+    /// What the rounding of poses at a fraction may add to a gap, in metres: of positions to f64, and of the rotations of
+    /// those that turn to f32.
+    pub(super) fn rounding(&self, fraction: f64, between: DVec3) -> f64 {
+        let is_between = fraction > 0.0 && fraction < 1.0;
+        let turned = |i: usize| match self.passage.turns[i] {
+            Some(_) if is_between => match self.parts[i].shape {
+                Shape3::HalfSpace(_) => between.length() + self.arms[1 - i].from_position,
+                _ => self.arms[i].from_position,
+            },
+            _ => 0.0,
+        };
+        (if fraction > 0.0 { self.passage.rounding } else { 0.0 })
+            + f64::from(f32::EPSILON) * (turned(0) + turned(1))
+    }
+}
+
+impl Passage {
+    fn arm(&self, i: usize, part: &Part, core: &Core3) -> Arm {
+        let radius = f64::from(part.shape.outer_radius());
+        let from_position = part.center.length() + if radius.is_finite() { radius } else { 0.0 };
+        let Some(turn) = self.turns[i] else { return Arm { from_axis: 0.0, from_position } };
+        let (basis, shift) = part.placed(&self.bases[i]);
+        let across = |vertex: DVec3| turn.axis().cross(shift + basis.turn(vertex)).length();
+        let furthest = core.vertices().iter().map(|&vertex| across(vertex.as_dvec3())).fold(0.0, f64::max);
+        // Rounding: of the axis, of the bases and of these few operations, each below some forty units.
+        let from_axis = furthest + 128.0 * f64::EPSILON * from_position;
+        Arm { from_axis, from_position }
+    }
+}
+
+fn placed<'a>(
+    (shape, core): (&Shape3, &'a Core3<'a>),
+    basis: Basis3,
+    origin: DVec3,
+    is_b: bool,
+) -> Placed<'a> {
+    match shape {
+        Shape3::HalfSpace(half_space) => {
+            Placed::HalfSpace(Plane { normal: basis.turn(half_space.unit_normal()), origin, is_b })
+        }
+        _ => Placed::Core(Solid::new(core, basis, origin, f64::from(shape.radius()))),
+    }
+}

@@ -1,0 +1,131 @@
+//! Casts whose answers are known beforehand.
+
+use crate::pair3::Pair3;
+use asunder_geometry::glam::{DVec3, Quat, Vec3};
+use asunder_geometry::{Cuboid, HalfSpace, Hull, Motion3, Pose3, Segment3, Shape3, Sphere};
+
+fn cube() -> Shape3 {
+    Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into()
+}
+
+fn at(x: f64, y: f64, z: f64) -> Pose3 {
+    Pose3::at([x, y, z]).unwrap()
+}
+
+#[test]
+fn a_cube_that_falls_on_a_face_lands_flat() {
+    let (shape, here) = (cube(), at(0.0, 3.0, 0.0));
+    for floor in [cube(), HalfSpace::new(Vec3::Y).unwrap().into()] {
+        let top = if matches!(floor, Shape3::HalfSpace(_)) { 0.5 } else { 0.0 };
+        let (ground, fall) = (at(0.0, top, 0.0), Vec3::NEG_Y * 8.0);
+        let impact = Pair3::new(&shape, &here, &floor, &ground).cast(fall).unwrap();
+        let way = if top > 0.0 { 2.0 } else { 2.0 };
+        assert!((impact.fraction - way / 8.0).abs() < 1e-8, "{impact:?}");
+        assert!(impact.error < 1e-8 && impact.normal == Vec3::NEG_Y, "{impact:?}");
+        assert!((impact.anchor_a.y + 0.5).abs() < 1e-6, "{impact:?}");
+    }
+}
+
+#[test]
+fn what_moves_away_or_past_never_meets() {
+    let (shape, here, there) = (cube(), at(0.0, 0.0, 0.0), at(3.0, 0.0, 0.0));
+    let pair = Pair3::new(&shape, &here, &shape, &there);
+    for displacement in [Vec3::NEG_X, Vec3::Y * 1e9, Vec3::new(4.0, 2.001, 0.0), Vec3::X * 1.999, Vec3::ZERO]
+    {
+        assert_eq!(pair.cast(displacement), None, "{displacement}");
+    }
+    assert!(pair.cast(Vec3::X * 2.000_001).is_some());
+}
+
+#[test]
+fn displacements_that_are_no_number_or_endless_are_none() {
+    let (shape, here, there) = (cube(), at(0.0, 0.0, 0.0), at(3.0, 0.0, 0.0));
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        assert_eq!(Pair3::new(&shape, &here, &shape, &there).cast(Vec3::X * bad), None);
+        let start = Pair3::new(&shape, &here, &shape, &here).cast(Vec3::X * bad).unwrap();
+        assert!(start.overlapping && start.normal.is_normalized());
+    }
+    let far = Pair3::new(&shape, &here, &shape, &there).cast(Vec3::X * 3e38).unwrap();
+    assert!(far.fraction > 0.0 && far.fraction * 3e38 <= 2.0, "{far:?}");
+}
+
+#[test]
+fn touching_exactly_counts_as_touching_at_the_start() {
+    let (shape, here, there) = (cube(), at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0));
+    for displacement in [Vec3::X, Vec3::NEG_X, Vec3::ZERO] {
+        let impact = Pair3::new(&shape, &here, &shape, &there).cast(displacement).unwrap();
+        assert!(impact.overlapping && impact.fraction == 0.0 && impact.error == 0.0);
+        assert_eq!((impact.normal, impact.anchor_a.x, impact.anchor_b.x), (Vec3::X, 0.5, -0.5));
+    }
+}
+
+#[test]
+fn half_spaces_meet_only_where_they_look_at_each_other() {
+    let floor = Shape3::from(HalfSpace::new(Vec3::Y).unwrap());
+    let ceiling = Shape3::from(HalfSpace::new(Vec3::NEG_Y).unwrap());
+    let (low, high) = (at(0.0, 0.0, 0.0), at(1e6, 2.0, 0.0));
+    let pair = Pair3::new(&floor, &low, &ceiling, &high);
+    let impact = pair.cast(Vec3::Y * 4.0).unwrap();
+    assert!((impact.fraction - 0.5).abs() < 1e-6 && !impact.overlapping, "{impact:?}");
+    assert_eq!(pair.cast(Vec3::Y), None);
+    let endless = Pair3::new(&floor, &low, &floor, &high).cast(Vec3::Y).unwrap();
+    assert!(endless.overlapping && endless.anchor_a == Vec3::ZERO && endless.normal.is_normalized());
+    // One that turns is no longer parallel: they meet far out at once.
+    let tilt = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.1, 0.0, 0.0, 1.0)).unwrap();
+    let met = pair.impact(&tilt, &Motion3::shift(Vec3::ZERO).unwrap()).unwrap();
+    assert!(met.fraction == 0.0 && met.error >= 2.0, "{met:?}");
+}
+
+#[test]
+fn a_rod_that_turns_meets_a_post_where_the_angle_says() {
+    let rod = Shape3::from(Segment3::new(Vec3::NEG_X * 2.0, Vec3::X * 2.0).unwrap());
+    let post = Shape3::from(Sphere::new(0.125).unwrap());
+    for turn in [
+        Quat::from_xyzw(0.0, 0.0, 1.0, 0.0),
+        Quat::from_xyzw(0.0, 0.0, 1e-3, 0.0),
+        Quat::from_xyzw(0.0, 0.0, 1.0, 1e-6),
+    ] {
+        let (motion, still) = (Motion3::new(Vec3::ZERO, turn).unwrap(), Motion3::shift(Vec3::ZERO).unwrap());
+        for distance in [0.25, 1.0, 1.75] {
+            let (here, there) = (at(0.0, 0.0, 0.0), at(0.0, distance, 0.0));
+            let impact = Pair3::new(&rod, &here, &post, &there).impact(&motion, &still).unwrap();
+            let reached = motion.turn(&here).basis_at(impact.fraction).x;
+            // The distance of the ball's centre from the rod's line, less the radius.
+            let gap = (reached.cross(DVec3::Y * distance)).length() - 0.125;
+            assert!(gap >= 0.0 && gap <= f64::from(impact.error), "{gap} {impact:?}");
+            assert!(impact.error < 1e-5 && impact.error > 0.0, "{impact:?}");
+        }
+    }
+}
+
+#[test]
+fn what_turns_in_place_and_reaches_nothing_misses() {
+    let rod = Shape3::from(Segment3::new(Vec3::NEG_X, Vec3::X).unwrap());
+    let ball = Shape3::from(Sphere::new(0.5).unwrap());
+    let half = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 0.0)).unwrap();
+    let still = Motion3::shift(Vec3::ZERO).unwrap();
+    let (here, there) = (at(0.0, 0.0, 0.0), at(0.0, 1.501, 0.0));
+    assert_eq!(Pair3::new(&rod, &here, &ball, &there).impact(&half, &still), None);
+    assert_eq!(Pair3::new(&ball, &here, &ball, &there).impact(&half, &half), None);
+    // A wheel on a road that all but touches it.
+    let wheel = Shape3::from(Hull::from_points(&wheel(64)).unwrap());
+    let road = Shape3::from(HalfSpace::new(Vec3::Y).unwrap());
+    let (axle, ground) = (at(0.0, 1.001, 0.0), at(0.0, 0.0, 0.0));
+    assert_eq!(Pair3::new(&wheel, &axle, &road, &ground).impact(&half, &still), None);
+}
+
+fn wheel(count: usize) -> Vec<Vec3> {
+    let spoke = |i: usize| {
+        let (sine, cosine) = glam_free(i as f64 / count as f64);
+        [Vec3::new(cosine, sine, -0.25), Vec3::new(cosine, sine, 0.25)]
+    };
+    (0..count).flat_map(spoke).collect()
+}
+
+/// A point of the unit circle by a share of a turn, without trigonometry.
+fn glam_free(share: f64) -> (f32, f32) {
+    let half = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 0.0)).unwrap();
+    let (way, sign) = if share < 0.5 { (share * 2.0, 1.0) } else { (share * 2.0 - 1.0, -1.0) };
+    let x = half.turn(&Pose3::IDENTITY).basis_at(way).x * sign;
+    (x.y as f32, x.x as f32)
+}

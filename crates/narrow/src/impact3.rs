@@ -1,0 +1,63 @@
+//! What casts in space say.
+
+use asunder_geometry::glam::Vec3;
+
+/// When one moved shape in space first touches another, and where.
+///
+/// ```
+/// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
+/// use asunder_narrow::Pair3;
+/// let ball = Shape3::from(Sphere::new(0.5)?);
+/// let (here, there) = (Pose3::IDENTITY, Pose3::at([5.0, 0.0, 0.0])?);
+/// let impact = Pair3::new(&ball, &here, &ball, &there).cast(Vec3::X * 8.0).ok_or("it flies into the other")?;
+/// assert!(impact.fraction <= 0.5 && (0.5 - impact.fraction) * 8.0 <= f64::from(impact.error));
+/// assert!((impact.anchor_a - Vec3::X * 0.5).length() < 1e-6 && (impact.normal - Vec3::X).length() < 1e-6);
+/// assert!(!impact.overlapping && impact.error < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact3 {
+    /// Share of the motion that is done, from 0 to 1. Before it the shapes do not touch.
+    pub fraction: f64,
+    /// At `fraction` the shapes are at most this far apart, in metres; 0 where they touch at the start. It covers what
+    /// the rounding of a pose at that fraction may add.
+    pub error: f32,
+    /// They touch at the start already, exactly: then the fraction is 0 and the normal that of the least depth.
+    pub overlapping: bool,
+    /// Unit axis in world axes, from A to B, at the impact.
+    pub normal: Vec3,
+    /// Where they meet on A, in world axes, relative to A's position at the impact.
+    pub anchor_a: Vec3,
+    /// Where they meet on B, in world axes, relative to B's position at the impact.
+    pub anchor_b: Vec3,
+    /// Which part of A, for shapes made of several; else 0.
+    pub part_a: u32,
+    /// Which part of B, for shapes made of several; else 0.
+    pub part_b: u32,
+}
+
+/// Where a ray in space first meets a shape.
+///
+/// ```
+/// use asunder_geometry::{Pose3, Ray3, Shape3, Sphere, glam::Vec3};
+/// use asunder_narrow::cast_ray3;
+/// let ball = Shape3::from(Sphere::new(0.5)?);
+/// let ray = Ray3::new([-2.0, 0.0, 0.0], Vec3::X * 3.0)?;
+/// let hit = cast_ray3(&ball, &Pose3::IDENTITY, &ray, f64::INFINITY).ok_or("it points at the ball")?;
+/// assert!((hit.distance - 0.5).abs() * 3.0 <= f64::from(hit.error));
+/// assert_eq!((hit.normal, hit.inside, hit.part), (Vec3::NEG_X, false, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayHit3 {
+    /// How far along the ray, in lengths of its direction: what [`Ray3::at`](asunder_geometry::Ray3::at) takes.
+    pub distance: f64,
+    /// Metres along the ray that the distance may be off by; 0 where the ray starts inside.
+    pub error: f32,
+    /// Outward unit normal of the shape there, in world axes; against the ray's direction where it starts inside.
+    pub normal: Vec3,
+    /// The ray starts in the shape, or touches it there, exactly: then the distance is 0.
+    pub inside: bool,
+    /// Which part of a shape made of several; else 0.
+    pub part: u32,
+}
