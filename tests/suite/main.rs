@@ -38,6 +38,7 @@
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
 //! - [`questions`]: overlaps, casts and what is near, against a loop over all bodies, at any time, from any thread
 //! - [`world_threads`]: every output has the same bits at any number of threads
+//! - [`characters`]: nobody enters or passes anything; floors, stairs, slopes, corners and closed rooms, as a player expects
 //!
 //! Stories
 //! - [`regressions`]: what went wrong once
@@ -53,6 +54,7 @@ mod bounds;
 mod boxes;
 mod broad;
 mod casts;
+mod characters;
 mod exactness;
 mod fuzzed;
 mod hard;

@@ -295,17 +295,22 @@ impl<S: Walks> Mover<'_, S> {
     fn try_climb(&mut self, way: S::Point) -> Option<f64> {
         let Gait { up, skin, step, .. } = self.gait;
         let (unit, length) = (way.unit()?, way.length());
-        let foot = S::position(&self.pose);
+        let from = S::position(&self.pose);
+        let foot = from.dot(up) - S::reach((self.shape, &self.pose), -up)?;
         self.go(up * step);
-        let rise = (S::position(&self.pose) - foot).dot(up);
+        let rise = (S::position(&self.pose) - from).dot(up);
         // The step is a skin away: who goes on by less stands before it still.
         self.go(unit * length.max(2.0 * skin));
-        let advance = (S::position(&self.pose) - foot).dot(unit);
+        let advance = (S::position(&self.pose) - from).dot(unit);
         if advance <= skin {
             return None;
         }
         let (down, hit) = self.look(-up, rise)?;
         let hit = hit.filter(|hit| self.holds_below(hit, down, rise))?;
+        // Round feet would get over more than they are lifted; and feet are a skin above the ground.
+        if hit.point.dot(up) - foot > step - skin * 0.5 {
+            return None;
+        }
         self.pose = S::moved(&self.pose, down * hit.until(skin).min(rise))?;
         Some((advance / length).min(1.0))
     }
