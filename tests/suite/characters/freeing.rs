@@ -50,7 +50,12 @@ fn tiles_of_a_floor_push_up_and_not_sideways() {
     let mut world = World3::new();
     for x in -5..5 {
         for z in -5..5 {
-            put(&mut world, [0.35, 0.5, 0.35], [0.7 * f64::from(x) + 0.3, -0.5, 0.7 * f64::from(z) + 0.1], 0.0);
+            put(
+                &mut world,
+                [0.35, 0.5, 0.35],
+                [0.7 * f64::from(x) + 0.3, -0.5, 0.7 * f64::from(z) + 0.1],
+                0.0,
+            );
         }
     }
     for shape in [capsule(), crate_of_a_person()] {
@@ -121,7 +126,8 @@ fn freedom_is_exactly_that() {
     for _ in 0..1500 {
         let mut world = World3::new();
         for _ in 0..1 + random.below(12) {
-            let at = Pose3::new(random.within(DVec3::splat(-1.5), DVec3::splat(1.5)), random.rotation()).unwrap();
+            let at =
+                Pose3::new(random.within(DVec3::splat(-1.5), DVec3::splat(1.5)), random.rotation()).unwrap();
             let half = random.within(DVec3::splat(0.1), DVec3::splat(1.2)).as_vec3();
             let ball = Collider3::new(Sphere::new(half.x).unwrap());
             world.insert(if random.unit() < 0.3 { ball } else { Collider3::new(cuboid(half)) }.at(at));

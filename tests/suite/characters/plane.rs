@@ -2,7 +2,8 @@
 
 use asunder::glam::{DVec2, Vec2};
 use asunder::{
-    Capsule2, Circle, Collider2, Filter2, Pair2, Polygon, Pose2, Rect, Rotation2, Shape2, Slide2, Walk2, World2,
+    Capsule2, Circle, Collider2, Filter2, Pair2, Polygon, Pose2, Rect, Rotation2, Shape2, Slide2, Walk2,
+    World2,
 };
 use asunder_scenes::random::Random;
 
@@ -27,9 +28,9 @@ fn floor() -> World2 {
 }
 
 fn is_free(world: &World2, shape: &Shape2, pose: &Pose2) -> bool {
-    world.iter().all(|(_, body)| {
-        body.is_sensor() || !Pair2::new(shape, pose, body.shape(), body.pose()).overlaps()
-    })
+    world
+        .iter()
+        .all(|(_, body)| body.is_sensor() || !Pair2::new(shape, pose, body.shape(), body.pose()).overlaps())
 }
 
 struct Hero<'w> {
@@ -75,7 +76,10 @@ fn no_inner_edge_of_a_tiled_floor_catches_in_the_plane() {
         let mut hero = Hero::new(&world, shape, DVec2::ZERO);
         for _ in 0..200 {
             let slide = hero.step([0.08, -0.1]);
-            assert!(slide.ground.is_some() && slide.walls.is_empty() && hero.feet().y.abs() < 1e-3, "{slide:?}");
+            assert!(
+                slide.ground.is_some() && slide.walls.is_empty() && hero.feet().y.abs() < 1e-3,
+                "{slide:?}"
+            );
         }
         assert!((hero.feet().x / 16.0 - 1.0).abs() < 0.01, "{}", hero.feet());
     }
@@ -150,7 +154,8 @@ fn whoever_starts_free_in_the_plane_ends_free_and_inside() {
             put(&mut world, [ROOM as f32 + 0.1, 0.0005], [0.0, side], 0.0);
         }
         for _ in 0..random.below(12) {
-            let half = random.within(asunder::glam::DVec3::splat(0.05), asunder::glam::DVec3::splat(0.9)).as_vec3();
+            let half =
+                random.within(asunder::glam::DVec3::splat(0.05), asunder::glam::DVec3::splat(0.9)).as_vec3();
             let shape: Shape2 = match random.below(4) {
                 0 => Circle::new(half.x).unwrap().into(),
                 1 => {
@@ -164,7 +169,11 @@ fn whoever_starts_free_in_the_plane_ends_free_and_inside() {
             };
             let at = [random.range(-ROOM, ROOM), random.range(-ROOM, ROOM)];
             let turn = random.direction();
-            let turn = if random.unit() < 0.5 { Rotation2::IDENTITY } else { Rotation2::new(turn.x as f32, turn.y as f32).unwrap() };
+            let turn = if random.unit() < 0.5 {
+                Rotation2::IDENTITY
+            } else {
+                Rotation2::new(turn.x as f32, turn.y as f32).unwrap()
+            };
             world.insert(Collider2::new(shape).at(Pose2::new(at, turn).unwrap()));
         }
         let shape = match random.below(3) {
@@ -172,7 +181,12 @@ fn whoever_starts_free_in_the_plane_ends_free_and_inside() {
             kind => shapes()[kind - 1].clone(),
         };
         let start = [random.range(-3.0, 3.0), random.range(-3.0, 3.0)];
-        let mut hero = Hero { world: &world, walk: Walk2::new(&shape, Vec2::Y).unwrap(), shape, pose: Pose2::at(start).unwrap() };
+        let mut hero = Hero {
+            world: &world,
+            walk: Walk2::new(&shape, Vec2::Y).unwrap(),
+            shape,
+            pose: Pose2::at(start).unwrap(),
+        };
         if !is_free(&world, &hero.shape, &hero.pose) {
             continue;
         }

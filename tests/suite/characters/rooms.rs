@@ -26,7 +26,8 @@ fn room(random: &mut Random) -> World3 {
                 Hull::from_points(&points).unwrap().into()
             }
             2 => {
-                let part = |at: Vec3| (Pose3::new(at, random.clone().rotation()).unwrap(), cuboid(half * 0.6));
+                let part =
+                    |at: Vec3| (Pose3::new(at, random.clone().rotation()).unwrap(), cuboid(half * 0.6));
                 Compound3::new([part(half), part(-half)]).unwrap().into()
             }
             _ => cuboid(half),
@@ -52,14 +53,19 @@ fn whoever_starts_free_ends_free_and_inside() {
             _ => cuboid(random.within(DVec3::splat(0.05), DVec3::splat(0.5)).as_vec3()),
         };
         let start = random.within(DVec3::splat(-ROOM + 0.9), DVec3::splat(ROOM - 0.9));
-        let mut pose = Pose3::new(start, if random.unit() < 0.7 { asunder::glam::Quat::IDENTITY } else { random.rotation() }).unwrap();
+        let mut pose = Pose3::new(
+            start,
+            if random.unit() < 0.7 { asunder::glam::Quat::IDENTITY } else { random.rotation() },
+        )
+        .unwrap();
         if !is_free(&world, &shape, &pose) {
             continue;
         }
         let walk = Walk3 {
             steepest: random.range(0.3, 0.95) as f32,
             step: if random.unit() < 0.5 { 0.0 } else { random.range(0.0, 1.0) as f32 },
-            ..Walk3::new(&shape, if random.unit() < 0.9 { Vec3::Y } else { random.direction().as_vec3() }).unwrap()
+            ..Walk3::new(&shape, if random.unit() < 0.9 { Vec3::Y } else { random.direction().as_vec3() })
+                .unwrap()
         };
         for _ in 0..12 {
             let displacement = (random.direction() * random.log_range(1e-4, 100.0)).as_vec3();
@@ -75,11 +81,15 @@ fn whoever_starts_free_ends_free_and_inside() {
             let again = world.clone().move_and_slide((&shape, &pose), displacement, &walk, &Filter3::new());
             assert_eq!(slide, again, "a function of the bodies alone");
             (walked, met) = (walked + 1, met + slide.walls.len());
-            (grounded, blocked) = (grounded + usize::from(slide.ground.is_some()), blocked + usize::from(slide.blocked));
+            (grounded, blocked) =
+                (grounded + usize::from(slide.ground.is_some()), blocked + usize::from(slide.blocked));
             pose = slide.pose;
         }
     }
-    assert!(walked > 5000 && met > 3000 && grounded > 1000 && blocked > 300, "{walked} {met} {grounded} {blocked}");
+    assert!(
+        walked > 5000 && met > 3000 && grounded > 1000 && blocked > 300,
+        "{walked} {met} {grounded} {blocked}"
+    );
 }
 
 #[test]
@@ -115,7 +125,8 @@ fn how_the_world_came_about_does_not_matter() {
         let walk = Walk3::new(&shape, Vec3::Y).unwrap();
         let pose = Pose3::at(random.within(DVec3::splat(-2.0), DVec3::splat(2.0))).unwrap();
         let displacement = (random.direction() * 2.0).as_vec3();
-        let ask = |world: &World3| world.move_and_slide((&shape, &pose), displacement, &walk, &Filter3::new());
+        let ask =
+            |world: &World3| world.move_and_slide((&shape, &pose), displacement, &walk, &Filter3::new());
         let first = ask(&world);
         world.update();
         assert_eq!(first, ask(&world));

@@ -77,12 +77,17 @@ impl<'w> Hero<'w> {
 pub(super) fn check_length(slide: &Slide3, displacement: Vec3, walk: &Walk3) {
     let displacement = if displacement.is_finite() { displacement.as_dvec3() } else { DVec3::ZERO };
     let most = displacement.length() + f64::from(walk.step + walk.snap + 3.0 * walk.skin);
-    assert!(slide.moved.is_finite() && slide.moved.length() <= most * (1.0 + 1e-6), "{displacement}: {slide:?}");
+    assert!(
+        slide.moved.is_finite() && slide.moved.length() <= most * (1.0 + 1e-6),
+        "{displacement}: {slide:?}"
+    );
 }
 
 /// Whether a shape overlaps no solid: exactly, body by body.
 pub(super) fn is_free(world: &World3, shape: &Shape3, pose: &Pose3) -> bool {
     world.iter().all(|(_, body)| {
-        body.is_sensor() || !body.is_enabled() || !Pair3::new(shape, pose, body.shape(), body.pose()).overlaps()
+        body.is_sensor()
+            || !body.is_enabled()
+            || !Pair3::new(shape, pose, body.shape(), body.pose()).overlaps()
     })
 }

@@ -167,7 +167,9 @@ fn stairs(height: f64, depth: f64) -> World3 {
 #[test]
 fn stairs_are_climbed_and_descended_on_the_ground() {
     for shape in SHAPES {
-        for (height, depth, speed) in [(0.18, 0.28, 0.06), (0.28, 0.3, 0.1), (0.1, 0.4, 0.005), (0.3, 0.5, 0.2)] {
+        for (height, depth, speed) in
+            [(0.18, 0.28, 0.06), (0.28, 0.3, 0.1), (0.1, 0.4, 0.005), (0.3, 0.5, 0.2)]
+        {
             let world = stairs(height, depth);
             let mut hero = Hero::new(&world, shape(), [-1.0, 0.0, 0.3]);
             let frames = (7.0 / speed) as usize;
@@ -177,7 +179,10 @@ fn stairs_are_climbed_and_descended_on_the_ground() {
             }
             let feet = hero.feet();
             assert!((feet.y - 10.0 * height).abs() < 0.02, "up {height} {speed}: {feet}");
-            assert!(feet.x > -1.0 + 0.8 * 7.0, "at most a fifth of the speed is lost: {height} {speed}: {feet}");
+            assert!(
+                feet.x > -1.0 + 0.8 * 7.0,
+                "at most a fifth of the speed is lost: {height} {speed}: {feet}"
+            );
             for frame in 0..frames {
                 let slide = hero.step([-speed as f32, -0.02, 0.0]);
                 assert!(slide.ground.is_some(), "down {height} {speed}, frame {frame}: {}", hero.feet());
@@ -193,7 +198,8 @@ fn steps_that_are_too_high_or_not_wanted_are_walls() {
     for shape in SHAPES {
         for (height, step) in [(0.36, 0.35), (0.1, 0.0)] {
             let world = stairs(height, 0.4);
-            let mut hero = Hero::new(&world, if step > 0.0 { shape() } else { crate_of_a_person() }, [-1.0, 0.0, 0.0]);
+            let mut hero =
+                Hero::new(&world, if step > 0.0 { shape() } else { crate_of_a_person() }, [-1.0, 0.0, 0.0]);
             hero.walk.step = step;
             for _ in 0..100 {
                 hero.step([0.1, -0.02, 0.0]);
@@ -255,21 +261,36 @@ fn sensors_disabled_bodies_and_oneself_are_not_in_the_way() {
     let walk = asunder::Walk3::new(&shape, Vec3::Y).unwrap();
     let filter = Filter3::new().without(own);
     let slide = world.move_and_slide((&shape, &pose), Vec3::X * 3.0, &walk, &filter);
-    assert!(slide.walls.is_empty() && slide.is_free && slide.moved.distance(DVec3::X * 3.0) < 1e-3, "{slide:?}");
-    assert!(!world.depenetrate((&shape, &pose), &Filter3::new()).moved.eq(&DVec3::ZERO), "itself, if not left out");
+    assert!(
+        slide.walls.is_empty() && slide.is_free && slide.moved.distance(DVec3::X * 3.0) < 1e-3,
+        "{slide:?}"
+    );
+    assert!(
+        !world.depenetrate((&shape, &pose), &Filter3::new()).moved.eq(&DVec3::ZERO),
+        "itself, if not left out"
+    );
     assert!(world.depenetrate((&shape, &pose), &filter).is_free);
 }
 
 #[test]
 fn nonsense_is_no_harm() {
     let mut world = floor();
-    world.insert(Collider3::new(HalfSpace::new(Vec3::new(-1.0, 0.2, 0.0)).unwrap()).at(Pose3::at([20.0, 0.0, 0.0]).unwrap()));
+    world.insert(
+        Collider3::new(HalfSpace::new(Vec3::new(-1.0, 0.2, 0.0)).unwrap())
+            .at(Pose3::at([20.0, 0.0, 0.0]).unwrap()),
+    );
     let shape = capsule();
     let pose = Pose3::at([0.0, 0.91, 0.0]).unwrap();
-    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE, 1e-45, -1.0, 0.0, 3.0];
+    let odd =
+        [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE, 1e-45, -1.0, 0.0, 3.0];
     for a in odd {
         for b in odd {
-            let mut hero = Hero { world: &world, shape: shape.clone(), walk: asunder::Walk3::new(&shape, Vec3::Y).unwrap(), pose };
+            let mut hero = Hero {
+                world: &world,
+                shape: shape.clone(),
+                walk: asunder::Walk3::new(&shape, Vec3::Y).unwrap(),
+                pose,
+            };
             let walk = asunder::Walk3 { up: Vec3::new(0.0, a, b), skin: b, steepest: a, step: a, snap: b };
             let filter = Filter3::new();
             for displacement in [Vec3::new(a, b, 0.0), Vec3::new(0.1, -0.1, 0.0)] {

@@ -114,7 +114,11 @@ fn nothing_is_passed_through_however_thin_and_however_fast() {
                     assert!(hero.feet().x < 30.0, "{speed}: {}", hero.feet());
                     assert!(slide.is_free);
                 }
-                assert!((30.0 - 0.4 - hero.feet().x - f64::from(hero.walk.skin)).abs() < 1e-3, "{speed}: {}", hero.feet());
+                assert!(
+                    (30.0 - 0.4 - hero.feet().x - f64::from(hero.walk.skin)).abs() < 1e-3,
+                    "{speed}: {}",
+                    hero.feet()
+                );
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Going along what is met.
 
 use super::clip::along;
-use super::free::{free, near, push};
+use super::free::{free, is_overlapping, near, push};
 use super::gait::Gait;
 use super::{Freed, Linear, Obstacle, Slide, Walk, Walks};
 use crate::query::{Filter, bodies_along};
@@ -101,12 +101,17 @@ pub(crate) fn move_and_slide<S: Walks>(
         is_free: true,
     };
     if S::size(shape).is_finite() {
-        mover.keep_away(&mut slid);
+        let free = mover.keep_away(&mut slid);
         if slid.is_free {
             mover.slide(within_reach(S::wide(displacement)), &mut slid);
+            // A cast certifies the path, and a pose rounds it: what passes an edge by less than that may touch it.
+            if is_overlapping(world, (shape, &mover.pose), &mover.filter) {
+                mover.pose = free;
+                slid.blocked = true;
+            }
         }
     } else {
-        slid.is_free = !super::free::is_overlapping(world, (shape, start), &mover.filter);
+        slid.is_free = !is_overlapping(world, (shape, start), &mover.filter);
         slid.blocked = true;
     }
     slid.pose = mover.pose;
@@ -127,8 +132,8 @@ fn within_reach<P: Linear>(displacement: P) -> P {
 }
 
 impl<S: Walks> Mover<'_, S> {
-    /// Frees the shape of what it overlaps, and moves it off what it is closer to than its skin.
-    fn keep_away(&mut self, slid: &mut Slid<S>) {
+    /// Frees the shape of what it overlaps, or moves it off what it is closer to than its skin. Tells where it was free first.
+    fn keep_away(&mut self, slid: &mut Slid<S>) -> S::Pose {
         let skin = self.gait.skin;
         let near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
         let least = near.iter().fold(f64::INFINITY, |least, near| least.min(near.gap));
@@ -137,9 +142,13 @@ impl<S: Walks> Mover<'_, S> {
             self.pose = pose;
             slid.is_free = is_free;
             slid.blocked = !is_free;
-        } else if least < skin * (1.0 - SKIN_SLACK) {
+            return pose;
+        }
+        let start = self.pose;
+        if least < skin * (1.0 - SKIN_SLACK) {
             self.go(push(&near, skin));
         }
+        start
     }
 
     fn slide(&mut self, displacement: S::Point, slid: &mut Slid<S>) {
