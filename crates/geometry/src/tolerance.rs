@@ -102,6 +102,18 @@ pub const STANDSTILL: f64 = 1e-6;
 /// visibly.
 pub const GRAZING: f64 = 1e-5;
 
+/// Sine of the angle by which what leans over counts as an upright wall.
+///
+/// Walls hold back what goes into them sideways; a ceiling turns it downwards. Above the rounding of f32 normals; a larger one makes
+/// walls of ceilings.
+pub const UPRIGHT: f64 = 1e-3;
+
+/// Least cosine between up and the normal where round feet touch the edge of a step. What hangs on to an edge by less falls off.
+///
+/// A larger one lets round feet slip from stairs that are nearly as high as they are wide; at zero they would hold on to edges
+/// beside them.
+pub const EDGE_HOLD: f64 = 0.05;
+
 /// The smallest bounding radius a shape may have, in metres.
 pub const MIN_RADIUS: f32 = 1e-6;
 

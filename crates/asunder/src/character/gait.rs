@@ -2,7 +2,7 @@
 
 use super::{Linear, Walk, Walks};
 use crate::space::Space;
-use asunder_geometry::tolerance::{LEAST_SKIN, MAX_RADIUS, SKIN};
+use asunder_geometry::tolerance::{LEAST_SKIN, MAX_RADIUS, SKIN, UPRIGHT};
 
 impl<N> Walk<N> {
     /// The defaults for a shape of this bounding radius.
@@ -35,7 +35,7 @@ impl<P: Linear> Gait<P> {
             up: S::wide(walk.up).unit().unwrap_or(P::ZERO),
             skin: length(walk.skin).max(least_skin::<S>(shape, pose)),
             // What is upright is no ground, whatever a game says.
-            steepest: f64::from(steepest).max(1e-3),
+            steepest: f64::from(steepest).max(UPRIGHT),
             step: length(walk.step),
             snap: length(walk.snap),
         }

@@ -4,10 +4,10 @@ use super::clip::along;
 use super::free::{free, is_overlapping, near, push};
 use super::gait::Gait;
 use super::{Freed, Linear, Obstacle, Slide, Walk, Walks};
-use crate::query::{Filter, bodies_along};
+use crate::query::{Asked, Filter, bodies_along};
 use crate::space::Space;
 use crate::world::World;
-use asunder_geometry::tolerance::{GRAZING, MAX_POSITION, SKIN_SLACK, STANDSTILL};
+use asunder_geometry::tolerance::{EDGE_HOLD, GRAZING, MAX_POSITION, SKIN_SLACK, STANDSTILL, UPRIGHT};
 use asunder_narrow::ArrayVec;
 
 /// Casts along the way, and so walls that can be slid along, one after the other.
@@ -16,18 +16,10 @@ const SLIDES: usize = 6;
 /// How far beyond its way a shape looks, in skins: what it would come closer to than its skin, it has to see.
 const OUTLOOK: f64 = 5.0;
 
-/// Least cosine between up and the normal at the edge of a step. What hangs on to an edge by less falls.
-const EDGE: f64 = 0.05;
+pub(crate) type Slid<S> =
+    Slide<<S as Space>::Key, <S as Space>::Pose, <S as Asked>::Vector, <S as Asked>::Point>;
 
-pub(crate) type Slid<S> = Slide<
-    <S as Space>::Key,
-    <S as Space>::Pose,
-    <S as crate::query::Asked>::Vector,
-    <S as crate::query::Asked>::Point,
->;
-
-type Noted<S> =
-    Obstacle<<S as Space>::Key, <S as crate::query::Asked>::Vector, <S as crate::query::Asked>::Point>;
+type Noted<S> = Obstacle<<S as Space>::Key, <S as Asked>::Vector, <S as Asked>::Point>;
 
 /// What is in the way.
 struct Hit<S: Walks> {
@@ -170,13 +162,12 @@ impl<S: Walks> Mover<'_, S> {
                 break;
             };
             let bound = self.bound(&hit);
-            if bound.wall.is_some() && may_climb {
-                if let Some(share) = self.climb(self.gait.level(way * (1.0 - share))) {
-                    left = left * (1.0 - share);
-                    may_climb = false;
-                    bounds.clear();
-                    continue;
-                }
+            let climb = bound.wall.is_some() && may_climb;
+            if climb && let Some(share) = self.climb(self.gait.level(way * (1.0 - share))) {
+                left = left * (1.0 - share);
+                may_climb = false;
+                bounds.clear();
+                continue;
             }
             if !bound.holds {
                 note::<S>(slid, &hit);
@@ -254,8 +245,7 @@ impl<S: Walks> Mover<'_, S> {
     fn bound(&self, hit: &Hit<S>) -> Bound<S> {
         let rise = hit.normal.dot(self.gait.up);
         let is_ground = rise >= self.gait.steepest;
-        // Upright up to rounding.
-        let is_wall = !is_ground && rise > -1e-3;
+        let is_wall = !is_ground && rise > -UPRIGHT;
         let wall = if is_wall { self.gait.level(hit.normal).unit() } else { None };
         Bound {
             body: hit.body,
@@ -280,7 +270,7 @@ impl<S: Walks> Mover<'_, S> {
         let Some(depth) = S::reach((self.shape, &self.pose), -up) else { return false };
         let height = (hit.point - S::position(&self.pose)).dot(up) + depth;
         // By two skins: one that it stands above the ground, and one that it would stand above the step.
-        if step <= 0.0 || rise < EDGE || height > step + 2.0 * skin {
+        if step <= 0.0 || rise < EDGE_HOLD || height > step + 2.0 * skin {
             return false;
         }
         let Some(body) = self.world.bodies.get(hit.body) else { return false };
