@@ -1,5 +1,6 @@
 //! The same in the plane.
 
+use super::stage::{cosine, sine};
 use asunder::glam::{DVec2, Vec2};
 use asunder::{
     Capsule2, Circle, Collider2, Filter2, Pair2, Polygon, Pose2, Rect, Rotation2, Shape2, Slide2, Walk2,
@@ -17,7 +18,7 @@ fn shapes() -> [Shape2; 2] {
 
 fn put(world: &mut World2, half: [f32; 2], at: impl Into<DVec2>, degrees: f64) {
     let radians = degrees.to_radians();
-    let turn = Rotation2::new(libm::cos(radians) as f32, libm::sin(radians) as f32).unwrap();
+    let turn = Rotation2::new(cosine(radians) as f32, sine(radians) as f32).unwrap();
     world.insert(Collider2::new(rect(half)).at(Pose2::new(at, turn).unwrap()).fixed());
 }
 
@@ -108,7 +109,7 @@ fn slopes_are_climbed_up_to_the_limit_in_the_plane() {
         for (degrees, climbs) in [(44.5_f64, true), (45.5, false)] {
             let mut world = floor();
             let radians = degrees.to_radians();
-            let along = DVec2::new(libm::cos(radians), libm::sin(radians));
+            let along = DVec2::new(cosine(radians), sine(radians));
             put(&mut world, [50.0, 1.0], along * 50.0 - DVec2::new(-along.y, along.x), degrees);
             let mut hero = Hero::new(&world, shape.clone(), [-2.0, 0.0]);
             hero.walk.steepest = 0.5_f32.sqrt();
@@ -127,7 +128,7 @@ fn in_a_notch_it_stops_and_does_not_tremble() {
         let mut world = World2::new();
         for side in [-1.0, 1.0] {
             let radians = f64::to_radians(90.0 - half);
-            let normal = DVec2::new(-side * libm::sin(radians), libm::cos(radians));
+            let normal = DVec2::new(-side * sine(radians), cosine(radians));
             put(&mut world, [20.0, 1.0], normal * -1.0, side * (90.0 - half));
         }
         let ball = Shape2::from(Circle::new(0.4).unwrap());

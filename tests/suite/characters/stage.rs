@@ -18,10 +18,27 @@ pub(super) fn crate_of_a_person() -> Shape3 {
     cuboid([0.4, 0.9, 0.4])
 }
 
+/// The sine of an angle in radians, of at most half a turn, by its series.
+pub(super) fn sine(radians: f64) -> f64 {
+    let mut term = radians;
+    let mut sum = term;
+    for n in 1..16 {
+        term *= -radians * radians / f64::from(2 * n * (2 * n + 1));
+        sum += term;
+    }
+    sum
+}
+
+/// The cosine of an angle in radians, of at most half a turn.
+pub(super) fn cosine(radians: f64) -> f64 {
+    let half = sine(radians / 2.0);
+    1.0 - 2.0 * half * half
+}
+
 /// A rotation about z by an angle in degrees.
 pub(super) fn tilt(degrees: f64) -> Quat {
     let half = degrees.to_radians() / 2.0;
-    Quat::from_xyzw(0.0, 0.0, libm::sin(half) as f32, libm::cos(half) as f32)
+    Quat::from_xyzw(0.0, 0.0, sine(half) as f32, cosine(half) as f32)
 }
 
 /// Adds a box of the level: half extents, position, degrees about z.

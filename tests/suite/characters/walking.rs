@@ -1,6 +1,6 @@
 //! Floors, slopes and stairs.
 
-use super::stage::{Hero, capsule, crate_of_a_person, cuboid, floor, put};
+use super::stage::{Hero, capsule, cosine, crate_of_a_person, cuboid, floor, put, sine};
 use asunder::glam::{DVec3, Vec3};
 use asunder::{Collider3, Filter3, HalfSpace, Pose3, World3};
 
@@ -70,7 +70,7 @@ fn no_inner_edge_of_a_tiled_floor_catches() {
 fn slope(degrees: f64) -> World3 {
     let mut world = floor();
     let radians = degrees.to_radians();
-    let along = DVec3::new(libm::cos(radians), libm::sin(radians), 0.0);
+    let along = DVec3::new(cosine(radians), sine(radians), 0.0);
     let normal = DVec3::new(-along.y, along.x, 0.0);
     put(&mut world, [50.0, 1.0, 20.0], along * 50.0 - normal, degrees);
     world
@@ -83,14 +83,14 @@ fn slopes_are_climbed_up_to_the_limit_and_no_further() {
             for (degrees, climbs) in [(limit - 0.5, true), (limit + 0.5, false)] {
                 let world = slope(degrees);
                 let mut hero = Hero::new(&world, shape(), [-2.0, 0.0, 0.0]);
-                hero.walk.steepest = libm::cos(limit.to_radians()) as f32;
+                hero.walk.steepest = cosine(limit.to_radians()) as f32;
                 for _ in 0..100 {
                     hero.step([0.1, -0.1, 0.02]);
                 }
                 let height = hero.feet().y;
                 if climbs {
                     // 10.2 m on at the same speed; 2 m lead there, 0.4 less for who has an edge.
-                    let most = 8.6 * libm::sin(degrees.to_radians());
+                    let most = 8.6 * sine(degrees.to_radians());
                     assert!(height > 0.85 * most && height < most + 0.1, "{degrees}: {}", hero.feet());
                 } else {
                     assert!(height.abs() < 0.02 && hero.feet().x < 0.01, "{degrees}: {}", hero.feet());
@@ -304,5 +304,20 @@ fn nonsense_is_no_harm() {
                 assert!(hero.pose.position().y > 0.9, "{displacement}: {}", hero.pose.position());
             }
         }
+    }
+}
+
+#[test]
+fn who_is_too_close_is_moved_back_to_a_skin() {
+    let mut world = floor();
+    put(&mut world, [1.0, 3.0, 9.0], [1.402, 2.0, 0.0], 0.0);
+    for shape in SHAPES {
+        // 1 mm above the floor, 2 mm from the wall.
+        let mut hero = Hero::new(&world, shape(), DVec3::ZERO);
+        let skin = f64::from(hero.walk.skin);
+        hero.pose = Pose3::at([0.0, 0.901, 0.0]).unwrap();
+        hero.step([0.0, -0.1, 0.0]);
+        assert!(hero.feet().y.abs() < 1e-4, "{}", hero.feet());
+        assert!((hero.feet().x + skin - 0.002).abs() < 1e-4, "{}", hero.feet());
     }
 }

@@ -1,14 +1,14 @@
 //! Walls and corners.
 
-use super::stage::{Hero, capsule, crate_of_a_person, floor, put};
+use super::stage::{Hero, capsule, cosine, crate_of_a_person, floor, put, sine};
 use asunder::glam::{DVec3, Quat, Vec3};
 use asunder::{Collider3, Hull, Pose3, Segment3, Sphere, Triangle3, World3};
 
 /// Adds an upright wall through the origin, of which the far side is solid, turned about y.
 fn wall(world: &mut World3, degrees: f64) {
     let (radians, half) = (degrees.to_radians(), degrees.to_radians() / 2.0);
-    let normal = DVec3::new(libm::cos(radians), 0.0, -libm::sin(radians));
-    let turn = Quat::from_xyzw(0.0, libm::sin(half) as f32, 0.0, libm::cos(half) as f32);
+    let normal = DVec3::new(cosine(radians), 0.0, -sine(radians));
+    let turn = Quat::from_xyzw(0.0, sine(half) as f32, 0.0, cosine(half) as f32);
     let body = Collider3::new(super::stage::cuboid([1.0, 3.0, 40.0]));
     world.insert(body.at(Pose3::new(normal + DVec3::Y * 2.0, turn).unwrap()).fixed());
 }
@@ -21,8 +21,8 @@ fn along_a_wall_the_tangential_speed_is_kept() {
             wall(&mut world, degrees);
             let radians = f64::to_radians(degrees);
             let (normal, along) = (
-                DVec3::new(libm::cos(radians), 0.0, -libm::sin(radians)),
-                DVec3::new(libm::sin(radians), 0.0, libm::cos(radians)),
+                DVec3::new(cosine(radians), 0.0, -sine(radians)),
+                DVec3::new(sine(radians), 0.0, cosine(radians)),
             );
             for push in [0.05, 0.3] {
                 let mut hero = Hero::new(&world, shape(), normal * -1.0 - along * 10.0);
@@ -155,4 +155,23 @@ fn a_dome_is_climbed_as_far_as_it_is_ground() {
     }
     assert!((highest - 3.0).abs() < 0.02, "{highest}");
     assert!(hero.feet().y.abs() < 0.02 && hero.feet().x > 22.0, "{}", hero.feet());
+}
+
+#[test]
+fn along_the_crease_of_two_walls_the_way_leads_on() {
+    let mut world = World3::new();
+    for side in [-1.0, 1.0] {
+        put(&mut world, [20.0, 1.0, 60.0], DVec3::new(-side, 1.0, 0.0) * -0.5_f64.sqrt(), side * 45.0);
+    }
+    let ball = asunder::Shape3::from(Sphere::new(0.4).unwrap());
+    // It flies: no way is up.
+    let walk = asunder::Walk3 { up: Vec3::ZERO, ..asunder::Walk3::new(&ball, Vec3::Y).unwrap() };
+    let mut pose = Pose3::at([0.1, 3.0, -20.0]).unwrap();
+    for frame in 0..200 {
+        let slide =
+            world.move_and_slide((&ball, &pose), Vec3::new(0.02, -0.2, 0.1), &walk, &asunder::Filter3::new());
+        assert!(slide.is_free && slide.ground.is_none());
+        assert!(frame < 100 || (slide.moved - DVec3::Z * 0.1).length() < 1e-3, "frame {frame}: {slide:?}");
+        pose = slide.pose;
+    }
 }
