@@ -43,6 +43,7 @@
 //! - [`motions`]: what an update says of this frame's motions: contacts to come, and what bullets run into first
 //! - [`questions`]: overlaps, casts and what is near, against a loop over all bodies, at any time, from any thread
 //! - [`world_threads`]: every output has the same bits at any number of threads
+//! - [`characters`]: nobody enters or passes anything; floors, stairs, slopes, corners and closed rooms, as a player expects
 //!
 //! Binaries of their own
 //! - `tests/golden`: what every named scene says over sixty frames, by hash, on any number of threads and in any build
@@ -63,6 +64,7 @@ mod boxes;
 mod broad;
 mod casts;
 mod casts_plane;
+mod characters;
 mod debug_lines;
 mod exactness;
 mod fuzzed;

@@ -83,6 +83,50 @@ pub const MERGED_PLANARITY: f64 = 8.0 * COPLANAR;
 /// smaller one would refuse rotations that were made here.
 pub const UNIT_ROTATION: f64 = 1.000_001 * (f32::EPSILON as f64);
 
+/// Share of a character's bounding radius that it keeps between itself and everything, unless told otherwise.
+///
+/// It must be far above the rounding of positions and the error of casts, so that a character that slides along a floor never
+/// meets the inner edges of its tiles; a larger one becomes visible as hovering.
+pub const SKIN: f32 = 0.01;
+
+/// The least share of its bounding radius that a character keeps between itself and everything, and what
+/// it is pushed clear of solids by.
+///
+/// A smaller one comes near the error of casts (1e-6 of a pair's size), and then a character could come to touch what it slides
+/// along.
+pub const LEAST_SKIN: f64 = 1.0 / 4096.0;
+
+/// Share of its skin that a character may lack before it is moved back to it.
+///
+/// Without slack the rounding of every frame would be undone by a move of the next. A larger one lets the gap change
+/// visibly while it slides.
+pub const SKIN_SLACK: f64 = 1.0 / 64.0;
+
+/// Share of a displacement below which a character counts as standing still, and the sine below which a direction counts as along a
+/// wall rather than into it.
+///
+/// Above the rounding of f32 normals (6e-8) and displacements; a larger one lets characters creep into corners.
+pub const STANDSTILL: f64 = 1e-6;
+
+/// Sine of the angle below which a cast counts as grazing what it meets: the normal is then tilted by as much against the way, so
+/// that sliding along it leads off.
+///
+/// A normal across the way would change nothing, and the next cast would meet the same again. A larger one bends the way
+/// visibly.
+pub const GRAZING: f64 = 1e-5;
+
+/// Sine of the angle by which what leans over counts as an upright wall.
+///
+/// Walls hold back what goes into them sideways; a ceiling turns it downwards. Above the rounding of f32 normals; a larger one makes
+/// walls of ceilings.
+pub const UPRIGHT: f64 = 1e-3;
+
+/// Least cosine between up and the normal where round feet touch the edge of a step. What hangs on to an edge by less falls off.
+///
+/// A larger one lets round feet slip from stairs that are nearly as high as they are wide; at zero they would hold on to edges
+/// beside them.
+pub const EDGE_HOLD: f64 = 0.05;
+
 /// The smallest bounding radius a shape may have, in metres.
 pub const MIN_RADIUS: f32 = 1e-6;
 

@@ -1,0 +1,135 @@
+//! Out of what overlaps.
+
+use super::{Freed, Linear, Walks};
+use crate::query::{Filter, Met, bodies_over, boxes_over};
+use crate::space::Space;
+use crate::world::{World, slot_of};
+use asunder_narrow::ArrayVec;
+use core::ops::ControlFlow;
+
+/// How often the shape is pushed before it counts as wedged.
+const ROUNDS: usize = 16;
+
+/// How often the planes of one round are gone through.
+const SWEEPS: usize = 32;
+
+/// Bodies that are looked at in one round: the nearest, or deepest.
+const MOST_NEAR: usize = 16;
+
+/// A body within reach, as a plane: the shape may go no further towards it than its gap.
+#[derive(Clone, Copy)]
+pub(super) struct Near<P> {
+    slot: u32,
+    /// Below zero where they overlap, and zero where they touch.
+    pub(super) gap: f64,
+    /// Unit normal that leads away from the body.
+    away: P,
+}
+
+/// A shape and where it is.
+pub(super) type At<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
+
+/// Moves the shape until it is `target` metres clear of all that it overlapped.
+///
+/// ```text
+/// repeat
+///   find the planes of all that is near
+///   nothing overlaps: done
+///   push out of the deepest alone; free of all: done, and no shorter way leads out of that one
+///   push out of all planes at once
+/// ```
+/// The deepest alone comes first since among tiles of a floor it is the only one that matters: the sides of its neighbours, of
+/// which the shape overlaps a little, would push it sideways.
+pub(super) fn free<S: Walks>(
+    world: &World<S>,
+    (shape, start): At<'_, S>,
+    target: f64,
+    filter: &Filter<'_, S>,
+) -> Freed<S::Pose, S::Point> {
+    let found = |pose: S::Pose, is_free: bool| {
+        let moved = S::position(&pose) - S::position(start);
+        Freed { pose, moved, is_free }
+    };
+    let overlaps = |pose: &S::Pose| is_overlapping(world, (shape, pose), filter);
+    let mut pose = *start;
+    let mut best = (f64::NEG_INFINITY, pose);
+    for round in 0..=ROUNDS {
+        let near = near(world, (shape, &pose), target, filter);
+        let deepest = near.iter().reduce(|best, next| if next.gap < best.gap { next } else { best });
+        let Some(deepest) = deepest.filter(|deepest| deepest.gap <= 0.0) else {
+            return found(pose, !overlaps(&pose));
+        };
+        if deepest.gap > best.0 {
+            best = (deepest.gap, pose);
+        }
+        if round == ROUNDS {
+            break;
+        }
+        // In a gap too narrow to be clear of both sides, less has to do.
+        let target = if round < ROUNDS / 2 { target } else { target / 16.0 };
+        let alone = S::moved(&pose, deepest.away * (target - deepest.gap));
+        if let Some(pose) = alone.filter(|pose| !overlaps(pose)) {
+            return found(pose, true);
+        }
+        match S::moved(&pose, push(&near, target)) {
+            Some(pushed) => pose = pushed,
+            None => break,
+        }
+    }
+    found(best.1, false)
+}
+
+/// The shortest way to be `target` metres clear of all planes, nearly; somewhere in between where there is none.
+pub(super) fn push<P: Linear>(near: &[Near<P>], target: f64) -> P {
+    let (mut way, mut pushes) = (P::ZERO, [0.0; MOST_NEAR]);
+    for _ in 0..SWEEPS {
+        let mut most = 0.0_f64;
+        for (plane, pushed) in near.iter().zip(&mut pushes) {
+            let lacks = target - plane.gap - plane.away.dot(way);
+            // What was pushed may be taken back, as others have done the work meanwhile: this makes it the shortest way.
+            let change = lacks.max(-*pushed);
+            *pushed += change;
+            way = way + plane.away * change;
+            most = most.max(change.abs());
+        }
+        if most <= target * 1e-3 {
+            break;
+        }
+    }
+    way
+}
+
+/// All bodies within a margin, or the nearest of them, by their slots.
+pub(super) fn near<S: Walks>(
+    world: &World<S>,
+    at: At<'_, S>,
+    margin: f64,
+    filter: &Filter<'_, S>,
+) -> ArrayVec<Near<S::Point>, MOST_NEAR> {
+    let margin = margin as f32;
+    let mut found = ArrayVec::<Near<S::Point>, MOST_NEAR>::new();
+    let rank = |near: &Near<S::Point>| (near.gap, near.slot);
+    let _ = boxes_over(world, &S::bounds(at.0, at.1, margin), filter).visit(|Met(key)| {
+        let gap = world.bodies.get(key).and_then(|body| S::gap(at, body, margin));
+        if let Some((gap, away)) = gap {
+            let next = Near { slot: slot_of(key), gap, away };
+            if found.is_full() {
+                // Bodies come in no promised order: which of them stay must not depend on it.
+                let furthest = found.iter_mut().reduce(|a, b| if rank(a) < rank(b) { b } else { a });
+                if let Some(furthest) = furthest.filter(|furthest| rank(&next) < rank(furthest)) {
+                    *furthest = next;
+                }
+            } else {
+                found.push(next);
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    found.sort_unstable_by_key(|near| near.slot);
+    found
+}
+
+/// Whether the shape overlaps anything; exact.
+pub(super) fn is_overlapping<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
+    bodies_over(world, at, filter).visit(|_| ControlFlow::Break(())).is_break()
+}

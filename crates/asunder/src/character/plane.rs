@@ -1,0 +1,140 @@
+//! Characters in the plane: vectors, the narrow phase, and the methods of [`World2`].
+
+use super::free::free;
+use super::gait::least_skin;
+use super::slide::move_and_slide;
+use super::{Freed2, Linear, Slide2, Walk2, Walks};
+use crate::collider::Collider2;
+use crate::query::Filter2;
+use crate::space::Plane;
+use crate::world::World;
+use asunder_geometry::glam::{DVec2, Vec2};
+use asunder_geometry::{DirectionError, HalfPlane, Pose2, Ray2, Shape2};
+use asunder_narrow::Pair2;
+
+impl Linear for DVec2 {
+    const ZERO: Self = Self::ZERO;
+
+    fn dot(self, other: Self) -> f64 {
+        Self::dot(self, other)
+    }
+}
+
+impl Walk2 {
+    /// How a shape walks, by its size; see the fields. `up` may have any length.
+    ///
+    /// # Errors
+    /// What is not finite, and zero: set the field to zero after that, if no way is to be up.
+    pub fn new(shape: &Shape2, up: Vec2) -> Result<Self, DirectionError> {
+        // Whether it is a direction is the same question.
+        HalfPlane::new(up)?;
+        Ok(Self::for_size(Plane::size(shape), up))
+    }
+}
+
+/// # Characters
+/// The world moves nothing by itself; these tell where a character would be. A [`Filter2`] says what it meets: leave out its own body
+/// with [`without`](crate::Filter::without). Sensors are never in the way. Both are functions of the bodies, and allocate nothing.
+impl World<Plane> {
+    /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius clear of
+    /// them.
+    ///
+    /// One push out of what it is deepest in is tried first; where it suffices, no shorter way leads out of that body. Else it is pushed out
+    /// of all planes of its contacts at once, sixteen times. Where that does not lead out, it is wedged: then it is told as not
+    /// free, where the deepest of its overlaps was least. A path to there is not looked for: of a thin wall it may come out on
+    /// the other side. Cost: a round is a question for boxes, and a manifold for each body met.
+    ///
+    /// ```
+    /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?).fixed());
+    /// let ball = Shape2::from(Circle::new(0.5)?);
+    /// let freed = world.depenetrate((&ball, &Pose2::at([0.5, 1.25])?), &Filter2::new());
+    /// assert!(freed.is_free);
+    /// assert!((freed.moved.y - 0.25).abs() < 2e-4 && freed.moved.x == 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn depenetrate(&self, at: (&Shape2, &Pose2), filter: &Filter2<'_>) -> Freed2 {
+        free(self, at, least_skin::<Plane>(at.0, at.1), &filter.solid())
+    }
+
+    /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a frame, by its velocity
+    /// times the time, gravity included.
+    ///
+    /// - Where it overlaps solids, it is freed first, as by [`depenetrate`](World::depenetrate). From then on it moves by casts
+    ///   alone: it never enters anything, nor passes through, however far it goes.
+    /// - What can be walked on takes all that goes down: nobody slides off. What is steeper is a wall, and a slope to slide down for who falls.
+    /// - Who stands on ground climbs one step a call, and follows ground downwards. A displacement that leads up is a jump, which does neither.
+    /// - It is moved by no more than the displacement, a step and a snap, and three skins; what it took to free it comes on top.
+    /// - A displacement that is not finite counts as none. Half-spaces do not move.
+    ///
+    /// Cost: a cast for each wall, and two for the ground; three more before a wall that may be a step.
+    ///
+    /// ```
+    /// use asunder::{Capsule2, Rect, Collider2, Filter2, Pose2, Shape2, Walk2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let floor = world.insert(Collider2::new(Rect::from_half_extents(Vec2::new(9.0, 0.5))?).fixed());
+    /// let wall = Collider2::new(Rect::from_half_extents(Vec2::new(0.5, 2.0))?).at(Pose2::at([2.5, 2.0])?);
+    /// let wall = world.insert(wall.fixed());
+    /// let hero = Shape2::from(Capsule2::from_half_height(0.5, 0.4)?);
+    /// let walk = Walk2::new(&hero, Vec2::Y)?;
+    ///
+    /// let start = Pose2::at([0.0, 1.41])?;
+    /// let slide = world.move_and_slide((&hero, &start), Vec2::new(3.0, -0.1), &walk, &Filter2::new());
+    /// assert_eq!(slide.ground.map(|ground| ground.body), Some(floor));
+    /// assert_eq!(slide.walls[0].body, wall);
+    /// assert!(slide.blocked && slide.is_free);
+    /// let gap = 2.0 - 0.4 - slide.pose.position().x;
+    /// assert!((gap - f64::from(walk.skin)).abs() < 1e-4);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn move_and_slide(
+        &self,
+        at: (&Shape2, &Pose2),
+        displacement: Vec2,
+        walk: &Walk2,
+        filter: &Filter2<'_>,
+    ) -> Slide2 {
+        move_and_slide(self, at, displacement, walk, filter)
+    }
+}
+
+impl Walks for Plane {
+    fn wide(vector: Vec2) -> DVec2 {
+        vector.as_dvec2()
+    }
+
+    fn narrow(vector: DVec2) -> Vec2 {
+        vector.as_vec2()
+    }
+
+    fn position(pose: &Pose2) -> DVec2 {
+        pose.position()
+    }
+
+    fn moved(pose: &Pose2, by: DVec2) -> Option<Pose2> {
+        Pose2::new(pose.position() + by, pose.rotation()).ok()
+    }
+
+    fn size(shape: &Shape2) -> f64 {
+        shape.outer_radius().into()
+    }
+
+    fn reach((shape, pose): (&Shape2, &Pose2), along: DVec2) -> Option<f64> {
+        let local = shape.support(pose.turn_back(along))?;
+        Some((pose.transform(local) - pose.position()).dot(along))
+    }
+
+    fn gap(at: (&Shape2, &Pose2), body: &Collider2, margin: f32) -> Option<(f64, DVec2)> {
+        let manifold = Pair2::new(at.0, at.1, &body.shape, &body.pose).manifold(margin)?;
+        Some((manifold.separation.into(), -manifold.normal.as_dvec2()))
+    }
+
+    fn ray(origin: DVec2, direction: DVec2) -> Option<Ray2> {
+        Ray2::new(origin, direction.as_vec2()).ok()
+    }
+
+    fn crease(_: DVec2, _: DVec2) -> Option<DVec2> {
+        None
+    }
+}

@@ -1,0 +1,343 @@
+//! Going along what is met.
+
+use super::clip::along;
+use super::free::{free, is_overlapping, near, push};
+use super::gait::Gait;
+use super::{Freed, Linear, Obstacle, Slide, Walk, Walks};
+use crate::query::{Asked, Filter, bodies_along};
+use crate::space::Space;
+use crate::world::World;
+use asunder_geometry::tolerance::{EDGE_HOLD, GRAZING, MAX_POSITION, SKIN_SLACK, STANDSTILL, UPRIGHT};
+use asunder_narrow::ArrayVec;
+
+/// Casts along the way, and so walls that can be slid along, one after the other.
+const SLIDES: usize = 6;
+
+/// How far beyond its way a shape looks, in skins: what it would come closer to than its skin, it has to see.
+const OUTLOOK: f64 = 5.0;
+
+pub(crate) type Slid<S> =
+    Slide<<S as Space>::Key, <S as Space>::Pose, <S as Asked>::Vector, <S as Asked>::Point>;
+
+type Noted<S> = Obstacle<<S as Space>::Key, <S as Asked>::Vector, <S as Asked>::Point>;
+
+/// What is in the way.
+struct Hit<S: Walks> {
+    body: S::Key,
+    parts: (u32, u32),
+    /// Away from the body.
+    normal: S::Point,
+    point: S::Point,
+    /// Metres until they touch.
+    at: f64,
+    /// Cosine between the way and the normal's opposite: how fast the gap closes.
+    approach: f64,
+}
+
+impl<S: Walks> Hit<S> {
+    /// How far one can go and keep a gap: as if the body were a plane.
+    fn until(&self, gap: f64) -> f64 {
+        (self.at - gap / self.approach).max(0.0)
+    }
+
+    fn note(&self) -> Noted<S> {
+        Obstacle { body: self.body, normal: S::narrow(self.normal), point: self.point }
+    }
+}
+
+/// A plane that the way must not go into.
+struct Bound<S: Walks> {
+    body: S::Key,
+    parts: (u32, u32),
+    normal: S::Point,
+    /// The same without up or down, of what is too steep to walk on: it is not climbed either.
+    wall: Option<S::Point>,
+    /// Whether a character can walk on it.
+    is_ground: bool,
+    /// Whether a character can stand on it: what is ground, and edges of steps.
+    holds: bool,
+}
+
+/// A shape on its way.
+struct Mover<'w, S: Walks> {
+    world: &'w World<S>,
+    shape: &'w S::Shape,
+    filter: Filter<'w, S>,
+    gait: Gait<S::Point>,
+    pose: S::Pose,
+}
+
+/// ```text
+/// free the shape, or move it back to its skin's distance
+/// repeat                                                        at most SLIDES times
+///   turn what is left along all planes met                      (Mover::way)
+///   cast; go until the skin is reached                          (Mover::go)
+///   a wall, met from the ground: try to climb it as a step      (Mover::climb)
+/// look for ground below, and go down to it if it was walked on  (Mover::land)
+/// ```
+pub(crate) fn move_and_slide<S: Walks>(
+    world: &World<S>,
+    (shape, start): (&S::Shape, &S::Pose),
+    displacement: S::Vector,
+    walk: &Walk<S::Vector>,
+    filter: &Filter<'_, S>,
+) -> Slid<S> {
+    let gait = Gait::of::<S>(walk, shape, start);
+    let mut mover = Mover { world, shape, filter: filter.solid(), gait, pose: *start };
+    let mut slid = Slide {
+        pose: *start,
+        moved: S::Point::ZERO,
+        ground: None,
+        walls: ArrayVec::new(),
+        blocked: false,
+        is_free: true,
+    };
+    if S::size(shape).is_finite() {
+        let free = mover.keep_away(&mut slid);
+        if slid.is_free {
+            mover.slide(within_reach(S::wide(displacement)), &mut slid);
+            // A cast certifies the path, and a pose rounds it: what passes an edge by less than that may touch it.
+            if is_overlapping(world, (shape, &mover.pose), &mover.filter) {
+                mover.pose = free;
+                slid.blocked = true;
+            }
+        }
+    } else {
+        slid.is_free = !is_overlapping(world, (shape, start), &mover.filter);
+        slid.blocked = true;
+    }
+    slid.pose = mover.pose;
+    slid.moved = S::position(&mover.pose) - S::position(start);
+    slid
+}
+
+/// A displacement that f32 can hold with some to spare; what is not finite is none.
+fn within_reach<P: Linear>(displacement: P) -> P {
+    let (length, most) = (displacement.length(), 4.0 * MAX_POSITION);
+    if !length.is_finite() {
+        P::ZERO
+    } else if length > most {
+        displacement * (most / length)
+    } else {
+        displacement
+    }
+}
+
+impl<S: Walks> Mover<'_, S> {
+    /// Frees the shape of what it overlaps, or moves it off what it is closer to than its skin. Tells where it was free first.
+    fn keep_away(&mut self, slid: &mut Slid<S>) -> S::Pose {
+        let skin = self.gait.skin;
+        let near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
+        let least = near.iter().fold(f64::INFINITY, |least, near| least.min(near.gap));
+        if least <= 0.0 {
+            let Freed { pose, is_free, .. } = free(self.world, (self.shape, &self.pose), skin, &self.filter);
+            self.pose = pose;
+            slid.is_free = is_free;
+            slid.blocked = !is_free;
+            return pose;
+        }
+        let start = self.pose;
+        if least < skin * (1.0 - SKIN_SLACK) {
+            self.go(push(&near, skin));
+        }
+        start
+    }
+
+    fn slide(&mut self, displacement: S::Point, slid: &mut Slid<S>) {
+        let length = displacement.length();
+        let is_rising = displacement.dot(self.gait.up) > STANDSTILL * length;
+        let was_on_ground = !is_rising && self.land(0.0).is_some();
+        let mut may_climb = was_on_ground && self.gait.step > 0.0;
+        let mut left = displacement;
+        let mut bounds = ArrayVec::<Bound<S>, SLIDES>::new();
+        for _ in 0..SLIDES {
+            let way = self.way(left, &bounds);
+            if left.length() <= STANDSTILL * length || way.length() <= STANDSTILL * length {
+                break;
+            }
+            let (share, hit) = self.go(way);
+            left = left * (1.0 - share);
+            let Some(hit) = hit else {
+                left = S::Point::ZERO;
+                break;
+            };
+            let bound = self.bound(&hit);
+            let climb = bound.wall.is_some() && may_climb;
+            if climb && let Some(share) = self.climb(self.gait.level(way * (1.0 - share))) {
+                left = left * (1.0 - share);
+                may_climb = false;
+                bounds.clear();
+                continue;
+            }
+            if !bound.holds {
+                note::<S>(slid, &hit);
+            }
+            let same = |old: &Bound<S>| (old.body, old.parts) == (bound.body, bound.parts);
+            bounds.retain(|old| !same(old));
+            // No more than there are casts.
+            let _ = bounds.try_push(bound);
+        }
+        slid.blocked = !slid.walls.is_empty() && left.length() > STANDSTILL * length;
+        let reach = if was_on_ground { self.gait.snap } else { 0.0 };
+        slid.ground = self.land(reach).map(|hit| hit.note());
+    }
+
+    /// What is left, turned along what was met.
+    ///
+    /// - What holds takes what goes down: nobody slides off ground that can be walked on.
+    /// - What is too steep is a wall to who would go up it, and a slope to who falls.
+    /// - On ground one goes as fast uphill and downhill as on the level.
+    fn way(&self, left: S::Point, bounds: &[Bound<S>]) -> S::Point {
+        let Gait { up, .. } = self.gait;
+        let normals = |of: &dyn Fn(&Bound<S>) -> Option<S::Point>| {
+            bounds.iter().filter_map(of).collect::<ArrayVec<S::Point, SLIDES>>()
+        };
+        let level = along(self.gait.level(left), &normals(&|bound| bound.wall), S::crease);
+        let mut rise = left.dot(up);
+        if bounds.iter().any(|bound| bound.holds) {
+            rise = rise.max(0.0);
+        }
+        let mut way = level + up * rise;
+        let ground = bounds.iter().rev().find(|bound| bound.is_ground);
+        if let (Some(ground), true) = (ground, rise <= 0.0) {
+            let on_ground = level - up * (level.dot(ground.normal) / up.dot(ground.normal));
+            if let Some(unit) = on_ground.unit() {
+                way = unit * level.length();
+            }
+        }
+        along(way, &normals(&|bound| Some(bound.normal)), S::crease)
+    }
+
+    /// Goes until something is in the way. Tells which share of the way was gone, and what is in the way if it was not all.
+    fn go(&mut self, way: S::Point) -> (f64, Option<Hit<S>>) {
+        let length = way.length();
+        let Some((unit, hit)) = self.look(way, length) else { return (1.0, None) };
+        let free = hit.as_ref().map_or(length, |hit| hit.until(self.gait.skin).min(length));
+        if let Some(pose) = S::moved(&self.pose, unit * free) {
+            self.pose = pose;
+        }
+        if free < length { (free / length, hit) } else { (1.0, None) }
+    }
+
+    /// The first obstacle within some metres of a direction, or little more: of the direction as f32 has it, which is told, too.
+    fn look(&self, direction: S::Point, metres: f64) -> Option<(S::Point, Option<Hit<S>>)> {
+        let cast = S::narrow(direction.unit()? * (metres + OUTLOOK * self.gait.skin));
+        let length = S::wide(cast).length();
+        let unit = S::wide(cast).unit()?;
+        let hit = bodies_along(self.world, (self.shape, &self.pose), cast, &self.filter).first();
+        let hit = hit.map(|hit| {
+            let mut normal = -S::wide(hit.normal);
+            if -unit.dot(normal) < GRAZING {
+                normal = (normal - unit * (unit.dot(normal) + GRAZING)).unit().unwrap_or(-unit);
+            }
+            Hit {
+                body: hit.body,
+                parts: (hit.part, hit.part_of_moved),
+                normal,
+                point: hit.point,
+                at: hit.fraction * length,
+                approach: -unit.dot(normal),
+            }
+        });
+        Some((unit, hit))
+    }
+
+    fn bound(&self, hit: &Hit<S>) -> Bound<S> {
+        let rise = hit.normal.dot(self.gait.up);
+        let is_ground = rise >= self.gait.steepest;
+        let is_wall = !is_ground && rise > -UPRIGHT;
+        let wall = if is_wall { self.gait.level(hit.normal).unit() } else { None };
+        Bound {
+            body: hit.body,
+            parts: hit.parts,
+            normal: hit.normal,
+            wall,
+            is_ground,
+            holds: self.holds(hit),
+        }
+    }
+
+    /// Whether a character can stand on what it met: on ground, and on an edge no higher than a step, behind which there is ground.
+    ///
+    /// The normal at an edge is wherever round feet happen to touch it. What counts there is the surface just behind.
+    fn holds(&self, hit: &Hit<S>) -> bool {
+        let Gait { up, skin, steepest, step, .. } = self.gait;
+        let rise = hit.normal.dot(up);
+        if rise >= steepest {
+            return true;
+        }
+        let Some(inwards) = self.gait.level(-hit.normal).unit() else { return false };
+        let Some(depth) = S::reach((self.shape, &self.pose), -up) else { return false };
+        let height = (hit.point - S::position(&self.pose)).dot(up) + depth;
+        // By two skins: one that it stands above the ground, and one that it would stand above the step.
+        if step <= 0.0 || rise < EDGE_HOLD || height > step + 2.0 * skin {
+            return false;
+        }
+        let Some(body) = self.world.bodies.get(hit.body) else { return false };
+        let above = hit.point + (inwards + up * 2.0) * skin;
+        let enter = |ray| S::enter(&ray, 1.0, hit.body, body);
+        let found = S::ray(above, -up * (4.0 * skin)).and_then(enter);
+        found.is_some_and(|found| !found.inside && S::wide(found.normal).dot(up) >= steepest)
+    }
+
+    /// Climbs a step: up, on, and down to where one can stand. Tells which share of the way it led; where it leads nowhere, nothing
+    /// has moved.
+    fn climb(&mut self, way: S::Point) -> Option<f64> {
+        let before = self.pose;
+        let climbed = self.try_climb(way);
+        if climbed.is_none() {
+            self.pose = before;
+        }
+        climbed
+    }
+
+    fn try_climb(&mut self, way: S::Point) -> Option<f64> {
+        let Gait { up, skin, step, .. } = self.gait;
+        let (unit, length) = (way.unit()?, way.length());
+        let from = S::position(&self.pose);
+        let foot = from.dot(up) - S::reach((self.shape, &self.pose), -up)?;
+        self.go(up * step);
+        let rise = (S::position(&self.pose) - from).dot(up);
+        // The step is a skin away: who goes on by less stands before it still.
+        self.go(unit * length.max(2.0 * skin));
+        let advance = (S::position(&self.pose) - from).dot(unit);
+        if advance <= skin {
+            return None;
+        }
+        let (down, hit) = self.look(-up, rise)?;
+        let hit = hit.filter(|hit| self.holds_below(hit, down, rise))?;
+        // Round feet would get over more than they are lifted; and feet are a skin above the ground.
+        if hit.point.dot(up) - foot > step - skin * 0.5 {
+            return None;
+        }
+        self.pose = S::moved(&self.pose, down * hit.until(skin).min(rise))?;
+        Some((advance / length).min(1.0))
+    }
+
+    /// Whether it could stand on what is below, once it is down there.
+    fn holds_below(&self, hit: &Hit<S>, down: S::Point, reach: f64) -> bool {
+        let fall = hit.until(self.gait.skin);
+        let Some(pose) = S::moved(&self.pose, down * fall) else { return false };
+        let there = Mover { pose, gait: Gait { ..self.gait }, ..*self };
+        fall <= reach.max(self.gait.skin) && there.holds(hit)
+    }
+
+    /// The ground within reach below, and down to it. Ground a skin further down counts as stood on, too.
+    fn land(&mut self, reach: f64) -> Option<Hit<S>> {
+        let (down, hit) = self.look(-self.gait.up, reach)?;
+        let hit = hit.filter(|hit| self.holds_below(hit, down, reach))?;
+        self.pose = S::moved(&self.pose, down * hit.until(self.gait.skin).min(reach))?;
+        Some(hit)
+    }
+}
+
+/// Takes note of a wall, once.
+fn note<S: Walks>(slid: &mut Slid<S>, hit: &Hit<S>) {
+    let is_same = |known: &Noted<S>| {
+        known.body == hit.body && S::wide(known.normal).dot(hit.normal) >= 1.0 - STANDSTILL
+    };
+    if !slid.walls.iter().any(is_same) {
+        // More than eight are not told.
+        let _ = slid.walls.try_push(hit.note());
+    }
+}

@@ -1,0 +1,143 @@
+//! Characters in space: vectors, the narrow phase, and the methods of [`World3`].
+
+use super::free::free;
+use super::gait::least_skin;
+use super::slide::move_and_slide;
+use super::{Freed3, Linear, Slide3, Walk3, Walks};
+use crate::collider::Collider3;
+use crate::query::Filter3;
+use crate::space::Volume;
+use crate::world::World;
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::tolerance::STANDSTILL;
+use asunder_geometry::{DirectionError, HalfSpace, Pose3, Ray3, Shape3};
+use asunder_narrow::Pair3;
+
+impl Linear for DVec3 {
+    const ZERO: Self = Self::ZERO;
+
+    fn dot(self, other: Self) -> f64 {
+        Self::dot(self, other)
+    }
+}
+
+impl Walk3 {
+    /// How a shape walks, by its size; see the fields. `up` may have any length.
+    ///
+    /// # Errors
+    /// What is not finite, and zero: set the field to zero after that, if no way is to be up.
+    pub fn new(shape: &Shape3, up: Vec3) -> Result<Self, DirectionError> {
+        // Whether it is a direction is the same question.
+        HalfSpace::new(up)?;
+        Ok(Self::for_size(Volume::size(shape), up))
+    }
+}
+
+/// # Characters
+/// The world moves nothing by itself; these tell where a character would be. A [`Filter3`] says what it meets: leave out its own body
+/// with [`without`](crate::Filter::without). Sensors are never in the way. Both are functions of the bodies, and allocate nothing.
+impl World<Volume> {
+    /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius clear of
+    /// them.
+    ///
+    /// One push out of what it is deepest in is tried first; where it suffices, no shorter way leads out of that body. Else it is pushed out
+    /// of all planes of its contacts at once, sixteen times. Where that does not lead out, it is wedged: then it is told as not
+    /// free, where the deepest of its overlaps was least. A path to there is not looked for: of a thin wall it may come out on
+    /// the other side. Cost: a round is a question for boxes, and a manifold for each body met.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Cuboid, Collider3, Filter3, Pose3, Shape3, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?).fixed());
+    /// let ball = Shape3::from(Sphere::new(0.5)?);
+    /// let freed = world.depenetrate((&ball, &Pose3::at([0.5, 1.25, 0.0])?), &Filter3::new());
+    /// assert!(freed.is_free);
+    /// assert!((freed.moved.y - 0.25).abs() < 2e-4 && freed.moved.x == 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn depenetrate(&self, at: (&Shape3, &Pose3), filter: &Filter3<'_>) -> Freed3 {
+        free(self, at, least_skin::<Volume>(at.0, at.1), &filter.solid())
+    }
+
+    /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a frame, by its velocity
+    /// times the time, gravity included.
+    ///
+    /// - Where it overlaps solids, it is freed first, as by [`depenetrate`](World::depenetrate). From then on it moves by casts
+    ///   alone: it never enters anything, nor passes through, however far it goes.
+    /// - What can be walked on takes all that goes down: nobody slides off. What is steeper is a wall, and a slope to slide down for who falls.
+    /// - Who stands on ground climbs one step a call, and follows ground downwards. A displacement that leads up is a jump, which does neither.
+    /// - It is moved by no more than the displacement, a step and a snap, and three skins; what it took to free it comes on top.
+    /// - A displacement that is not finite counts as none. Half-spaces do not move.
+    ///
+    /// Cost: a cast for each wall, and two for the ground; three more before a wall that may be a step.
+    ///
+    /// ```
+    /// use asunder::{Capsule3, Cuboid, Collider3, Filter3, Pose3, Shape3, Walk3, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let floor = world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.5, 9.0))?).fixed());
+    /// let wall = Collider3::new(Cuboid::from_half_extents(Vec3::new(0.5, 2.0, 9.0))?).at(Pose3::at([2.5, 2.0, 0.0])?);
+    /// let wall = world.insert(wall.fixed());
+    /// let hero = Shape3::from(Capsule3::from_half_height(0.5, 0.4)?);
+    /// let walk = Walk3::new(&hero, Vec3::Y)?;
+    ///
+    /// let start = Pose3::at([0.0, 1.41, 0.0])?;
+    /// let slide = world.move_and_slide((&hero, &start), Vec3::new(3.0, -0.1, 0.0), &walk, &Filter3::new());
+    /// assert_eq!(slide.ground.map(|ground| ground.body), Some(floor));
+    /// assert_eq!(slide.walls[0].body, wall);
+    /// assert!(slide.blocked && slide.is_free);
+    /// let gap = 2.0 - 0.4 - slide.pose.position().x;
+    /// assert!((gap - f64::from(walk.skin)).abs() < 1e-4);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn move_and_slide(
+        &self,
+        at: (&Shape3, &Pose3),
+        displacement: Vec3,
+        walk: &Walk3,
+        filter: &Filter3<'_>,
+    ) -> Slide3 {
+        move_and_slide(self, at, displacement, walk, filter)
+    }
+}
+
+impl Walks for Volume {
+    fn wide(vector: Vec3) -> DVec3 {
+        vector.as_dvec3()
+    }
+
+    fn narrow(vector: DVec3) -> Vec3 {
+        vector.as_vec3()
+    }
+
+    fn position(pose: &Pose3) -> DVec3 {
+        pose.position()
+    }
+
+    fn moved(pose: &Pose3, by: DVec3) -> Option<Pose3> {
+        Pose3::new(pose.position() + by, pose.rotation()).ok()
+    }
+
+    fn size(shape: &Shape3) -> f64 {
+        shape.outer_radius().into()
+    }
+
+    fn reach((shape, pose): (&Shape3, &Pose3), along: DVec3) -> Option<f64> {
+        let local = shape.support(pose.turn_back(along))?;
+        Some((pose.transform(local) - pose.position()).dot(along))
+    }
+
+    fn gap(at: (&Shape3, &Pose3), body: &Collider3, margin: f32) -> Option<(f64, DVec3)> {
+        let manifold = Pair3::new(at.0, at.1, &body.shape, &body.pose).manifold(margin)?;
+        Some((manifold.separation.into(), -manifold.normal.as_dvec3()))
+    }
+
+    fn ray(origin: DVec3, direction: DVec3) -> Option<Ray3> {
+        Ray3::new(origin, direction.as_vec3()).ok()
+    }
+
+    fn crease(one: DVec3, other: DVec3) -> Option<DVec3> {
+        let across = one.cross(other);
+        // Of planes that are parallel up to rounding, it is rounding.
+        if across.length() <= STANDSTILL { None } else { across.unit() }
+    }
+}

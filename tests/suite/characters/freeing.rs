@@ -1,0 +1,145 @@
+//! Out of solids, and the truth where there is no way out.
+
+use super::stage::{Hero, capsule, crate_of_a_person, cuboid, floor, is_free, put};
+use asunder::glam::DVec3;
+use asunder::{Collider3, Filter3, Pair3, Pose3, Separation3, Sphere, World3};
+use asunder_scenes::random::Random;
+
+#[test]
+fn what_is_free_stays_where_it_is() {
+    let world = floor();
+    let shape = capsule();
+    let pose = Pose3::at([0.0, 0.9001, 0.0]).unwrap();
+    let freed = world.depenetrate((&shape, &pose), &Filter3::new());
+    assert!(freed.is_free && freed.pose.same_bits(&pose) && freed.moved == DVec3::ZERO);
+}
+
+#[test]
+fn out_of_one_convex_body_the_way_is_as_short_as_can_be() {
+    let mut random = Random::new(71);
+    let mut deep = 0;
+    for _ in 0..2000 {
+        let mut world = World3::new();
+        let body = Collider3::new(cuboid(random.within(DVec3::splat(0.2), DVec3::splat(2.0)).as_vec3()));
+        let body = body.at(Pose3::new(DVec3::ZERO, random.rotation()).unwrap());
+        world.insert(body.clone());
+        let shape = if random.unit() < 0.5 { capsule() } else { crate_of_a_person() };
+        let pose = random.within(DVec3::splat(-1.5), DVec3::splat(1.5));
+        let pose = Pose3::new(pose, random.rotation()).unwrap();
+        let Separation3::Measured(found) =
+            Pair3::new(&shape, &pose, body.shape(), body.pose()).separation(f32::INFINITY)
+        else {
+            panic!("without a limit, all is measured");
+        };
+        let freed = world.depenetrate((&shape, &pose), &Filter3::new());
+        assert!(freed.is_free && is_free(&world, &shape, &freed.pose));
+        if found.separation > 0.0 {
+            assert_eq!(freed.moved, DVec3::ZERO);
+            continue;
+        }
+        deep += 1;
+        let (depth, moved) = (f64::from(-found.separation), freed.moved.length());
+        let (error, clear) = (f64::from(found.error) + 1e-6, f64::from(shape.outer_radius()) / 4096.0);
+        assert!(moved >= depth - error && moved <= depth + clear + error, "{depth} {moved}");
+    }
+    assert!(deep > 300, "{deep}");
+}
+
+#[test]
+fn tiles_of_a_floor_push_up_and_not_sideways() {
+    let mut world = World3::new();
+    for x in -5..5 {
+        for z in -5..5 {
+            put(
+                &mut world,
+                [0.35, 0.5, 0.35],
+                [0.7 * f64::from(x) + 0.3, -0.5, 0.7 * f64::from(z) + 0.1],
+                0.0,
+            );
+        }
+    }
+    for shape in [capsule(), crate_of_a_person()] {
+        for depth in [0.0, 0.001, 0.05, 0.3] {
+            let pose = Pose3::at([0.01, 0.9 - depth, 0.02]).unwrap();
+            let freed = world.depenetrate((&shape, &pose), &Filter3::new());
+            assert!(freed.is_free);
+            assert!((freed.moved - DVec3::Y * depth).length() < 4e-4, "{depth}: {}", freed.moved);
+        }
+    }
+}
+
+#[test]
+fn of_a_corner_one_is_pushed_out_of_both_sides() {
+    let mut world = floor();
+    put(&mut world, [1.0, 3.0, 9.0], [2.0, 2.0, 0.0], 0.0);
+    let shape = crate_of_a_person();
+    let pose = Pose3::at([0.7, 0.8, 0.0]).unwrap();
+    let freed = world.depenetrate((&shape, &pose), &Filter3::new());
+    assert!(freed.is_free);
+    // 0.1 m deep in each.
+    assert!((freed.moved - DVec3::new(-0.1, 0.1, 0.0)).length() < 6e-4, "{}", freed.moved);
+}
+
+#[test]
+fn who_is_wedged_is_told_so_and_stays_near() {
+    let mut world = floor();
+    for x in [-1.3, 1.3] {
+        put(&mut world, [1.0, 3.0, 9.0], [x, 2.0, 0.0], 0.0);
+    }
+    // A gap of 0.6 m, closed above and on both ends.
+    put(&mut world, [3.0, 1.0, 9.0], [0.0, 4.0, 0.0], 0.0);
+    put(&mut world, [3.0, 3.0, 1.0], [0.0, 2.0, 1.5], 0.0);
+    put(&mut world, [3.0, 3.0, 1.0], [0.0, 2.0, -1.5], 0.0);
+    for shape in [capsule(), crate_of_a_person()] {
+        let mut hero = Hero::new(&world, shape.clone(), [0.05, 0.2, 0.0]);
+        let freed = world.depenetrate((&shape, &hero.pose), &Filter3::new());
+        assert!(!freed.is_free && !is_free(&world, &shape, &freed.pose));
+        assert!(freed.moved.length() < 1.0, "{}", freed.moved);
+        for _ in 0..20 {
+            let slide = hero.step([0.1, 0.1, 0.0]);
+            assert!(!slide.is_free && slide.blocked && hero.feet().length() < 2.0, "{slide:?}");
+        }
+    }
+}
+
+#[test]
+fn who_just_fits_into_a_gap_gets_into_it() {
+    // 0.4 mm of room to both sides: less than a skin.
+    let mut world = floor();
+    for x in [-1.4004, 1.4004] {
+        put(&mut world, [1.0, 3.0, 9.0], [x, 2.0, 0.0], 0.0);
+    }
+    for shape in [capsule(), crate_of_a_person()] {
+        let mut hero = Hero::new(&world, shape, [0.0003, -0.004, -3.0]);
+        for _ in 0..50 {
+            let slide = hero.step([0.0, -0.05, 0.1]);
+            assert!(slide.is_free, "{slide:?}");
+        }
+        assert!((hero.feet().z - 2.0).abs() < 0.05 && hero.feet().y.abs() < 0.01, "{}", hero.feet());
+    }
+}
+
+#[test]
+fn freedom_is_exactly_that() {
+    let mut random = Random::new(72);
+    let (mut wedged, mut freed_of_many) = (0, 0);
+    for _ in 0..1500 {
+        let mut world = World3::new();
+        for _ in 0..1 + random.below(12) {
+            let at =
+                Pose3::new(random.within(DVec3::splat(-1.5), DVec3::splat(1.5)), random.rotation()).unwrap();
+            let half = random.within(DVec3::splat(0.1), DVec3::splat(1.2)).as_vec3();
+            let ball = Collider3::new(Sphere::new(half.x).unwrap());
+            world.insert(if random.unit() < 0.3 { ball } else { Collider3::new(cuboid(half)) }.at(at));
+        }
+        let shape = if random.unit() < 0.5 { capsule() } else { crate_of_a_person() };
+        let pose = Pose3::new(random.within(DVec3::NEG_ONE, DVec3::ONE), random.rotation()).unwrap();
+        let freed = world.depenetrate((&shape, &pose), &Filter3::new());
+        assert_eq!(freed.is_free, is_free(&world, &shape, &freed.pose));
+        assert_eq!(freed.moved, freed.pose.position() - pose.position());
+        assert!(freed.moved.is_finite() && freed.moved.length() < 12.0, "{}", freed.moved);
+        wedged += usize::from(!freed.is_free);
+        freed_of_many += usize::from(freed.is_free && freed.moved != DVec3::ZERO && world.len() > 3);
+    }
+    assert!(wedged < 100 && freed_of_many > 500, "{wedged} of them are wedged, {freed_of_many} freed");
+}

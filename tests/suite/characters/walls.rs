@@ -1,0 +1,177 @@
+//! Walls and corners.
+
+use super::stage::{Hero, capsule, cosine, crate_of_a_person, floor, put, sine};
+use asunder::glam::{DVec3, Quat, Vec3};
+use asunder::{Collider3, Hull, Pose3, Segment3, Sphere, Triangle3, World3};
+
+/// Adds an upright wall through the origin, of which the far side is solid, turned about y.
+fn wall(world: &mut World3, degrees: f64) {
+    let (radians, half) = (degrees.to_radians(), degrees.to_radians() / 2.0);
+    let normal = DVec3::new(cosine(radians), 0.0, -sine(radians));
+    let turn = Quat::from_xyzw(0.0, sine(half) as f32, 0.0, cosine(half) as f32);
+    let body = Collider3::new(super::stage::cuboid([1.0, 3.0, 40.0]));
+    world.insert(body.at(Pose3::new(normal + DVec3::Y * 2.0, turn).unwrap()).fixed());
+}
+
+#[test]
+fn along_a_wall_the_tangential_speed_is_kept() {
+    for shape in [capsule, crate_of_a_person] {
+        for degrees in [0.0, 10.0, -37.0, 45.0] {
+            let mut world = floor();
+            wall(&mut world, degrees);
+            let radians = f64::to_radians(degrees);
+            let (normal, along) = (
+                DVec3::new(cosine(radians), 0.0, -sine(radians)),
+                DVec3::new(sine(radians), 0.0, cosine(radians)),
+            );
+            for push in [0.05, 0.3] {
+                let mut hero = Hero::new(&world, shape(), normal * -1.0 - along * 10.0);
+                let displacement = (normal * push + along * 0.1 - DVec3::Y * 0.05).as_vec3();
+                for _ in 0..30 {
+                    hero.step(displacement);
+                }
+                let start = hero.feet();
+                for _ in 0..100 {
+                    let slide = hero.step(displacement);
+                    assert!(slide.walls.len() == 1 && !slide.blocked && slide.ground.is_some(), "{slide:?}");
+                }
+                let moved = hero.feet() - start;
+                assert!((moved.dot(along) / 10.0 - 1.0).abs() < 0.01, "{degrees} {push}: {moved}");
+                assert!(moved.dot(normal).abs() < 1e-4 && moved.y.abs() < 1e-4, "{degrees} {push}: {moved}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wall_of_crates_is_as_smooth_as_one_wall() {
+    let mut world = floor();
+    for z in -20..40 {
+        for y in 0..4 {
+            put(&mut world, [0.3, 0.3, 0.3], [1.3, 0.3 + 0.6 * f64::from(y), 0.6 * f64::from(z)], 0.0);
+        }
+    }
+    for shape in [capsule, crate_of_a_person] {
+        let mut hero = Hero::new(&world, shape(), DVec3::ZERO);
+        for _ in 0..150 {
+            hero.step([0.05, -0.05, 0.1]);
+        }
+        let feet = hero.feet();
+        assert!((feet.z / 15.0 - 1.0).abs() < 0.01 && feet.y.abs() < 1e-3, "{feet}");
+        assert!((feet.x - 0.6).abs() < 0.02, "{feet}");
+    }
+}
+
+#[test]
+fn in_a_corner_it_stops_and_does_not_tremble() {
+    for shape in [capsule, crate_of_a_person] {
+        // Walls whose outward normals are so far apart: corners of 150, 90, 60 and 20 degrees.
+        for apart in [30.0, 90.0, 120.0, 160.0] {
+            for aim in [-0.4, 0.0, 0.3] {
+                let mut world = floor();
+                wall(&mut world, apart / 2.0);
+                wall(&mut world, -apart / 2.0);
+                let mut hero = Hero::new(&world, shape(), [-6.0, 0.0, 0.1]);
+                let displacement = Vec3::new(0.1, -0.05, aim * 0.1);
+                for _ in 0..250 {
+                    hero.step(displacement);
+                }
+                let there = hero.feet();
+                let mut tangent = 0.0_f64;
+                for _ in 0..100 {
+                    let slide = hero.step(displacement);
+                    tangent = tangent.max(slide.moved.length());
+                    // Along the flat corner's walls the way may still lead on.
+                    assert!(slide.blocked || apart == 30.0, "{apart} {aim}: {slide:?}");
+                }
+                if apart > 30.0 {
+                    assert!(tangent < 1e-5, "{apart} {aim}: {tangent}");
+                    assert!(hero.feet().distance(there) < 1e-5, "{apart} {aim}: {there} {}", hero.feet());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_is_passed_through_however_thin_and_however_fast() {
+    let quad = |x: f32| {
+        let corners = [[x, -9.0, -9.0], [x, 30.0, 0.0], [x, -9.0, 9.0]].map(Vec3::from);
+        Collider3::new(Triangle3::new(corners[0], corners[1], corners[2]).unwrap())
+    };
+    let rod = Collider3::new(Segment3::new(Vec3::new(30.0, 0.5, -5.0), Vec3::new(30.0, 0.5, 5.0)).unwrap());
+    let flat = [[30.0, 0.1, -5.0], [30.0, 3.0, -5.0], [30.0, 0.1, 5.0], [30.0, 3.0, 5.0]].map(Vec3::from);
+    let flat = Collider3::new(Hull::of_any_dimension(&flat).unwrap());
+    for body in [quad(30.0), rod, flat] {
+        for shape in [capsule, crate_of_a_person] {
+            for speed in [1.0_f32, 7.0, 100.0, 1e6, 1e30] {
+                let mut world = floor();
+                world.insert(body.clone());
+                let mut hero = Hero::new(&world, shape(), DVec3::ZERO);
+                hero.walk.step = 0.0;
+                for _ in 0..(100.0 / speed).max(3.0) as usize {
+                    let slide = hero.step([speed, 0.0, 0.0]);
+                    assert!(hero.feet().x < 30.0, "{speed}: {}", hero.feet());
+                    assert!(slide.is_free);
+                }
+                assert!(
+                    (30.0 - 0.4 - hero.feet().x - f64::from(hero.walk.skin)).abs() < 1e-3,
+                    "{speed}: {}",
+                    hero.feet()
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pillar_is_passed_round() {
+    let mut world = floor();
+    let pillar = asunder::Capsule3::from_half_height(5.0, 1.0).unwrap();
+    world.insert(Collider3::new(pillar).at(Pose3::at([5.0, 1.0, 0.0]).unwrap()));
+    for shape in [capsule, crate_of_a_person] {
+        // A box that meets it with a face stands before it.
+        let least = if shape() == capsule() { 0.02 } else { 0.42 };
+        for beside in [least, 0.5, 1.0, 1.399, 1.401] {
+            let mut hero = Hero::new(&world, shape(), [0.0, 0.0, beside]);
+            for _ in 0..250 {
+                hero.step([0.1, -0.05, 0.0]);
+            }
+            assert!(hero.feet().x > 10.0 && hero.feet().z < 1.6, "{beside}: {}", hero.feet());
+        }
+    }
+}
+
+#[test]
+fn a_dome_is_climbed_as_far_as_it_is_ground() {
+    let mut world = floor();
+    world.insert(Collider3::new(Sphere::new(10.0).unwrap()).at(Pose3::at([12.0, -7.0, 0.0]).unwrap()));
+    let mut hero = Hero::new(&world, capsule(), DVec3::ZERO);
+    let mut highest = 0.0_f64;
+    for frame in 0..250 {
+        let slide = hero.step([0.1, -0.05, 0.0]);
+        assert!(slide.ground.is_some(), "frame {frame}: {}", hero.feet());
+        highest = highest.max(hero.feet().y);
+    }
+    assert!((highest - 3.0).abs() < 0.02, "{highest}");
+    assert!(hero.feet().y.abs() < 0.02 && hero.feet().x > 22.0, "{}", hero.feet());
+}
+
+#[test]
+fn along_the_crease_of_two_walls_the_way_leads_on() {
+    let mut world = World3::new();
+    for side in [-1.0, 1.0] {
+        put(&mut world, [20.0, 1.0, 60.0], DVec3::new(-side, 1.0, 0.0) * -0.5_f64.sqrt(), side * 45.0);
+    }
+    let ball = asunder::Shape3::from(Sphere::new(0.4).unwrap());
+    // It flies: no way is up.
+    let walk = asunder::Walk3 { up: Vec3::ZERO, ..asunder::Walk3::new(&ball, Vec3::Y).unwrap() };
+    let mut pose = Pose3::at([0.1, 3.0, -20.0]).unwrap();
+    for frame in 0..200 {
+        let slide =
+            world.move_and_slide((&ball, &pose), Vec3::new(0.02, -0.2, 0.1), &walk, &asunder::Filter3::new());
+        assert!(slide.is_free && slide.ground.is_none());
+        assert!(frame < 100 || (slide.moved - DVec3::Z * 0.1).length() < 1e-3, "frame {frame}: {slide:?}");
+        pose = slide.pose;
+    }
+}
