@@ -1,6 +1,8 @@
 //! Casts in space: when a shape that moves first touches another.
 
 mod advance;
+mod boxes;
+mod march;
 mod passage;
 mod ray;
 #[cfg(test)]
@@ -12,7 +14,8 @@ use crate::pair3::{Pair3, Part, for_parts};
 use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Motion3, Shape3};
-use passage::{Course, Passage};
+use march::march;
+use passage::{Course, Passage, Stretch};
 pub use ray::cast_ray3;
 
 impl Pair3<'_> {
@@ -88,17 +91,16 @@ impl Pair3<'_> {
         let mut first: Option<Impact3> = None;
         let mut is_asked = false;
         let whole_b = Part::whole(self.shape_b, &passage.bases[1]);
+        let is_many = matches!(self.shape_b, Shape3::Compound(_));
         let overlaps = for_parts(self.shape_a, &passage.bases[0], |a| {
             let until = first.map_or(1.0, |known| known.fraction);
-            if passage.stay_apart([&a, &whole_b], until) {
+            if is_many && passage.stretch([&a, &whole_b], until).is_none() {
                 return false;
             }
             for_parts(self.shape_b, &passage.bases[1], |b| {
                 let until = first.map_or(1.0, |known| known.fraction);
-                if passage.stay_apart([&a, &b], until) {
-                    return false;
-                }
-                let met = match part_end(passage, [a, b], until) {
+                let Some(stretch) = passage.stretch([&a, &b], until) else { return false };
+                let met = match part_end(passage, [a, b], &stretch, until) {
                     End::Apart => return false,
                     End::Met(met) => met,
                     End::Unclear(met) => {
@@ -148,10 +150,40 @@ impl Pair3<'_> {
     }
 }
 
-fn part_end(passage: &Passage, [a, b]: [Part; 2], until: f64) -> End {
+/// How the motion of two parts ends that may touch on a stretch of it.
+fn part_end(passage: &Passage, parts: [Part; 2], stretch: &Stretch, until: f64) -> End {
+    let quick = match (parts[0].shape, parts[1].shape) {
+        _ if !passage.is_straight() => None,
+        (Shape3::Sphere(_), Shape3::Sphere(_)) => balls(passage, &parts, stretch),
+        (Shape3::Cuboid(a), Shape3::Cuboid(b)) if a.radius() + b.radius() == 0.0 => {
+            boxes::sweep(passage, &parts, [a, b], stretch)
+        }
+        _ => None,
+    };
+    quick.unwrap_or_else(|| by_steps(passage, parts, stretch, until))
+}
+
+#[inline(never)]
+fn by_steps(passage: &Passage, [a, b]: [Part; 2], stretch: &Stretch, until: f64) -> End {
     let core_a = a.shape.core();
     let core_b = b.shape.core();
-    advance(&Course::new(passage, [a, b], [&core_a, &core_b]), until)
+    let course = Course::new(passage, [a, b], [&core_a, &core_b]);
+    let quick = if passage.is_straight() { march(&course, stretch) } else { None };
+    quick.unwrap_or_else(|| advance(&course, until))
+}
+
+/// Two spheres, which are their own bounding spheres: nothing where they all but touch at the start.
+fn balls(passage: &Passage, parts: &[Part; 2], stretch: &Stretch) -> Option<End> {
+    if stretch.from <= 0.0 {
+        return None;
+    }
+    let radii = parts.each_ref().map(|part| f64::from(part.shape.radius()));
+    let apart = stretch.apart - passage.drift * stretch.from;
+    let distance = apart.length();
+    let (normal, gap) =
+        (apart / distance, distance - (radii[0] + radii[1]) + stretch.doubt + passage.rounding);
+    let anchors = [parts[0].center + normal * radii[0], parts[1].center - normal * radii[1]];
+    Some(End::Met(Met { fraction: stretch.from, gap: gap.max(0.0), normal, anchors }))
 }
 
 fn impact_of(met: &Met, [part_a, part_b]: [u32; 2]) -> Impact3 {
