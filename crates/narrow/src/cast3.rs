@@ -15,7 +15,7 @@ use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Motion3, Shape3};
 use march::march;
-use passage::{Course, Passage, Stretch};
+use passage::{Course, Passage, Stretch, rounding_of};
 pub use ray::cast_ray3;
 
 impl Pair3<'_> {
@@ -46,6 +46,16 @@ impl Pair3<'_> {
     /// ```
     pub fn cast(&self, displacement: Vec3) -> Option<Impact3> {
         let drift = if displacement.is_finite() { displacement.as_dvec3() } else { DVec3::ZERO };
+        if let (Shape3::Sphere(a), Shape3::Sphere(b)) = (self.shape_a, self.shape_b) {
+            // Without their axes.
+            let radii = [a.radius(), b.radius()].map(f64::from);
+            let centers = [DVec3::ZERO; 2];
+            let [from, to] = centers;
+            let stretch = Stretch::of_spheres([from, to, self.between], radii[0] + radii[1], drift, 1.0)?;
+            if let Some(met) = balls(&stretch, drift, radii, centers, rounding_of(&self.pose_a, drift)) {
+                return Some(impact_of(&met, [0, 0]));
+            }
+        }
         self.first_touch(&Passage::straight(self, drift))
     }
 
@@ -154,7 +164,10 @@ impl Pair3<'_> {
 fn part_end(passage: &Passage, parts: [Part; 2], stretch: &Stretch, until: f64) -> End {
     let quick = match (parts[0].shape, parts[1].shape) {
         _ if !passage.is_straight() => None,
-        (Shape3::Sphere(_), Shape3::Sphere(_)) => balls(passage, &parts, stretch),
+        (Shape3::Sphere(a), Shape3::Sphere(b)) => {
+            let (radii, centers) = ([a.radius(), b.radius()].map(f64::from), parts.map(|part| part.center));
+            balls(stretch, passage.drift, radii, centers, passage.rounding).map(End::Met)
+        }
         (Shape3::Cuboid(a), Shape3::Cuboid(b)) if a.radius() + b.radius() == 0.0 => {
             boxes::sweep(passage, &parts, [a, b], stretch)
         }
@@ -173,17 +186,21 @@ fn by_steps(passage: &Passage, [a, b]: [Part; 2], stretch: &Stretch, until: f64)
 }
 
 /// Two spheres, which are their own bounding spheres: nothing where they all but touch at the start.
-fn balls(passage: &Passage, parts: &[Part; 2], stretch: &Stretch) -> Option<End> {
+fn balls(
+    stretch: &Stretch,
+    drift: DVec3,
+    radii: [f64; 2],
+    centers: [DVec3; 2],
+    rounding: f64,
+) -> Option<Met> {
     if stretch.from <= 0.0 {
         return None;
     }
-    let radii = parts.each_ref().map(|part| f64::from(part.shape.radius()));
-    let apart = stretch.apart - passage.drift * stretch.from;
+    let apart = stretch.apart - drift * stretch.from;
     let distance = apart.length();
-    let (normal, gap) =
-        (apart / distance, distance - (radii[0] + radii[1]) + stretch.doubt + passage.rounding);
-    let anchors = [parts[0].center + normal * radii[0], parts[1].center - normal * radii[1]];
-    Some(End::Met(Met { fraction: stretch.from, gap: gap.max(0.0), normal, anchors }))
+    let (normal, gap) = (apart / distance, distance - (radii[0] + radii[1]) + stretch.doubt + rounding);
+    let anchors = [centers[0] + normal * radii[0], centers[1] - normal * radii[1]];
+    Some(Met { fraction: stretch.from, gap: gap.max(0.0), normal, anchors })
 }
 
 fn impact_of(met: &Met, [part_a, part_b]: [u32; 2]) -> Impact3 {

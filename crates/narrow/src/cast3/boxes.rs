@@ -223,10 +223,10 @@ impl Boxes {
     fn corner_b(&self, normal: DVec3) -> DVec3 {
         let normal = normal.to_array();
         let places = side([0, 1, 2].map(|j| dot(&normal, &self.axes[j])), &self.half_b);
-        self.from_b(places)
+        self.place_in_b(places)
     }
 
-    fn from_b(&self, [x, y, z]: [f64; 3]) -> DVec3 {
+    fn place_in_b(&self, [x, y, z]: [f64; 3]) -> DVec3 {
         let [u, v, w] = self.axes.map(DVec3::from_array);
         u * x + v * y + w * z
     }
@@ -239,7 +239,7 @@ impl Boxes {
     fn clamped_to_b(&self, point: DVec3, offset: DVec3) -> DVec3 {
         let from = (point - offset).to_array();
         let place = |j: usize| dot(&from, &self.axes[j]).max(-self.half_b[j]).min(self.half_b[j]);
-        offset + self.from_b([place(0), place(1), place(2)])
+        offset + self.place_in_b([place(0), place(1), place(2)])
     }
 }
 

@@ -81,7 +81,7 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let mut is_parted = stretch.from > 0.0;
     let mut distance = f64::INFINITY;
     for _ in 0..MAX_STEPS {
-        let Shown { corner, gap, closing } = march.shown(axis, done, &mut is_rough);
+        let Shown { corner, gap, closing } = march.shown(axis, done, is_rough);
         if gap > 0.0 && (closing <= 0.0 || gap > closing * (span - done) * (1.0 + 4.0 * f64::EPSILON)) {
             return Some(End::Apart);
         }
@@ -119,23 +119,22 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
 }
 
 impl March<'_> {
-    /// What an axis shows after so much of the stretch. Rough supports until that is near what they may be off by.
-    fn shown(&self, axis: DVec3, done: f64, is_rough: &mut bool) -> Shown {
+    /// What an axis shows after so much of the stretch. By rough supports, unless they are not wanted or the gap is near what
+    /// they may be off by: of one far below zero only the corner matters.
+    fn shown(&self, axis: DVec3, done: f64, is_rough: bool) -> Shown {
         // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
         let closing = axis.dot(self.drift) + 16.0 * f64::EPSILON * length(self.drift);
-        let mut taken = self.taken + closing * done;
+        let taken = self.taken + closing * done;
         let corner = |a: usize, b: usize| ([a, b], self.b.point(b) - self.a.point(a));
-        if *is_rough {
+        if is_rough {
             let ((in_a, off_a), (in_b, off_b)) = (self.a.rough_support(axis), self.b.rough_support(-axis));
             let gap = -in_b.reach - in_a.reach - taken;
-            if gap > ROUGH * (off_a + off_b) {
+            if gap.abs() > ROUGH * (off_a + off_b) {
                 return Shown { corner: corner(in_a.vertex, in_b.vertex), gap, closing };
             }
-            *is_rough = false;
         }
         let (in_a, in_b) = (self.a.support(axis), self.b.support(-axis));
-        taken += in_a.reach;
-        Shown { corner: corner(in_a.vertex, in_b.vertex), gap: -in_b.reach - taken, closing }
+        Shown { corner: corner(in_a.vertex, in_b.vertex), gap: -in_b.reach - in_a.reach - taken, closing }
     }
 }
 
@@ -146,8 +145,11 @@ impl Simplex {
         if let Some(corner) = corner {
             self.corners.try_push(corner).ok()?;
         }
-        let points: ArrayVec<DVec3, 4> = self.corners.iter().map(|&(_, point)| point - origin).collect();
-        let nearest = nearest_to_origin(&points)?;
+        let mut points = [DVec3::ZERO; 4];
+        for (point, &(_, corner)) in points.iter_mut().zip(&self.corners) {
+            *point = corner - origin;
+        }
+        let nearest = nearest_to_origin(points.get(..self.corners.len())?)?;
         let known = core::mem::take(&mut self.corners);
         for (i, corner) in known.into_iter().enumerate() {
             if nearest.corners >> i & 1 == 1 {

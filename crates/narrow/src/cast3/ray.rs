@@ -94,24 +94,23 @@ pub fn cast_ray3(shape: &Shape3, pose: &Pose3, ray: &Ray3, limit: f64) -> Option
     let cast =
         Cast { shape, pose, ray, way, squared: way.length_squared(), from: ray.origin() - pose.position() };
     let mut limit = if limit.is_nan() { f64::INFINITY } else { limit.max(0.0) };
-    let within = |hit: &RayHit3, limit: f64| hit.distance <= limit;
     if let Shape3::Sphere(sphere) = shape {
         let radius = f64::from(sphere.radius());
         let meeting = round::sphere(&cast.line(DVec3::ZERO, radius), radius);
-        return cast.answer(meeting, || Part::whole(shape, &pose.basis())).filter(|hit| within(hit, limit));
+        return cast.answer(meeting, limit, || Part::whole(shape, &pose.basis()));
     }
     let basis = pose.basis();
     if !matches!(shape, Shape3::Compound(_)) {
         let meeting = cast.meeting(shape, &basis, DVec3::ZERO, limit);
-        return cast.answer(meeting, || Part::whole(shape, &basis)).filter(|hit| within(hit, limit));
+        return cast.answer(meeting, limit, || Part::whole(shape, &basis));
     }
     let mut first: Option<RayHit3> = None;
     for_parts(shape, &basis, |part| {
         let (axes, shift) = part.placed(&basis);
         let meeting = cast.meeting(part.shape, &axes, shift, limit);
-        let Some(hit) = cast.answer(meeting, || part) else { return false };
+        let Some(hit) = cast.answer(meeting, limit, || part) else { return false };
         // Of equals, the first.
-        if within(&hit, limit) && first.is_none_or(|known| hit.distance < known.distance) {
+        if first.is_none_or(|known| hit.distance < known.distance) {
             limit = hit.distance;
             first = Some(RayHit3 { part: part.index, ..hit });
         }
@@ -186,20 +185,23 @@ impl<'a> Cast<'a> {
         }
     }
 
-    /// What is told of a meeting with a part.
+    /// What is told of a meeting with a part, if it is within the limit.
     #[inline]
-    fn answer(&self, meeting: Meeting, part: impl FnOnce() -> Part<'a>) -> Option<RayHit3> {
+    fn answer(&self, meeting: Meeting, limit: f64, part: impl FnOnce() -> Part<'a>) -> Option<RayHit3> {
         match meeting {
-            Meeting::Never => None,
-            Meeting::At(distance, normal, error) => Some(RayHit3 {
+            Meeting::At(distance, normal, error) if distance <= limit => Some(RayHit3 {
                 distance,
                 error: (error as f32).next_up(),
                 normal: normal.as_vec3(),
                 inside: false,
                 part: 0,
             }),
+            Meeting::At(..) | Meeting::Never => None,
             Meeting::Inside => Some(self.inside()),
-            Meeting::Unclear | Meeting::Open => self.by_steps(&part(), matches!(meeting, Meeting::Unclear)),
+            Meeting::Unclear | Meeting::Open => {
+                let hit = self.by_steps(&part(), matches!(meeting, Meeting::Unclear));
+                hit.filter(|hit| hit.distance <= limit)
+            }
         }
     }
 

@@ -31,13 +31,8 @@ pub(super) fn cuboid(line: &Line, basis: &Basis3, cuboid: &Cuboid) -> Meeting {
     if enter > leave || enter < 0.0 || enter == f64::INFINITY {
         return Meeting::Never;
     }
-    let (axis, closing) = match face {
-        0 => (basis.x, way[0]),
-        1 => (basis.y, way[1]),
-        _ => (basis.z, way[2]),
-    };
-    let normal = if closing > 0.0 { -axis } else { axis };
-    Meeting::At(enter, normal, line.error(enter, closing.abs(), 0.0))
+    let (axis, closing) = ([basis.x, basis.y, basis.z][face % 3], way[face % 3]);
+    Meeting::At(enter, axis * -1.0_f64.copysign(closing), line.error(enter, closing.abs(), 0.0))
 }
 
 /// Inside of all planes: the ray enters some and leaves others.
