@@ -1,4 +1,23 @@
 //! Casts in space: when a shape that moves first touches another.
+//!
+//! | pair | without turning | where |
+//! |---|---|---|
+//! | any | bounding spheres that never meet: no; else from where they meet to where they part | `Stretch::of_spheres` |
+//! | sphere, sphere | just that: they are their own bounding spheres | `balls` |
+//! | cuboid, cuboid | fifteen axes at once, the latest entry | [`boxes`] |
+//! | any two cores | one simplex all the way | [`march`] |
+//! | half-spaces; what touches at the start or stalls; all that turns | a distance, a step, a distance | [`advance`] |
+//!
+//! What it brought, parry3d's time over ours in one run each, a quarter of the motions passing by (AMD EPYC, Zen 4,
+//! 2026-11-21, two cores with much else on them: to some 10 %):
+//!
+//! | | sphere | capsule | cuboid | hull of 32 |
+//! |---|---|---|---|---|
+//! | cast, each by distances and steps | 0.06 | 2.6 | 0.25 | 0.41 |
+//! | each pair by its own means | 0.6 | 2.5 | 2.1 | 1.0 |
+//! | spheres without their axes; supports in f32 again wherever the gap is clear, not only at first | 1.1 | 4.0 | 3.4 | 1.1 |
+//! | ray, of unit length, sphere asked first | 0.41 | 0.67 | 0.66 | 4.2 |
+//! | as it is given, roots for hits alone | 1.7 | 1.2 | 1.1 | 5.4 |
 
 mod advance;
 mod boxes;
@@ -22,14 +41,14 @@ impl Pair3<'_> {
     /// When A, moved by this displacement in metres, first touches B, which stands; nothing where it never does.
     ///
     /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most 1e-6 of
-    /// the pair's size for round shapes, 1e-9 for others, save where the displacement is so long or the bodies so far from
+    /// the pair's size for round shapes, 4e-9 for others, save where the displacement is so long or the bodies so far from
     /// the origin that f64 has no nearer place. A miss is certain too. Shapes that pass each other within `error` may be told
     /// as an impact.
     ///
     /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal with the
     /// displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own, and both anchors
     /// are the bodies' positions. A displacement that is not finite counts as none. Of compounds, the parts that meet first.
-    /// Cost: a few distances.
+    /// Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches of both for others.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
