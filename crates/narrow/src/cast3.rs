@@ -1,6 +1,27 @@
 //! Casts in space: when a shape that moves first touches another.
+//!
+//! | pair | without turning | where |
+//! |---|---|---|
+//! | any | bounding spheres that never meet: no; else from where they meet to where they part | `Stretch::of_spheres` |
+//! | sphere, sphere | just that: they are their own bounding spheres | `balls` |
+//! | cuboid, cuboid | fifteen axes at once, the latest entry | [`boxes`] |
+//! | any two cores | one simplex all the way | [`march`] |
+//! | half-spaces; what touches at the start or stalls; all that turns | a distance, a step, a distance | [`advance`] |
+//!
+//! What it brought, parry3d's time over ours in one run each, a quarter of the motions passing by (AMD EPYC, Zen 4,
+//! 2026-11-21, two cores with much else on them: to some 10 %):
+//!
+//! | | sphere | capsule | cuboid | hull of 32 |
+//! |---|---|---|---|---|
+//! | cast, each by distances and steps | 0.06 | 2.6 | 0.25 | 0.41 |
+//! | each pair by its own means | 0.6 | 2.5 | 2.1 | 1.0 |
+//! | spheres without their axes; supports in f32 again wherever the gap is clear, not only at first | 1.1 | 4.0 | 3.4 | 1.1 |
+//! | ray, of unit length, sphere asked first | 0.41 | 0.67 | 0.66 | 4.2 |
+//! | as it is given, roots for hits alone | 1.7 | 1.2 | 1.1 | 5.4 |
 
 mod advance;
+mod boxes;
+mod march;
 mod passage;
 mod ray;
 #[cfg(test)]
@@ -12,21 +33,22 @@ use crate::pair3::{Pair3, Part, for_parts};
 use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Motion3, Shape3};
-use passage::{Course, Passage};
+use march::march;
+use passage::{Course, Passage, Stretch, rounding_of};
 pub use ray::cast_ray3;
 
 impl Pair3<'_> {
     /// When A, moved by this displacement in metres, first touches B, which stands; nothing where it never does.
     ///
     /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most 1e-6 of
-    /// the pair's size for round shapes, 1e-9 for others, save where the displacement is so long or the bodies so far from
+    /// the pair's size for round shapes, 4e-9 for others, save where the displacement is so long or the bodies so far from
     /// the origin that f64 has no nearer place. A miss is certain too. Shapes that pass each other within `error` may be told
     /// as an impact.
     ///
     /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal with the
     /// displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own, and both anchors
     /// are the bodies' positions. A displacement that is not finite counts as none. Of compounds, the parts that meet first.
-    /// Cost: a few distances.
+    /// Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches of both for others.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -43,6 +65,16 @@ impl Pair3<'_> {
     /// ```
     pub fn cast(&self, displacement: Vec3) -> Option<Impact3> {
         let drift = if displacement.is_finite() { displacement.as_dvec3() } else { DVec3::ZERO };
+        if let (Shape3::Sphere(a), Shape3::Sphere(b)) = (self.shape_a, self.shape_b) {
+            // Without their axes.
+            let radii = [a.radius(), b.radius()].map(f64::from);
+            let centers = [DVec3::ZERO; 2];
+            let [from, to] = centers;
+            let stretch = Stretch::of_spheres([from, to, self.between], radii[0] + radii[1], drift, 1.0)?;
+            if let Some(met) = balls(&stretch, drift, radii, centers, rounding_of(&self.pose_a, drift)) {
+                return Some(impact_of(&met, [0, 0]));
+            }
+        }
         self.first_touch(&Passage::straight(self, drift))
     }
 
@@ -88,17 +120,16 @@ impl Pair3<'_> {
         let mut first: Option<Impact3> = None;
         let mut is_asked = false;
         let whole_b = Part::whole(self.shape_b, &passage.bases[1]);
+        let is_many = matches!(self.shape_b, Shape3::Compound(_));
         let overlaps = for_parts(self.shape_a, &passage.bases[0], |a| {
             let until = first.map_or(1.0, |known| known.fraction);
-            if passage.stay_apart([&a, &whole_b], until) {
+            if is_many && passage.stretch([&a, &whole_b], until).is_none() {
                 return false;
             }
             for_parts(self.shape_b, &passage.bases[1], |b| {
                 let until = first.map_or(1.0, |known| known.fraction);
-                if passage.stay_apart([&a, &b], until) {
-                    return false;
-                }
-                let met = match part_end(passage, [a, b], until) {
+                let Some(stretch) = passage.stretch([&a, &b], until) else { return false };
+                let met = match part_end(passage, [a, b], &stretch, until) {
                     End::Apart => return false,
                     End::Met(met) => met,
                     End::Unclear(met) => {
@@ -148,10 +179,47 @@ impl Pair3<'_> {
     }
 }
 
-fn part_end(passage: &Passage, [a, b]: [Part; 2], until: f64) -> End {
+/// How the motion of two parts ends that may touch on a stretch of it.
+fn part_end(passage: &Passage, parts: [Part; 2], stretch: &Stretch, until: f64) -> End {
+    let quick = match (parts[0].shape, parts[1].shape) {
+        _ if !passage.is_straight() => None,
+        (Shape3::Sphere(a), Shape3::Sphere(b)) => {
+            let (radii, centers) = ([a.radius(), b.radius()].map(f64::from), parts.map(|part| part.center));
+            balls(stretch, passage.drift, radii, centers, passage.rounding).map(End::Met)
+        }
+        (Shape3::Cuboid(a), Shape3::Cuboid(b)) if a.radius() + b.radius() == 0.0 => {
+            boxes::sweep(passage, &parts, [a, b], stretch)
+        }
+        _ => None,
+    };
+    quick.unwrap_or_else(|| by_steps(passage, parts, stretch, until))
+}
+
+#[inline(never)]
+fn by_steps(passage: &Passage, [a, b]: [Part; 2], stretch: &Stretch, until: f64) -> End {
     let core_a = a.shape.core();
     let core_b = b.shape.core();
-    advance(&Course::new(passage, [a, b], [&core_a, &core_b]), until)
+    let course = Course::new(passage, [a, b], [&core_a, &core_b]);
+    let quick = if passage.is_straight() { march(&course, stretch) } else { None };
+    quick.unwrap_or_else(|| advance(&course, until))
+}
+
+/// Two spheres, which are their own bounding spheres: nothing where they all but touch at the start.
+fn balls(
+    stretch: &Stretch,
+    drift: DVec3,
+    radii: [f64; 2],
+    centers: [DVec3; 2],
+    rounding: f64,
+) -> Option<Met> {
+    if stretch.from <= 0.0 {
+        return None;
+    }
+    let apart = stretch.apart - drift * stretch.from;
+    let distance = apart.length();
+    let (normal, gap) = (apart / distance, distance - (radii[0] + radii[1]) + stretch.doubt + rounding);
+    let anchors = [centers[0] + normal * radii[0], centers[1] - normal * radii[1]];
+    Some(Met { fraction: stretch.from, gap: gap.max(0.0), normal, anchors })
 }
 
 fn impact_of(met: &Met, [part_a, part_b]: [u32; 2]) -> Impact3 {

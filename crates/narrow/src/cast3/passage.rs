@@ -83,10 +83,15 @@ pub(super) fn length(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
+/// What rounding the position of a moved body may add to a gap.
+pub(super) fn rounding_of(pose: &Pose3, displacement: DVec3) -> f64 {
+    f64::EPSILON * (length(pose.position()) + length(displacement))
+}
+
 impl Passage {
     /// A moves and B stands; nobody turns.
     pub(super) fn straight(pair: &Pair3, drift: DVec3) -> Self {
-        let rounding = f64::EPSILON * (length(pair.pose_a.position()) + length(drift));
+        let rounding = rounding_of(&pair.pose_a, drift);
         Self { between: pair.between, drift, bases: pair.bases(), turns: [None; 2], rounding }
     }
 
@@ -94,7 +99,7 @@ impl Passage {
         let poses = [&pair.pose_a, &pair.pose_b];
         let moved = |i: usize| match motions[i].displacement() {
             DVec3::ZERO => 0.0,
-            displacement => f64::EPSILON * (length(poses[i].position()) + length(displacement)),
+            displacement => rounding_of(poses[i], displacement),
         };
         let turn = |motion: &Motion3, pose: &Pose3| Some(motion.turn(pose)).filter(|turn| !turn.is_still());
         Self {
@@ -111,9 +116,20 @@ impl Passage {
         self.drift == DVec3::ZERO && self.turns.iter().all(Option::is_none)
     }
 
-    /// Whether two parts stay out of each other's bounding spheres from the start until a fraction. Those of a body that
-    /// turns are about its position.
-    pub(super) fn stay_apart(&self, parts: [&Part; 2], until: f64) -> bool {
+    /// Whether nobody turns.
+    pub(super) fn is_straight(&self) -> bool {
+        self.turns.iter().all(Option::is_none)
+    }
+
+    /// B's position less A's at a fraction.
+    #[inline]
+    pub(super) fn between_at(&self, fraction: f64) -> DVec3 {
+        self.between - self.drift * fraction
+    }
+
+    /// Where two parts may touch until a fraction: from where their bounding spheres meet to where they part. Nothing where
+    /// they never do. Those of a body that turns are about its position.
+    pub(super) fn stretch(&self, parts: [&Part; 2], until: f64) -> Option<Stretch> {
         let sphere = |i: usize| {
             let (center, radius) = (parts[i].center, f64::from(parts[i].shape.outer_radius()));
             match self.turns[i] {
@@ -122,13 +138,60 @@ impl Passage {
             }
         };
         let ((from, radius_a), (to, radius_b)) = (sphere(0), sphere(1));
-        let radii = radius_a + radius_b;
-        let apart = self.between + (to - from);
-        let squared = self.drift.length_squared();
-        let nearest = if squared > 0.0 { (apart.dot(self.drift) / squared).clamp(0.0, until) } else { 0.0 };
-        let doubt = 64.0 * f64::EPSILON * (self.between.length() + radii + length(from) + length(to))
-            + 64.0 * f64::EPSILON * nearest * length(self.drift);
-        (apart - self.drift * nearest).length() - radii > doubt
+        Stretch::of_spheres([from, to, self.between], radius_a + radius_b, self.drift, until)
+    }
+}
+
+/// The part of a motion on which two parts may touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// B's bounding sphere's centre less A's at the start of the motion.
+    pub(super) apart: DVec3,
+    /// By how much a gap of those spheres may be off on the way.
+    pub(super) doubt: f64,
+}
+
+impl Stretch {
+    /// From where two spheres meet to where they part, by their centres, each from its body's position, and B's position less
+    /// A's. No root and no quotient for what passes by: the cross product's square tells.
+    pub(super) fn of_spheres(
+        [from, to, between]: [DVec3; 3],
+        radii: f64,
+        drift: DVec3,
+        until: f64,
+    ) -> Option<Self> {
+        let apart = between + (to - from);
+        let doubt =
+            64.0 * f64::EPSILON * (radii + length(from) + length(to)) + 8.0 * f64::EPSILON * length(between);
+        let reach = radii + doubt;
+        let is_outside = |squared: f64| squared > reach * reach;
+        let whole = Self { from: 0.0, to: until, apart, doubt };
+        if !is_outside(apart.length_squared()) {
+            return Some(whole);
+        }
+        let (pace, ahead) = (drift.length_squared(), apart.dot(drift));
+        if ahead <= 0.0 {
+            return None;
+        }
+        let beside = apart.cross(drift).length_squared();
+        if beside > reach * reach * pace
+            || ahead > until * pace && is_outside((apart - drift * until).length_squared())
+        {
+            return None;
+        }
+        // Spheres a little wider, so that rounding leaves these apart where those meet and part.
+        let (wide, inverse) = (radii + 4.0 * doubt, 1.0 / pace);
+        let half_chord = (((wide * wide - beside * inverse) * inverse).max(0.0)).sqrt();
+        let nearest = ahead * inverse;
+        let (first, last) = ((nearest - half_chord).next_down(), nearest + half_chord);
+        let certain = |fraction: f64| is_outside((apart - drift * fraction).length_squared());
+        Some(Self {
+            from: if first > 0.0 && certain(first) { first.min(until) } else { 0.0 },
+            to: if last < until && certain(last) { last } else { until },
+            ..whole
+        })
     }
 }
 

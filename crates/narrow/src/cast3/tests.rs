@@ -129,3 +129,53 @@ fn glam_free(share: f64) -> (f32, f32) {
     let x = half.turn(&Pose3::IDENTITY).basis_at(way).x * sign;
     (x.y as f32, x.x as f32)
 }
+
+/// Numbers from -1 to 1, the same at every run.
+fn numbers() -> impl FnMut() -> f32 {
+    let mut state = 11_u32;
+    move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 8) as f32 / (1 << 23) as f32 - 1.0
+    }
+}
+
+#[test]
+fn boxes_by_their_axes_and_balls_by_their_own_meet_where_their_hulls_do() {
+    let mut number = numbers();
+    let (mut hits, mut misses) = (0, 0);
+    for case in 0..4000 {
+        let mut vector = || Vec3::new(number(), number(), number());
+        let halves = [vector(), vector()].map(|half| half.abs() + 0.05);
+        // Every fourth pair is turned alike, so that faces and edges lie on each other.
+        let turn = vector();
+        let other = if case % 4 == 0 { turn } else { vector() };
+        let [here, there] = [(Vec3::ZERO, turn), (vector() * 6.0, other)]
+            .map(|(at, q)| Pose3::new(at, Quat::from_xyzw(q.x, q.y, q.z, 0.7)).unwrap());
+        let way = (there.position().as_vec3() + vector() * 1.5) * 1.5;
+        let quick = halves.map(|half| match case % 3 {
+            0 => Shape3::from(Sphere::new(half.x).unwrap()),
+            _ => Cuboid::from_half_extents(half).unwrap().into(),
+        });
+        let slow = halves.map(|half| match case % 3 {
+            0 => Shape3::from(Hull::of_any_dimension(&[Vec3::ZERO]).unwrap().rounded(half.x).unwrap()),
+            _ => Hull::from_points(&Cuboid::from_half_extents(half).unwrap().vertices()).unwrap().into(),
+        });
+        let cast = |[a, b]: &[Shape3; 2]| Pair3::new(a, &here, b, &there).cast(way);
+        let told =
+            format!("{case}: {:?} {:?} {halves:?} {here:?} {there:?} {way}", cast(&quick), cast(&slow));
+        match (cast(&quick), cast(&slow)) {
+            (Some(quick), Some(slow)) => {
+                hits += usize::from(!quick.overlapping);
+                assert_eq!(quick.overlapping, slow.overlapping, "{told}");
+                assert!(quick.error < 1e-8, "{told}");
+                // Each is before the true one by no more than its gap over how fast that closes.
+                let closing = f64::from(slow.normal.dot(way).min(quick.normal.dot(way)));
+                let room = f64::from(quick.error + slow.error) / closing.max(1e-3);
+                assert!((quick.fraction - slow.fraction).abs() <= 2.0 * room, "{told}");
+            }
+            (None, None) => misses += 1,
+            _ => panic!("{told}"),
+        }
+    }
+    assert!(hits > 1000 && misses > 300, "{hits} {misses}");
+}

@@ -12,6 +12,6 @@ mod portal;
 mod reduce;
 mod rods;
 pub(crate) mod sat;
-mod simplex;
+pub(crate) mod simplex;
 mod slender;
 pub(crate) mod solid;

@@ -2,65 +2,61 @@
 
 use super::{Line, Meeting};
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Core3, Cuboid, HalfSpace, Hull, Triangle3};
+use asunder_geometry::{Basis3, Core3, Cuboid, HalfSpace, Hull, Triangle3};
 
 /// Sine of the angle to a triangle's plane below which it counts as seen edge on.
 const EDGE_ON: f64 = 1e-6;
 
 /// Between the planes of which pairs the ray is: a box by slabs.
-pub(super) fn cuboid(line: &Line, cuboid: &Cuboid) -> Meeting {
-    let half = cuboid.half_extents().as_dvec3();
-    let beyond = (line.origin.abs() - half).max_element();
+#[inline(always)]
+pub(super) fn cuboid(line: &Line, basis: &Basis3, cuboid: &Cuboid) -> Meeting {
+    let half = cuboid.half_extents().as_dvec3().to_array();
+    let (origin, way) = (basis.turn_back(line.origin).to_array(), basis.turn_back(line.way).to_array());
+    let (mut enter, mut leave, mut face) = (f64::NEG_INFINITY, f64::INFINITY, 0);
+    let mut beyond = f64::NEG_INFINITY;
+    for axis in 0..3 {
+        // Seen from where the ray comes: at so much before the middle, and as far again behind it. Along the slab both are
+        // infinite, or NaN on a face, which bounds nothing.
+        let (before, inverse) = (-origin[axis].copysign(origin[axis] * way[axis]), 1.0 / way[axis].abs());
+        let (first, last) = ((before - half[axis]) * inverse, (before + half[axis]) * inverse);
+        face = if first > enter { axis } else { face };
+        enter = if first > enter { first } else { enter };
+        leave = if last < leave { last } else { leave };
+        let out = origin[axis].abs() - half[axis];
+        beyond = if out > beyond { out } else { beyond };
+    }
     if beyond <= line.doubt {
         return if beyond < -line.doubt { Meeting::Inside } else { Meeting::Unclear };
     }
-    let (mut enter, mut leave, mut face) = (f64::NEG_INFINITY, f64::INFINITY, 0);
-    for axis in 0..3 {
-        let (at, pace) = (line.origin[axis], line.along[axis]);
-        if pace == 0.0 {
-            if at.abs() > half[axis] {
-                return Meeting::Never;
-            }
-            continue;
-        }
-        // Where it passes the middle, and how long it is inside to both sides of that.
-        let inverse = 1.0 / pace;
-        let (middle, span) = (-at * inverse, half[axis] * inverse.abs());
-        if middle - span > enter {
-            (enter, face) = (middle - span, axis);
-        }
-        leave = leave.min(middle + span);
-    }
-    if enter > leave || enter < 0.0 {
+    if enter > leave || enter < 0.0 || enter == f64::INFINITY {
         return Meeting::Never;
     }
-    let pace = line.along[face];
-    let mut normal = DVec3::ZERO;
-    normal[face] = -pace.signum();
-    Meeting::At(enter, normal, line.error(enter, pace.abs(), 0.0))
+    let (axis, closing) = ([basis.x, basis.y, basis.z][face % 3], way[face % 3]);
+    Meeting::At(enter, axis * -1.0_f64.copysign(closing), line.error(enter, closing.abs(), 0.0))
 }
 
 /// Inside of all planes: the ray enters some and leaves others.
-pub(super) fn hull(line: &Line, hull: &Hull, core: &Core3) -> Meeting {
+pub(super) fn hull(line: &Line, basis: &Basis3, hull: &Hull, core: &Core3) -> Meeting {
+    let (origin, way) = (basis.turn_back(line.origin), basis.turn_back(line.way));
     let (mut enter, mut leave, mut furthest) = (f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY);
     let mut face = DVec3::X;
     for (&normal, &height) in core.normals().iter().zip(core.heights()) {
-        let (beyond, pace) = (normal.dot(line.origin) - height, normal.dot(line.along));
-        furthest = furthest.max(beyond);
+        let (beyond, pace) = (normal.dot(origin) - height, normal.dot(way));
+        furthest = if beyond > furthest { beyond } else { furthest };
         let distance = -beyond / pace;
         if pace < 0.0 {
             if distance > enter {
                 (enter, face) = (distance, normal);
             }
         } else if pace > 0.0 {
-            leave = leave.min(distance);
+            leave = if distance < leave { distance } else { leave };
         } else if beyond > line.doubt {
             return Meeting::Never;
         }
     }
     if furthest <= line.doubt {
         // Faces prove nothing inwards, a sphere inside does.
-        let from_center = (line.origin - core.center().as_dvec3()).length();
+        let from_center = (origin - core.center().as_dvec3()).length();
         let is_deep = from_center + line.doubt < f64::from(core.inner_radius());
         return if is_deep { Meeting::Inside } else { Meeting::Unclear };
     }
@@ -68,14 +64,15 @@ pub(super) fn hull(line: &Line, hull: &Hull, core: &Core3) -> Meeting {
         return Meeting::Never;
     }
     let off = 4.0 * f64::from(hull.planarity_error());
-    let error = line.error(enter, face.dot(line.along).abs(), off).min(2.0 * f64::from(hull.outer_radius()));
-    Meeting::At(enter, face, error)
+    let error = line.error(enter, -face.dot(way), off).min(2.0 * f64::from(hull.outer_radius()));
+    Meeting::At(enter, basis.turn(face), error)
 }
 
 /// One plane.
-pub(super) fn half_space(line: &Line, half_space: &HalfSpace) -> Meeting {
-    let normal = half_space.unit_normal();
-    let (height, pace) = (normal.dot(line.origin), -normal.dot(line.along));
+#[inline(always)]
+pub(super) fn half_space(line: &Line, basis: &Basis3, half_space: &HalfSpace) -> Meeting {
+    let normal = basis.turn(half_space.unit_normal());
+    let (height, pace) = (normal.dot(line.origin), -normal.dot(line.way));
     if height <= line.doubt {
         return if height < -line.doubt { Meeting::Inside } else { Meeting::Unclear };
     }
@@ -88,11 +85,11 @@ pub(super) fn half_space(line: &Line, half_space: &HalfSpace) -> Meeting {
 }
 
 /// Where it meets the triangle's plane, if that is on the inner side of all edges up to rounding.
-pub(super) fn triangle(line: &Line, triangle: &Triangle3) -> Meeting {
-    let [a, b, c] = triangle.vertices().map(|vertex| vertex.as_dvec3());
-    let [normal, _] = triangle.normals();
-    let (height, pace) = (normal.dot(line.origin - a), normal.dot(line.along));
-    if height.abs() <= line.doubt || pace.abs() < EDGE_ON {
+pub(super) fn triangle(line: &Line, basis: &Basis3, triangle: &Triangle3) -> Meeting {
+    let [a, b, c] = triangle.vertices().map(|vertex| basis.turn(vertex.as_dvec3()));
+    let normal = basis.turn(triangle.normals()[0]);
+    let (height, pace) = (normal.dot(line.origin - a), normal.dot(line.way));
+    if height.abs() <= line.doubt || pace * pace < EDGE_ON * EDGE_ON * line.squared {
         return Meeting::Open;
     }
     let distance = -height / pace;
@@ -102,7 +99,8 @@ pub(super) fn triangle(line: &Line, triangle: &Triangle3) -> Meeting {
     let (at, error) = (line.at(distance), line.error(distance, pace.abs(), 0.0));
     for (from, to) in [(a, b), (b, c), (c, a)] {
         let inwards = normal.cross(to - from);
-        if inwards.dot(at - from) < -error * inwards.length() {
+        let height = inwards.dot(at - from);
+        if height < 0.0 && height * height > error * error * inwards.length_squared() {
             return Meeting::Never;
         }
     }

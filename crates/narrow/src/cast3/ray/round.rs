@@ -1,79 +1,94 @@
 //! Rays against spheres and capsules.
 
 use super::{Line, Meeting};
-use asunder_geometry::Capsule3;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Basis3, Capsule3};
 
-/// A sphere. The foot of the perpendicular from its centre comes first: nothing cancels that the distance did not lose.
-pub(super) fn sphere(line: &Line, center: DVec3, radius: f64) -> Meeting {
-    let from = line.origin - center;
-    let height = from.length() - radius;
-    if height <= line.doubt {
-        return if height < -line.doubt { Meeting::Inside } else { Meeting::Unclear };
-    }
-    enter(line, center, radius).unwrap_or(Meeting::Never)
+/// A sphere about the part's origin.
+#[inline(always)]
+pub(super) fn sphere(line: &Line, radius: f64) -> Meeting {
+    is_outside(line.origin.length_squared(), radius, line.doubt)
+        .unwrap_or_else(|| enter(line, line.origin, radius))
 }
 
-/// Where a ray from outside enters a sphere, if it does.
-fn enter(line: &Line, center: DVec3, radius: f64) -> Option<Meeting> {
-    let from = line.origin - center;
-    let to_foot = -from.dot(line.along);
-    let foot = from + line.along * to_foot;
-    let squared = radius * radius - foot.length_squared();
-    if squared < 0.0 {
+/// What is known of a ray that starts so far from a core, as a square, and not certainly outside; nothing of one that is.
+#[inline(always)]
+fn is_outside(squared: f64, radius: f64, doubt: f64) -> Option<Meeting> {
+    let (outer, inner) = (radius + doubt, radius - doubt);
+    if squared > outer * outer {
         return None;
     }
-    let half_chord = squared.sqrt();
+    Some(if inner > 0.0 && squared < inner * inner { Meeting::Inside } else { Meeting::Unclear })
+}
+
+/// Where a ray from outside, at `from` as seen from its centre, enters a sphere, if it does. The foot of the perpendicular
+/// comes first: nothing cancels that the distance did not lose.
+#[inline(always)]
+fn enter(line: &Line, from: DVec3, radius: f64) -> Meeting {
+    let inverse = 1.0 / line.squared;
+    let to_foot = -from.dot(line.way) * inverse;
+    let foot = from + line.way * to_foot;
+    let room = radius * radius - foot.length_squared();
+    if room < 0.0 || to_foot < 0.0 {
+        return Meeting::Never;
+    }
+    let half_chord = (room * inverse).sqrt();
     let distance = to_foot - half_chord;
     if distance < 0.0 {
-        return None;
+        return Meeting::Never;
     }
-    // The root of what is off by so much.
-    let doubt = line.doubt + 64.0 * f64::EPSILON * distance;
+    let (doubt, pace) = line.doubt_at(distance);
+    let error = doubt + off_by(doubt, radius, (room, half_chord * pace));
+    Meeting::At(distance, (foot - line.way * half_chord) / radius, error)
+}
+
+/// By how much half a chord, given with its square, is off where the circle's line is by `doubt`: the root of what is off.
+#[inline(always)]
+fn off_by(doubt: f64, radius: f64, (squared, half_chord): (f64, f64)) -> f64 {
     let off = doubt * (2.0 * radius + doubt);
-    let error = doubt + if squared > off { off / half_chord } else { (2.0 * off).sqrt() };
-    Some(Meeting::At(distance, (foot - line.along * half_chord) / radius, error))
+    if squared > off { off / half_chord } else { (2.0 * off).sqrt() }
 }
 
 /// A capsule: its cylinder without ends, and where the ray enters that beyond an end, the sphere there.
-pub(super) fn capsule(line: &Line, capsule: &Capsule3) -> Meeting {
+#[inline(always)]
+pub(super) fn capsule(line: &Line, basis: &Basis3, capsule: &Capsule3) -> Meeting {
     let radius = f64::from(capsule.radius());
     let [from, to] = capsule.segment().ends().map(|end| end.as_dvec3());
-    let way = to - from;
-    let length = way.length();
-    let axis = way / length;
-    let origin = line.origin - from;
-    let place = origin.dot(axis);
-    let height = (origin - axis * place.clamp(0.0, length)).length() - radius;
-    if height <= line.doubt {
-        return if height < -line.doubt { Meeting::Inside } else { Meeting::Unclear };
+    let axis = basis.turn(to - from);
+    let origin = line.origin - basis.turn(from);
+    let inverse = 1.0 / axis.length_squared();
+    // Along the axis, in lengths of it.
+    let place = origin.dot(axis) * inverse;
+    let nearest = origin - axis * place.clamp(0.0, 1.0);
+    if let Some(known) = is_outside(nearest.length_squared(), radius, line.doubt) {
+        return known;
     }
-    let cap = |place: f64| enter(line, if place < 0.0 { from } else { to }, radius).unwrap_or(Meeting::Never);
+    let cap = |place: f64| enter(line, if place < 0.0 { origin } else { origin - axis }, radius);
     let outside = origin - axis * place;
     if outside.length_squared() <= radius * radius {
         return cap(place);
     }
-    let across = line.along - axis * line.along.dot(axis);
-    let pace = across.length();
-    if pace == 0.0 {
+    let slide = line.way.dot(axis) * inverse;
+    let across = line.way - axis * slide;
+    let squared = across.length_squared();
+    if squared == 0.0 {
         return Meeting::Never;
     }
     // As for a circle, seen along the axis.
-    let unit = across / pace;
-    let to_foot = -outside.dot(unit);
-    let foot = outside + unit * to_foot;
-    let squared = radius * radius - foot.length_squared();
-    if squared < 0.0 || to_foot < 0.0 {
+    let inverse = 1.0 / squared;
+    let to_foot = -outside.dot(across) * inverse;
+    let foot = outside + across * to_foot;
+    let room = radius * radius - foot.length_squared();
+    if room < 0.0 || to_foot < 0.0 {
         return Meeting::Never;
     }
-    let half_chord = squared.sqrt();
-    let distance = (to_foot - half_chord) / pace;
-    let along = place + line.along.dot(axis) * distance;
-    if !(0.0..=length).contains(&along) {
+    let half_chord = (room * inverse).sqrt();
+    let distance = to_foot - half_chord;
+    let along = place + slide * distance;
+    if !(0.0..=1.0).contains(&along) {
         return cap(along);
     }
-    let doubt = line.doubt + 64.0 * f64::EPSILON * distance;
-    let off = doubt * (2.0 * radius + doubt);
-    let error = doubt + if squared > off { off / half_chord } else { (2.0 * off).sqrt() } / pace;
-    Meeting::At(distance, (foot - unit * half_chord) / radius, error)
+    let ((doubt, pace), crossing) = (line.doubt_at(distance), squared.sqrt());
+    let error = doubt + off_by(doubt, radius, (room, half_chord * crossing)) * (pace / crossing);
+    Meeting::At(distance, (foot - across * half_chord) / radius, error)
 }
