@@ -1,12 +1,13 @@
 //! One pair in space.
 
+mod ball;
 mod compounds;
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::least::Least;
-use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
+use crate::polyhedron::convex::{Asked, Convex, IDENTITY, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::placed::Posed;
 use crate::polyhedron::manifold::Touch;
@@ -25,8 +26,9 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 /// | half-space, anything | its plane's normal alone: one dot product a vertex | lowest vertex | face that looks at the plane |
 /// | half-space, half-space | planes that look exactly away from each other; else they overlap without end | half way | one, or none |
 /// | sphere, capsule, segment among themselves | closest points of segments, in closed form | the same | one, or two where they lie side by side |
+/// | sphere, cuboid | the centre held to the cuboid; inside, its nearest face | the same | one |
 /// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, crossing edges, or edges side by side |
-/// | cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | as for cuboids |
+/// | anything else of cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | as for cuboids |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 ///
 /// Radii (of spheres, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off.
@@ -66,7 +68,7 @@ pub(crate) struct Part<'a> {
 /// Two convex parts in the frame of the first, and the way back from there.
 struct Parts<'a> {
     indices: [u32; 2],
-    /// A's axes in the world.
+    /// A's axes in the world, or those of a cuboid that A is a ball beside.
     basis: Basis3,
     /// Each part's origin less its body's position, in world axes.
     shifts: [DVec3; 2],
@@ -131,6 +133,9 @@ impl<'a> Pair3<'a> {
     }
 
     fn general_verdict(&self) -> Verdict {
+        if let Some(ball) = self.ball() {
+            return ball.verdict();
+        }
         let mut tier = Tier::Bound;
         if self.gap_of_spheres() > 0.0 {
             return Verdict { overlapping: false, tier };
@@ -162,6 +167,9 @@ impl<'a> Pair3<'a> {
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
             return found;
         }
+        if let Some(ball) = self.ball() {
+            return ball.separation(limit);
+        }
         match self.nearest(limit, Wanted::Number) {
             Ok((parts, near)) => Separation3::Measured(Measured3 {
                 separation: near.separation,
@@ -175,6 +183,9 @@ impl<'a> Pair3<'a> {
     /// The closest points of shapes that do not overlap; nothing where they do. Cost: some support searches, each linear
     /// in the vertices.
     pub fn distance(&self) -> Option<Closest3> {
+        if let Some(ball) = self.ball() {
+            return ball.distance();
+        }
         let (parts, near) = self.nearest(f64::INFINITY, Wanted::Closest).ok()?;
         let [on_a, on_b] = near.closest?;
         Some(Closest3 {
@@ -259,6 +270,9 @@ impl<'a> Pair3<'a> {
         hint: Hint,
         manifolds: &mut impl Room,
     ) -> (Hint, Option<bool>) {
+        if let Some(ball) = self.ball() {
+            return (Hint::NONE, ball.contact(margin, manifolds));
+        }
         let (margin, reach) = (margin.max(0.0), reach_of(margin));
         if self.gap_of_spheres() > reach {
             return (hint, None);
@@ -357,13 +371,15 @@ impl<'a> Pair3<'a> {
     }
 
     fn parts(&self, bases: &[Basis3; 2], a: Part<'a>, b: Part<'a>) -> Parts<'a> {
-        let (basis, shift_a) = a.placed(&bases[0]);
+        let (basis_a, shift_a) = a.placed(&bases[0]);
         let (basis_b, shift_b) = b.placed(&bases[1]);
         // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
         let between = self.between + (shift_b - shift_a);
-        let relative = match a.is_turned() || b.is_turned() {
-            true => basis_b.relative_to(&basis),
-            false => self.pose_b.basis_from(&self.pose_a),
+        let (basis, relative) = match (a.shape, b.shape) {
+            // A ball has no axes: it takes those of the cuboid, in which the centre is one rotation away.
+            (Shape3::Sphere(_), Shape3::Cuboid(_)) => (basis_b, IDENTITY),
+            _ if a.is_turned() || b.is_turned() => (basis_a, basis_b.relative_to(&basis_a)),
+            _ => (basis_a, self.pose_b.basis_from(&self.pose_a)),
         };
         let convex = Convex::new(
             [a.site(&self.pose_a), b.site(&self.pose_b)],

@@ -3,6 +3,7 @@
 //! ```text
 //! separation of two rounded shapes = separation of their cores - both radii, along the same axis
 //! half-space and anything:          its plane's normal is the only axis        (half_space)
+//! a ball and a cuboid:               the centre held to the cuboid               (cuboids::ball)
 //! points and segments:              closest points in closed form              (slender)
 //! two cuboids:                      fifteen axes                               (cuboids)
 //! everything else:                  last frame's axis, proved to be the best   (sat)
@@ -40,6 +41,7 @@ use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Basis3, Hull, Shape3};
+use told::Ball;
 
 /// Two convex shapes in the frame of the pair: A's axes, about A's position.
 pub(crate) struct Convex<'a> {
@@ -96,11 +98,12 @@ enum Evidence {
     /// The best axes; closest points of the cores, where those do not overlap.
     Axes(Axes, Option<Witness>),
     Slender(Nearest),
+    Ball(Ball),
     HalfSpace(Plane),
     HalfSpaces(Plane, Plane),
 }
 
-const IDENTITY: Basis3 = Basis3 { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
+pub(crate) const IDENTITY: Basis3 = Basis3 { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
 
 impl<'a> Convex<'a> {
     /// Two shapes, B's axes and position as A sees them. `summed` is how long the vectors were that the position is a
@@ -129,6 +132,9 @@ impl<'a> Convex<'a> {
     /// The separation where it is within the limit; the hinted axis is tried first.
     pub(crate) fn probe(&self, asked: Asked) -> Probe {
         let limit = asked.limit;
+        if let Some(ball) = self.ball() {
+            return self.told(self.told_ball(ball), limit);
+        }
         match self.planes() {
             [Some(a), Some(b)] => self.told(self.told_half_spaces(a, b), limit),
             [Some(plane), None] | [None, Some(plane)] => self.told(self.told_half_space(plane), limit),
@@ -144,7 +150,7 @@ impl<'a> Convex<'a> {
         accept: impl FnOnce(&Near) -> bool,
         touch: &mut Touch,
     ) -> (Probe, bool) {
-        let [None, None] = self.planes() else {
+        let ([None, None], None) = (self.planes(), self.ball()) else {
             let probe = self.probe(asked);
             let is_made = match &probe {
                 Probe::Near(near) if accept(near) => self.touch(near, asked, touch),
@@ -187,6 +193,9 @@ impl<'a> Convex<'a> {
                 Sides::Unclear => self.with_solids(|a, b| self.unclear_verdict(a, b)),
             };
         }
+        if let Some(ball) = self.ball() {
+            return self.told_verdict(&self.told_ball(ball));
+        }
         match self.planes() {
             [None, None] => self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
@@ -206,6 +215,9 @@ impl<'a> Convex<'a> {
         {
             return cuboids.overlaps();
         }
+        if let Some(ball) = self.ball() {
+            return self.told_ball(ball).separation <= 0.0;
+        }
         match self.planes() {
             [None, None] => self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
@@ -222,9 +234,16 @@ impl<'a> Convex<'a> {
     /// that is worse by two preferences; filled in, since they are large. False for two half-spaces that overlap without
     /// end, which have none.
     fn touch(&self, near: &Near, asked: Asked, touch: &mut Touch) -> bool {
-        let Evidence::HalfSpaces(a, b) = &near.evidence else {
-            self.with_solids(|a, b| self.touch_solids((a, b), near, asked, touch));
-            return true;
+        let (a, b) = match &near.evidence {
+            Evidence::HalfSpaces(a, b) => (a, b),
+            Evidence::Ball(ball) => {
+                *touch = ball.touch(near.separation.into(), self.on_surfaces(ball.points(), ball.axis()));
+                return true;
+            }
+            _ => {
+                self.with_solids(|a, b| self.touch_solids((a, b), near, asked, touch));
+                return true;
+            }
         };
         let [on_a, on_b] = a.points_with(b);
         let separation = near.separation.into();
@@ -234,7 +253,21 @@ impl<'a> Convex<'a> {
         separation > f64::NEG_INFINITY
     }
 
-    /// The same for anything but two half-spaces.
+    /// [`Convex::contact`] by the kernels of solids, whatever the shapes.
+    #[cfg(test)]
+    pub(crate) fn contact_of_solids(&self, asked: Asked) -> (Probe, Touch) {
+        let mut touch = Touch::NONE;
+        let probe = self.with_solids(|a, b| {
+            let probe = self.probe_solids(a, b, asked);
+            if let Probe::Near(near) = &probe {
+                self.touch_solids((a, b), near, asked, &mut touch);
+            }
+            probe
+        });
+        (probe, touch)
+    }
+
+    /// The same for what is seen as solids.
     fn touch_solids(&self, (a, b): (&Solid, &Solid), near: &Near, asked: Asked, touch: &mut Touch) {
         let (margin, preference) = (asked.limit, self.preference());
         match &near.evidence {
@@ -247,7 +280,7 @@ impl<'a> Convex<'a> {
             Evidence::HalfSpace(plane) => {
                 *touch = plane.touch(if plane.is_b { a } else { b }, margin, preference);
             }
-            Evidence::HalfSpaces(..) => {}
+            Evidence::HalfSpaces(..) | Evidence::Ball(_) => {}
         }
     }
 

@@ -1,13 +1,17 @@
-//! Shapes whose distance has a closed form: half-spaces, and points and segments among themselves.
+//! Shapes whose distance has a closed form: half-spaces, balls and cuboids, and points and segments among themselves.
 
 use super::{Convex, Evidence, Near, Probe};
 use crate::answer::{Tier, Verdict};
-use crate::exact;
-use crate::feature::Hint;
+use crate::exact::{self, Corner};
+use crate::feature::{Feature, FeatureId, Hint};
+use crate::polyhedron::cuboids::ball::Nearest;
 use crate::polyhedron::half_space::Plane;
+use crate::polyhedron::manifold::{Point, Touch};
 use crate::polyhedron::slender;
 use crate::polyhedron::solid::Solid;
 use crate::precision::{at_least, signed};
+use arrayvec::ArrayVec;
+use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
 /// What a kernel in closed form says of two shapes.
@@ -20,6 +24,41 @@ pub(super) struct Told {
     /// Closest points on the surfaces; they mean nothing in overlap.
     closest: [DVec3; 2],
     evidence: Evidence,
+    /// Where exact arithmetic may begin.
+    corners: ArrayVec<Corner, 3>,
+}
+
+/// A ball's centre and a cuboid, in the frame of the pair.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ball {
+    nearest: Nearest,
+    center: DVec3,
+    /// Whether the cuboid is B.
+    is_b: bool,
+}
+
+impl Ball {
+    /// Unit axis from A to B.
+    pub(super) fn axis(&self) -> DVec3 {
+        if self.is_b { -self.nearest.normal } else { self.nearest.normal }
+    }
+
+    /// The nearest place of A's core and B's.
+    pub(super) fn points(&self) -> [DVec3; 2] {
+        let (center, on_cuboid) = (self.center, self.nearest.on_cuboid);
+        if self.is_b { [center, on_cuboid] } else { [on_cuboid, center] }
+    }
+
+    /// The one point of the shapes that is meant by touching, where they are so far apart.
+    pub(super) fn touch(&self, separation: f64, [on_a, on_b]: [DVec3; 2]) -> Touch {
+        let point = Point { separation, on_a, on_b, feature: self.feature() };
+        Touch { normal: self.axis(), points: core::iter::once(point).collect(), of: None }
+    }
+
+    fn feature(&self) -> FeatureId {
+        let (of_cuboid, of_ball) = (self.nearest.feature(), Feature::Vertex(0));
+        if self.is_b { FeatureId::new(of_ball, of_cuboid) } else { FeatureId::new(of_cuboid, of_ball) }
+    }
 }
 
 impl Convex<'_> {
@@ -31,6 +70,7 @@ impl Convex<'_> {
             normal: a.axis(),
             closest: a.points_with(&b),
             evidence: Evidence::HalfSpaces(a, b),
+            corners: ArrayVec::new(),
         }
     }
 
@@ -44,8 +84,8 @@ impl Convex<'_> {
         let on_shape = vertex - plane.normal * self.radii;
         let on_plane = vertex - plane.normal * height;
         let closest = if plane.is_b { [on_shape, on_plane] } else { [on_plane, on_shape] };
-        let evidence = Evidence::HalfSpace(plane);
-        Told { separation, at_least: separation, normal: plane.axis(), closest, evidence }
+        let (normal, evidence, corners) = (plane.axis(), Evidence::HalfSpace(plane), ArrayVec::new());
+        Told { separation, at_least: separation, normal, closest, evidence, corners }
     }
 
     pub(super) fn told_slender(&self, a: &Solid, b: &Solid) -> Told {
@@ -56,6 +96,39 @@ impl Convex<'_> {
             normal: nearest.normal,
             closest: self.on_surfaces([nearest.on_a, nearest.on_b], nearest.normal),
             evidence: Evidence::Slender(nearest),
+            corners: ArrayVec::new(),
+        }
+    }
+
+    /// A sphere's centre and a cuboid, if that is what they are, in the frame of the pair.
+    #[inline]
+    pub(super) fn ball(&self) -> Option<Ball> {
+        match (self.shape_a, self.shape_b) {
+            (Shape3::Cuboid(a), Shape3::Sphere(_)) => {
+                let nearest = Nearest::of(a.half_extents().as_dvec3(), self.offset);
+                Some(Ball { nearest, center: self.offset, is_b: false })
+            }
+            (Shape3::Sphere(_), Shape3::Cuboid(b)) => {
+                let center = self.relative.turn_back(-self.offset);
+                let mut nearest = Nearest::of(b.half_extents().as_dvec3(), center);
+                nearest.on_cuboid = self.offset + self.relative.turn(nearest.on_cuboid);
+                nearest.normal = self.relative.turn(nearest.normal);
+                Some(Ball { nearest, center: DVec3::ZERO, is_b: true })
+            }
+            _ => None,
+        }
+    }
+
+    pub(super) fn told_ball(&self, ball: Ball) -> Told {
+        let Ball { nearest, is_b, .. } = ball;
+        let separation = nearest.separation - self.radii;
+        Told {
+            separation,
+            at_least: separation,
+            normal: ball.axis(),
+            closest: self.on_surfaces(ball.points(), ball.axis()),
+            corners: nearest.corners().into_iter().map(|of| if is_b { [0, of] } else { [of, 0] }).collect(),
+            evidence: Evidence::Ball(ball),
         }
     }
 
@@ -65,7 +138,7 @@ impl Convex<'_> {
         if told.at_least > doubt || told.separation < -doubt {
             return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
         }
-        self.exactly(&[])
+        self.exactly(&told.corners)
     }
 
     /// What a kernel without axes to try has told, within the limit.
@@ -75,7 +148,7 @@ impl Convex<'_> {
             return Probe::Beyond(at_least(told.at_least, &precision), Hint::NONE);
         }
         let verdict = self.told_verdict(&told);
-        let Told { separation, at_least: bound, normal, closest, evidence } = told;
+        let Told { separation, at_least: bound, normal, closest, evidence, .. } = told;
         // Half-spaces that overlap without end do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
         let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };

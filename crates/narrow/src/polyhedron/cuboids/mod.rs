@@ -9,6 +9,7 @@
 //! eight vertices; everything else is as in the general test, the axis of nearly parallel edges included.
 
 pub(crate) mod asked;
+pub(crate) mod ball;
 mod contact;
 pub(crate) mod eight;
 mod fifteen;
