@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         world.set_pose(target, Pose3::at(place)?)?;
 
         // Is it seen? Whatever stands between is enough to know that it is not, so the first of all breaks off.
-        let line = Ray3::new(eye, (place - eye).as_vec3())?;
+        let line = Ray3::between(eye, place)?;
         let between = others.without(target);
         let sees = world.visit_ray(&line, 1.0, &between, |_| ControlFlow::Break(())).is_continue();
         println!("target at z = {z}: {}", if sees { "in sight" } else { "hidden" });

@@ -61,8 +61,8 @@ mod guide {
     struct Margins;
     #[doc = include_str!("../../docs/guide/queries.md")]
     struct Queries;
-    #[doc = include_str!("../../docs/guide/determinism.md")]
-    struct Determinism;
+    #[doc = include_str!("../../docs/guide/characters.md")]
+    struct Characters;
     #[doc = include_str!("../../docs/guide/units.md")]
     struct Units;
 }

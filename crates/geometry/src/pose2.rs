@@ -59,6 +59,17 @@ impl Rotation2 {
         Self::new(libm::cos(f64::from(radians)) as f32, libm::sin(f64::from(radians)) as f32)
     }
 
+    /// The angle in radians, counter-clockwise from the x axis, -pi to pi, by `libm`: the same bits on every platform.
+    ///
+    /// ```
+    /// use asunder_geometry::Rotation2;
+    /// assert_eq!(Rotation2::new(0.0, -3.0)?.angle(), -std::f32::consts::FRAC_PI_2);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    pub fn angle(&self) -> f32 {
+        libm::atan2(f64::from(self.sin), f64::from(self.cos)) as f32
+    }
+
     /// The stored cosine.
     #[inline]
     pub const fn cos(&self) -> f32 {
@@ -160,6 +171,23 @@ impl Pose2 {
         self.rotation
     }
 
+    /// The pose moved by a displacement in metres (`Vec2`, `DVec2`, or an array of f64); the rotation is kept.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
+    /// let pose = Pose2::new([1.0, 2.0], Rotation2::new(0.6, 0.8)?)?;
+    /// let moved = pose.shifted(DVec2::X * 3.0)?;
+    /// assert_eq!((moved.position(), moved.rotation()), (DVec2::new(4.0, 2.0), pose.rotation()));
+    /// assert!(pose.shifted(DVec2::Y * 1e9).is_err(), "out of range");
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Pose2::new`].
+    pub fn shifted(&self, displacement: impl Into<DVec2>) -> Result<Self, PoseError> {
+        Self::new(self.position + displacement.into(), self.rotation)
+    }
+
     /// A local point, in metres, taken to the world.
     #[inline]
     pub fn transform(&self, point: impl Into<DVec2>) -> DVec2 {
@@ -170,6 +198,19 @@ impl Pose2 {
     #[inline]
     pub fn transform_back(&self, point: DVec2) -> DVec2 {
         self.turn_back(point - self.position)
+    }
+
+    /// A local direction taken to world axes: where the body looks, say.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
+    /// let pose = Pose2::new([7.0, 8.0], Rotation2::new(0.0, 1.0)?)?;
+    /// assert_eq!((pose.turn(DVec2::X), pose.turn_back(DVec2::Y)), (DVec2::Y, DVec2::X));
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn turn(&self, direction: DVec2) -> DVec2 {
+        self.rotation.turn(direction)
     }
 
     /// A direction of the world taken to local axes, by the inverse of the stored matrix.

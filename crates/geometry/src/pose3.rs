@@ -140,6 +140,23 @@ impl Pose3 {
         Quat::from_array(self.rotation)
     }
 
+    /// The pose moved by a displacement in metres (`Vec3`, `DVec3`, or an array of f64); the rotation is kept.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
+    /// let pose = Pose3::new([1.0, 2.0, 3.0], Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))?;
+    /// let moved = pose.shifted(DVec3::X * 3.0)?;
+    /// assert_eq!((moved.position(), moved.rotation()), (DVec3::new(4.0, 2.0, 3.0), pose.rotation()));
+    /// assert!(pose.shifted(DVec3::Y * 1e9).is_err(), "out of range");
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Pose3::new`].
+    pub fn shifted(&self, displacement: impl Into<DVec3>) -> Result<Self, PoseError> {
+        Self::new(self.position + displacement.into(), self.rotation())
+    }
+
     /// The rotation's matrix M(q)/|q|^2, in f64. Cost: one division.
     #[inline]
     pub fn basis(&self) -> Basis3 {
@@ -172,6 +189,19 @@ impl Pose3 {
     #[inline]
     pub fn transform_back(&self, point: DVec3) -> DVec3 {
         self.basis().turn_back(point - self.position)
+    }
+
+    /// A local direction taken to world axes: where the body looks, say.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
+    /// let pose = Pose3::new([7.0, 8.0, 9.0], Quat::from_xyzw(0.0, 0.0, 1.0, 1.0))?;
+    /// assert_eq!((pose.turn(DVec3::X), pose.turn_back(DVec3::Y)), (DVec3::Y, DVec3::X));
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn turn(&self, direction: DVec3) -> DVec3 {
+        self.basis().turn(direction)
     }
 
     /// A direction of the world taken to local axes.

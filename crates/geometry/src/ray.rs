@@ -32,6 +32,25 @@ impl Ray2 {
         Ok(Self { origin, direction })
     }
 
+    /// A ray from one point towards another, both in metres (`Vec2`, `DVec2`, or an array of f64): a line of sight. Its
+    /// direction is all of the way, so that a distance along it is a share of the way, and 1 is the limit of a question
+    /// about what stands between. The direction is f32: the end is off by up to 1e-7 of the way.
+    ///
+    /// ```
+    /// use asunder_geometry::{Ray2, RayError, glam::DVec2};
+    /// let sight = Ray2::between([1e6, 0.0], [1e6, 5.0])?;
+    /// assert_eq!((sight.at(0.0), sight.at(1.0)), (DVec2::X * 1e6, DVec2::X * 1e6 + DVec2::Y * 5.0));
+    /// assert!(Ray2::between(DVec2::X, DVec2::X).is_err(), "points nowhere");
+    /// # Ok::<(), RayError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Ray2::new`]; zero is the way between two points that are equal, or whose way is below what an f32 holds.
+    pub fn between(from: impl Into<DVec2>, to: impl Into<DVec2>) -> Result<Self, RayError> {
+        let from = from.into();
+        Self::new(from, (to.into() - from).as_vec2())
+    }
+
     /// Where it starts, in metres.
     #[inline]
     pub const fn origin(&self) -> DVec2 {
@@ -77,6 +96,25 @@ impl Ray3 {
         check_position(&origin.to_array()).map_err(RayError::Origin)?;
         check_direction(&direction.to_array()).map_err(RayError::Direction)?;
         Ok(Self { origin, direction })
+    }
+
+    /// A ray from one point towards another, both in metres (`Vec3`, `DVec3`, or an array of f64): a line of sight. Its
+    /// direction is all of the way, so that a distance along it is a share of the way, and 1 is the limit of a question
+    /// about what stands between. The direction is f32: the end is off by up to 1e-7 of the way.
+    ///
+    /// ```
+    /// use asunder_geometry::{Ray3, RayError, glam::DVec3};
+    /// let sight = Ray3::between([1e6, 0.0, 0.0], [1e6, 5.0, 0.0])?;
+    /// assert_eq!((sight.at(0.0), sight.at(1.0)), (DVec3::X * 1e6, DVec3::X * 1e6 + DVec3::Y * 5.0));
+    /// assert!(Ray3::between(DVec3::X, DVec3::X).is_err(), "points nowhere");
+    /// # Ok::<(), RayError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Ray3::new`]; zero is the way between two points that are equal, or whose way is below what an f32 holds.
+    pub fn between(from: impl Into<DVec3>, to: impl Into<DVec3>) -> Result<Self, RayError> {
+        let from = from.into();
+        Self::new(from, (to.into() - from).as_vec3())
     }
 
     /// Where it starts, in metres.

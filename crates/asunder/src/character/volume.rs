@@ -65,7 +65,8 @@ impl World<Volume> {
     /// - Where it overlaps solids, it is freed first, as by [`depenetrate`](World::depenetrate). From then on it moves by casts
     ///   alone: it never enters anything, nor passes through, however far it goes.
     /// - What can be walked on takes all that goes down: nobody slides off. What is steeper is a wall, and a slope to slide down for who falls.
-    /// - Who stands on ground climbs one step a call, and follows ground downwards. A displacement that leads up is a jump, which does neither.
+    /// - Who stands on ground climbs one step a call, and follows ground downwards. A displacement that leads up is a jump, which does neither
+    ///   and finds no ground: what a lift carries upwards goes into the pose, not into the displacement.
     /// - It is moved by no more than the displacement, a step and a snap, and three skins; what it took to free it comes on top.
     /// - A displacement that is not finite counts as none. Half-spaces do not move.
     ///
