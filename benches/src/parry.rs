@@ -6,15 +6,15 @@ use parry3d::bounding_volume::Aabb;
 use parry3d::math::Pose;
 use parry3d::shape::SharedShape;
 
-/// Turns shapes into parry3d's, each different one once.
+/// Turns shapes into parry3d's, each different hull once.
 ///
 /// ```
 /// use asunder_benches::parry::Shapes;
-/// use asunder_geometry::{Cuboid, Shape3};
+/// use asunder_geometry::{Hull, Shape3};
 /// use glam::Vec3;
-/// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
+/// let wedge = Shape3::from(Hull::from_points(&[Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z])?);
 /// let mut shapes = Shapes::default();
-/// let (one, other) = (shapes.convert(&cube).ok_or("no shape")?, shapes.convert(&cube).ok_or("no shape")?);
+/// let (one, other) = (shapes.convert(&wedge).ok_or("no shape")?, shapes.convert(&wedge).ok_or("no shape")?);
 /// assert!(std::sync::Arc::ptr_eq(&one.0, &other.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -24,7 +24,7 @@ pub struct Shapes {
 }
 
 impl Shapes {
-    /// The same shape for parry3d; nothing where it refuses the hull. Cost: a search among the different shapes.
+    /// The same shape for parry3d; nothing where it refuses the hull. Cost: for a hull, a search among the different ones.
     pub fn convert(&mut self, shape: &Shape3) -> Option<SharedShape> {
         // A city has a million cuboids, no two of them alike; what costs to convert comes in few kinds.
         let is_dear = matches!(shape, Shape3::Hull(_));

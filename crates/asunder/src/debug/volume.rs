@@ -95,22 +95,16 @@ fn outline(shape: &Shape3, pose: &Pose3, options: &DebugOptions, line: &mut dyn 
                 outline(part.shape(), part.pose(), options, &mut moved);
             }
         }
-        Shape3::Sphere(sphere) => {
-            let axes = [DVec3::X, DVec3::Y, DVec3::Z]
-                .map(|axis| pose.basis().turn(axis) * f64::from(sphere.radius()));
-            for axis in 0..3 {
-                circle(pose.position(), [axes[axis], axes[(axis + 1) % 3]], line);
-            }
-        }
-        Shape3::Capsule(capsule) => {
-            let ends = capsule.segment().ends().map(|end| pose.transform(end));
-            rod(ends, f64::from(capsule.radius()), line);
-        }
-        _ => polyhedron(shape, pose, line),
+        // A hull may be a point or a segment, too.
+        _ => match *shape.core().vertices() {
+            [center] => ball(pose, pose.transform(center), f64::from(shape.radius()), line),
+            [from, to] => rod([from, to].map(|end| pose.transform(end)), f64::from(shape.radius()), line),
+            _ => polyhedron(shape, pose, line),
+        },
     }
 }
 
-/// A segment, triangle, cuboid or hull, with or without a radius.
+/// A triangle, cuboid or hull, with or without a radius.
 fn polyhedron(shape: &Shape3, pose: &Pose3, line: &mut dyn FnMut(DVec3, DVec3)) {
     let (core, basis, radius) = (shape.core(), pose.basis(), f64::from(shape.radius()));
     let topology = core.topology();
@@ -118,7 +112,7 @@ fn polyhedron(shape: &Shape3, pose: &Pose3, line: &mut dyn FnMut(DVec3, DVec3)) 
     let half_edges = topology.half_edges();
     for &edge in topology.edges() {
         let (from, to) = topology.ends(edge.into());
-        if radius == 0.0 || core.normals().is_empty() {
+        if radius == 0.0 {
             line(corner(from), corner(to));
             continue;
         }
@@ -134,8 +128,19 @@ fn polyhedron(shape: &Shape3, pose: &Pose3, line: &mut dyn FnMut(DVec3, DVec3)) 
     }
 }
 
+/// A sphere: a ring about each of the body's axes.
+fn ball(pose: &Pose3, center: DVec3, radius: f64, line: &mut dyn FnMut(DVec3, DVec3)) {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| pose.basis().turn(axis) * radius);
+    for axis in 0..3 {
+        circle(center, [axes[axis], axes[(axis + 1) % 3]], line);
+    }
+}
+
 /// A capsule: four lines along it, a ring and two half rings at each end.
 fn rod([from, to]: [DVec3; 2], radius: f64, line: &mut dyn FnMut(DVec3, DVec3)) {
+    if radius == 0.0 {
+        return line(from, to);
+    }
     let along = (to - from).normalize_or(DVec3::Y);
     let (across, over) = along.any_orthonormal_pair();
     let [along, across, over] = [along, across, over].map(|axis| axis * radius);
