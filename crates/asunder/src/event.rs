@@ -28,9 +28,9 @@ pub enum Event<K> {
         a: K,
         /// The other body. Its key may be stale by now.
         b: K,
-        /// What was attached to `a`.
+        /// What was attached to `a` when the contact was last there.
         user_data_a: u64,
-        /// What was attached to `b`.
+        /// What was attached to `b` then.
         user_data_b: u64,
         /// Whether either was a sensor when they last touched.
         sensor: bool,

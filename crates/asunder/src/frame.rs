@@ -5,7 +5,7 @@
 //! 1. **refit**: a box is a function of one body alone.
 //! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between updates.
 //! 3. **collide**: an answer is a function of one job; batches are cut by count, never by thread, and are put together
-//!    in order. A hint can save work and cannot change an answer. Where neither body moved, the answer is last update's.
+//!    in order. A hint can save work, and choose among features that are equally good up to rounding. Where neither body moved, the answer is last update's.
 //! 4. **merge**: two lists sorted by pair, walked side by side.
 //! 5. **report**: events in pair order.
 //!

@@ -142,7 +142,8 @@ impl World<Volume> {
         self.change_body(key, |body| body.layers = layers)
     }
 
-    /// Attaches another number to a body. Events of later updates carry it.
+    /// Attaches another number to a body. Events of later updates carry it; but an `Ended` carries what was attached at the last update at which
+    /// the contact was there.
     ///
     /// # Errors
     /// A stale key.

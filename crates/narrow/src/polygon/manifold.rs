@@ -358,7 +358,9 @@ fn clip(&[from, to]: &[DVec2; 2], [start, end]: [DVec2; 2], edges: [(usize, usiz
     let inverse = 1.0 / along.length_squared();
     let place = |point: DVec2| along.dot(point - from) * inverse;
     let (high, low) = (place(start), place(end));
-    if high <= low || high < 0.0 || low > 1.0 {
+    // Far out an edge may have rounded to a point; its places are NaN, and compare as false.
+    let meets = high > low && high >= 0.0 && low <= 1.0;
+    if !meets {
         return None;
     }
     let at = |place: f64| start + (end - start) * ((high - place) / (high - low));

@@ -389,3 +389,24 @@ fn lanes_give_the_bits_of_one_edge_after_the_other() {
         }
     }
 }
+
+/// Symptom: a pebble hundreds of thousands of kilometres away was 1e-45 m from another, and the closest points were NaN. Cause: out
+/// there both ends of an edge of 28 nm round to one point, and a place along it was nought by nought.
+#[test]
+fn an_edge_that_rounds_to_a_point_far_out_is_no_place_to_be() {
+    let outline = [[-0.552, -0.674], [-0.526, -0.684], [0.258, -0.666], [0.556, -0.364], [-1.0, 1.0]];
+    let pebble: Shape2 = Polygon::new(&outline.map(|point| Vec2::from(point) * 1e-6)).unwrap().into();
+    let other: Shape2 = Circle::new(1e-6).unwrap().into();
+    let mut random = Random(Rand64::new(47));
+    for _ in 0..2000 {
+        // Along the short edge's normal, where it is the best axis.
+        let offset = DVec2::new(0.01 + 1e-3 * random.signed(), 0.026) * (1e10 * (2.0 + random.unit()));
+        let (here, there) = (Pose2::IDENTITY, Pose2::at(offset).unwrap());
+        for (one, two) in [(&pebble, &other), (&other, &pebble), (&pebble, &pebble)] {
+            let closest = Pair2::new(one, &here, two, &there).distance().unwrap();
+            let distance = f64::from(closest.distance);
+            assert!((distance - offset.length()).abs() <= f64::from(closest.error) + 4e-6, "{closest:?}");
+            assert!(closest.anchor_a.is_finite() && closest.anchor_b.is_finite(), "{closest:?}");
+        }
+    }
+}
