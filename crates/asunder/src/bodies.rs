@@ -75,7 +75,7 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    /// Makes another body of it, and gives back what it was.
+    /// Makes another body of it, which has no motion yet, and gives back what it was.
     pub(crate) fn replace_body(
         &mut self,
         key: S::Key,

@@ -6,7 +6,7 @@ use asunder_narrow::{Hint, Manifold2, Manifold3};
 use core::ops::Range;
 
 /// Two bodies within their margins of each other, as of the last update.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Contact<'a, K, M> {
     /// The body in the lower slot.
     pub a: K,
@@ -25,6 +25,15 @@ pub struct Contact<'a, K, M> {
     /// for two half-spaces that overlap without end: fix all but one of those, as a level's are, and they never pair.
     pub manifolds: &'a [M],
 }
+
+// Not derived: a contact only looks at its manifolds, which are no copies themselves.
+impl<K: Copy, M> Clone for Contact<'_, K, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<K: Copy, M> Copy for Contact<'_, K, M> {}
 
 /// A contact in the plane.
 pub type Contact2<'a> = Contact<'a, BodyKey2, Manifold2>;

@@ -22,7 +22,7 @@ pub struct DebugOptions {
     pub normals: bool,
     /// Length of a normal, in metres; a cross is a quarter of it. 0.2 at first.
     pub length: f32,
-    /// Half of the side of the patch that stands for a half-space, in metres. 20 at first.
+    /// Half of the side of the patch that stands for a half-space, in metres, at most 1e6. 20 at first.
     pub endless: f32,
 }
 

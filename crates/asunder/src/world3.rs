@@ -113,6 +113,9 @@ impl World<Volume> {
     /// most their margins and what their motions bring them nearer, which is an upper bound and at most 1e6 m. For a
     /// [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. Sensors do not look ahead, but for bullets.
     ///
+    /// A body that sleeps is woken. Of a compound, every part within that reach has a manifold: thousands of parts are better put into the
+    /// world as bodies of their own, with one owner.
+    ///
     /// # Errors
     /// A stale key.
     pub fn set_motion(&mut self, key: BodyKey3, motion: Motion3) -> Result<(), StaleKey> {
@@ -187,7 +190,8 @@ impl World<Volume> {
         self.set_asleep(key, false)
     }
 
-    /// Makes another body of it under the same key, and returns what it was: for all that has no call of its own.
+    /// Makes another body of it under the same key, and returns what it was: for all that has no call of its own. A motion that it
+    /// was given in this frame is forgotten.
     ///
     /// # Errors
     /// A stale key.

@@ -84,7 +84,8 @@ impl Pair3<'_> {
     /// shapes do not touch on it. [`Motion3::pose_at`] rounds rotations to f32 and positions to f64; poses from it may
     /// overlap by that rounding just before the fraction, and at the fraction are at most `error` apart with it. Where many
     /// steps lead no nearer, as for shapes that graze each other while they turn, the fraction is that of the last step,
-    /// and `error` the gap that is left there. Cost: a few distances; several times those of a [`cast`](Self::cast) while turning.
+    /// and `error` the gap that is left there. Cost: a few distances; several times those of a [`cast`](Self::cast) while turning;
+    /// of compounds, for every pair of parts whose swept bounding spheres meet.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::{Quat, Vec3}};
