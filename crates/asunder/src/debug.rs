@@ -3,6 +3,8 @@
 mod plane;
 mod volume;
 
+use asunder_geometry::tolerance;
+
 /// What [`World2::debug_lines`](crate::World2::debug_lines) and [`World3::debug_lines`](crate::World3::debug_lines) draw.
 ///
 /// ```
@@ -29,6 +31,13 @@ pub struct DebugOptions {
 impl Default for DebugOptions {
     fn default() -> Self {
         Self { shapes: true, boxes: false, contacts: true, normals: true, length: 0.2, endless: 20.0 }
+    }
+}
+
+impl DebugOptions {
+    /// Half of the side of a patch; nothing for a NaN.
+    fn half_patch(&self) -> f64 {
+        if self.endless > 0.0 { f64::from(self.endless.min(tolerance::MAX_RADIUS)) } else { 0.0 }
     }
 }
 

@@ -4,7 +4,7 @@ use super::{DebugLine, DebugOptions, HALVINGS};
 use crate::space::Plane;
 use crate::world::World;
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{HalfPlane, Pose2, Shape2, tolerance};
+use asunder_geometry::{HalfPlane, Pose2, Shape2};
 
 impl World<Plane> {
     /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it is about.
@@ -110,8 +110,7 @@ fn outline(shape: &Shape2, pose: &Pose2, options: &DebugOptions, line: &mut dyn 
 /// The line of a half-plane, and where its inside is.
 fn border(half_plane: &HalfPlane, pose: &Pose2, options: &DebugOptions, line: &mut dyn FnMut(DVec2, DVec2)) {
     let normal = pose.rotation().turn(half_plane.unit_normal());
-    let (center, along) =
-        (pose.position(), normal.perp() * f64::from(options.endless.max(0.0).min(tolerance::MAX_RADIUS)));
+    let (center, along) = (pose.position(), normal.perp() * options.half_patch());
     line(center - along, center + along);
     line(center, center - normal * f64::from(options.length));
 }

@@ -4,7 +4,7 @@ use super::{DebugLine, DebugOptions, HALVINGS};
 use crate::space::Volume;
 use crate::world::World;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{HalfSpace, Pose3, Shape3, tolerance};
+use asunder_geometry::{HalfSpace, Pose3, Shape3};
 
 impl World<Volume> {
     /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it is about.
@@ -159,7 +159,7 @@ fn rod([from, to]: [DVec3; 2], radius: f64, line: &mut dyn FnMut(DVec3, DVec3)) 
 fn patch(half_space: &HalfSpace, pose: &Pose3, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3)) {
     let normal = pose.basis().turn(half_space.unit_normal());
     let (across, over) = normal.any_orthonormal_pair();
-    let half = f64::from(options.endless.max(0.0).min(tolerance::MAX_RADIUS));
+    let half = options.half_patch();
     let corners = [(-half, -half), (half, -half), (half, half), (-half, half)]
         .map(|(x, y)| pose.position() + across * x + over * y);
     for i in 0..4 {
