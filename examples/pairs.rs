@@ -1,7 +1,7 @@
 //! Only the broad phase: which of many boxes overlap, frame after frame, and what a box or a ray meets.
 //!
-//! A game that has its own shapes, or needs no more than boxes (triggers, interest of players in a large world, culling), can
-//! use `asunder-broad` alone: boxes in, sorted pairs out; the numbers are the caller's.
+//! A game that has its own shapes, or needs no more than boxes (triggers, interest of players in a large world,
+//! culling), can use `asunder-broad` alone: boxes in, sorted pairs out; the numbers are the caller's.
 
 use asunder_broad::{Cast, CoherentSweep, Index, Sweep};
 use asunder_geometry::{Aabb3, Ray3, glam::Vec3};
@@ -13,8 +13,8 @@ const COUNT: usize = 20_000;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut pairs = Vec::new();
 
-    // Everything moves: a sweep from scratch each frame. The filter is asked about overlapping boxes only; here odd boxes
-    // do not care for odd ones.
+    // Everything moves: a sweep from scratch each frame. The filter is asked about overlapping boxes only; here odd
+    // boxes do not care for odd ones.
     let mut gas = MovingBoxes::new(BoxScene::Gas, COUNT, 1);
     let mut sweep = Sweep::new();
     let mut timed = Vec::new();

@@ -1,7 +1,8 @@
 //! Two machines play one game: inputs arrive late, the past is played again, and both end in the same bits.
 //!
-//! Each machine guesses that the other's player goes on as before. When the true input comes in, five to eight frames late, and
-//! is another one, the machine takes its copy of the world from before that frame and plays on from there.
+//! Each machine guesses that the other's player goes on as before. When the true input comes in, five to eight
+//! frames late, and is another one, the machine takes its copy of the world from before that frame and plays on
+//! from there.
 
 use asunder::glam::{DVec2, Vec2};
 use asunder::{BodyKey2, Circle, Collider2, Pose2, Rect, World2};
@@ -66,7 +67,8 @@ fn shift(world: &mut World2, key: BodyKey2, by: DVec2) -> Result<(), Box<dyn std
 /// One of the two computers.
 struct Machine {
     player: usize,
-    /// The game before each frame: `past[f]` is what frame f was made of. A clone a frame is cheap, and has an equal future.
+    /// The game before each frame: `past[f]` is what frame f was made of. A clone a frame is cheap, and has an
+    /// equal future.
     past: Vec<Game>,
     now: Game,
     /// What the other player did, as far as it is known.
@@ -92,7 +94,8 @@ impl Machine {
         self.now.step(inputs)
     }
 
-    /// The other's input of the next unknown frame comes in. If the guess was wrong, back to there, and on again to now.
+    /// The other's input of the next unknown frame comes in. If the guess was wrong, back to there, and on again to
+    /// now.
     fn receive(&mut self, input: Input) -> Result<(), Box<dyn std::error::Error>> {
         let (frame, now) = (self.known.len(), self.past.len());
         let guess = self.other(frame);

@@ -7,8 +7,8 @@ pub const OFF: f64 = 1e-5;
 
 /// What one side says of a pair.
 ///
-/// A yes without a number says that the separation is not above zero, and a no that it is not below: what contradicts it is
-/// the error. A yes or no that is right has none.
+/// A yes without a number says that the separation is not above zero, and a no that it is not below: what
+/// contradicts it is the error. A yes or no that is right has none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Said {
     /// Whether it says that they touch: with a yes, a depth, or a contact point.

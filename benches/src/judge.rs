@@ -1,7 +1,7 @@
 //! True separations of many pairs in space, in double-double.
 //!
-//! It is the oracle of the tests (`asunder_tests::precise`), with one thing kept: sets draw from few different hulls, and
-//! finding a hull's facets exactly takes far longer than anything else about a pair.
+//! It is the oracle of the tests (`asunder_tests::precise`), with one thing kept: sets draw from few different
+//! hulls, and finding a hull's facets exactly takes far longer than anything else about a pair.
 
 use asunder_geometry::Shape3;
 use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind};
@@ -26,8 +26,9 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// The separation in metres, right to a unit or two in the last place of an f64. Cost in overlap: 50 us for boxes, 0.5 ms for
-    /// hulls of 32 vertices, 6 ms for 128, 20 ms for 256, and about half as much again for each hull seen first.
+    /// The separation in metres, right to a unit or two in the last place of an f64. Cost in overlap: 50 us for
+    /// boxes, 0.5 ms for hulls of 32 vertices, 6 ms for 128, 20 ms for 256, and about half as much again for each
+    /// hull seen first.
     pub fn separation(&mut self, pair: &PosedPair3) -> f64 {
         let origin = pair.pose_a.position();
         let (a, b) =

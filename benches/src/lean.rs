@@ -2,8 +2,8 @@
 //!
 //! - Fixed bodies are in a tree of their own, built once: pairs among them cost nothing.
 //! - Leaves of bodies that moved are set without margin, then `optimize_incremental` and `refit`, as rapier does.
-//! - A pair's manifold is kept from frame to frame, so that parry3d can update it in place; a pair in which neither body
-//!   moved is not asked about again.
+//! - A pair's manifold is kept from frame to frame, so that parry3d can update it in place; a pair in which neither
+//!   body moved is not asked about again.
 //! - Pairs are records in one vector, found by parry3d's own fast hash map; no events, no sorting, no layers.
 
 use parry3d::bounding_volume::{Aabb, BoundingVolume};

@@ -24,7 +24,8 @@ pub struct Shapes {
 }
 
 impl Shapes {
-    /// The same shape for parry3d; nothing where it refuses the hull. Cost: for a hull, a search among the different ones.
+    /// The same shape for parry3d; nothing where it refuses the hull. Cost: for a hull, a search among the
+    /// different ones.
     pub fn convert(&mut self, shape: &Shape3) -> Option<SharedShape> {
         // A city has a million cuboids, no two of them alike; what costs to convert comes in few kinds.
         let is_dear = matches!(shape, Shape3::Hull(_));
@@ -61,8 +62,8 @@ impl Shapes {
     }
 }
 
-/// The same pose in f32, its rotation of unit length, as parry3d wants it: made so in f64, the least that its types take
-/// away.
+/// The same pose in f32, its rotation of unit length, as parry3d wants it: made so in f64, the least that its types
+/// take away.
 ///
 /// ```
 /// use asunder_geometry::Pose3;

@@ -10,8 +10,8 @@ const CYCLE: u32 = 30;
 
 /// What the third cycle allocates: the first began in another place than it ended.
 ///
-/// With more threads, the least of some more: which thread takes which pairs is chance, and each must have met its longest exact
-/// question once.
+/// With more threads, the least of some more: which thread takes which pairs is chance, and each must have met its
+/// longest exact question once.
 fn allocations_a_cycle<S: Recording>(scene: WorldScene, count: usize, threads: usize) -> u64 {
     counted(threads, || third_cycle::<S>(scene, count, threads > 1))
 }
@@ -75,7 +75,8 @@ fn nor_do_sweeps_of_many_threads() {
     assert_eq!(allocations_a_cycle::<Volume>(WorldScene::MostlyStatic, 31_000, 2), 0);
 }
 
-/// Who is in no pool hands each stage's work to one: rayon keeps it in a queue, whose blocks of 63 it makes anew now and then.
+/// Who is in no pool hands each stage's work to one: rayon keeps it in a queue, whose blocks of 63 it makes anew
+/// now and then.
 #[test]
 fn a_thread_of_no_pool_allocates_a_block_of_the_queue_now_and_then() {
     let taken = counted_here(|| third_cycle::<Volume>(WorldScene::ManyPyramids, 4201, false));

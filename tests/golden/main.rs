@@ -1,8 +1,8 @@
 //! Golden hashes: what every named scene says over sixty frames, bit for bit, on any number of threads, in any build.
 //!
-//! `table.txt` was made by `cargo test -p asunder-tests --test golden -- --ignored --nocapture | grep ^scene > tests/golden/table.txt`
-//! and is to be made again only where an output is meant to change. A row that differs between two machines, builds or
-//! thread counts is a fault, whatever the table says.
+//! `table.txt` was made by `cargo test -p asunder-tests --test golden -- --ignored --nocapture | grep ^scene >
+//! tests/golden/table.txt` and is to be made again only where an output is meant to change. A row that differs
+//! between two machines, builds or thread counts is a fault, whatever the table says.
 //!
 //! `.ci/run` asks for the small scenes once more without optimisation and with the portable twins of all wide kernels.
 

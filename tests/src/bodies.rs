@@ -60,8 +60,8 @@ impl Bodies3 {
         self.truths[part_a * self.b.len() + part_b].separation
     }
 
-    /// The largest coordinates that the pair's own rounding is relative to: its size, how far the positions are apart, and
-    /// how far the shapes lie from their own origins.
+    /// The largest coordinates that the pair's own rounding is relative to: its size, how far the positions are
+    /// apart, and how far the shapes lie from their own origins.
     pub fn reach(&self) -> f64 {
         let Case3 { shape_a, pose_a, shape_b, pose_b } = &self.case;
         let off_center = f64::from(shape_a.center().length()) + f64::from(shape_b.center().length());
@@ -194,8 +194,8 @@ impl Bodies2 {
         self.truths[part_a * self.b.len() + part_b].separation
     }
 
-    /// The largest coordinates that the pair's own rounding is relative to: its size, how far the positions are apart, and
-    /// how far the shapes lie from their own origins.
+    /// The largest coordinates that the pair's own rounding is relative to: its size, how far the positions are
+    /// apart, and how far the shapes lie from their own origins.
     pub fn reach(&self) -> f64 {
         let Case2 { shape_a, pose_a, shape_b, pose_b } = &self.case;
         let off_center = f64::from(shape_a.center().length()) + f64::from(shape_b.center().length());

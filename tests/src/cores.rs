@@ -8,9 +8,9 @@
 //!              an axis that shows a gap  -> the distance;     none does -> the least depth over the axes
 //! radii      : taken off            half-space: the least height of a vertex            bodies: the least of all pieces
 //! ```
-//! Any unit axis gives a true lower bound, so that more of them can do no harm; two disjoint sets are parted by the line
-//! between their closest points, so that "apart" is never missed. No early outs, no shared code with the engine, and no
-//! order of vertices is relied on: a flat polygon is all triangles of its vertices.
+//! Any unit axis gives a true lower bound, so that more of them can do no harm; two disjoint sets are parted by the
+//! line between their closest points, so that "apart" is never missed. No early outs, no shared code with the
+//! engine, and no order of vertices is relied on: a flat polygon is all triangles of its vertices.
 
 use crate::cases::Truth;
 use crate::exhaustive_distance::{Nearest, exhaustive_distance2, exhaustive_distance3};
@@ -204,7 +204,8 @@ fn of_cores3(a: &Placed3, b: &Placed3, are_flat: bool) -> Truth<DVec3> {
     Truth { separation: in_gap(gap, nearest.distance, reach_of(&a.vertices) + reach_of(&b.vertices)), normal }
 }
 
-/// The distance where a gap shows. A foot may miss its facet by rounding where shapes all but touch; the gap is right there.
+/// The distance where a gap shows. A foot may miss its facet by rounding where shapes all but touch; the gap is
+/// right there.
 fn in_gap(gap: f64, distance: f64, reach: f64) -> f64 {
     let is_hair = gap < 1e-13 * reach && distance > 1e-10 * reach;
     if gap > 0.0 && !is_hair { distance } else { gap }

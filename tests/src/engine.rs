@@ -110,8 +110,8 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn pose_of(body: &Collider<Self>) -> Self::Pose;
     /// Whether the boxes of two bodies, grown by their margins, share a point.
     fn boxes_overlap(a: &Collider<Self>, b: &Collider<Self>) -> bool;
-    /// What the narrow phase says of two bodies that overlap or are within the margin: which of both, and their manifolds.
-    /// Half-spaces that overlap without end have none.
+    /// What the narrow phase says of two bodies that overlap or are within the margin: which of both, and their
+    /// manifolds. Half-spaces that overlap without end have none.
     /// Contact points keep to what they were made on in the last frame, which the hint says; the next one comes back.
     fn meet(a: &Collider<Self>, b: &Collider<Self>, hint: Hint) -> (Hint, Met<Self>);
     /// A unit cube or square, of side 1, at `x` on the first axis.

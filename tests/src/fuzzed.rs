@@ -1,9 +1,9 @@
-//! What must hold of shapes made from any bytes whatever: the bodies of the fuzz targets in `fuzz/`, and of their seeded
-//! run in `tests/suite/fuzzed.rs`.
+//! What must hold of shapes made from any bytes whatever: the bodies of the fuzz targets in `fuzz/`, and of their
+//! seeded run in `tests/suite/fuzzed.rs`.
 //!
-//! The first byte chooses how the rest becomes points: raw bits of f32, with NaN, infinities and subnormals; a lattice of
-//! whole numbers, full of repeated, collinear and cocircular points; or a fine lattice far from the origin, where one step
-//! is a rounding. The second byte is a number that the target may use.
+//! The first byte chooses how the rest becomes points: raw bits of f32, with NaN, infinities and subnormals; a
+//! lattice of whole numbers, full of repeated, collinear and cocircular points; or a fine lattice far from the
+//! origin, where one step is a rounding. The second byte is a number that the target may use.
 
 use crate::exact_plane::{ExactPlane, Meeting};
 use crate::outlines::untangled;

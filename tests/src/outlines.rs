@@ -7,8 +7,8 @@ use glam::{DVec2, Vec2};
 /// After so many passes over all pairs of edges, points that are still tangled are mostly on one line.
 const PASSES: usize = 12;
 
-/// The points in an order whose edges mostly do not cross, each place once: an edge pair that meets is exchanged for the
-/// other pair on the same ends, for as long as there is one, up to a limit. They must be finite.
+/// The points in an order whose edges mostly do not cross, each place once: an edge pair that meets is exchanged
+/// for the other pair on the same ends, for as long as there is one, up to a limit. They must be finite.
 pub fn untangled(points: Vec<Vec2>) -> Vec<Vec2> {
     let mut outline: Vec<Vec2> = Vec::new();
     for point in points {

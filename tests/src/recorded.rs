@@ -41,7 +41,8 @@ impl<S: Recording> Recorded<S> {
         self.world.update();
     }
 
-    /// Takes what the last frame said into both hashes, events into the first and contacts into the second. Allocates nothing.
+    /// Takes what the last frame said into both hashes, events into the first and contacts into the second.
+    /// Allocates nothing.
     pub fn hash(&self, events: &mut Fnv1a, contacts: &mut Fnv1a) {
         for event in S::events(&self.world) {
             let (Event::Began { a, b, .. } | Event::Ended { a, b, .. }) = *event;

@@ -1,4 +1,5 @@
-//! Seeded shapes of every kind, and pairs of them in every kind of place: one table a dimension, so that none is forgotten.
+//! Seeded shapes of every kind, and pairs of them in every kind of place: one table a dimension, so that none is
+//! forgotten.
 
 use crate::bodies::{Bodies2, Bodies3};
 use crate::cases::{Case2, Case3, Random};

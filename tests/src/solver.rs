@@ -1,15 +1,15 @@
 //! A small rigid-body solver, to find out whether bodies can stand on our manifolds.
 //!
-//! Sequential impulses with warm starting (Catto, "Iterative dynamics with temporal coherence", 2005), substeps, and soft
-//! contacts with a relaxing pass (Catto, "Solver2D", 2024): what games use, and no more than that.
+//! Sequential impulses with warm starting (Catto, "Iterative dynamics with temporal coherence", 2005), substeps,
+//! and soft contacts with a relaxing pass (Catto, "Solver2D", 2024): what games use, and no more than that.
 //!
 //! ```text
 //! once a step     update the world; one constraint a contact point, its impulse from last step by the point's name
 //! each substep    gravity; the impulses so far; solve, leaning against overlap as a damped spring of so many hertz does;
 //!                 move; solve again without that lean, so that no body keeps the speed that it was pushed out with
 //! ```
-//! A point that is still apart by s may close by s in a substep, and no more (a speculative contact). Nothing sleeps, and
-//! nothing is damped but what a contact damps.
+//! A point that is still apart by s may close by s in a substep, and no more (a speculative contact). Nothing
+//! sleeps, and nothing is damped but what a contact damps.
 
 use asunder::{BodyKey3, Collider3, FeatureId, Pose3, Shape3, World3};
 use glam::{DMat3, DQuat, DVec2, DVec3};

@@ -119,7 +119,8 @@ fn a_flat_world_says_what_is_exact() {
     a_world_says_what_is_exact::<Plane>(24);
 }
 
-/// The number that decides a yes or no is f64, and no number is that fine: a sign that is wrong must be found somewhere.
+/// The number that decides a yes or no is f64, and no number is that fine: a sign that is wrong must be found
+/// somewhere.
 #[test]
 fn a_wrong_guess_is_never_the_answer() {
     let mut tiers = [0; 3];

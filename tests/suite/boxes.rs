@@ -1,5 +1,5 @@
-//! Pairs of cuboids, which have kernels of their own: eight side by side are what each is alone, and what exact arithmetic
-//! says; the other way round they mirror each other.
+//! Pairs of cuboids, which have kernels of their own: eight side by side are what each is alone, and what exact
+//! arithmetic says; the other way round they mirror each other.
 
 use asunder_geometry::{Cuboid, Pose3, Shape3};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, collide3, separations3};

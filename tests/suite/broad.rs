@@ -203,7 +203,8 @@ fn every_scene_has_the_pairs_of_the_plain_sweep_in_every_frame() {
     }
 }
 
-/// Clumps of clumps of clumps, giants among crumbs, all on one spot, all at one height: what makes grids fall off a cliff.
+/// Clumps of clumps of clumps, giants among crumbs, all on one spot, all at one height: what makes grids fall off a
+/// cliff.
 #[test]
 fn crowds_in_crowds_and_giants_have_the_pairs_of_the_plain_sweep() {
     let mut random = Random::new(703);
@@ -244,7 +245,8 @@ fn crowds_in_crowds_and_giants_have_the_pairs_of_the_plain_sweep() {
     assert!(same_as_plain(&mut sweep, &needles, "needles") > 50);
 }
 
-/// Boxes far outside of where most are, clusters in clusters, and boxes of three sizes on one spot: what leaves most boxes in one column.
+/// Boxes far outside of where most are, clusters in clusters, and boxes of three sizes on one spot: what leaves
+/// most boxes in one column.
 #[test]
 fn what_leaves_most_boxes_in_one_column_has_the_pairs_of_the_plain_sweep() {
     let mut random = Random::new(704);
@@ -270,8 +272,8 @@ fn what_leaves_most_boxes_in_one_column_has_the_pairs_of_the_plain_sweep() {
     assert!(same_as_plain(&mut sweep, &spots, "one spot") > 500_000);
 }
 
-/// Boxes come, go, rest, wake and jump, few or many a frame, filters change, limits are hit: the list is always that of a sweep
-/// that knows nothing of before.
+/// Boxes come, go, rest, wake and jump, few or many a frame, filters change, limits are hit: the list is always
+/// that of a sweep that knows nothing of before.
 #[test]
 fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
     let mut random = Random::new(704);

@@ -1,7 +1,7 @@
 //! Casts in space, against fine sampling with exact yes or no, parry3d, and the laws they obey.
 //!
-//! The judges are [`Pair3::overlaps`] and [`Pair3::separation`] at poses on the way, which are held against exact arithmetic
-//! elsewhere ([`exactness`](crate::exactness), [`separation`](crate::separation)).
+//! The judges are [`Pair3::overlaps`] and [`Pair3::separation`] at poses on the way, which are held against exact
+//! arithmetic elsewhere ([`exactness`](crate::exactness), [`separation`](crate::separation)).
 
 mod hard;
 mod moving;

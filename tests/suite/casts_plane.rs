@@ -1,5 +1,5 @@
-//! Casts in the plane: of random pairs of every kind of shape, fine sampling and the exact yes or no judge what is said of
-//! when they meet, whether they move only or turn as well; and rays, by the same with a tiny circle.
+//! Casts in the plane: of random pairs of every kind of shape, fine sampling and the exact yes or no judge what is
+//! said of when they meet, whether they move only or turn as well; and rays, by the same with a tiny circle.
 
 use asunder_geometry::{
     Circle, HalfPlane, Motion2, Polygon, Pose2, Ray2, Rect, Rotation2, Shape2, tolerance::CAST_GAP2,

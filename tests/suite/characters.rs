@@ -1,5 +1,5 @@
-//! Characters: what they never do (enter, pass through, tremble), and what a player expects of them on floors, stairs, slopes and
-//! along walls; in space and in the plane.
+//! Characters: what they never do (enter, pass through, tremble), and what a player expects of them on floors,
+//! stairs, slopes and along walls; in space and in the plane.
 
 mod freeing;
 mod plane;

@@ -8,7 +8,8 @@ use asunder_tests::shapes::{Clay, KINDS2, KINDS3};
 const SHAPES: DebugOptions =
     DebugOptions { shapes: true, boxes: false, contacts: false, normals: false, length: 0.2, endless: 20.0 };
 
-/// Every line of an outline starts and ends in its body's box, and together they are nearly as wide as it: arcs are drawn by chords.
+/// Every line of an outline starts and ends in its body's box, and together they are nearly as wide as it: arcs are
+/// drawn by chords.
 #[test]
 fn outlines_are_as_wide_as_their_boxes() {
     let mut random = Random::new(900);
@@ -30,7 +31,8 @@ fn outlines_are_as_wide_as_their_boxes() {
                     && high.cmple(bounds.max.as_dvec3() + slack).all(),
                 "{name}"
             );
-            // Chords of a thirty-second of a circle; and of a round corner only the arcs over its edges are drawn, not the cap.
+            // Chords of a thirty-second of a circle; and of a round corner only the arcs over its edges are drawn,
+            // not the cap.
             let missing = (bounds.max - bounds.min).as_dvec3() - (high - low);
             let caps = if matches!(*name, "sphere" | "capsule") { 0.6 } else { 1.5 } * radius;
             assert!(missing.max_element() <= caps + slack, "{name}: {missing}, radius {radius}");

@@ -1,7 +1,7 @@
 //! Never wrong: every promise on 100,000 hard cases of all families, against exact arithmetic and double-double.
 //!
-//! One run serves all tests here. `cargo run --release -p asunder-tests --bin hard` asks ten times as many, and parry3d.
-//! A failure names the family, how many of its cases fail, and level and seed of the first, so that
+//! One run serves all tests here. `cargo run --release -p asunder-tests --bin hard` asks ten times as many, and
+//! parry3d. A failure names the family, how many of its cases fail, and level and seed of the first, so that
 //! `Family3::by_name(NAME).pair(LEVEL, SEED)` is the case.
 
 use asunder_scenes::hard::{FAMILIES2, FAMILIES3};

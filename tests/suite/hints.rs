@@ -168,8 +168,8 @@ fn check_true<P: Pair>(fact: &Fact, pair: &P, margin: f64, story: &str) {
     }
 }
 
-/// Three batches over all frames: without memory, with its own, and with what another pair left, also of another family.
-/// Every `judge_every`-th answer is held against the truth. Returns how many answers gave a hint.
+/// Three batches over all frames: without memory, with its own, and with what another pair left, also of another
+/// family. Every `judge_every`-th answer is held against the truth. Returns how many answers gave a hint.
 fn run<P: Pair>(frames: &[Vec<P>], foreign: &[Hint], judge_every: usize, story: &str) -> usize {
     let width = frames[0].len();
     let size = frames[0].iter().map(Pair::size).fold(f64::INFINITY, f64::min);
@@ -312,7 +312,8 @@ fn hammer2(random: &mut Random, parts: usize) -> Shape2 {
 /// How deep pairs of compounds begin: deep, resting, within the margin, apart.
 const DEPTHS: [f64; 5] = [0.05, 1e-3, -1e-2, -0.1, -0.4];
 
-/// Sixty frames of hammers, and of a hammer against one shape, that turn past each other, each a little further each frame.
+/// Sixty frames of hammers, and of a hammer against one shape, that turn past each other, each a little further
+/// each frame.
 fn hammers3(random: &mut Random) -> Vec<Vec<PosedPair3>> {
     let mut tracks = Vec::new();
     for (i, &depth) in (0..20).zip(DEPTHS.iter().cycle()) {

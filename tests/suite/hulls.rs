@@ -107,7 +107,8 @@ fn the_largest_clouds_take_no_longer_than_sorting_would_explain() {
     for (name, points) in large_clouds(&mut Random::new(3003)) {
         let start = Instant::now();
         let built = [Hull::of_any_dimension(&points), Hull::simplify(&points, 256)];
-        // A quadratic step costs 4e9 operations. What is measured is half a second, in a build with assertions, on a slow core.
+        // A quadratic step costs 4e9 operations. What is measured is half a second, in a build with assertions, on
+        // a slow core.
         assert!(start.elapsed().as_secs_f64() < 8.0, "{name}: {:?}", start.elapsed());
         // Where both are the same hull, once is enough.
         let are_same = built[0].is_ok() && built[0] == built[1];

@@ -1,4 +1,5 @@
-//! The index of resting boxes against a loop over all of them: overlaps here; rays, moved boxes and what is nearest in `reach`.
+//! The index of resting boxes against a loop over all of them: overlaps here; rays, moved boxes and what is nearest
+//! in `reach`.
 
 mod reach;
 
@@ -147,7 +148,8 @@ fn overlaps_in_clusters_in_clusters() {
     assert!(found > 100_000, "{found} overlaps");
 }
 
-/// Nine boxes at each power of two, on both sides of zero: whoever halves the room takes off one power at a time, and goes deep.
+/// Nine boxes at each power of two, on both sides of zero: whoever halves the room takes off one power at a time,
+/// and goes deep.
 #[test]
 fn overlaps_of_boxes_that_halve_the_way() {
     let powers = (1..255).map(|exponent| f32::from_bits(exponent << 23)).flat_map(|power| [power, -power]);

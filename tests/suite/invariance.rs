@@ -233,8 +233,8 @@ fn facts<M: Clone>(answer: &Answer, manifolds: &[M]) -> Option<(bool, Vec<M>)> {
     }
 }
 
-/// A wrong hint may choose among features that are equally good up to rounding, and where a search begins: it says the same
-/// of the overlap, and numbers whose errors make room for each other.
+/// A wrong hint may choose among features that are equally good up to rounding, and where a search begins: it says
+/// the same of the overlap, and numbers whose errors make room for each other.
 fn assert_no_other_answer(
     one: &Option<(bool, Vec<Manifold3>)>,
     other: &Option<(bool, Vec<Manifold3>)>,

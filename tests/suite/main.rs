@@ -7,10 +7,13 @@
 //! - [`refusals`]: what is no convex shape and no pose is refused, by an error that names the place
 //! - [`bounds`]: the box around a posed shape holds it, and is no wider than rounding needs
 //! - [`hulls`]: parry3d's vertices, errors that hold, and clouds of 65,535 points
-//! - [`polygons`]: hulls of points in the plane, simplified ones, and outlines cut into convex parts, against exact integers
+//! - [`polygons`]: hulls of points in the plane, simplified ones, and outlines cut into convex parts, against exact
+//!   integers
 //! - [`fuzzed`]: the fuzz targets' bodies, on tens of thousands of seeded strings
-//! - [`saved`]: what is stored of poses, shapes, rays and hints comes back in every bit, or is refused by what the constructors say
-//! - [`mass`]: mass, centre and inertia of every shape, against exact fractions, textbooks, sampling and inclusion-exclusion
+//! - [`saved`]: what is stored of poses, shapes, rays and hints comes back in every bit, or is refused by what the
+//!   constructors say
+//! - [`mass`]: mass, centre and inertia of every shape, against exact fractions, textbooks, sampling and
+//!   inclusion-exclusion
 //!
 //! Broad phase
 //! - [`broad`]: exactly the pairs of a double loop, each once, in order, for any boxes whatever
@@ -23,12 +26,16 @@
 //! - [`agreement`]: separations, distances, points, records and events go with that yes or no, ulp by ulp
 //! - [`hard`]: 100,000 hard cases: nothing wrong, no bound broken, no panic, everything within 1e-6 of size
 //! - [`steady`]: a unit in the last place of a pose changes no count of points, and no depth by more than it is
-//! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair; what they keep of the faces; names that stay
+//! - [`manifolds`]: points on both shapes, on one normal, as deep as the pair; what they keep of the faces; names
+//!   that stay
 //! - [`plane`]: polygons of many edges against all edges, mirrored, and what hints may change: names, never a yes or no
 //! - [`invariance`]: order, origin, units, quaternion lengths, hints and neighbours in a batch do not matter
-//! - [`casts`]: what moves and turns meets nothing before it is said to, and is as near there as told; rays; parry3d's word
-//! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the exact yes or no say
-//! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does another's
+//! - [`casts`]: what moves and turns meets nothing before it is said to, and is as near there as told; rays;
+//!   parry3d's word
+//! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the
+//!   exact yes or no say
+//! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
+//!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
 //! - [`theory`]: the textbook's own examples
@@ -38,16 +45,19 @@
 //! World
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
-//! - [`snapshots`]: a world restored from text has the same outputs, keys and future, bit for bit; no damaged file breaks one
+//! - [`snapshots`]: a world restored from text has the same outputs, keys and future, bit for bit; no damaged file
+//!   breaks one
 //! - [`debug_lines`]: lines for a renderer lie on what they show
 //! - [`motions`]: what an update says of this frame's motions: contacts to come, and what bullets run into first
 //! - [`questions`]: overlaps, casts and what is near, against a loop over all bodies, at any time, from any thread
 //! - [`world_threads`]: every output has the same bits at any number of threads
-//! - [`characters`]: nobody enters or passes anything; floors, stairs, slopes, corners and closed rooms, as a player expects
+//! - [`characters`]: nobody enters or passes anything; floors, stairs, slopes, corners and closed rooms, as a
+//!   player expects
 //!
 //! Binaries of their own
 //! - `tests/golden`: what every named scene says over sixty frames, by hash, on any number of threads and in any build
-//! - `tests/allocation`: a steady scene allocates nothing, a million operations let no memory grow, and what a body takes
+//! - `tests/allocation`: a steady scene allocates nothing, a million operations let no memory grow, and what a body
+//!   takes
 //!
 //! Stories
 //! - [`regressions`]: what went wrong once

@@ -55,8 +55,8 @@ fn check3(found: &MassProperties3, wanted: &MassProperties3, tolerance: f64) {
     assert!(place <= tolerance * gyration(wanted.mass, size) + rounded, "{found:?} is not {wanted:?}");
 }
 
-/// The second moments' least eigenvalue over their sum: negative where a principal moment of inertia is, or where one is
-/// larger than the other two together. By Jacobi's rotations.
+/// The second moments' least eigenvalue over their sum: negative where a principal moment of inertia is, or where
+/// one is larger than the other two together. By Jacobi's rotations.
 fn least_spread(inertia: &DMat3) -> f64 {
     let half = trace(inertia) / 2.0;
     let mut c = (DMat3::IDENTITY * half - *inertia).to_cols_array_2d();
@@ -140,7 +140,8 @@ fn polygons_weigh_what_exact_fractions_say() {
     }
 }
 
-/// Points about a line or plane that no axis lies in, closer together towards the origin, and each with its own last bit.
+/// Points about a line or plane that no axis lies in, closer together towards the origin, and each with its own
+/// last bit.
 fn thin_cloud(random: &mut Rand64, thickness: f64, is_plate: bool) -> Vec<Vec3> {
     let mut share = || random.rand_float() * 2.0 - 1.0;
     let mut spread = || (share(), [1.0, 0.1, 1e-2, 1e-3][(share().abs() * 4.0) as usize]);
@@ -240,7 +241,8 @@ fn balls_discs_and_capsules_are_those_of_the_textbook() {
     check2(&of2(Capsule2::from_half_height(1.0, 0.75).unwrap()), &stadium, 1e-14);
 }
 
-/// Corners of a box with the given half extents, as integers, turned by the rotation of integers `turn` (rows) over `scale`.
+/// Corners of a box with the given half extents, as integers, turned by the rotation of integers `turn` (rows) over
+/// `scale`.
 fn turned_box(half: [i64; 3], turn: [[i64; 3]; 3]) -> Vec<[i64; 3]> {
     let corner = |i: i64| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] });
     let turned = |c: [i64; 3]| turn.map(|row| row[0] * c[0] + row[1] * c[1] + row[2] * c[2]);
@@ -320,7 +322,8 @@ fn both(a: &MassProperties3, b: &MassProperties3) -> MassProperties3 {
 
 #[test]
 fn round_halves_and_their_cut_add_up() {
-    // For convex sets whose union is convex, rounding keeps inclusion and exclusion: whole + cut = one half + other half.
+    // For convex sets whose union is convex, rounding keeps inclusion and exclusion: whole + cut = one half + other
+    // half.
     let mut random = Rand64::new(5);
     for _ in 0..100 {
         let [x, y, z] = cloud(&mut random, 1, [40; 3])[0];

@@ -71,7 +71,8 @@ impl<S: Engine> Room<S> {
         all
     }
 
-    /// Fails unless the world, just updated, says what all pairs say; gives how many impacts and contacts to come there were.
+    /// Fails unless the world, just updated, says what all pairs say; gives how many impacts and contacts to come
+    /// there were.
     fn check(&self) -> (usize, usize) {
         let expected = self.expected();
         let found: Vec<_> = S::impacts(&self.world)

@@ -12,8 +12,8 @@ use glam::{DVec2, Vec2};
 /// As for manifolds of few corners: a face is preferred within 5e-7 of size, and anchors are f32.
 const ON_SHAPE: f64 = 2e-6;
 
-/// An ellipse of random points, an even circle, a needle, one flat side under an arc, and steps that shrink from edge to
-/// edge: more edges than are looked at one by one.
+/// An ellipse of random points, an even circle, a needle, one flat side under an arc, and steps that shrink from
+/// edge to edge: more edges than are looked at one by one.
 fn many_edges(random: &mut Random) -> Shape2 {
     let count = random.pick(&[17, 24, 40, 100, 250]);
     let middle = random.vector().truncate() * random.pick(&[0.0, 0.3, 10.0]);

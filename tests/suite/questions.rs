@@ -1,4 +1,5 @@
-//! Questions to a world against all of its bodies, one by one: before updates and after, near and far, however the world came about.
+//! Questions to a world against all of its bodies, one by one: before updates and after, near and far, however the
+//! world came about.
 
 mod asked;
 mod points;
@@ -104,7 +105,8 @@ fn every_question_far_from_the_origin() {
     }
 }
 
-/// Of ten thousand bodies, some move a little every frame: in a world that was asked all the time, and in one that never was.
+/// Of ten thousand bodies, some move a little every frame: in a world that was asked all the time, and in one that
+/// never was.
 fn crowd<S: Questioned>(bodies: usize, room: f64) {
     let mut random = Random::new(2900);
     let mut world = World::<S>::new();

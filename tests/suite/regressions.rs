@@ -89,7 +89,8 @@ fn a_slightly_tilted_box_stands_on_a_patch() {
     assert!(on_edges > 10, "only {on_edges} poses were decided by edges");
 }
 
-/// Symptom: `touching` named a body that `is_touching` denied. Cause: only one of them looked whether it was still there.
+/// Symptom: `touching` named a body that `is_touching` denied. Cause: only one of them looked whether it was still
+/// there.
 #[test]
 fn a_removed_body_is_touched_by_nobody() {
     let mut world = World3::new();

@@ -1,9 +1,10 @@
 //! Every kind of shape that parry3d has, against parry3d: overlap, distance and depth.
 //!
-//! As in [`peer`](crate::peer), nothing is asked within [`BAND`] of the pair's size, and where the answers differ beyond it
-//! the judges decide. A pair of kinds may have its share of refuted answers of parry's, which the message names. What
-//! parry cannot answer at all is listed in [`UNSUPPORTED`]. Its `contact` of a shape with a half-space, in this order, forgets to
-//! turn the pose round (`contact_support_map_halfspace` in 0.31), so that no depth is asked of it there.
+//! As in [`peer`](crate::peer), nothing is asked within [`BAND`] of the pair's size, and where the answers differ
+//! beyond it the judges decide. A pair of kinds may have its share of refuted answers of parry's, which the message
+//! names. What parry cannot answer at all is listed in [`UNSUPPORTED`]. Its `contact` of a shape with a half-space,
+//! in this order, forgets to turn the pose round (`contact_support_map_halfspace` in 0.31), so that no depth is
+//! asked of it there.
 
 use asunder_geometry::{Pose3, Shape3};
 use asunder_narrow::Separation3;

@@ -1,4 +1,5 @@
-//! A world comes back from text: same outputs, same keys, same future, bit for bit. No file, however damaged, breaks one.
+//! A world comes back from text: same outputs, same keys, same future, bit for bit. No file, however damaged,
+//! breaks one.
 
 mod damaged;
 

@@ -1,7 +1,7 @@
 //! A first solver meets the manifolds: what games stack stands for five seconds, by the names of its contact points.
 //!
-//! Eight substeps a step, contacts as springs of 60 Hz, friction 0.6, contacts within 2 cm of bodies 1 m wide. Overlaps are
-//! judged in double-double and not by the manifolds, which would not tell of a point that they miss.
+//! Eight substeps a step, contacts as springs of 60 Hz, friction 0.6, contacts within 2 cm of bodies 1 m wide.
+//! Overlaps are judged in double-double and not by the manifolds, which would not tell of a point that they miss.
 
 mod scenes;
 
@@ -12,7 +12,8 @@ use asunder_tests::solver::{Body, Names, STEP, Settings, Solver};
 use glam::{DVec3, Vec3};
 use scenes::{cards, crate_hull, cuboid, dropped, octagon, pyramid, stack};
 
-/// No pair overlaps by more of the smaller body's size. Springs yield under a load: ten bodies press the lowest in by 7e-4.
+/// No pair overlaps by more of the smaller body's size. Springs yield under a load: ten bodies press the lowest in
+/// by 7e-4.
 const DEEPEST: f64 = 5e-3;
 
 /// No body comes further from where it was put, in sizes: what the springs yield, ten times over, is 4e-3.
@@ -133,8 +134,8 @@ fn pyramids_of_ten_rows_stand() {
     assert_stands("pyramid of hulls", &mut pyramid(&cube_hull(), Settings::default()));
 }
 
-/// Where two faces share more than four corners, which four are kept changes with the last bits of the depths: impulses are
-/// lost, and a stack sways a little.
+/// Where two faces share more than four corners, which four are kept changes with the last bits of the depths:
+/// impulses are lost, and a stack sways a little.
 #[test]
 fn stacks_of_ten_stand_on_patches_of_eight_corners() {
     for (name, shape, twist) in [

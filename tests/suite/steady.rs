@@ -1,7 +1,7 @@
 //! Resting bodies whose pose changes by a unit in the last place, and bodies in one place with their likes.
 //!
-//! A solver that is given another number of points each frame, or depths that jump, shakes. What a pose's last bits do to
-//! an answer is held against what they do to the shapes' vertices.
+//! A solver that is given another number of points each frame, or depths that jump, shakes. What a pose's last bits
+//! do to an answer is held against what they do to the shapes' vertices.
 
 mod rests;
 
@@ -32,8 +32,8 @@ fn moved_by_bits(pose: &Pose3) -> Vec<Pose3> {
     (0..3).flat_map(|axis| values(axis).map(|value| moved(pose, axis, value))).collect()
 }
 
-/// The pose as an engine of f32 would change it: a coordinate, or one of the four numbers of the rotation, by a unit in the
-/// last place of an f32.
+/// The pose as an engine of f32 would change it: a coordinate, or one of the four numbers of the rotation, by a
+/// unit in the last place of an f32.
 fn changed_by_f32_bits(pose: &Pose3) -> Vec<Pose3> {
     let mut poses = Vec::new();
     for axis in 0..3 {
@@ -104,7 +104,8 @@ fn a_bit_of_a_pose_changes_no_depth_by_more_than_it_moves_a_vertex() {
             assert!(share <= 30.0, "{share} times what a vertex moves: {base:?} {other:?} {rest:?}");
             worst = worst.max(share);
         }
-        // A bit of an f64 position is nothing; what is seen is two axes that tie, each as deep as the other within the errors.
+        // A bit of an f64 position is nothing; what is seen is two axes that tie, each as deep as the other within
+        // the errors.
         for there in moved_by_bits(&rest.there) {
             let other = manifold(&rest, &there);
             let (change, error) = (change(&base, &other), f64::from(base.error) + f64::from(other.error));

@@ -1,7 +1,7 @@
 //! Prints what hints buy pairs of compounds: `compounds [rounds]`.
 //!
-//! Hammers of 2 to 8 parts, boxes or hulls, that drift a little from frame to frame. Each pair is asked about with what its
-//! last answer left, and without; thread CPU time a pair, the two in turns, medians.
+//! Hammers of 2 to 8 parts, boxes or hulls, that drift a little from frame to frame. Each pair is asked about with
+//! what its last answer left, and without; thread CPU time a pair, the two in turns, medians.
 
 use asunder_benches::clock::{Samples, time};
 use asunder_geometry::{Compound3, Cuboid, Hull, Pose3, Shape3};

@@ -1,6 +1,7 @@
 //! parry3d's side of the broad phase: all overlapping pairs by its `Bvh`.
 //!
-//! - *incremental*: leaves in place, `optimize_incremental`, `refit`, whole traversal, as rapier drives it when many move.
+//! - *incremental*: leaves in place, `optimize_incremental`, `refit`, whole traversal, as rapier drives it when
+//!   many move.
 //! - *rebuild*: leaves in place, then the whole tree anew, binned, and the whole traversal.
 //! - *changes*: as incremental, but only pairs of changed leaves are looked for; the rest of last frame's list is kept.
 //! - *reinsert*: moved leaves are taken out and put in again, `refit_partial`; pairs as in changes. As rapier drives it
@@ -33,8 +34,8 @@ use Update::{Changes, Incremental, Rebuild, Reinsert, Split};
 
 /// Ways to a frame where anything may move, and those besides where few do; with the usual margin or without.
 ///
-/// Tried where all move, gas, city, pile, islands and tower of 1k and 10k: changes are 3 to 19 % slower than incremental,
-/// changes with a margin 15 to 36 %, reinsert two to nine times (AMD EPYC, 2026-11-21).
+/// Tried where all move, gas, city, pile, islands and tower of 1k and 10k: changes are 3 to 19 % slower than
+/// incremental, changes with a margin 15 to 36 %, reinsert two to nine times (AMD EPYC, 2026-11-21).
 const ALWAYS: [(Update, bool); 4] =
     [(Incremental, false), (Incremental, true), (Rebuild, false), (Rebuild, true)];
 const WHERE_FEW_MOVE: [(Update, bool); 4] =

@@ -14,9 +14,9 @@ const CELLS: i32 = 6;
 
 /// `count` pairs of bricks whose boxes touch, drawn from four walls.
 ///
-/// A wall is made of square cells of two bricks, every other cell turned by a quarter. In two walls the pitch is exactly
-/// twice the stored half extents, so that neighbours share faces, edges and corners and nothing else. In the other two it is the
-/// decimal that was meant, and neighbours miss or overlap by the rounding of an f32.
+/// A wall is made of square cells of two bricks, every other cell turned by a quarter. In two walls the pitch is
+/// exactly twice the stored half extents, so that neighbours share faces, edges and corners and nothing else. In
+/// the other two it is the decimal that was meant, and neighbours miss or overlap by the rounding of an f32.
 ///
 /// ```
 /// use asunder_benches::certain::bricks;

@@ -1,8 +1,8 @@
 //! What we say of pairs in the plane, held against the truth.
 //!
-//! The truth is the tests' oracle in double-double (`asunder_tests::precise`): it knows stored vertices and poses alone,
-//! makes the outlines by exact predicates, projects all of both shapes on every edge's normal, and in a gap proves a
-//! distance by two bounds that meet. Nothing of it is the kernels'.
+//! The truth is the tests' oracle in double-double (`asunder_tests::precise`): it knows stored vertices and poses
+//! alone, makes the outlines by exact predicates, projects all of both shapes on every edge's normal, and in a gap
+//! proves a distance by two bounds that meet. Nothing of it is the kernels'.
 
 use super::{Case, Memory};
 use crate::accuracy::{Accuracy, Said};

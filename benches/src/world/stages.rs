@@ -5,7 +5,8 @@ use crate::row::{self, duration};
 use asunder::Stats;
 use serde::Serialize;
 
-/// Figures of whole frames. Stages are medians of wall-clock times; what is left of a frame is setting poses and walking contacts.
+/// Figures of whole frames. Stages are medians of wall-clock times; what is left of a frame is setting poses and
+/// walking contacts.
 ///
 /// ```
 /// use asunder_benches::world::Figures;

@@ -12,7 +12,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::error::Error;
 use std::time::Instant;
 
-/// Measures our frames on one thread and on several, and the peer's, in turns. In space; the row's time is that of the threads.
+/// Measures our frames on one thread and on several, and the peer's, in turns. In space; the row's time is that of
+/// the threads.
 ///
 /// # Errors
 /// The system gives no threads.

@@ -13,16 +13,18 @@ use asunder_narrow::{Impact3, Pair3};
 use core::ops::ControlFlow;
 
 /// # Questions
-/// Questions see bodies where they are, also before the next update. Any number of threads may ask at once. What comes in a list is
-/// sorted by distance, then by the bodies' slots (lists without distances by slots), and lists are cleared first; visitors get answers in no
-/// promised order, until they break off. A [`Filter3`] says whom a question may find.
+/// Questions see bodies where they are, also before the next update. Any number of threads may ask at once. What
+/// comes in a list is sorted by distance, then by the bodies' slots (lists without distances by slots), and lists
+/// are cleared first; visitors get answers in no promised order, until they break off. A [`Filter3`] says whom a
+/// question may find.
 ///
-/// Cost: the first question makes a tree of all boxes, in 45 ns a body, and it is kept while few bodies move; of those that have moved since, a
-/// second one is made by the first question after an update. Then, a question takes a walk down both trees, and the narrow phase of
-/// every body whose box is met. Once memory is there, nothing allocates but the caller's lists.
+/// Cost: the first question makes a tree of all boxes, in 45 ns a body, and it is kept while few bodies move; of
+/// those that have moved since, a second one is made by the first question after an update. Then, a question takes
+/// a walk down both trees, and the narrow phase of every body whose box is met. Once memory is there, nothing
+/// allocates but the caller's lists.
 impl World<Volume> {
-    /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse way to ask what is in a region. A body's
-    /// box is that around its shape as it stands, rounded outwards, without its margin.
+    /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse way to ask what is in a
+    /// region. A body's box is that around its shape as it stands, rounded outwards, without its margin.
     ///
     /// ```
     /// use asunder::{Aabb3, Motion3, Ray3, Sphere, Collider3, Filter3, World3, glam::Vec3};
@@ -48,7 +50,8 @@ impl World<Volume> {
         boxes_over(self, bounds, filter).visit(|Met(body)| visitor(body))
     }
 
-    /// Bodies that hold a point, in metres; the surface counts. Exact. None hold a point that is not finite, or beyond 1e9 m on an axis.
+    /// Bodies that hold a point, in metres; the surface counts. Exact. None hold a point that is not finite, or
+    /// beyond 1e9 m on an axis.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Cuboid, World3, glam::Vec3};
@@ -105,10 +108,11 @@ impl World<Volume> {
         bodies_over(self, at, filter).visit(|Met(body)| visitor(body))
     }
 
-    /// The body closest to a point, both in metres, and the closest point on it, if one is within a distance; of bodies equally near, that
-    /// of the lowest slot. A body that holds the point is at distance 0.
+    /// The body closest to a point, both in metres, and the closest point on it, if one is within a distance; of
+    /// bodies equally near, that of the lowest slot. A body that holds the point is at distance 0.
     ///
-    /// A NaN counts as no limit, and a negative distance as zero. Nothing is near a point that is not finite, or beyond 1e9 m on an axis.
+    /// A NaN counts as no limit, and a negative distance as zero. Nothing is near a point that is not finite, or
+    /// beyond 1e9 m on an axis.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Filter3, Pose3, World3, glam::DVec3};
@@ -152,8 +156,8 @@ impl World<Volume> {
         bodies_near(self, (&shape, &pose), within, filter).visit(visitor)
     }
 
-    /// The body closest to a posed shape, and the closest points of both, if one is within a distance; of bodies equally near, that of the
-    /// lowest slot. One that overlaps the shape is at distance 0.
+    /// The body closest to a posed shape, and the closest points of both, if one is within a distance; of bodies
+    /// equally near, that of the lowest slot. One that overlaps the shape is at distance 0.
     ///
     /// A NaN counts as no limit, and a negative distance as zero.
     ///
@@ -198,10 +202,12 @@ impl World<Volume> {
         bodies_near(self, at, within, filter).visit(visitor)
     }
 
-    /// The first body that a ray meets no later than at `limit`, which is in lengths of its direction and may be infinite; of bodies met
-    /// at the same distance, that of the lowest slot. A body that the ray starts in is met at 0.
+    /// The first body that a ray meets no later than at `limit`, which is in lengths of its direction and may be
+    /// infinite; of bodies met at the same distance, that of the lowest slot. A body that the ray starts in is met
+    /// at 0.
     ///
-    /// A NaN counts as no limit, and a negative limit as zero. Looks at bodies in order of their boxes, and at none behind the first.
+    /// A NaN counts as no limit, and a negative limit as zero. Looks at bodies in order of their boxes, and at none
+    /// behind the first.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Filter3, Pose3, Ray3, World3, glam::{DVec3, Vec3}};
@@ -223,7 +229,8 @@ impl World<Volume> {
         bodies_along_ray(self, ray, limit, filter).all(into);
     }
 
-    /// [`World::cast_ray_all`], one by one in no promised order: to know whether anything is in the way, break off at once.
+    /// [`World::cast_ray_all`], one by one in no promised order: to know whether anything is in the way, break off
+    /// at once.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Filter3, Pose3, Ray3, World3, glam::{DVec3, Vec3}};
@@ -245,8 +252,8 @@ impl World<Volume> {
         bodies_along_ray(self, ray, limit, filter).visit(visitor)
     }
 
-    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of bodies met at
-    /// the same time, that of the lowest slot. One that it touches already is met at fraction 0.
+    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of
+    /// bodies met at the same time, that of the lowest slot. One that it touches already is met at fraction 0.
     ///
     /// A displacement of zero meets what the shape overlaps, and one that is not finite meets nothing.
     ///
@@ -293,8 +300,8 @@ impl World<Volume> {
         bodies_along(self, from, displacement, filter).visit(visitor)
     }
 
-    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not. What stands
-    /// gets a motion of zero.
+    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not.
+    /// What stands gets a motion of zero.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Motion3, Pose3, StaleKey, World3, glam::DVec3};

@@ -6,20 +6,21 @@
 //! clip        which way is left between planes
 //! plane, volume   vectors and the narrow phase, for both dimensions; the methods of both worlds
 //! ```
-//! Only `free` ever puts a shape somewhere that no cast led to, and only where it overlapped something before. All else ends on a
-//! path that a cast has certified as free: this is why nothing is tunnelled and a free start stays free, whatever the planes say.
+//! Only `free` ever puts a shape somewhere that no cast led to, and only where it overlapped something before. All
+//! else ends on a path that a cast has certified as free: this is why nothing is tunnelled and a free start stays
+//! free, whatever the planes say.
 //!
 //! The loop is that of Quake's `SV_FlyMove`, with these differences:
-//! 1. What is left of the displacement keeps its own direction, and is turned along *all* planes that were met anew each time:
-//!    the nearest vector that goes into none of them, which can never point against it. Turning the turned vector again is what makes
-//!    characters tremble in acute corners.
-//! 2. Of one convex body, the last plane takes the place of those before. Its distance has one gradient at a time, and old planes
-//!    of a dome would throw off who climbs it.
-//! 3. A gap is kept along the normal, by stopping short on the cast's own path. So tiles of one height never show their inner
-//!    edges, and no position is ever made up.
+//! 1. What is left of the displacement keeps its own direction, and is turned along *all* planes that were met anew
+//!    each time: the nearest vector that goes into none of them, which can never point against it. Turning the
+//!    turned vector again is what makes characters tremble in acute corners.
+//! 2. Of one convex body, the last plane takes the place of those before. Its distance has one gradient at a time,
+//!    and old planes of a dome would throw off who climbs it.
+//! 3. A gap is kept along the normal, by stopping short on the cast's own path. So tiles of one height never show
+//!    their inner edges, and no position is ever made up.
 //!
-//! Pushing out is Hildreth's method (1957) on the planes of all manifolds, as in the mover of Box2D v3.1: least in length
-//! where the planes are all there is, and right again after a few rounds where they are not.
+//! Pushing out is Hildreth's method (1957) on the planes of all manifolds, as in the mover of Box2D v3.1: least in
+//! length where the planes are all there is, and right again after a few rounds where they are not.
 
 mod clip;
 mod free;
@@ -35,10 +36,11 @@ use asunder_geometry::{Pose2, Pose3};
 use asunder_narrow::ArrayVec;
 use core::ops::{Add, Mul, Neg, Sub};
 
-/// How a character walks: what is up, what it can stand on and climb. `N` is a vector of f32; use it as [`Walk2`] or [`Walk3`].
+/// How a character walks: what is up, what it can stand on and climb. `N` is a vector of f32; use it as [`Walk2`]
+/// or [`Walk3`].
 ///
-/// Make one with `new` and change what your game wants otherwise. All lengths are in metres; one that is NaN or below zero
-/// counts as zero, and the skin is never less than 1/4096 of the shape's bounding radius.
+/// Make one with `new` and change what your game wants otherwise. All lengths are in metres; one that is NaN or
+/// below zero counts as zero, and the skin is never less than 1/4096 of the shape's bounding radius.
 ///
 /// ```
 /// use asunder::{Capsule3, Shape3, Walk3, glam::Vec3};
@@ -53,12 +55,14 @@ pub struct Walk<N> {
     pub up: N,
     /// The gap that is kept to everything. At first a hundredth of the shape's bounding radius.
     pub skin: f32,
-    /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: what is steeper is a wall. At first 0.7, 45.6
-    /// degrees; a NaN counts as that.
+    /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: what is steeper is a
+    /// wall. At first 0.7, 45.6 degrees; a NaN counts as that.
     pub steepest: f32,
-    /// The height of steps that are climbed, 0 for none. At first 0.35 of the shape's bounding radius: a third of a metre for a grown-up.
+    /// The height of steps that are climbed, 0 for none. At first 0.35 of the shape's bounding radius: a third of a
+    /// metre for a grown-up.
     pub step: f32,
-    /// How far down the ground is followed by who stood on it and does not go up, 0 for not at all. At first as high as a step.
+    /// How far down the ground is followed by who stood on it and does not go up, 0 for not at all. At first as
+    /// high as a step.
     pub snap: f32,
 }
 
@@ -68,8 +72,8 @@ pub type Walk2 = Walk<Vec2>;
 /// How a character walks in space. See [`Walk`].
 pub type Walk3 = Walk<Vec3>;
 
-/// A place that is free of solids, or as free as could be found. `O` is a pose and `P` a vector of f64; use it as [`Freed2`] or
-/// [`Freed3`].
+/// A place that is free of solids, or as free as could be found. `O` is a pose and `P` a vector of f64; use it as
+/// [`Freed2`] or [`Freed3`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Freed<O, P> {
     /// Where the shape is now. Its rotation is kept.
@@ -86,7 +90,8 @@ pub type Freed2 = Freed<Pose2, DVec2>;
 /// A place in space that is free of solids, or as free as could be found.
 pub type Freed3 = Freed<Pose3, DVec3>;
 
-/// What a character stands on, or met. `K` is a key, `N` a vector of f32, `P` a point of f64; use it as [`Obstacle2`] or [`Obstacle3`].
+/// What a character stands on, or met. `K` is a key, `N` a vector of f32, `P` a point of f64; use it as
+/// [`Obstacle2`] or [`Obstacle3`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Obstacle<K, N, P> {
     /// The body.
@@ -103,8 +108,8 @@ pub type Obstacle2 = Obstacle<BodyKey2, Vec2, DVec2>;
 /// What a character of space stands on, or met.
 pub type Obstacle3 = Obstacle<BodyKey3, Vec3, DVec3>;
 
-/// How far a character came, and what it met. `K` is a key, `O` a pose, `N` a vector of f32 and `P` one of f64; use it as
-/// [`Slide2`] or [`Slide3`].
+/// How far a character came, and what it met. `K` is a key, `O` a pose, `N` a vector of f32 and `P` one of f64; use
+/// it as [`Slide2`] or [`Slide3`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide<K, O, N, P> {
     /// Where it is now. Its rotation is kept.
@@ -113,7 +118,8 @@ pub struct Slide<K, O, N, P> {
     pub moved: P,
     /// What it stands on, if it does: ground no steeper than it can walk on, or the edge of a step.
     pub ground: Option<Obstacle<K, N, P>>,
-    /// What it met that it cannot stand on, walls and ceilings, in the order in which it met them; no more than the first eight.
+    /// What it met that it cannot stand on, walls and ceilings, in the order in which it met them; no more than the
+    /// first eight.
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
     pub blocked: bool,
@@ -156,7 +162,8 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     fn size(shape: &Self::Shape) -> f64;
     /// How far the shape reaches along a direction, from its position.
     fn reach(at: (&Self::Shape, &Self::Pose), along: Self::Point) -> Option<f64>;
-    /// The separation from a body and the unit normal that leads away from it, if they are within the margin: of compounds the deepest.
+    /// The separation from a body and the unit normal that leads away from it, if they are within the margin: of
+    /// compounds the deepest.
     fn gap(
         at: (&Self::Shape, &Self::Pose),
         body: &crate::collider::Collider<Self>,
@@ -164,7 +171,7 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     ) -> Option<(f64, Self::Point)>;
     /// A ray, if it is one.
     fn ray(origin: Self::Point, direction: Self::Point) -> Option<Self::Ray>;
-    /// The unit direction that lies in both planes, given by their normals; nothing where they are parallel, or in the plane, where two
-    /// lines share a point at most.
+    /// The unit direction that lies in both planes, given by their normals; nothing where they are parallel, or in
+    /// the plane, where two lines share a point at most.
     fn crease(one: Self::Point, other: Self::Point) -> Option<Self::Point>;
 }

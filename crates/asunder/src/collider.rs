@@ -29,8 +29,8 @@ impl Layers {
     }
 }
 
-/// What decides whether two bodies may pair at all, wherever they are: small, and apart from all else, since the broad phase asks for every pair
-/// of boxes that overlap.
+/// What decides whether two bodies may pair at all, wherever they are: small, and apart from all else, since the
+/// broad phase asks for every pair of boxes that overlap.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tag {
     layers: Layers,
@@ -214,8 +214,9 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Marks a body that must not pass through anything: an update says what it runs into first during its motion, if it is given one
-    /// ([`World3::set_motion`](crate::World3::set_motion), [`World3::impacts`](crate::World3::impacts)).
+    /// Marks a body that must not pass through anything: an update says what it runs into first during its motion,
+    /// if it is given one ([`World3::set_motion`](crate::World3::set_motion),
+    /// [`World3::impacts`](crate::World3::impacts)).
     #[must_use]
     pub fn bullet(mut self) -> Self {
         self.bullet = true;

@@ -18,8 +18,8 @@ pub struct Contact<'a, K, M> {
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
-    /// Whether they are further apart than their margins, and here for what their motions may bring: a solver that lets no point come
-    /// nearer than its separation allows lets nothing through. Touches nobody until they overlap.
+    /// Whether they are further apart than their margins, and here for what their motions may bring: a solver that
+    /// lets no point come nearer than its separation allows lets nothing through. Touches nobody until they overlap.
     pub speculative: bool,
     /// One manifold for each pair of convex parts that touch. Normals point from `a` to `b`. None for a sensor, nor
     /// for two half-spaces that overlap without end: fix all but one of those, as a level's are, and they never pair.

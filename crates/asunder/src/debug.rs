@@ -5,7 +5,8 @@ mod volume;
 
 use asunder_geometry::tolerance;
 
-/// What [`World2::debug_lines`](crate::World2::debug_lines) and [`World3::debug_lines`](crate::World3::debug_lines) draw.
+/// What [`World2::debug_lines`](crate::World2::debug_lines) and [`World3::debug_lines`](crate::World3::debug_lines)
+/// draw.
 ///
 /// ```
 /// use asunder::DebugOptions;

@@ -21,8 +21,8 @@ pub enum Event<K> {
         /// Whether either is a sensor.
         sensor: bool,
     },
-    /// A contact that had begun is gone: the bodies are further apart than their margins, or may not meet any more, or one was
-    /// disabled or removed.
+    /// A contact that had begun is gone: the bodies are further apart than their margins, or may not meet any more,
+    /// or one was disabled or removed.
     Ended {
         /// The body in the lower slot. Its key may be stale by now.
         a: K,

@@ -3,14 +3,16 @@
 //! # The determinism contract, stage by stage
 //! Equal operations give bit-equal outputs: at any thread count, in debug and in release.
 //! 1. **refit**: a box is a function of one body alone.
-//! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between updates.
+//! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between
+//!    updates.
 //! 3. **collide**: an answer is a function of one job; batches are cut by count, never by thread, and are put together
-//!    in order. A hint can save work, and choose among features that are equally good up to rounding. Where neither body moved, the answer is last update's.
+//!    in order. A hint can save work, and choose among features that are equally good up to rounding. Where neither
+//!    body moved, the answer is last update's.
 //! 4. **merge**: two lists sorted by pair, walked side by side.
 //! 5. **report**: events in pair order.
 //!
-//! Hooks are asked between the stages, by one thread, in pair order: who may pair after the sweep, what to make of a contact after the merge.
-//! What bullets run into is a function of one pair, and sorted.
+//! Hooks are asked between the stages, by one thread, in pair order: who may pair after the sweep, what to make of
+//! a contact after the merge. What bullets run into is a function of one pair, and sorted.
 //!
 //! No stage walks a hash map, calls std's trigonometry or fuses a multiplication with an addition.
 
@@ -33,16 +35,18 @@ use core::time::Duration;
 impl<S: Space> World<S> {
     /// Brings contacts, candidates and events up to date with the bodies. Cannot fail.
     ///
-    /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where few bodies move, else in all
-    /// bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow phase of every candidate of which one body moved.
+    /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where
+    /// few bodies move, else in all bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow
+    /// phase of every candidate of which one body moved.
     pub fn update(&mut self) {
         self.update_with(&Hooks::new());
     }
 
-    /// The same, asking these hooks who may pair and what to make of a contact. They are asked in pair order, by one thread; what they
-    /// say must be a function of what they are told, if equal worlds are to have equal futures.
+    /// The same, asking these hooks who may pair and what to make of a contact. They are asked in pair order, by
+    /// one thread; what they say must be a function of what they are told, if equal worlds are to have equal futures.
     ///
-    /// Cost: a call a candidate for [`Hooks::pair`]; a call a contact and a copy of its manifolds for [`Hooks::contact`].
+    /// Cost: a call a candidate for [`Hooks::pair`]; a call a contact and a copy of its manifolds for
+    /// [`Hooks::contact`].
     pub fn update_with(&mut self, hooks: &Hooks<'_, S>) {
         self.stats = Stats { bodies: self.bodies.len(), ..Stats::default() };
         self.stats.refit = self.timed(refit::refit);

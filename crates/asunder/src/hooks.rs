@@ -1,8 +1,8 @@
 //! What a game may say during an update: who pairs at all, and what a contact is worth.
 //!
-//! A hook sees what the engine found and decides what comes of it; it never sees half a frame. Hooks are asked in pair order,
-//! and their answers for one update are not remembered in the next: what they left out is found again, and what they edited is
-//! edited anew from what the narrow phase said.
+//! A hook sees what the engine found and decides what comes of it; it never sees half a frame. Hooks are asked in
+//! pair order, and their answers for one update are not remembered in the next: what they left out is found again,
+//! and what they edited is edited anew from what the narrow phase said.
 
 use crate::collider::Collider;
 use crate::contact::Record;
@@ -37,8 +37,8 @@ pub struct Meeting<'a, S: Space> {
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
-    /// How they touch: manifolds and points may be changed, taken out and put in. Whether the two touch, and so the events, stays as
-    /// it is.
+    /// How they touch: manifolds and points may be changed, taken out and put in. Whether the two touch, and so the
+    /// events, stays as it is.
     pub manifolds: &'a mut Vec<S::Manifold>,
 }
 
@@ -97,8 +97,8 @@ impl<'a, S: Space> Hooks<'a, S> {
         Self { pair: None, contact: None }
     }
 
-    /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on agree. A pair that is
-    /// refused is no candidate; a contact that it had ends.
+    /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on
+    /// agree. A pair that is refused is no candidate; a contact that it had ends.
     #[must_use]
     pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
         self.pair = Some(may_meet);

@@ -30,25 +30,29 @@
 //! - Bodies: [`Collider3`] of any [`Shape3`], at a [`Pose3`]; [`Layers`], owners and sensors say who meets whom.
 //! - A frame: [`World3::set_pose`], [`World3::update`], [`World3::events`], [`World3::contacts_of`].
 //! - Fast things: [`World3::set_motion`], [`Collider3::bullet`], [`World3::impacts`].
-//! - Questions: [`World3::cast_ray`], [`World3::cast_shape`], [`World3::overlapping`], [`World3::closest`], with a [`Filter3`].
+//! - Questions: [`World3::cast_ray`], [`World3::cast_shape`], [`World3::overlapping`], [`World3::closest`], with a
+//!   [`Filter3`].
 //! - Characters: [`World3::move_and_slide`], with a [`Walk3`].
 //! - Two shapes without a world: [`Pair3`].
 //!
-//! All of it is there in the plane as well, with a 2 in place of the 3. The crates `asunder_geometry` and `asunder_narrow`, which some
-//! examples on these pages name, are parts of this one: what they show is here under the same name, `asunder::Pose3`.
+//! All of it is there in the plane as well, with a 2 in place of the 3. The crates `asunder_geometry` and
+//! `asunder_narrow`, which some examples on these pages name, are parts of this one: what they show is here under
+//! the same name, `asunder::Pose3`.
 //!
 //! # How sure the answers are
-//! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches it, and
-//! one a rounding away does not. Every separation carries an `error` in metres that the truth lies within. Both are
-//! about the **true shape**: the convex hull of the stored f32 vertices, grown by the stored radius, turned by the matrix of
-//! the stored rotation (in space M(q)/|q|^2, of whatever length q is) and moved by the f64 position, exactly. The
-//! separation is the maximum over unit n of (min over B of n.x - max over A of n.x): the distance in a gap, minus the least
-//! translation that parts the shapes in overlap; it is at most zero exactly when they overlap.
+//! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches
+//! it, and one a rounding away does not. Every separation carries an `error` in metres that the truth lies within.
+//! Both are about the **true shape**: the convex hull of the stored f32 vertices, grown by the stored radius,
+//! turned by the matrix of the stored rotation (in space M(q)/|q|^2, of whatever length q is) and moved by the f64
+//! position, exactly. The separation is the maximum over unit n of (min over B of n.x - max over A of n.x): the
+//! distance in a gap, minus the least translation that parts the shapes in overlap; it is at most zero exactly when
+//! they overlap.
 //!
 //! # Feature flags
 //! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
-//! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and serde's
-//!   traits for bodies, shapes, poses, rays, keys, events and manifolds. What comes in is checked as by the constructors.
+//! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and
+//!   serde's traits for bodies, shapes, poses, rays, keys, events and manifolds. What comes in is checked as by the
+//!   constructors.
 #![deny(missing_docs)]
 
 mod ask2;

@@ -87,7 +87,8 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
 }
 
-/// No point of a body turns further than this from where it was, given how fast it turns: and never further than across.
+/// No point of a body turns further than this from where it was, given how fast it turns: and never further than
+/// across.
 fn swing(turn_speed: f64, reach: f64) -> f64 {
     // A half-space that does not turn: zero times infinity.
     if turn_speed > 0.0 { turn_speed.min(2.0) * reach } else { 0.0 }
@@ -95,8 +96,9 @@ fn swing(turn_speed: f64, reach: f64) -> f64 {
 
 /// The margin for a box around both ends of a motion that holds everything in between.
 ///
-/// A point that turns is at R(t) v, and the boxes hold (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no further than w t |v|
-/// from the first and w (1 - t) |v| from the second, and so 2 t (1 - t) w |v| from their mean: at most half of w |v|.
+/// A point that turns is at R(t) v, and the boxes hold (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no
+/// further than w t |v| from the first and w (1 - t) |v| from the second, and so 2 t (1 - t) w |v| from their mean:
+/// at most half of w |v|.
 fn grown(margin: f32, turn_speed: f64, reach: f64) -> f32 {
     // Rotations in between are rounded to f32 at times, by less than 1.2e-7.
     let most = if turn_speed > 0.0 { ((turn_speed / 2.0).min(2.0) + 2.4e-7) * reach } else { 0.0 };

@@ -99,7 +99,8 @@ impl World<Volume> {
         self.move_body(key, pose)
     }
 
-    /// Moves many bodies, in this order. Cost: some 5 to 11 ns a body; their boxes, 30 ns each, are made by the next update, in parallel.
+    /// Moves many bodies, in this order. Cost: some 5 to 11 ns a body; their boxes, 30 ns each, are made by the
+    /// next update, in parallel.
     ///
     /// # Errors
     /// A stale key among them; all the others are moved.
@@ -107,14 +108,16 @@ impl World<Volume> {
         self.move_bodies(poses)
     }
 
-    /// Says what a body is about to do in this frame: the next update looks ahead that far, and then forgets it. Its pose stays.
+    /// Says what a body is about to do in this frame: the next update looks ahead that far, and then forgets it.
+    /// Its pose stays.
     ///
-    /// Contacts that the motion may bring are among [`contacts`](Self::contacts), as speculative ones: all pairs whose separation is at
-    /// most their margins and what their motions bring them nearer, which is an upper bound and at most 1e6 m. For a
-    /// [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. Sensors do not look ahead, but for bullets.
+    /// Contacts that the motion may bring are among [`contacts`](Self::contacts), as speculative ones: all pairs
+    /// whose separation is at most their margins and what their motions bring them nearer, which is an upper bound
+    /// and at most 1e6 m. For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. Sensors do
+    /// not look ahead, but for bullets.
     ///
-    /// A body that sleeps is woken. Of a compound, every part within that reach has a manifold: thousands of parts are better put into the
-    /// world as bodies of their own, with one owner.
+    /// A body that sleeps is woken. Of a compound, every part within that reach has a manifold: thousands of parts
+    /// are better put into the world as bodies of their own, with one owner.
     ///
     /// # Errors
     /// A stale key.
@@ -122,8 +125,8 @@ impl World<Volume> {
         self.set_motion_of(key, motion)
     }
 
-    /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the way, and the first body
-    /// that is none. What a bullet overlaps at the start is a contact, and not among them.
+    /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the
+    /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them.
     pub fn impacts(&self) -> &[Hit3] {
         &self.impacts
     }
@@ -136,8 +139,8 @@ impl World<Volume> {
         self.reshape_body(key, shape.into())
     }
 
-    /// Changes which groups a body is in and which it meets. Contacts with bodies that it does not meet any more end at the next
-    /// update.
+    /// Changes which groups a body is in and which it meets. Contacts with bodies that it does not meet any more
+    /// end at the next update.
     ///
     /// # Errors
     /// A stale key.
@@ -145,8 +148,8 @@ impl World<Volume> {
         self.change_body(key, |body| body.layers = layers)
     }
 
-    /// Attaches another number to a body. Events of later updates carry it; but an `Ended` carries what was attached at the last update at which
-    /// the contact was there.
+    /// Attaches another number to a body. Events of later updates carry it; but an `Ended` carries what was
+    /// attached at the last update at which the contact was there.
     ///
     /// # Errors
     /// A stale key.
@@ -162,8 +165,8 @@ impl World<Volume> {
         self.change_body(key, |body| body.disabled = false)
     }
 
-    /// Takes a body out of the game without removing it: its contacts end at the next update, it pairs with nobody, and no question
-    /// finds it.
+    /// Takes a body out of the game without removing it: its contacts end at the next update, it pairs with nobody,
+    /// and no question finds it.
     ///
     /// # Errors
     /// A stale key.
@@ -173,8 +176,8 @@ impl World<Volume> {
 
     /// Notes that a body is at rest. Another pose wakes it.
     ///
-    /// A note for the game and its solver, which [`Filter3`](crate::Filter3) and hooks can read: the world carries on the contacts of
-    /// whatever does not move as it is, and never takes a body's word for that.
+    /// A note for the game and its solver, which [`Filter3`](crate::Filter3) and hooks can read: the world carries
+    /// on the contacts of whatever does not move as it is, and never takes a body's word for that.
     ///
     /// # Errors
     /// A stale key.
@@ -190,8 +193,8 @@ impl World<Volume> {
         self.set_asleep(key, false)
     }
 
-    /// Makes another body of it under the same key, and returns what it was: for all that has no call of its own. A motion that it
-    /// was given in this frame is forgotten.
+    /// Makes another body of it under the same key, and returns what it was: for all that has no call of its own. A
+    /// motion that it was given in this frame is forgotten.
     ///
     /// # Errors
     /// A stale key.

@@ -9,8 +9,8 @@
 //!   sort these pairs, and merge them with the kept ones
 //! sweep all again: when a fifth has moved by now, or when looking up movers that have come to rest has cost as much
 //! ```
-//! A frame costs some 100 ns a mover and a copy of the kept pairs (0.3 ns each); boxes that rest cost nothing. The list is
-//! that of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
+//! A frame costs some 100 ns a mover and a copy of the kept pairs (0.3 ns each); boxes that rest cost nothing. The
+//! list is that of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
 
 mod rest;
 
@@ -92,9 +92,10 @@ impl<B: Bounds> CoherentSweep<B> {
 
     /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
     ///
-    /// `moved` names the boxes that differ from the last call in any way, their filters included; in any order, and again if need be.
-    /// Boxes behind those of the last call are new, and need not be named. What is not named is believed to be as it was. A
-    /// box that is taken away becomes an empty set. `admit` is asked as by [`Sweep::pairs`].
+    /// `moved` names the boxes that differ from the last call in any way, their filters included; in any order, and
+    /// again if need be. Boxes behind those of the last call are new, and need not be named. What is not named is
+    /// believed to be as it was. A box that is taken away becomes an empty set. `admit` is asked as by
+    /// [`Sweep::pairs`].
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty, and the next call starts from here.
@@ -131,8 +132,8 @@ impl<B: Bounds> CoherentSweep<B> {
         Ok(())
     }
 
-    /// Memory that is held for the next call, in bytes: some 80 a box and 16 a pair, and 28 for every column that a mover
-    /// reaches: thin walls that move as wide as the world take as much as a sweep of all, in memory as in time.
+    /// Memory that is held for the next call, in bytes: some 80 a box and 16 a pair, and 28 for every column that a
+    /// mover reaches: thin walls that move as wide as the world take as much as a sweep of all, in memory as in time.
     ///
     /// ```
     /// assert_eq!(asunder_broad::CoherentSweep::<asunder_geometry::Aabb2>::new().bytes(), 0);

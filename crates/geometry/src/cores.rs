@@ -192,8 +192,8 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// The edges eight by eight, by the faces beside them; none of what has no faces, nor of a triangle, whose faces are back
-    /// to back.
+    /// The edges eight by eight, by the faces beside them; none of what has no faces, nor of a triangle, whose
+    /// faces are back to back.
     #[inline]
     pub fn edge_octets(&self) -> &[EdgeOctet] {
         match &self.0 {

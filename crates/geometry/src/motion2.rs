@@ -7,10 +7,10 @@ use glam::DVec2;
 
 /// A motion in the plane: a displacement in metres and, optionally, a rotation to be reached.
 ///
-/// The position moves along a straight line at constant speed. The rotation takes the shorter way round, by halves: first to
-/// the rotation half way, then on to the end. In each half cosine and sine are interpolated along the chord and made
-/// of unit length again: no trigonometry, and at most a quarter turn, in which the speed changes by a factor of two at
-/// most. Where both rotations are exactly opposite, the way leads counter-clockwise.
+/// The position moves along a straight line at constant speed. The rotation takes the shorter way round, by halves:
+/// first to the rotation half way, then on to the end. In each half cosine and sine are interpolated along the
+/// chord and made of unit length again: no trigonometry, and at most a quarter turn, in which the speed changes by
+/// a factor of two at most. Where both rotations are exactly opposite, the way leads counter-clockwise.
 ///
 /// ```
 /// use asunder_geometry::{Motion2, Pose2, Rotation2, glam::DVec2};
@@ -72,10 +72,10 @@ impl Motion2 {
 
     /// The pose after a share of the motion, 0 to 1; what is below counts as 0, NaN too, what is above as 1.
     ///
-    /// 0 gives `from` bit for bit. 1 gives the end pose bit for bit, which is where the position plus the displacement rounds
-    /// to, in the rotation to be reached. An end beyond the range of poses is moved to the edge of it, axis by axis, and the
-    /// motion leads straight there. In between the position is off by some roundings of f64, the rotation by less than 1e-7
-    /// rad. Cost: constant.
+    /// 0 gives `from` bit for bit. 1 gives the end pose bit for bit, which is where the position plus the
+    /// displacement rounds to, in the rotation to be reached. An end beyond the range of poses is moved to the edge
+    /// of it, axis by axis, and the motion leads straight there. In between the position is off by some roundings
+    /// of f64, the rotation by less than 1e-7 rad. Cost: constant.
     pub fn pose_at(&self, from: &Pose2, fraction: f64) -> Pose2 {
         if fraction.is_nan() || fraction <= 0.0 {
             return *from;
@@ -92,8 +92,8 @@ impl Motion2 {
         Pose2::new(place.clamp(-limit, limit), rotation).unwrap_or(*from)
     }
 
-    /// An upper bound on the angular speed, in radians per whole motion: the turn itself and up to a half more. Zero where
-    /// the rotation stays. Cost: constant.
+    /// An upper bound on the angular speed, in radians per whole motion: the turn itself and up to a half more.
+    /// Zero where the rotation stays. Cost: constant.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rotation2};
@@ -111,7 +111,8 @@ impl Motion2 {
             let nearest = (from + to) * 0.5;
             from.perp_dot(to).abs() / nearest.length_squared()
         };
-        // Twice for the two halves; lengths are one up to the rounding of f32, and so the nearest point is the middle up to that.
+        // Twice for the two halves; lengths are one up to the rounding of f32, and so the nearest point is the
+        // middle up to that.
         2.0 * speed(first, middle).max(speed(middle, last)) * (1.0 + 1e-6)
     }
 
@@ -125,7 +126,8 @@ fn vector(rotation: Rotation2) -> DVec2 {
     DVec2::new(f64::from(rotation.cos()), f64::from(rotation.sin()))
 }
 
-/// The unit vector half way from one to the other, the shorter way round; counter-clockwise where both ways are as long.
+/// The unit vector half way from one to the other, the shorter way round; counter-clockwise where both ways are as
+/// long.
 ///
 /// It is along the sum, and square to the difference: each is taken where it is the longer of the two.
 fn half_way(from: DVec2, to: DVec2) -> DVec2 {

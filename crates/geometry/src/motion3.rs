@@ -6,7 +6,8 @@ use glam::{DVec3, Quat};
 
 /// A motion in space: a displacement in metres and, if it turns, the rotation that is reached at the end.
 ///
-/// Where it starts is no part of it. At a fraction t, from 0 to 1, a body that starts at position p and rotation q is at
+/// Where it starts is no part of it. At a fraction t, from 0 to 1, a body that starts at position p and rotation q
+/// is at
 ///
 /// ```text
 /// position  p + t d
@@ -60,8 +61,8 @@ impl Motion3 {
     /// Neither moves nor turns.
     pub const STILL: Self = Self { displacement: DVec3::ZERO, rotation: None };
 
-    /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the rotation that is reached at the end, of any
-    /// length but zero.
+    /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the rotation that is reached at the end,
+    /// of any length but zero.
     ///
     /// # Errors
     /// What is not finite, a displacement beyond 1e9 m on an axis, and a zero quaternion.
@@ -103,9 +104,9 @@ impl Motion3 {
 
     /// Where a body is that started at `from`, when a fraction of the motion is done.
     ///
-    /// At 0 and below, or for a NaN, it is `from` bit for bit; at 1 and above the position is their sum and the rotation the
-    /// one to be reached, bit for bit. In between the rotation is rounded to f32, by less than 1.2e-7 rad, and the position
-    /// to f64. A position beyond 1e9 m on an axis ends there.
+    /// At 0 and below, or for a NaN, it is `from` bit for bit; at 1 and above the position is their sum and the
+    /// rotation the one to be reached, bit for bit. In between the rotation is rounded to f32, by less than 1.2e-7
+    /// rad, and the position to f64. A position beyond 1e9 m on an axis ends there.
     pub fn pose_at(&self, from: &Pose3, fraction: f64) -> Pose3 {
         // A NaN is not above zero either.
         if fraction.is_nan() || fraction <= 0.0 {
@@ -157,8 +158,8 @@ impl Motion3 {
         }
     }
 
-    /// No less than the angular speed of a body that starts at `from`, in radians for the whole motion: at most 4, and never
-    /// more than 1.28 times that of an even turn.
+    /// No less than the angular speed of a body that starts at `from`, in radians for the whole motion: at most 4,
+    /// and never more than 1.28 times that of an even turn.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};

@@ -183,7 +183,8 @@ impl FaceOctet {
 impl EdgeOctet {
     /// So many edges of a shape, and more, come sorted by where they look; fewer in order, by their numbers.
     ///
-    /// What tells one edge then mostly tells its neighbours in the octet: hulls of 256 vertices, deep and turned, take 12 % less.
+    /// What tells one edge then mostly tells its neighbours in the octet: hulls of 256 vertices, deep and turned,
+    /// take 12 % less.
     pub const SORTED_FROM: usize = 64;
 
     const NONE: Self = Self { sides: [FaceOctet::NONE; 2], cosine: [1.0; 8], numbers: [0; 8] };
@@ -235,8 +236,8 @@ impl EdgeOctet {
     }
 }
 
-/// A direction's place on a curve through all of them, of which near ones are mostly near on it: the bits of its coordinates
-/// in turns (Morton, "A computer oriented geodetic data base", IBM, 1966).
+/// A direction's place on a curve through all of them, of which near ones are mostly near on it: the bits of its
+/// coordinates in turns (Morton, "A computer oriented geodetic data base", IBM, 1966).
 fn place_on_curve(direction: Vec3) -> u16 {
     let cells = direction.to_array().map(|along| ((along + 1.0) * 15.99) as u16);
     let mut place = 0;

@@ -1,10 +1,11 @@
 //! What poses, rays and shapes look like to serde.
 //!
-//! Every type has a plain form: numbers and lists, named as the type's own readers are. What is stored is the form made of a
-//! value; what is loaded is a form, from which the value is made by the type's constructor, so that nothing comes in
-//! that could not have been made here, and by the same bits. Whatever can be worked out is not stored.
+//! Every type has a plain form: numbers and lists, named as the type's own readers are. What is stored is the form
+//! made of a value; what is loaded is a form, from which the value is made by the type's constructor, so that
+//! nothing comes in that could not have been made here, and by the same bits. Whatever can be worked out is not stored.
 //!
-//! Numbers keep every bit in any binary format. Of text formats, serde_json reads floats to the last bit only with its feature
+//! Numbers keep every bit in any binary format. Of text formats, serde_json reads floats to the last bit only with
+//! its feature
 //! `float_roundtrip`.
 
 mod plane;

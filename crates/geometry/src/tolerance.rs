@@ -6,9 +6,9 @@
 /// Share of a pair's size at which a cast in the plane calls two shapes that still have a gap touching.
 ///
 /// A cast comes so close by axes alone, and then takes the last step along the axis that it has; what is left is in the
-/// impact's error, and is mostly rounding. A pair that passes by within it counts as touching. A larger value makes wider
-/// misses hits; with a smaller one the axis across the last gap is rounding (1e-16 of the size over the gap), and so are the
-/// normals.
+/// impact's error, and is mostly rounding. A pair that passes by within it counts as touching. A larger value makes
+/// wider misses hits; with a smaller one the axis across the last gap is rounding (1e-16 of the size over the gap),
+/// and so are the normals.
 pub const CAST_GAP2: f64 = 1e-8;
 
 /// Share of a hull's outer radius within which neighbouring facets count as one flat face.
@@ -51,15 +51,15 @@ pub const DISTANCE_GAP: f64 = 1e-12;
 /// Share of a pair's size up to which shapes that move towards each other count as having met, where no certified step
 /// brings them closer at once.
 ///
-/// A step is along one axis, and for polytopes the last one ends at the contact up to [`IMPACT_REST`]; only round or turning
-/// shapes stop here. It is part of every impact's stated error. A smaller value costs a step or two where shapes graze;
-/// a larger one stops bodies visibly short.
+/// A step is along one axis, and for polytopes the last one ends at the contact up to [`IMPACT_REST`]; only round
+/// or turning shapes stop here. It is part of every impact's stated error. A smaller value costs a step or two
+/// where shapes graze; a larger one stops bodies visibly short.
 pub const IMPACT_GAP: f64 = 1e-6;
 
 /// Share of a pair's size that a certified step leaves between moving shapes.
 ///
-/// Closer, the distance iteration sees little but rounding: it has 1e-15 of the size. It is part of every impact's stated
-/// error, and far below an f32 rounding of the size.
+/// Closer, the distance iteration sees little but rounding: it has 1e-15 of the size. It is part of every impact's
+/// stated error, and far below an f32 rounding of the size.
 pub const IMPACT_REST: f64 = 1e-9;
 
 /// Share of a cloud's size by which a point must stand out of the hull of those before it to count as a vertex that no
@@ -70,14 +70,15 @@ pub const IMPACT_REST: f64 = 1e-9;
 /// refused.
 pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 
-/// Share of a hull's half diagonal up to which a stored hull's vertices may lie beyond one of its faces: what merging at
-/// [`COPLANAR`] may leave, with room.
+/// Share of a hull's half diagonal up to which a stored hull's vertices may lie beyond one of its faces: what
+/// merging at [`COPLANAR`] may leave, with room.
 ///
 /// Faces are derived data that prove nothing, so a larger value costs depth accuracy (the planarity error enters every
 /// reported error) and a smaller one would refuse hulls that were built here.
 pub const MERGED_PLANARITY: f64 = 8.0 * COPLANAR;
 
-/// How far the square of a stored rotation's length in the plane may be from one: both components are rounded to f32 once.
+/// How far the square of a stored rotation's length in the plane may be from one: both components are rounded to
+/// f32 once.
 ///
 /// Twice the rounding of f32, and a little for its square. A larger value would let stored rotations stretch shapes; a
 /// smaller one would refuse rotations that were made here.
@@ -85,15 +86,15 @@ pub const UNIT_ROTATION: f64 = 1.000_001 * (f32::EPSILON as f64);
 
 /// Share of a character's bounding radius that it keeps between itself and everything, unless told otherwise.
 ///
-/// It must be far above the rounding of positions and the error of casts, so that a character that slides along a floor never
-/// meets the inner edges of its tiles; a larger one becomes visible as hovering.
+/// It must be far above the rounding of positions and the error of casts, so that a character that slides along a
+/// floor never meets the inner edges of its tiles; a larger one becomes visible as hovering.
 pub const SKIN: f32 = 0.01;
 
 /// The least share of its bounding radius that a character keeps between itself and everything, and what
 /// it is pushed clear of solids by.
 ///
-/// A smaller one comes near the error of casts (1e-6 of a pair's size), and then a character could come to touch what it slides
-/// along.
+/// A smaller one comes near the error of casts (1e-6 of a pair's size), and then a character could come to touch
+/// what it slides along.
 pub const LEAST_SKIN: f64 = 1.0 / 4096.0;
 
 /// Share of its skin that a character may lack before it is moved back to it.
@@ -102,29 +103,30 @@ pub const LEAST_SKIN: f64 = 1.0 / 4096.0;
 /// visibly while it slides.
 pub const SKIN_SLACK: f64 = 1.0 / 64.0;
 
-/// Share of a displacement below which a character counts as standing still, and the sine below which a direction counts as along a
-/// wall rather than into it.
+/// Share of a displacement below which a character counts as standing still, and the sine below which a direction
+/// counts as along a wall rather than into it.
 ///
 /// Above the rounding of f32 normals (6e-8) and displacements; a larger one lets characters creep into corners.
 pub const STANDSTILL: f64 = 1e-6;
 
-/// Sine of the angle below which a cast counts as grazing what it meets: the normal is then tilted by as much against the way, so
-/// that sliding along it leads off.
+/// Sine of the angle below which a cast counts as grazing what it meets: the normal is then tilted by as much
+/// against the way, so that sliding along it leads off.
 ///
-/// A normal across the way would change nothing, and the next cast would meet the same again. A larger one bends the way
-/// visibly.
+/// A normal across the way would change nothing, and the next cast would meet the same again. A larger one bends
+/// the way visibly.
 pub const GRAZING: f64 = 1e-5;
 
 /// Sine of the angle by which what leans over counts as an upright wall.
 ///
-/// Walls hold back what goes into them sideways; a ceiling turns it downwards. Above the rounding of f32 normals; a larger one makes
-/// walls of ceilings.
+/// Walls hold back what goes into them sideways; a ceiling turns it downwards. Above the rounding of f32 normals; a
+/// larger one makes walls of ceilings.
 pub const UPRIGHT: f64 = 1e-3;
 
-/// Least cosine between up and the normal where round feet touch the edge of a step. What hangs on to an edge by less falls off.
+/// Least cosine between up and the normal where round feet touch the edge of a step. What hangs on to an edge by
+/// less falls off.
 ///
-/// A larger one lets round feet slip from stairs that are nearly as high as they are wide; at zero they would hold on to edges
-/// beside them.
+/// A larger one lets round feet slip from stairs that are nearly as high as they are wide; at zero they would hold
+/// on to edges beside them.
 pub const EDGE_HOLD: f64 = 0.05;
 
 /// The smallest bounding radius a shape may have, in metres.

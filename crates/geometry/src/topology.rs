@@ -136,8 +136,8 @@ impl Topology {
         self.half_edges[self.face_half_edges(face)].iter().map(|h| h.origin as usize)
     }
 
-    /// The half-edges that leave a vertex, ascending. They lead to its neighbours, and every face at the vertex has one.
-    /// None for a vertex that is not there.
+    /// The half-edges that leave a vertex, ascending. They lead to its neighbours, and every face at the vertex has
+    /// one. None for a vertex that is not there.
     ///
     /// ```
     /// use asunder_geometry::Cuboid;

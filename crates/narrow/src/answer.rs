@@ -36,9 +36,10 @@ pub enum Answer {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tier {
-    /// What is asked first, by its own bound. For two cuboids, or polygons of few edges, all axes: one shows a gap beyond
-    /// rounding, or each more overlap than it may be off by. For half-spaces, spheres and capsules a distance in closed
-    /// form. For the rest a search for an axis that parts them, or for corners around a common point.
+    /// What is asked first, by its own bound. For two cuboids, or polygons of few edges, all axes: one shows a gap
+    /// beyond rounding, or each more overlap than it may be off by. For half-spaces, spheres and capsules a
+    /// distance in closed form. For the rest a search for an axis that parts them, or for corners around a common
+    /// point.
     Bound,
     /// For those that went by axes: the same search.
     Double,

@@ -9,25 +9,26 @@
 //!   the gap is next to nothing: an impact                                            (tolerance: CAST_GAP2)
 //!   go on for as long as this axis, and no other, shows a gap for certain            (course)
 //! ```
-//! The step is that of van den Bergen, "Ray casting against general convex objects with application to continuous collision
-//! detection" (2004), for shapes that only move: along a fixed axis the gap closes at a constant speed. The distance of convex
-//! sets that only move is convex over time, and the step is Newton's for it: two rounds for a face, quadratic for corners and
-//! round shapes, and where they graze, each round leaves a quarter of the gap.
+//! The step is that of van den Bergen, "Ray casting against general convex objects with application to continuous
+//! collision detection" (2004), for shapes that only move: along a fixed axis the gap closes at a constant speed.
+//! The distance of convex sets that only move is convex over time, and the step is Newton's for it: two rounds for
+//! a face, quadratic for corners and round shapes, and where they graze, each round leaves a quarter of the gap.
 //!
-//! For shapes that turn as well, conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body systems",
-//! 1996) bounds the speed of every point by its arm and the angular speed, and converges slowly where a rod spins fast and
-//! closes slowly. What is done instead:
-//! 1. Along one axis, each vertex' projection has a second derivative of at most M (arm times angular acceleration and squared
-//!    speed). So between two times that are D apart the gap is no less than the lesser of the two, less M D^2 / 8: two
-//!    projections certify a whole stretch. The longest such stretch is found by regula falsi, at two supports a try.
-//! 2. The error of that bound shrinks with the square of the stretch: the last rounds converge as Newton's do, however fast
-//!    the spin. Catto's bilateral advancement (GDC 2013) reaches as much along an axis, but takes the deepest point at the end
-//!    for the only one that matters; here no vertex can slip through between two times.
-//! 3. Turns are cut in halves of at most a quarter turn (`Motion2`), so that angular speeds and accelerations stay within
-//!    a small factor of their mean.
+//! For shapes that turn as well, conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body
+//! systems", 1996) bounds the speed of every point by its arm and the angular speed, and converges slowly where a
+//! rod spins fast and closes slowly. What is done instead:
+//! 1. Along one axis, each vertex' projection has a second derivative of at most M (arm times angular acceleration
+//!    and squared speed). So between two times that are D apart the gap is no less than the lesser of the two, less
+//!    M D^2 / 8: two projections certify a whole stretch. The longest such stretch is found by regula falsi, at two
+//!    supports a try.
+//! 2. The error of that bound shrinks with the square of the stretch: the last rounds converge as Newton's do,
+//!    however fast the spin. Catto's bilateral advancement (GDC 2013) reaches as much along an axis, but takes the
+//!    deepest point at the end for the only one that matters; here no vertex can slip through between two times.
+//! 3. Turns are cut in halves of at most a quarter turn (`Motion2`), so that angular speeds and accelerations stay
+//!    within a small factor of their mean.
 //!
-//! Measured in ns (AMD EPYC, Zen 4, 2026-11-21, a busy machine; 2000 seeded pairs of equal shapes of about 2 m on their way past
-//! each other, four of five hits; for `half-plane`, with a circle):
+//! Measured in ns (AMD EPYC, Zen 4, 2026-11-21, a busy machine; 2000 seeded pairs of equal shapes of about 2 m on
+//! their way past each other, four of five hits; for `half-plane`, with a circle):
 //!
 //! | | capsule | rectangle | 8 edges | 64 edges | 4096 edges | half-plane |
 //! |---|---|---|---|---|---|---|
@@ -37,8 +38,8 @@
 //! | impact, turning | 6684 | 11178 | 5461 | 12632 | 18070 | 544 |
 //! | ray | 58 | 55 | 75 | 84 | 174 | 33 |
 //!
-//! What the poses in between round to is part of every bound: f64 positions, and rotations rounded to f32, 1.2e-7 of the
-//! arm. That is the best `error` that an impact of turning shapes can have.
+//! What the poses in between round to is part of every bound: f64 positions, and rotations rounded to f32, 1.2e-7
+//! of the arm. That is the best `error` that an impact of turning shapes can have.
 
 mod course;
 mod piece;
@@ -58,20 +59,22 @@ pub use ray::cast_ray2;
 use stretch::{Stretch, Travel};
 
 impl Pair2<'_> {
-    /// Where A first touches B when it moves by a displacement in metres, in world axes, and B stands; nothing if it does not.
+    /// Where A first touches B when it moves by a displacement in metres, in world axes, and B stands; nothing if
+    /// it does not.
     ///
-    /// - Touching at the start, exactly, is an impact at fraction 0, also where A moves away. Its anchors are the deepest
-    ///   contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
-    /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin, 1e-7 m at 1e8 m) is an impact at 0 too,
-    ///   whichever way A moves; but `overlapping` says no, and `error` how far apart they may be.
-    /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says by how
-    ///   much they may miss.
+    /// - Touching at the start, exactly, is an impact at fraction 0, also where A moves away. Its anchors are the
+    ///   deepest contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
+    /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin, 1e-7 m at 1e8
+    ///   m) is an impact at 0 too, whichever way A moves; but `overlapping` says no, and `error` how far apart they
+    ///   may be.
+    /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
+    ///   by how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.
     /// - A displacement that is not finite counts as none.
     ///
-    /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap, and one
-    /// distance for each round: one to three rounds for most pairs, some twenty where curves graze. So it grows as
-    /// [`distance`](Self::distance) does: as the logarithm of a polygon's vertices.
+    /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap,
+    /// and one distance for each round: one to three rounds for most pairs, some twenty where curves graze. So it
+    /// grows as [`distance`](Self::distance) does: as the logarithm of a polygon's vertices.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -93,11 +96,12 @@ impl Pair2<'_> {
     /// Where the bodies first touch when both move, and perhaps turn; nothing if they do not. All that
     /// [`cast`](Self::cast) says holds here too.
     ///
-    /// The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they touch, and
-    /// there they are at most `error` apart. Where a body turns, that is no less than 1.2e-7 of its arm. Two
+    /// The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they
+    /// touch, and there they are at most `error` apart. Where a body turns, that is no less than 1.2e-7 of its arm. Two
     /// half-planes of which one turns touch at once.
     ///
-    /// Cost: as a cast where nothing turns; else 5 to 20 us, most of it distances, and two supports for every time tried.
+    /// Cost: as a cast where nothing turns; else 5 to 20 us, most of it distances, and two supports for every time
+    /// tried.
     ///
     /// ```
     /// use asunder_geometry::{Circle, Motion2, Pose2, Rect, Rotation2, Shape2, glam::Vec2};

@@ -40,15 +40,16 @@ pub use ray::cast_ray3;
 impl Pair3<'_> {
     /// When A, moved by this displacement in metres, first touches B, which stands; nothing where it never does.
     ///
-    /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most 1e-6 of
-    /// the pair's size for round shapes, 4e-9 for others, save where the displacement is so long or the bodies so far from
-    /// the origin that f64 has no nearer place. A miss is certain too. Shapes that pass each other within `error` may be told
-    /// as an impact.
+    /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most
+    /// 1e-6 of the pair's size for round shapes, 4e-9 for others, save where the displacement is so long or the
+    /// bodies so far from the origin that f64 has no nearer place. A miss is certain too. Shapes that pass each
+    /// other within `error` may be told as an impact.
     ///
-    /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal with the
-    /// displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own, and both anchors
-    /// are the bodies' positions. A displacement that is not finite counts as none. Of compounds, the parts that meet first.
-    /// Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches of both for others.
+    /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal
+    /// with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own,
+    /// and both anchors are the bodies' positions. A displacement that is not finite counts as none. Of compounds,
+    /// the parts that meet first. Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches
+    /// of both for others.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -80,12 +81,13 @@ impl Pair3<'_> {
 
     /// When two bodies that both move, and may turn, first touch; nothing where they never do.
     ///
-    /// As [`cast`](Self::cast), along the path that [`Motion3`] describes, taken exactly: before the fraction that is told the
-    /// shapes do not touch on it. [`Motion3::pose_at`] rounds rotations to f32 and positions to f64; poses from it may
-    /// overlap by that rounding just before the fraction, and at the fraction are at most `error` apart with it. Where many
-    /// steps lead no nearer, as for shapes that graze each other while they turn, the fraction is that of the last step,
-    /// and `error` the gap that is left there. Cost: a few distances; several times those of a [`cast`](Self::cast) while turning;
-    /// of compounds, for every pair of parts whose swept bounding spheres meet.
+    /// As [`cast`](Self::cast), along the path that [`Motion3`] describes, taken exactly: before the fraction that
+    /// is told the shapes do not touch on it. [`Motion3::pose_at`] rounds rotations to f32 and positions to f64;
+    /// poses from it may overlap by that rounding just before the fraction, and at the fraction are at most `error`
+    /// apart with it. Where many steps lead no nearer, as for shapes that graze each other while they turn, the
+    /// fraction is that of the last step, and `error` the gap that is left there. Cost: a few distances; several
+    /// times those of a [`cast`](Self::cast) while turning; of compounds, for every pair of parts whose swept
+    /// bounding spheres meet.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::{Quat, Vec3}};

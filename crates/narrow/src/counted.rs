@@ -1,7 +1,7 @@
 //! Steps of kernels, so that tests can count what they cannot time.
 //!
-//! A step is one halving of a search, one edge of a polygon, or one go over eight vertices, faces or edges: 3 to 5 ns (AMD
-//! EPYC, Zen 4, 2026-11-21). What takes longer counts as several. In what is shipped there is no counter.
+//! A step is one halving of a search, one edge of a polygon, or one go over eight vertices, faces or edges: 3 to 5
+//! ns (AMD EPYC, Zen 4, 2026-11-21). What takes longer counts as several. In what is shipped there is no counter.
 
 /// Counts one step, in tests.
 #[inline(always)]

@@ -81,11 +81,11 @@ impl FeatureId {
 
 /// What the last frame learnt about a pair: opaque, cheap to keep, and safe to lose.
 ///
-/// It names the axis to try first: the features that it belongs to, or the direction that parted the shapes; and, where it
-/// is another, the face that contact points were made on. A stale hint, also one made for other shapes, costs a projection
-/// or two and can never change whether shapes overlap, nor break a bound on an error: an axis is believed only after both
-/// shapes were projected on it. Among features that are equally good up to rounding, contact points are made where the
-/// hint says that they were: what a solver stands on does not flicker.
+/// It names the axis to try first: the features that it belongs to, or the direction that parted the shapes; and,
+/// where it is another, the face that contact points were made on. A stale hint, also one made for other shapes,
+/// costs a projection or two and can never change whether shapes overlap, nor break a bound on an error: an axis is
+/// believed only after both shapes were projected on it. Among features that are equally good up to rounding,
+/// contact points are made where the hint says that they were: what a solver stands on does not flicker.
 ///
 /// ```
 /// use asunder_narrow::Hint;
@@ -110,7 +110,8 @@ enum Known {
     /// Bits of a [`FeatureId`]; then the face that contact points were made on, where it is another: the top bit, its
     /// index, and whose it is. Zero where it is not.
     Features([u32; 3]),
-    /// Bits of a vector: in A's axes in space, in the world's in the plane. Of compounds, one that parted them as wholes.
+    /// Bits of a vector: in A's axes in space, in the world's in the plane. Of compounds, one that parted them as
+    /// wholes.
     Direction([u32; 3]),
     /// Of compounds that are apart, the direction to try next, and for how many frames none has parted them as wholes.
     Sought(u8, [u32; 3]),
@@ -118,8 +119,8 @@ enum Known {
     Parts([u32; 3]),
 }
 
-/// For how many frames on end a direction is sought that parts two compounds as wholes, and one of how many frames tries
-/// again. Hammers hooked into each other, which no plane parts: 8 to 40 % slower where every frame tried.
+/// For how many frames on end a direction is sought that parts two compounds as wholes, and one of how many frames
+/// tries again. Hammers hooked into each other, which no plane parts: 8 to 40 % slower where every frame tried.
 const TRIES: u8 = 4;
 const PAUSE: u8 = 16;
 
@@ -163,7 +164,8 @@ impl Hint {
         Self(Known::Direction(direction.as_vec3().to_array().map(f32::to_bits)))
     }
 
-    /// Of compounds that are apart: the direction to try next, after one more frame in which none parted them as wholes.
+    /// Of compounds that are apart: the direction to try next, after one more frame in which none parted them as
+    /// wholes.
     pub(crate) fn seeking(self, direction: DVec3) -> Self {
         let frames = if let Known::Sought(frames, _) = self.0 { frames.wrapping_add(1) } else { 0 };
         Self(Known::Sought(frames, direction.as_vec3().to_array().map(f32::to_bits)))

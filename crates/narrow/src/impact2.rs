@@ -19,10 +19,11 @@ use asunder_geometry::glam::Vec2;
 pub struct Impact2 {
     /// The share of the motion that is done, 0 to 1. Conservative: before it they do not touch.
     pub fraction: f64,
-    /// Metres: at `fraction` the shapes are at most this far apart, where their poses round to included. Zero where they
-    /// touch at the start.
+    /// Metres: at `fraction` the shapes are at most this far apart, where their poses round to included. Zero where
+    /// they touch at the start.
     pub error: f32,
-    /// Whether they touch at the start already, exactly. Then the fraction is 0, and the normal that of the least depth.
+    /// Whether they touch at the start already, exactly. Then the fraction is 0, and the normal that of the least
+    /// depth.
     pub overlapping: bool,
     /// Unit normal in world axes, from A to B, at the impact.
     pub normal: Vec2,
@@ -51,8 +52,8 @@ pub struct Impact2 {
 pub struct RayHit2 {
     /// How far along the ray, in lengths of its direction: what `Ray2::at` takes.
     pub distance: f64,
-    /// Metres along the ray that the distance may be off by. A ray that misses by less than rounding may be called a hit, and
-    /// one that goes in by less than it a miss.
+    /// Metres along the ray that the distance may be off by. A ray that misses by less than rounding may be called
+    /// a hit, and one that goes in by less than it a miss.
     pub error: f32,
     /// Outward unit normal of the shape there, in world axes; against the ray where it starts inside.
     pub normal: Vec2,

@@ -35,8 +35,8 @@ pub struct Job3<'a> {
     pub sensor: bool,
 }
 
-/// Answers a slice of jobs, appending to the batch. Jobs do not influence each other, but cuboids cost less in slices of
-/// dozens: eight pairs of them are looked at at a time.
+/// Answers a slice of jobs, appending to the batch. Jobs do not influence each other, but cuboids cost less in
+/// slices of dozens: eight pairs of them are looked at at a time.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -74,8 +74,8 @@ pub fn collide3(jobs: &[Job3<'_>], batch: &mut Batch3) {
     }
 }
 
-/// The separations of many pairs, each as [`Pair3::separation`] has it, appended in order. Cuboids cost less in slices of
-/// dozens, as in [`collide3`].
+/// The separations of many pairs, each as [`Pair3::separation`] has it, appended in order. Cuboids cost less in
+/// slices of dozens, as in [`collide3`].
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};

@@ -8,13 +8,13 @@
 //!     1, 12               of an edge in the plane: 1, which
 //!     1, 9, 2, 9          of a face: 0, which; whether points are on another, of A (1) or of B (2); which
 //! ```
-//! A pair of parts that has a place keeps it while it touches, whichever is the deepest: a body that rests on four legs would
-//! else have others each frame. Free places go to the deepest.
+//! A pair of parts that has a place keeps it while it touches, whichever is the deepest: a body that rests on four
+//! legs would else have others each frame. Free places go to the deepest.
 //!
-//! Hammers of 2, 4 and 8 parts that touch, nanoseconds a pair without and with (AMD EPYC, Zen 4, 2026-11-21): of hulls of 32,
-//! 3817, 4057, 5043 to 2713, 3326, 4320, and on a slab 1882, 3030, 5555 to 1291, 2427, 4755. Of boxes, whose fifteen axes
-//! cost no more than a proof, 1599, 1952, 3155 to 1707, 2028, 3090: their hint is no gain in time, and is kept for the face
-//! that points stand on.
+//! Hammers of 2, 4 and 8 parts that touch, nanoseconds a pair without and with (AMD EPYC, Zen 4, 2026-11-21): of
+//! hulls of 32, 3817, 4057, 5043 to 2713, 3326, 4320, and on a slab 1882, 3030, 5555 to 1291, 2427, 4755. Of boxes,
+//! whose fifteen axes cost no more than a proof, 1599, 1952, 3155 to 1707, 2028, 3090: their hint is no gain in
+//! time, and is kept for the face that points stand on.
 //!
 //! Hints of directions find no room. They are of parts that are apart, and of corners across a gap.
 

@@ -1,8 +1,8 @@
 //! Several numbers side by side: arrays whose operations LLVM turns into vector instructions, on any target.
 //!
-//! No intrinsics and no widths: a lane's arithmetic is that of a single number, in the order in which it is written, and so
-//! its bits are the same at every width. What is written to memory comes out as vectors; what stays in registers all
-//! the way often comes out as scalars.
+//! No intrinsics and no widths: a lane's arithmetic is that of a single number, in the order in which it is
+//! written, and so its bits are the same at every width. What is written to memory comes out as vectors; what stays
+//! in registers all the way often comes out as scalars.
 
 use core::ops::{Add, Mul, Sub};
 

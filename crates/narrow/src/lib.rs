@@ -6,8 +6,8 @@
 //! [`collide3`]).
 //!
 //! # What the answers mean
-//! The **true shape** is the convex hull of the stored f32 vertices v, with everything within the stored f32 radius of it,
-//! turned and moved exactly. Faces are derived data and prove nothing.
+//! The **true shape** is the convex hull of the stored f32 vertices v, with everything within the stored f32 radius
+//! of it, turned and moved exactly. Faces are derived data and prove nothing.
 //!
 //! ```text
 //! in space        x = M(q)/|q|^2 v + p         for the stored quaternion q, of any length, and the f64 position p
@@ -21,8 +21,8 @@
 //!
 //! - `overlaps` is exact. [`Tier`] says what it took.
 //! - Every separation, distance and manifold has an `error`: |true - reported| <= error, in metres.
-//! - `separation <= 0` exactly when `overlaps`; `distance` has points exactly when not. Where the rounded number disagrees
-//!   with the exact answer it becomes zero, or the least positive f32.
+//! - `separation <= 0` exactly when `overlaps`; `distance` has points exactly when not. Where the rounded number
+//!   disagrees with the exact answer it becomes zero, or the least positive f32.
 //! - A pair is within a margin when it overlaps or its reported separation is at most the margin.
 //! - All tolerances are relative: a scene scaled by a power of two has the same answers, scaled. Positions are
 //!   subtracted in f64 first, so that nothing is lost with the distance from the origin.

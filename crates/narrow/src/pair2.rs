@@ -88,8 +88,8 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-plane, whose pairs have
-    /// tolerances relative to the other shape.
+    /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-plane, whose
+    /// pairs have tolerances relative to the other shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
@@ -394,8 +394,8 @@ impl Parts<'_> {
     }
 }
 
-/// The parts by their indices, and how points of the frame of the pair are shifted to become vectors from A's position and
-/// from B's.
+/// The parts by their indices, and how points of the frame of the pair are shifted to become vectors from A's
+/// position and from B's.
 #[inline]
 fn manifold(near: &Near, touch: &Touch, (indices, shifts): ([u32; 2], [DVec2; 2])) -> Manifold2 {
     let mut points = ArrayVec::new();

@@ -96,8 +96,8 @@ impl<'a> Pair3<'a> {
         Some(Posed { cuboids: [a, b], poses: [&self.pose_a, &self.pose_b] })
     }
 
-    /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-space, whose pairs have
-    /// tolerances relative to the other shape.
+    /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-space, whose
+    /// pairs have tolerances relative to the other shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
@@ -180,8 +180,8 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    /// The closest points of shapes that do not overlap; nothing where they do. Cost: some support searches, each linear
-    /// in the vertices.
+    /// The closest points of shapes that do not overlap; nothing where they do. Cost: some support searches, each
+    /// linear in the vertices.
     pub fn distance(&self) -> Option<Closest3> {
         if let Some(ball) = self.ball() {
             return ball.distance();
@@ -345,8 +345,8 @@ impl<'a> Pair3<'a> {
         matches!(self.shape_a, Shape3::Compound(_)) || matches!(self.shape_b, Shape3::Compound(_))
     }
 
-    /// A lower bound on the separation: the gap between spheres about the bodies' positions, less what it may have lost to
-    /// rounding. It asks for no rotation.
+    /// A lower bound on the separation: the gap between spheres about the bodies' positions, less what it may have
+    /// lost to rounding. It asks for no rotation.
     fn gap_of_spheres(&self) -> f64 {
         // A sum of coordinates bounds a length, and needs no root.
         let radius = |shape: &Shape3| {

@@ -3,8 +3,9 @@
 //! Kernels propose an axis and evaluate it by full projection in f64. What separates the reported number from the
 //! truth is, in metres (`docs/accuracy.md` derives each constant):
 //!
-//! 1. *projection*: rounding in f64. Terms are at most `reach`, the sum of all lengths that enter; in space a projection
-//!    is off by less than 44 units of 2^-53 of that, in the plane by less than 10; for parts of compounds, 128 and 16;
+//! 1. *projection*: rounding in f64. Terms are at most `reach`, the sum of all lengths that enter; in space a
+//!    projection is off by less than 44 units of 2^-53 of that, in the plane by less than 10; for parts of
+//!    compounds, 128 and 16;
 //! 2. *ceiling*, in overlap: the true best axis may be one that was proposed a little beside its place. An axis that is
 //!    off by an angle shows at most that times `reach` too little: once more the projection error for a face, and that
 //!    over the sine of their angle for two edges. What is left is by how much any candidate could beat the best;

@@ -7,23 +7,24 @@
 //! else: pairs of parts that the direction parts are done with
 //!       next frame: the direction reflected by the plane across b - a, a and b being the furthest points
 //! ```
-//! K. Chung and W. Wang, "Quick collision detection of polytopes in virtual environments", 1996: where a plane parts two
-//! convex bodies, the reflected direction is nearer to one that does. The hulls of two compounds are such bodies, and are
-//! never built: the furthest point of a hull is a part's. A direction is believed only by its projections, so that a hint,
-//! also a stale or foreign one, is a place to begin at and nothing else. A frame takes one step: a search that fails goes on
-//! in the next, for a few frames.
+//! K. Chung and W. Wang, "Quick collision detection of polytopes in virtual environments", 1996: where a plane
+//! parts two convex bodies, the reflected direction is nearer to one that does. The hulls of two compounds are such
+//! bodies, and are never built: the furthest point of a hull is a part's. A direction is believed only by its
+//! projections, so that a hint, also a stale or foreign one, is a place to begin at and nothing else. A frame takes
+//! one step: a search that fails goes on in the next, for a few frames.
 //!
-//! Two hammers that drift, each of 2, 4 and 8 parts, `cargo run --release -p asunder-benches --bin compounds` (nanoseconds a
-//! pair without a hint and with, AMD EPYC, Zen 4, 2026-11-21):
+//! Two hammers that drift, each of 2, 4 and 8 parts, `cargo run --release -p asunder-benches --bin compounds`
+//! (nanoseconds a pair without a hint and with, AMD EPYC, Zen 4, 2026-11-21):
 //!
 //! | apart, and | boxes | hulls of 32 |
 //! |---|---|---|
 //! | a plane parts them | 759, 577, 672 to 463, 436, 451 | 699, 651, 998 to 530, 643, 691 |
 //! | none does | 1017, 1268 to 1059, 1265 (2 and 4 parts) | 1451, 1134 to 1456, 1136 |
 //!
-//! Of many parts the direction from middle to middle is worth its projections without any hint: 8 parts each, apart, 1386 to
-//! 860. Tried, and slower: four steps in the frame that a pair appears in, and two in every other (hooked hammers of 4 hulls
-//! by half); a step in every frame, for ever (by 8 to 40 %).
+//! Of many parts the direction from middle to middle is worth its projections without any hint: 8 parts each,
+//! apart, 1386 to
+//! 860. Tried, and slower: four steps in the frame that a pair appears in, and two in every other (hooked hammers
+//!      of 4 hulls by half); a step in every frame, for ever (by 8 to 40 %).
 
 use arrayvec::ArrayVec;
 use core::ops::Add;
@@ -31,8 +32,8 @@ use core::ops::Add;
 /// As many parts have a reach of their own; others count as reaching as far as any.
 const PARTS: usize = 16;
 
-/// Whether bodies have so many pairs of parts that a direction is worth its projections also where it does not part them as
-/// wholes.
+/// Whether bodies have so many pairs of parts that a direction is worth its projections also where it does not part
+/// them as wholes.
 pub(crate) fn is_many([parts_a, parts_b]: [usize; 2]) -> bool {
     parts_a * parts_b >= MANY
 }
@@ -70,7 +71,8 @@ impl<V: Copy + Add<Output = V>> Reaches<V> {
         reaches
     }
 
-    /// By the parts themselves, as far as they may matter: `project` has how far a part reaches, and its furthest point.
+    /// By the parts themselves, as far as they may matter: `project` has how far a part reaches, and its furthest
+    /// point.
     pub(crate) fn refine(&mut self, parts: usize, mut project: impl FnMut(usize) -> (f64, V)) {
         self.most = f64::NEG_INFINITY;
         for part in 0..parts {

@@ -20,8 +20,8 @@ impl Wholes2<'_> {
         (self.between + (b - a)).try_normalize().unwrap_or(DVec2::X)
     }
 
-    /// What a direction of unit length shows, in world axes, and the one to try next where it does not part them. Nothing
-    /// of half-planes, which reach everywhere but along their normal.
+    /// What a direction of unit length shows, in world axes, and the one to try next where it does not part them.
+    /// Nothing of half-planes, which reach everywhere but along their normal.
     pub(crate) fn shadow(&self, direction: DVec2, limit: f64) -> Option<(Shadow<DVec2>, DVec2)> {
         if self.shapes.iter().any(|shape| matches!(shape, Shape2::HalfPlane(_))) {
             return None;

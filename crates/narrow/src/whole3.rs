@@ -22,8 +22,8 @@ impl Wholes3<'_> {
         (self.between + (b - a)).try_normalize().unwrap_or(DVec3::X)
     }
 
-    /// What a direction of unit length shows, in world axes, and the one to try next where it does not part them. Nothing
-    /// of half-spaces, which reach everywhere but along their normal.
+    /// What a direction of unit length shows, in world axes, and the one to try next where it does not part them.
+    /// Nothing of half-spaces, which reach everywhere but along their normal.
     pub(crate) fn shadow(&self, direction: DVec3, limit: f64) -> Option<(Shadow<DVec3>, DVec3)> {
         if self.shapes.iter().any(|shape| matches!(shape, Shape3::HalfSpace(_))) {
             return None;

@@ -152,8 +152,8 @@ impl Solid {
         is_round.then(|| [first, last].map(|vertex| self.part.pose().transform(vertex)))
     }
 
-    /// Seen from afar in parallel, a capsule is a thick line with round ends, and so is the light on it: a few strokes in
-    /// place of a hundred faces.
+    /// Seen from afar in parallel, a capsule is a thick line with round ends, and so is the light on it: a few
+    /// strokes in place of a hundred faces.
     fn draw_rod(&self, canvas: &mut Canvas, view: &View, ends: [DVec3; 2], color: Color) {
         let radius = f64::from(self.part.shape().radius());
         let lit = DVec2::new(view.light.dot(view.right), view.light.dot(view.up));

@@ -23,8 +23,8 @@ pub fn hulls_share_point(a: &[Point], b: &[Point]) -> bool {
     parting(a, b).is_none()
 }
 
-/// What parts the convex hulls of two sets of integer points; `None` if they share a point: weights >= 0, summing to 1 on
-/// each side, whose two weighted means are the same.
+/// What parts the convex hulls of two sets of integer points; `None` if they share a point: weights >= 0, summing
+/// to 1 on each side, whose two weighted means are the same.
 pub fn parting(a: &[Point], b: &[Point]) -> Option<Parting> {
     let (zero, one) = (BigInt::ZERO, BigInt::from(1));
     // Seen from the first point of A the numbers are as short as they can be.

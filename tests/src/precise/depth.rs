@@ -11,7 +11,8 @@
 //! Any axis gives a true lower bound, so that too many do no harm. None is missing: facets are exact, and what f64
 //! leaves out is certain to lose. The axis of two edges at an angle t is known to about 1e-30 / t, and without it only
 //! a sliver of a facet would be left out whose width is t of the edges: no more than 1e-15 can be lost, at t = 1e-15,
-//! and next to nothing where edges are exactly parallel. Where neither hull has an inside D may be flat, and axes across it are added, along which the gap is 0.
+//! and next to nothing where edges are exactly parallel. Where neither hull has an inside D may be flat, and axes
+//! across it are added, along which the gap is 0.
 
 use super::dd::{Dd, Dd3};
 use super::exactly::exact_cross;
@@ -188,7 +189,8 @@ fn rough_gap(a: Body, b: Body, axis: DVec3) -> f64 {
     -reach(b, -axis) - reach(a, axis)
 }
 
-/// The best axis for two outlines in the plane that overlap or touch: the normals of all edges, both ways for a segment.
+/// The best axis for two outlines in the plane that overlap or touch: the normals of all edges, both ways for a
+/// segment.
 pub fn deepest2(a: (Hull, &[usize]), b: (Hull, &[usize])) -> Deepest {
     let normals = |(hull, outline): (Hull, &[usize])| -> Vec<Dd3> {
         let ends = (0..outline.len()).map(|i| (outline[i], outline[(i + 1) % outline.len()]));

@@ -72,9 +72,10 @@ pub fn separations2(a: (&Shape2, &Pose2), b: (&Shape2, &Pose2)) -> Vec<Precise<D
     all_pairs2(a, b).iter().map(cut).map(to_plane).collect()
 }
 
-/// The separation along an axis of any length, from A to B. Of bodies with parts, that of the nearest parts: the best of
-/// the pairs that are within 1e-6 of the size as near as the nearest. Of half-spaces, their separation where the axis
-/// is within 2e-7 of the normal, which f32 can miss by that; minus infinity elsewhere, as it is of the axis zero.
+/// The separation along an axis of any length, from A to B. Of bodies with parts, that of the nearest parts: the
+/// best of the pairs that are within 1e-6 of the size as near as the nearest. Of half-spaces, their separation
+/// where the axis is within 2e-7 of the normal, which f32 can miss by that; minus infinity elsewhere, as it is of
+/// the axis zero.
 pub fn along3(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3), axis: Vec3) -> f64 {
     let origin = a.1.position();
     along(&pieces3(a, origin), &pieces3(b, origin), Dd3::from(axis.as_dvec3()), || all_pairs3(a, b))

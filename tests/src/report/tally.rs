@@ -142,8 +142,8 @@ pub struct Tally {
     pub peers: [PeerTally; 2],
 }
 
-/// What part of the cases a family gets beside others: 1 up to 40 vertices a pair, less in proportion beyond, as judging
-/// takes longer. Cost: making two pairs of every level.
+/// What part of the cases a family gets beside others: 1 up to 40 vertices a pair, less in proportion beyond, as
+/// judging takes longer. Cost: making two pairs of every level.
 ///
 /// ```
 /// use asunder_scenes::hard::FAMILIES2;

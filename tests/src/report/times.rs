@@ -54,8 +54,8 @@ pub fn times<H: Hard>(family: &H, count: usize, seed: u64) -> Times {
     Times { guess: median(guess), overlaps: median(overlaps), peers: [median(in_f32), median(in_f64)] }
 }
 
-/// Times one question about the block from `first` on, in nanoseconds a pair; asked once before, so that who comes first
-/// does not pay for the cache.
+/// Times one question about the block from `first` on, in nanoseconds a pair; asked once before, so that who comes
+/// first does not pay for the cache.
 fn time<T>(samples: &mut Vec<f64>, pairs: &[T], first: usize, ask: impl Fn(&T) -> bool) {
     let block = pairs.get(first..).unwrap_or_default();
     let block = &block[..block.len().min(BLOCK)];

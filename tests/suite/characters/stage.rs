@@ -74,7 +74,8 @@ impl<'w> Hero<'w> {
         self.pose.position() - DVec3::Y * (0.9 + f64::from(self.walk.skin))
     }
 
-    /// One frame. What holds of every frame is checked: from a free start nothing is entered, and the way is not too long.
+    /// One frame. What holds of every frame is checked: from a free start nothing is entered, and the way is not
+    /// too long.
     pub(super) fn step(&mut self, displacement: impl Into<Vec3>) -> Slide3 {
         let displacement = displacement.into();
         let was_free = is_free(self.world, &self.shape, &self.pose);

@@ -18,7 +18,8 @@ struct Moved {
     limit: f64,
 }
 
-/// How much a distance may fall short, as a part of itself: four roundings to f32 of 6e-8, and twice 2.4e-7 that are taken off.
+/// How much a distance may fall short, as a part of itself: four roundings to f32 of 6e-8, and twice 2.4e-7 that
+/// are taken off.
 const SHORT: f64 = 1e-6;
 
 impl Moved {
@@ -222,7 +223,8 @@ fn a_ray_that_touches_is_not_lost() {
     }
 }
 
-/// In small whole numbers, where nothing is rounded but quotients: a line that touches a corner, entering and leaving at once.
+/// In small whole numbers, where nothing is rounded but quotients: a line that touches a corner, entering and
+/// leaving at once.
 #[test]
 fn a_line_through_a_corner_is_not_lost() {
     let mut random = Random::new(824);

@@ -65,7 +65,8 @@ impl Said {
         self.names.extend(coordinates.iter().map(|c| u64::from(c.to_bits())));
     }
 
-    /// Whether the other one is this one in units of 2^-k metres. Lengths below the least normal f32 have no bits to keep.
+    /// Whether the other one is this one in units of 2^-k metres. Lengths below the least normal f32 have no bits
+    /// to keep.
     fn is_in_units(&self, other: &Self, k: i32) -> bool {
         let follows = |(&one, &other): (&f32, &f32)| {
             let expected = f64::from(one) * power_of_two(k);

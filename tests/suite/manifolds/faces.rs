@@ -216,8 +216,8 @@ fn the_manifold_of_b_and_a_mirrors_that_of_a_and_b() {
     assert!(points[1..].iter().all(|&count| count > 50), "manifolds of every size: {points:?}");
 }
 
-/// Turned together, both have the same points, by the same names; what differs is the rounding of the quaternions, which
-/// are f32.
+/// Turned together, both have the same points, by the same names; what differs is the rounding of the quaternions,
+/// which are f32.
 #[test]
 fn a_turn_of_both_changes_no_name_of_a_point() {
     let mut random = Random::new(323);

@@ -78,8 +78,8 @@ fn a_stale_memory_moves_no_point() {
     }
 }
 
-/// A solver's body trembles on what it rests on. Over sixty frames now one face is the better axis and now the other, by up
-/// to two preferences: with the memory the reference stays, and so does every name.
+/// A solver's body trembles on what it rests on. Over sixty frames now one face is the better axis and now the
+/// other, by up to two preferences: with the memory the reference stays, and so does every name.
 #[test]
 fn names_and_the_reference_stay_while_a_resting_body_trembles() {
     let mut random = Random::new(331);
@@ -89,8 +89,8 @@ fn names_and_the_reference_stay_while_a_resting_body_trembles() {
         let turn = random.direction2().as_vec2();
         let aside = random.vector() * 0.1;
         let mut tremble = || {
-            // Along A's normal B is as deep as its lower corner, 1.27 aside; along B's own, as A's, at least 0.25 aside. So
-            // much for a slope of up to 7.1e-7 is 1.7 preferences.
+            // Along A's normal B is as deep as its lower corner, 1.27 aside; along B's own, as A's, at least 0.25
+            // aside. So much for a slope of up to 7.1e-7 is 1.7 preferences.
             let tilt = (random.vector() * 2.5e-7).as_vec3();
             let step = random.vector() * 1e-6;
             let rotation = Quat::from_xyzw(tilt.x, turn.y + tilt.y, tilt.z, turn.x);

@@ -13,7 +13,8 @@ fn unit(random: &mut Rand64) -> f32 {
     random.rand_float() as f32 * 2.0 - 1.0
 }
 
-/// Points in a box of any proportions up to a million to one, turned anyhow or not at all, near the origin or far from it.
+/// Points in a box of any proportions up to a million to one, turned anyhow or not at all, near the origin or far
+/// from it.
 fn any_points(random: &mut Rand64) -> Vec<Vec3> {
     let count = 4 + random.rand_range(0..40) as usize;
     let extents: Vec3 =

@@ -40,8 +40,9 @@ impl Sums {
         }
     }
 
-    /// Volume, centre, and central second moments. With n dimensions a simplex of determinant d has the volume d / n!, the
-    /// first moment d s / (n + 1)! and the second moment d (sum of c c^T + s s^T) / (n + 2)!, where s is the corners' sum.
+    /// Volume, centre, and central second moments. With n dimensions a simplex of determinant d has the volume d /
+    /// n!, the first moment d s / (n + 1)! and the second moment d (sum of c c^T + s s^T) / (n + 2)!, where s is
+    /// the corners' sum.
     fn properties(&self) -> (f64, Vec<f64>, Vec<Vec<f64>>) {
         let n = self.first.len() as u64;
         let factorial = |k: u64| BigInt::from((1..=k).product::<u64>());

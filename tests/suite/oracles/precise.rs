@@ -180,7 +180,8 @@ fn separations_known_beforehand_are_found() {
     // In one pose, six faces are as good as each other.
     known((&cube, &home), (&cube, &home), -2.0, None);
     known((&cuboid(1.0, 2.0, 3.0), &home), (&cube, &at(0.25, 0.0, 0.0)), -1.75, Some(DVec3::X));
-    // Two beams crossed at right angles, tilted by cos 3/5 and sin 4/5: edge on edge would be longer, face on face wins.
+    // Two beams crossed at right angles, tilted by cos 3/5 and sin 4/5: edge on edge would be longer, face on face
+    // wins.
     let crossed = Quat::from_xyzw(1.0, 0.0, 0.0, 2.0);
     let beam = cuboid(5.0, 1.0, 1.0);
     let tilted = Pose3::new(DVec3::new(0.0, 3.0, 0.0), crossed).unwrap();

@@ -57,7 +57,8 @@ pub(super) struct Judged {
     along_ray: Option<(f64, f64, bool)>,
     /// Fraction of the displacement, and whether they overlap already.
     along: Option<(f64, bool)>,
-    /// Whether the body's box is beside the ray, or the way of the moved shape's box: then they meet by rounding at most.
+    /// Whether the body's box is beside the ray, or the way of the moved shape's box: then they meet by rounding at
+    /// most.
     is_beside: [bool; 2],
 }
 

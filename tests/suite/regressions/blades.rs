@@ -23,8 +23,8 @@ fn collide((shape_a, pose_a): Posed, (shape_b, pose_b): Posed, hint: Hint) -> (H
     }
 }
 
-/// Symptom: a blade in a box was 0.14 m deep, +- 8 nm, and was 0.09. Cause: 1 + cos of the angle between the faces beside
-/// its edge was half as large as its rounding to f32, and the edge was left out before the axes.
+/// Symptom: a blade in a box was 0.14 m deep, +- 8 nm, and was 0.09. Cause: 1 + cos of the angle between the faces
+/// beside its edge was half as large as its rounding to f32, and the edge was left out before the axes.
 #[test]
 fn the_edge_of_a_blade_is_not_left_out() {
     let blade = hull(&[
@@ -55,9 +55,9 @@ fn the_edge_of_a_blade_is_not_left_out() {
     }
 }
 
-/// Symptom: two ridges 1e-14 m apart, which cross at 6e-6 rad, overlapped where last frame's hint named their edges. Cause:
-/// the axis of edges at such an angle is beside its place, so that one corner of their parallelogram showed an overlap, and
-/// the others, which did not, were not asked.
+/// Symptom: two ridges 1e-14 m apart, which cross at 6e-6 rad, overlapped where last frame's hint named their
+/// edges. Cause: the axis of edges at such an angle is beside its place, so that one corner of their parallelogram
+/// showed an overlap, and the others, which did not, were not asked.
 #[test]
 fn a_hint_of_nearly_parallel_edges_proves_no_overlap() {
     let below = hull(&[
@@ -92,8 +92,9 @@ fn a_hint_of_nearly_parallel_edges_proves_no_overlap() {
     assert!((1..11).contains(&apart), "on both sides: {apart} apart");
 }
 
-/// Symptom: of four contact points one was 0.1 m beside the shape, and deeper than the shapes. Cause: slivers of a plate a
-/// millionth as thick as wide were merged into a face with a dent; it went beyond a side twice, and one corner was kept.
+/// Symptom: of four contact points one was 0.1 m beside the shape, and deeper than the shapes. Cause: slivers of a
+/// plate a millionth as thick as wide were merged into a face with a dent; it went beyond a side twice, and one
+/// corner was kept.
 #[test]
 fn a_dented_face_leaves_no_point_beside_the_other() {
     let rock = hull(&[

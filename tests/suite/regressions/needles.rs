@@ -103,8 +103,8 @@ fn a_needle_beside_a_cube_keeps_its_edge_pairs() {
     holds((&cuboid, &there), (&needle, &here));
 }
 
-/// Symptom: two plates, one rounded by 1e-10 m, with 9e-14 m between their cores: the depth was 2.6 times its error off.
-/// Cause: shapes that overlap were taken for cores that do, and the gap between those was cut to nothing.
+/// Symptom: two plates, one rounded by 1e-10 m, with 9e-14 m between their cores: the depth was 2.6 times its error
+/// off. Cause: shapes that overlap were taken for cores that do, and the gap between those was cut to nothing.
 #[test]
 fn rounded_shapes_may_overlap_where_their_cores_do_not() {
     let [y, z] = [0x34b8_0cca, 0x3642_9cf0].map(f32::from_bits);
@@ -121,8 +121,8 @@ fn rounded_shapes_may_overlap_where_their_cores_do_not() {
     holds((&b, &there), (&a, &here));
 }
 
-/// Symptom: no manifold within a margin that was exactly the reported separation. Cause: that had been rounded down, and
-/// the margin was held against what it was rounded from.
+/// Symptom: no manifold within a margin that was exactly the reported separation. Cause: that had been rounded
+/// down, and the margin was held against what it was rounded from.
 #[test]
 fn what_is_reported_within_the_margin_has_a_manifold() {
     let cube: Shape3 = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into();

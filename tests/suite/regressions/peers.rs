@@ -39,10 +39,10 @@ fn judged(a: Posed, b: Posed) -> Measured3 {
     found
 }
 
-/// Symptom: two crates spawned in one place flew off along a diagonal, by NaN, or not at all. Cause: an iteration between
-/// their centres starts with a vector of length zero, and all that touches its way out of a simplex around the origin is
-/// a tie. parry3d 0.31, of two hulls with the corners of one cube: depth 0 m at half a metre, none at a millimetre, and
-/// 0.44 mm of 2 mm when both are turned.
+/// Symptom: two crates spawned in one place flew off along a diagonal, by NaN, or not at all. Cause: an iteration
+/// between their centres starts with a vector of length zero, and all that touches its way out of a simplex around
+/// the origin is a tie. parry3d 0.31, of two hulls with the corners of one cube: depth 0 m at half a metre, none at
+/// a millimetre, and 0.44 mm of 2 mm when both are turned.
 #[test]
 fn identical_cubes_in_one_pose_are_as_deep_as_they_are_wide() {
     for half in [1e-5_f32, 0.001, 0.5, 3e4] {
@@ -59,9 +59,9 @@ fn identical_cubes_in_one_pose_are_as_deep_as_they_are_wide() {
     }
 }
 
-/// Symptom: pebbles of 2 mm hung in the air around each other. Cause: tolerances in metres (a skin of 1 mm, an epsilon of
-/// 1e-4 m) that are nothing beside a crate and everything beside a pebble. parry3d 0.31, of hulls: those of 1 mm touch
-/// across a thousandth of it, those of 0.01 mm across a tenth.
+/// Symptom: pebbles of 2 mm hung in the air around each other. Cause: tolerances in metres (a skin of 1 mm, an
+/// epsilon of 1e-4 m) that are nothing beside a crate and everything beside a pebble. parry3d 0.31, of hulls: those
+/// of 1 mm touch across a thousandth of it, those of 0.01 mm across a tenth.
 #[test]
 fn small_cubes_with_a_small_gap_are_apart() {
     let half = 1e-3_f32;
@@ -81,8 +81,8 @@ fn small_cubes_with_a_small_gap_are_apart() {
 }
 
 /// Symptom: crossed planks jumped apart, the wrong way. Cause: the cross product of edges that are all but parallel is
-/// rounding made unit length, and an axis of it seemed to part them best. parry3d 0.31, of hulls 1e-5 rad from parallel and
-/// 1e-6 m deep: they intersect, with a contact 4e-7 m apart.
+/// rounding made unit length, and an axis of it seemed to part them best. parry3d 0.31, of hulls 1e-5 rad from
+/// parallel and 1e-6 m deep: they intersect, with a contact 4e-7 m apart.
 #[test]
 fn edges_a_millionth_from_parallel_give_no_axis_of_noise() {
     let plank = cuboid(0.5, 0.5, 4.0);
@@ -108,8 +108,9 @@ fn edges_a_millionth_from_parallel_give_no_axis_of_noise() {
     assert!((8..=20).contains(&overlapping), "{overlapping} of 24");
 }
 
-/// Symptom: bricks laid side by side touched or not by where the wall stood. Cause: f32 positions, and an overlap that is
-/// decided with a tolerance. parry3d 0.31, a unit in the last place of f32 apart: the gap's normal is (1 -1 -2) / sqrt 6.
+/// Symptom: bricks laid side by side touched or not by where the wall stood. Cause: f32 positions, and an overlap
+/// that is decided with a tolerance. parry3d 0.31, a unit in the last place of f32 apart: the gap's normal is (1 -1
+/// -2) / sqrt 6.
 #[test]
 fn kissing_boxes_touch_and_a_unit_in_the_last_place_parts_them() {
     let brick = cuboid(0.5, 0.25, 0.125);
@@ -128,9 +129,9 @@ fn kissing_boxes_touch_and_a_unit_in_the_last_place_parts_them() {
     }
 }
 
-/// Symptom: a floorboard of 128 to 1 let crates through near its ends. Cause: tolerances relative to its length, which are
-/// wide beside its thickness, and an expanding polytope that ran out of iterations. parry3d 0.31, of two boards crossing
-/// 1 mm apart: a distance of 26 m, and as hulls they intersect.
+/// Symptom: a floorboard of 128 to 1 let crates through near its ends. Cause: tolerances relative to its length,
+/// which are wide beside its thickness, and an expanding polytope that ran out of iterations. parry3d 0.31, of two
+/// boards crossing 1 mm apart: a distance of 26 m, and as hulls they intersect.
 #[test]
 fn boxes_of_128_to_1_are_as_good_as_cubes() {
     let board = cuboid(64.0, 0.5, 0.5);
@@ -149,8 +150,8 @@ fn boxes_of_128_to_1_are_as_good_as_cubes() {
     assert!((30..70).contains(&overlapping), "{overlapping} of 80");
 }
 
-/// Symptom: a hull that came from a subdivided mesh was apart from what it stood in. Cause: several support points on one
-/// line or plane make a flat simplex, whose normal is rounding.
+/// Symptom: a hull that came from a subdivided mesh was apart from what it stood in. Cause: several support points
+/// on one line or plane make a flat simplex, whose normal is rounding.
 #[test]
 fn support_points_on_a_line_make_no_flat_simplex() {
     let circle: Vec<Vec2> =
@@ -181,8 +182,8 @@ fn support_points_on_a_line_make_no_flat_simplex() {
     assert_eq!(touching, 12);
 }
 
-/// Symptom: a tile balanced on the edge of a step slid through it. Cause: where a corner meets an edge, face normals, edge
-/// pairs and corners all tie, and each was left to another.
+/// Symptom: a tile balanced on the edge of a step slid through it. Cause: where a corner meets an edge, face
+/// normals, edge pairs and corners all tie, and each was left to another.
 #[test]
 fn a_corner_on_an_edge_touches_it() {
     let step = cuboid(3.0, 3.0, 3.0);

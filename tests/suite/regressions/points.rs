@@ -40,9 +40,9 @@ fn points_are_on_both(a: Posed, b: Posed, story: &str) -> usize {
     manifold.points.len()
 }
 
-/// Symptom: two edges touched in two places 0.4 m apart. Cause: of a lattice' hull, turned and rounded, an edge has a corner
-/// in its middle, or a neighbour in one plane with it; several edges supported the axis, and rounding picked one that the
-/// other shape's edge did not cross.
+/// Symptom: two edges touched in two places 0.4 m apart. Cause: of a lattice' hull, turned and rounded, an edge has
+/// a corner in its middle, or a neighbour in one plane with it; several edges supported the axis, and rounding
+/// picked one that the other shape's edge did not cross.
 #[test]
 fn edges_with_a_corner_in_the_middle_touch_where_they_cross() {
     let mut random = Random::new(11);
@@ -63,9 +63,9 @@ fn edges_with_a_corner_in_the_middle_touch_where_they_cross() {
     assert!(met > 2000, "only {met} points");
 }
 
-/// Symptom: two boxes of 20 km, 12 km off each other, touched in a corner that the lower one was not under. Cause: their
-/// lids were triangles tilted by 3e-7, a hair too much for one face; one of them was cut by one of the other's, and those
-/// two shared nothing.
+/// Symptom: two boxes of 20 km, 12 km off each other, touched in a corner that the lower one was not under. Cause:
+/// their lids were triangles tilted by 3e-7, a hair too much for one face; one of them was cut by one of the
+/// other's, and those two shared nothing.
 #[test]
 fn boxes_with_uneven_lids_touch_where_both_are() {
     let mut random = Random::new(5);
@@ -94,9 +94,9 @@ fn boxes_with_uneven_lids_touch_where_both_are() {
     assert!(met > 3000, "only {met} points");
 }
 
-/// Symptom: a contact point lay 100 m beyond the tip of a needle of 14 km, and was 5 cm nearer than the shapes are. Cause:
-/// the lines of the needle's sides part by less than the clipper's slack long past its tip, so that the other shape's corner
-/// there was kept.
+/// Symptom: a contact point lay 100 m beyond the tip of a needle of 14 km, and was 5 cm nearer than the shapes are.
+/// Cause: the lines of the needle's sides part by less than the clipper's slack long past its tip, so that the
+/// other shape's corner there was kept.
 #[test]
 fn a_needle_has_no_contact_beyond_its_tip() {
     let corners = [

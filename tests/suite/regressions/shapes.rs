@@ -14,8 +14,8 @@ fn cube(half: f32) -> Shape3 {
     Cuboid::from_half_extents(Vec3::splat(half)).unwrap().into()
 }
 
-/// Symptom: two rocks a thousand kilometres apart were reported 158 m too close, and certain of it. Cause: weights of the
-/// nearest point of a triangle were products of its far corners, and did not sum to one.
+/// Symptom: two rocks a thousand kilometres apart were reported 158 m too close, and certain of it. Cause: weights
+/// of the nearest point of a triangle were products of its far corners, and did not sum to one.
 #[test]
 fn a_small_triangle_far_away_keeps_its_distance() {
     let rock = hull(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
@@ -48,8 +48,8 @@ fn a_die_deep_under_the_floor_touches_it_with_four_corners() {
     }
 }
 
-/// Symptom: a ball touched its floor for a pair, and not in a world. Cause: what rounding may have lost was counted with
-/// all coordinates there, and with those on one axis in the boxes.
+/// Symptom: a ball touched its floor for a pair, and not in a world. Cause: what rounding may have lost was counted
+/// with all coordinates there, and with those on one axis in the boxes.
 #[test]
 fn what_touches_as_a_pair_touches_in_a_world() {
     let ball: Shape3 = Sphere::new(0.5).unwrap().into();
@@ -80,8 +80,8 @@ fn what_touches_as_a_pair_touches_in_a_world() {
     assert_eq!((touching, apart), (5 * 7, 6 * 7 + 11 * 3));
 }
 
-/// Symptom: two half-spaces face to face, a picometre apart: `overlaps` said no, `separation` zero, and `distance` had no
-/// points. Cause: the only one of the kernels that compared with the limit itself, and not with rounding added.
+/// Symptom: two half-spaces face to face, a picometre apart: `overlaps` said no, `separation` zero, and `distance`
+/// had no points. Cause: the only one of the kernels that compared with the limit itself, and not with rounding added.
 #[test]
 fn half_spaces_face_to_face_have_one_answer() {
     let (up, down) = (floor(), Shape3::from(HalfSpace::new(Vec3::NEG_Y).unwrap()));
@@ -114,8 +114,9 @@ fn a_capsule_along_an_edge_rests_on_both_ends() {
     }
 }
 
-/// Symptom: a pill of 20 km and a speck touched or not by the order in which they were asked. Cause: close to touching, the
-/// iteration looked along the rounding of a vector, found nothing new, and stopped with a wide gap between its bounds.
+/// Symptom: a pill of 20 km and a speck touched or not by the order in which they were asked. Cause: close to
+/// touching, the iteration looked along the rounding of a vector, found nothing new, and stopped with a wide gap
+/// between its bounds.
 #[test]
 fn nearly_touching_is_told_alike_from_both_sides() {
     let ends = [Vec3::new(-5e-6, 1.9471157e-5, -6.2244644e-6), Vec3::new(-1.5e-5, 2e-5, 7.3082783e-6)];
@@ -140,8 +141,8 @@ fn nearly_touching_is_told_alike_from_both_sides() {
     }
 }
 
-/// Symptom: a third of the poses of one pill lying on another had one point, the rest two. Cause: whether a point lay past the
-/// end of a segment was asked without slack, of points that lie exactly on it.
+/// Symptom: a third of the poses of one pill lying on another had one point, the rest two. Cause: whether a point
+/// lay past the end of a segment was asked without slack, of points that lie exactly on it.
 #[test]
 fn a_lean_of_a_hair_costs_no_point() {
     let below: Shape3 = Capsule3::new(Vec3::NEG_X, Vec3::X, 0.25).unwrap().into();
@@ -156,8 +157,8 @@ fn a_lean_of_a_hair_costs_no_point() {
     }
 }
 
-/// Symptom: an upright pill had a contact point at its own centre. Cause: the far end of its segment was within a wide margin,
-/// and its surface was looked for across a segment that points at the floor.
+/// Symptom: an upright pill had a contact point at its own centre. Cause: the far end of its segment was within a
+/// wide margin, and its surface was looked for across a segment that points at the floor.
 #[test]
 fn an_upright_capsule_stands_on_its_lower_end_alone() {
     let pill: Shape3 = Capsule3::from_half_height(0.1, 0.1).unwrap().into();
@@ -173,7 +174,8 @@ fn an_upright_capsule_stands_on_its_lower_end_alone() {
     }
 }
 
-/// Symptom: a box that touched a box at a corner had three points there. Cause: points were told apart by their names alone.
+/// Symptom: a box that touched a box at a corner had three points there. Cause: points were told apart by their
+/// names alone.
 #[test]
 fn a_place_is_one_point_whatever_meets_there() {
     let boxes = [Vec3::new(0.58761305, 0.4661633, 0.1709751), Vec3::new(0.5592223, 0.69282347, 0.15741427)];

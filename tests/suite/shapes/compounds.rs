@@ -78,7 +78,8 @@ fn every_pair_of_parts_in_the_plane_that_touches_has_one_manifold() {
     assert!(several > 400 && none > 200, "{several} with several, {none} with none");
 }
 
-/// Cuboids with each other and with spheres have kernels of their own, and as parts of compounds they do not: the same points, up to rounding to f32.
+/// Cuboids with each other and with spheres have kernels of their own, and as parts of compounds they do not: the
+/// same points, up to rounding to f32.
 fn assert_alike(one: &[ContactPoint3], other: &[ContactPoint3], size: f64) {
     let features = |points: &[ContactPoint3]| points.iter().map(|point| point.feature).collect::<Vec<_>>();
     assert_eq!(features(one), features(other));
@@ -154,7 +155,8 @@ fn a_compound_of_one_part_in_the_plane_is_that_part() {
 fn a_limit_never_hides_the_nearer_part() {
     let rod = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 1.0, 1.0)).unwrap());
     let ball = Shape3::from(Sphere::new(1.0).unwrap());
-    // A corner of the cube is 0.3 sqrt(3) = 0.52 m from the origin, but only 0.3 m on each axis; the ball is 0.4 m away.
+    // A corner of the cube is 0.3 sqrt(3) = 0.52 m from the origin, but only 0.3 m on each axis; the ball is 0.4 m
+    // away.
     let parts = [(Pose3::at([1.3, 1.3, 1.3]).unwrap(), rod), (Pose3::at([-1.4, 0.0, 0.0]).unwrap(), ball)];
     let compound = Shape3::from(Compound3::new(parts).unwrap());
     let point = Shape3::from(Sphere::new(1e-6).unwrap());

@@ -269,7 +269,8 @@ fn half_spaces_that_are_turned_alike_still_look_away_from_each_other() {
     assert_eq!(parted, rounds, "2 m apart in the plane, and called so");
 }
 
-/// Of two vertices that are equally deep one may lie past the reference face: the contact is on what lies over the face.
+/// Of two vertices that are equally deep one may lie past the reference face: the contact is on what lies over the
+/// face.
 #[test]
 fn a_contact_lies_over_the_face_where_an_edge_leads_past_it() {
     let cuboid = Cuboid::from_half_extents(Vec3::new(0.375, 0.875, 0.75)).unwrap();

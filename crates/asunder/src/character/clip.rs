@@ -5,9 +5,9 @@ use asunder_geometry::tolerance::STANDSTILL;
 
 /// The vector nearest to `v` that goes into no plane, given by unit normals that point away from what is solid.
 ///
-/// It is `v` itself, or its foot on one plane, on the crease of two, or zero. The foot on one plane is the nearest vector of
-/// a half-space that holds all that is left, so the first that goes into no other plane is the answer; of creases several may
-/// be left.
+/// It is `v` itself, or its foot on one plane, on the crease of two, or zero. The foot on one plane is the nearest
+/// vector of a half-space that holds all that is left, so the first that goes into no other plane is the answer; of
+/// creases several may be left.
 pub(super) fn along<P: Linear>(v: P, normals: &[P], crease: impl Fn(P, P) -> Option<P>) -> P {
     let slack = STANDSTILL * v.length();
     let is_free = |v: P| normals.iter().all(|&normal| v.dot(normal) >= -slack);

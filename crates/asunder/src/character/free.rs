@@ -38,8 +38,8 @@ pub(super) type At<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
 ///   push out of the deepest alone; free of all: done, and no shorter way leads out of that one
 ///   push out of all planes at once
 /// ```
-/// The deepest alone comes first since among tiles of a floor it is the only one that matters: the sides of its neighbours, of
-/// which the shape overlaps a little, would push it sideways.
+/// The deepest alone comes first since among tiles of a floor it is the only one that matters: the sides of its
+/// neighbours, of which the shape overlaps a little, would push it sideways.
 pub(super) fn free<S: Walks>(
     world: &World<S>,
     (shape, start): At<'_, S>,
@@ -86,7 +86,8 @@ pub(super) fn push<P: Linear>(near: &[Near<P>], target: f64) -> P {
         let mut most = 0.0_f64;
         for (plane, pushed) in near.iter().zip(&mut pushes) {
             let lacks = target - plane.gap - plane.away.dot(way);
-            // What was pushed may be taken back, as others have done the work meanwhile: this makes it the shortest way.
+            // What was pushed may be taken back, as others have done the work meanwhile: this makes it the shortest
+            // way.
             let change = lacks.max(-*pushed);
             *pushed += change;
             way = way + plane.away * change;

@@ -33,16 +33,18 @@ impl Walk2 {
 }
 
 /// # Characters
-/// The world moves nothing by itself; these tell where a character would be. A [`Filter2`] says what it meets: leave out its own body
-/// with [`without`](crate::Filter::without). Sensors are never in the way. Both are functions of the bodies, and allocate nothing.
+/// The world moves nothing by itself; these tell where a character would be. A [`Filter2`] says what it meets:
+/// leave out its own body with [`without`](crate::Filter::without). Sensors are never in the way. Both are
+/// functions of the bodies, and allocate nothing.
 impl World<Plane> {
-    /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius clear of
-    /// them.
+    /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius
+    /// clear of them.
     ///
-    /// One push out of what it is deepest in is tried first; where it suffices, no shorter way leads out of that body. Else it is pushed out
-    /// of all planes of its contacts at once, sixteen times. Where that does not lead out, it is wedged: then it is told as not
-    /// free, where the deepest of its overlaps was least. A path to there is not looked for: of a thin wall it may come out on
-    /// the other side. Cost: a round is a question for boxes, and a manifold for each body met.
+    /// One push out of what it is deepest in is tried first; where it suffices, no shorter way leads out of that
+    /// body. Else it is pushed out of all planes of its contacts at once, sixteen times. Where that does not lead
+    /// out, it is wedged: then it is told as not free, where the deepest of its overlaps was least. A path to there
+    /// is not looked for: of a thin wall it may come out on the other side. Cost: a round is a question for boxes,
+    /// and a manifold for each body met.
     ///
     /// ```
     /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
@@ -58,15 +60,18 @@ impl World<Plane> {
         free(self, at, least_skin::<Plane>(at.0, at.1), &filter.solid())
     }
 
-    /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a frame, by its velocity
-    /// times the time, gravity included.
+    /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a
+    /// frame, by its velocity times the time, gravity included.
     ///
-    /// - Where it overlaps solids, it is freed first, as by [`depenetrate`](World::depenetrate). From then on it moves by casts
-    ///   alone: it never enters anything, nor passes through, however far it goes.
-    /// - What can be walked on takes all that goes down: nobody slides off. What is steeper is a wall, and a slope to slide down for who falls.
-    /// - Who stands on ground climbs one step a call, and follows ground downwards. A displacement that leads up is a jump, which does neither
-    ///   and finds no ground: what a lift carries upwards goes into the pose, not into the displacement.
-    /// - It is moved by no more than the displacement, a step and a snap, and three skins; what it took to free it comes on top.
+    /// - Where it overlaps solids, it is freed first, as by [`depenetrate`](World::depenetrate). From then on it
+    ///   moves by casts alone: it never enters anything, nor passes through, however far it goes.
+    /// - What can be walked on takes all that goes down: nobody slides off. What is steeper is a wall, and a slope
+    ///   to slide down for who falls.
+    /// - Who stands on ground climbs one step a call, and follows ground downwards. A displacement that leads up is
+    ///   a jump, which does neither and finds no ground: what a lift carries upwards goes into the pose, not into
+    ///   the displacement.
+    /// - It is moved by no more than the displacement, a step and a snap, and three skins; what it took to free it
+    ///   comes on top.
     /// - A displacement that is not finite counts as none. Half-spaces do not move.
     ///
     /// Cost: a cast for each wall, and two for the ground; three more before a wall that may be a step.

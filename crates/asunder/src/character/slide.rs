@@ -124,7 +124,8 @@ fn within_reach<P: Linear>(displacement: P) -> P {
 }
 
 impl<S: Walks> Mover<'_, S> {
-    /// Frees the shape of what it overlaps, or moves it off what it is closer to than its skin. Tells where it was free first.
+    /// Frees the shape of what it overlaps, or moves it off what it is closer to than its skin. Tells where it was
+    /// free first.
     fn keep_away(&mut self, slid: &mut Slid<S>) -> S::Pose {
         let skin = self.gait.skin;
         let near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
@@ -208,7 +209,8 @@ impl<S: Walks> Mover<'_, S> {
         along(way, &normals(&|bound| Some(bound.normal)), S::crease)
     }
 
-    /// Goes until something is in the way. Tells which share of the way was gone, and what is in the way if it was not all.
+    /// Goes until something is in the way. Tells which share of the way was gone, and what is in the way if it was
+    /// not all.
     fn go(&mut self, way: S::Point) -> (f64, Option<Hit<S>>) {
         let length = way.length();
         let Some((unit, hit)) = self.look(way, length) else { return (1.0, None) };
@@ -219,7 +221,8 @@ impl<S: Walks> Mover<'_, S> {
         if free < length { (free / length, hit) } else { (1.0, None) }
     }
 
-    /// The first obstacle within some metres of a direction, or little more: of the direction as f32 has it, which is told, too.
+    /// The first obstacle within some metres of a direction, or little more: of the direction as f32 has it, which
+    /// is told, too.
     fn look(&self, direction: S::Point, metres: f64) -> Option<(S::Point, Option<Hit<S>>)> {
         let cast = S::narrow(direction.unit()? * (metres + OUTLOOK * self.gait.skin));
         let length = S::wide(cast).length();
@@ -257,7 +260,8 @@ impl<S: Walks> Mover<'_, S> {
         }
     }
 
-    /// Whether a character can stand on what it met: on ground, and on an edge no higher than a step, behind which there is ground.
+    /// Whether a character can stand on what it met: on ground, and on an edge no higher than a step, behind which
+    /// there is ground.
     ///
     /// The normal at an edge is wherever round feet happen to touch it. What counts there is the surface just behind.
     fn holds(&self, hit: &Hit<S>) -> bool {
@@ -280,8 +284,8 @@ impl<S: Walks> Mover<'_, S> {
         found.is_some_and(|found| !found.inside && S::wide(found.normal).dot(up) >= steepest)
     }
 
-    /// Climbs a step: up, on, and down to where one can stand. Tells which share of the way it led; where it leads nowhere, nothing
-    /// has moved.
+    /// Climbs a step: up, on, and down to where one can stand. Tells which share of the way it led; where it leads
+    /// nowhere, nothing has moved.
     fn climb(&mut self, way: S::Point) -> Option<f64> {
         let before = self.pose;
         let climbed = self.try_climb(way);

@@ -7,7 +7,8 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::{HalfPlane, Pose2, Shape2};
 
 impl World<Plane> {
-    /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it is about.
+    /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it
+    /// is about.
     ///
     /// Always the same lines in the same order for the same world. Cost: linear in what is drawn; nothing is allocated.
     ///

@@ -7,7 +7,8 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{HalfSpace, Pose3, Shape3};
 
 impl World<Volume> {
-    /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it is about.
+    /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it
+    /// is about.
     ///
     /// Always the same lines in the same order for the same world. Cost: linear in what is drawn; nothing is allocated.
     ///

@@ -27,8 +27,8 @@ pub(super) fn merge<S: Space>(world: &mut World<S>) {
                 set_aside(before, &mut scratch.ended);
                 false
             }
-            // The margin's memory does not outlive a shape: a contact that the new one does not touch is over. So is one beyond the
-            // margin, whatever a motion may bring.
+            // The margin's memory does not outlive a shape: a contact that the new one does not touch is over. So
+            // is one beyond the margin, whatever a motion may bring.
             Some(before)
                 if record.speculative || (!record.overlapping && of_another_shape(reshaped, record.pair)) =>
             {

@@ -8,7 +8,8 @@ use slotmap::Key;
 #[cfg(feature = "parallel")]
 const MIN_PARALLEL: usize = 4096;
 
-/// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went, or are disabled, are empty sets.
+/// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went, or are
+/// disabled, are empty sets.
 pub(super) fn refit<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, boxes, dirty, is_dirty, moved, is_moved, motions, stats, scratch, .. } = world;
     stats.moved = dirty.iter().filter(|&&slot| !keys[slot as usize].is_null()).count();

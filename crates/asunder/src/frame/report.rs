@@ -33,7 +33,8 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
 
 /// The records in order of their second body, then of the first, in which order they come.
 ///
-/// By counting, which is twice as fast as sorting where most bodies touch; where few do, there are more slots than worth counting in.
+/// By counting, which is twice as fast as sorting where most bodies touch; where few do, there are more slots than
+/// worth counting in.
 fn index_by_second<K: Key>(records: &[Record<K>], slots: usize, into: &mut Vec<u32>, ends: &mut Vec<u32>) {
     into.clear();
     let second = |index: u32| records[index as usize].pair.b;

@@ -10,7 +10,8 @@ use slotmap::Key;
 pub struct RayAnswer<K, N, P> {
     /// The body.
     pub body: K,
-    /// Where the ray enters it, in lengths of the ray's direction, as [`Ray3::at`](crate::Ray3::at) takes it; 0 where the ray starts inside.
+    /// Where the ray enters it, in lengths of the ray's direction, as [`Ray3::at`](crate::Ray3::at) takes it; 0
+    /// where the ray starts inside.
     pub distance: f64,
     /// Metres along the ray that the distance may be off by.
     pub error: f32,
@@ -30,7 +31,8 @@ pub type RayAnswer2 = RayAnswer<BodyKey2, Vec2, DVec2>;
 /// A body of a [`World3`](crate::World3) that a ray meets.
 pub type RayAnswer3 = RayAnswer<BodyKey3, Vec3, DVec3>;
 
-/// A body that a moved shape meets. `N` is a vector of f32, `P` a point of f64; use it as [`CastAnswer2`] or [`CastAnswer3`].
+/// A body that a moved shape meets. `N` is a vector of f32, `P` a point of f64; use it as [`CastAnswer2`] or
+/// [`CastAnswer3`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CastAnswer<K, N, P> {
     /// The body.
@@ -59,8 +61,8 @@ pub type CastAnswer2 = CastAnswer<BodyKey2, Vec2, DVec2>;
 /// A body of a [`World3`](crate::World3) that a moved shape meets.
 pub type CastAnswer3 = CastAnswer<BodyKey3, Vec3, DVec3>;
 
-/// A body near a point or a shape, and the points of both that are closest. `N` is a vector of f32, `P` a point of f64; use it as
-/// [`NearAnswer2`] or [`NearAnswer3`].
+/// A body near a point or a shape, and the points of both that are closest. `N` is a vector of f32, `P` a point of
+/// f64; use it as [`NearAnswer2`] or [`NearAnswer3`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearAnswer<K, N, P> {
     /// The body.
@@ -75,8 +77,8 @@ pub struct NearAnswer<K, N, P> {
     pub normal: N,
     /// The point of what was asked about that is closest to the body, in metres.
     pub from: P,
-    /// The point of the body that is closest to it, in metres. Where a point is in the body, that point; where shapes overlap,
-    /// both points are those of their deepest contact (of two half-spaces, the asked one's position).
+    /// The point of the body that is closest to it, in metres. Where a point is in the body, that point; where
+    /// shapes overlap, both points are those of their deepest contact (of two half-spaces, the asked one's position).
     pub point: P,
 }
 

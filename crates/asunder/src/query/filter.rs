@@ -90,8 +90,8 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Finds only bodies of which this says yes. It is asked last, of bodies whose boxes may be met, in no promised order; it may
-    /// ask the world in turn.
+    /// Finds only bodies of which this says yes. It is asked last, of bodies whose boxes may be met, in no promised
+    /// order; it may ask the world in turn.
     #[must_use]
     pub const fn only(mut self, only: &'a (dyn Fn(S::Key, &Collider<S>) -> bool + Sync)) -> Self {
         self.only = Some(only);

@@ -5,12 +5,14 @@
 //! moved    a tree of those that changed since
 //! recent   a list of those that changed since that one was made
 //! ```
-//! A body counts in the last of the three that it is in. Trees are made by the first question that needs them, behind `&World`,
-//! and not at all in a world that is never asked; a list that has grown too long is given up, with the tree before it.
+//! A body counts in the last of the three that it is in. Trees are made by the first question that needs them,
+//! behind `&World`, and not at all in a world that is never asked; a list that has grown too long is given up, with
+//! the tree before it.
 //!
-//! 1. Two trees instead of one and a list: where a twentieth of all bodies moves every frame, a list of them would have to be
-//!    gone through by every question, and a tree of all would have to be made anew every frame.
-//! 2. A list instead of two trees: a game that moves one body, asks, and moves the next, would make the second tree for every question.
+//! 1. Two trees instead of one and a list: where a twentieth of all bodies moves every frame, a list of them would
+//!    have to be gone through by every question, and a tree of all would have to be made anew every frame.
+//! 2. A list instead of two trees: a game that moves one body, asks, and moves the next, would make the second tree
+//!    for every question.
 //!
 //! No answer depends on which of them a body is in: see [`walk`](super::walk).
 
@@ -88,8 +90,8 @@ const fn most_changed(at_rest: usize) -> usize {
     64 + at_rest / 4
 }
 
-/// Boxes in the list, before the second tree is made anew. A question takes some 45 ns for each, and the tree as much for each in it: between
-/// one question a move and many, a root keeps both small.
+/// Boxes in the list, before the second tree is made anew. A question takes some 45 ns for each, and the tree as
+/// much for each in it: between one question a move and many, a root keeps both small.
 const fn most_recent(changed: usize) -> usize {
     16 + (2 * changed).isqrt()
 }
@@ -152,7 +154,8 @@ impl<S: Space> World<S> {
         Sight { boxes, rest, moved }
     }
 
-    /// A box around the body in a slot: that of the last update, which may be larger than it need be, if nothing was done to it since.
+    /// A box around the body in a slot: that of the last update, which may be larger than it need be, if nothing
+    /// was done to it since.
     fn box_now(&self, slot: u32) -> S::Aabb {
         let index = slot as usize;
         if !self.is_dirty[index] {

@@ -24,7 +24,8 @@ pub(super) struct Content<S: Saved> {
     pub(super) slots: Vec<SlotForm<S>>,
     /// Empty slots in the order in which they will be filled.
     pub(super) free: Vec<u32>,
-    /// Slots whose box is out of date; whose body moved since contacts were made; whose shape changed since then. Ascending.
+    /// Slots whose box is out of date; whose body moved since contacts were made; whose shape changed since then.
+    /// Ascending.
     pub(super) dirty: Vec<u32>,
     pub(super) moved: Vec<u32>,
     pub(super) reshaped: Vec<u32>,

@@ -1,4 +1,5 @@
-//! A number made of every bit of some data, by a serializer that adds up what it is told: nothing that is stored can be left out.
+//! A number made of every bit of some data, by a serializer that adds up what it is told: nothing that is stored
+//! can be left out.
 //!
 //! Multiply and rotate, as in FxHash; order matters, and so do lengths and signs of zero. Names do not.
 

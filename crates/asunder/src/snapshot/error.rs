@@ -63,8 +63,8 @@ pub enum SnapshotError {
         /// The place of its contact in the list.
         index: usize,
     },
-    /// The numbers are not those that were saved. Either the file was damaged, or the format does not keep every bit of a float:
-    /// serde_json does with its feature `float_roundtrip`.
+    /// The numbers are not those that were saved. Either the file was damaged, or the format does not keep every
+    /// bit of a float: serde_json does with its feature `float_roundtrip`.
     Checksum {
         /// What the snapshot says.
         stored: u64,

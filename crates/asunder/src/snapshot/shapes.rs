@@ -1,7 +1,8 @@
 //! The shapes of a world, those that several bodies share once.
 //!
-//! A hull, a polygon and a compound keep their data behind a counted pointer, and clones share it. Bodies name such data by its
-//! place in a table; any other shape they keep themselves. A compound's parts may share data with other bodies too.
+//! A hull, a polygon and a compound keep their data behind a counted pointer, and clones share it. Bodies name such
+//! data by its place in a table; any other shape they keep themselves. A compound's parts may share data with other
+//! bodies too.
 
 use super::digest::digest;
 use super::error::SnapshotError;
@@ -79,9 +80,9 @@ struct PartForm<S: Saved> {
     shape: ShapeRef<S::Shape>,
 }
 
-/// A table in the making. Addresses only look up what has been seen: they differ from run to run. Equal data at two addresses
-/// have one place too, so that a snapshot does not depend on what happens to be shared: a game that was loaded makes its new
-/// bodies of shapes of its own.
+/// A table in the making. Addresses only look up what has been seen: they differ from run to run. Equal data at two
+/// addresses have one place too, so that a snapshot does not depend on what happens to be shared: a game that was
+/// loaded makes its new bodies of shapes of its own.
 pub(super) struct Collected<S: Saved> {
     pub(super) table: Table<S>,
     polytopes: Seen,

@@ -1,9 +1,9 @@
 //! Slots, versions, and the order in which empty slots are filled again: what decides the keys of bodies to come.
 //!
-//! A slot map shows the keys of its bodies and nothing of its empty slots. They show when it is filled: a copy of the map takes
-//! bodies until no slot is empty, and the keys it hands out are those of the future. Back again goes by way of slotmap's own
-//! serde, which alone can set versions: all slots are read as filled, and those that were empty are emptied in the
-//! reverse order, because the last to be emptied is the first to be filled.
+//! A slot map shows the keys of its bodies and nothing of its empty slots. They show when it is filled: a copy of
+//! the map takes bodies until no slot is empty, and the keys it hands out are those of the future. Back again goes
+//! by way of slotmap's own serde, which alone can set versions: all slots are read as filled, and those that were
+//! empty are emptied in the reverse order, because the last to be emptied is the first to be filled.
 
 use super::shapes::Saved;
 use crate::collider::Collider;
@@ -35,8 +35,8 @@ pub(super) fn key_of<K: Key>(slot: usize, version: u32) -> K {
     KeyData::from_ffi(u64::from(version) << 32 | slot as u64).into()
 }
 
-/// A slot map with these bodies in slots 1 and up, each with the version of its key; or, where there is none, with the version of the
-/// key to come. `free` names the empty ones as they are to be filled.
+/// A slot map with these bodies in slots 1 and up, each with the version of its key; or, where there is none, with
+/// the version of the key to come. `free` names the empty ones as they are to be filled.
 pub(super) fn slot_map<S: Saved>(
     slots: Vec<(u32, Option<Collider<S>>)>,
     free: &[u32],

@@ -160,8 +160,8 @@ impl<B: Bounds> Rest<B> {
 
 /// Looks movers up in the columns of one part.
 ///
-/// First where to look, for all of them; then there, in the order of the columns: what one mover has brought from far memory, the next one
-/// finds at hand.
+/// First where to look, for all of them; then there, in the order of the columns: what one mover has brought from
+/// far memory, the next one finds at hand.
 struct Asking<'a, B, F> {
     grid: &'a Grid,
     part: &'a Columns,

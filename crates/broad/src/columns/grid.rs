@@ -32,8 +32,8 @@ pub(crate) struct Reach {
 pub(crate) enum Over {
     /// All boxes but a few.
     All,
-    /// Where the middle half of the boxes is, and as much again: the same, if they are spread evenly; else not much further than most of
-    /// them, however far away a quarter is.
+    /// Where the middle half of the boxes is, and as much again: the same, if they are spread evenly; else not much
+    /// further than most of them, however far away a quarter is.
     Bulk,
 }
 
@@ -64,7 +64,8 @@ impl Grid {
         let sweep = (0..3).min_by(|&a, &b| spread.fill(a).total_cmp(&spread.fill(b))).unwrap_or(0);
         let (y, z) = ((sweep + 1) % 3, (sweep + 2) % 3);
         let mut best = (f64::INFINITY, [1, 1], 0.0);
-        // Columns so and so many boxes wide; not so narrow that there are more of them than boxes, however far these lie apart.
+        // Columns so and so many boxes wide; not so narrow that there are more of them than boxes, however far
+        // these lie apart.
         let narrowest =
             NARROWEST.max((spread.boxes_across(y) * spread.boxes_across(z) / count.max(1) as f64).sqrt());
         let mut width = narrowest;

@@ -8,11 +8,12 @@ use codes::{Codes, Entry};
 use core::ops::Range;
 use grid::{Grid, Reach};
 
-/// Entries of boxes, column by column, in each by the bin of the minimum on the sweep axis. A box has an entry in every column
-/// that it reaches.
+/// Entries of boxes, column by column, in each by the bin of the minimum on the sweep axis. A box has an entry in
+/// every column that it reaches.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Columns {
-    /// Every box once, in the order in which it came; in place of its place, where its entry in the first column it reaches goes.
+    /// Every box once, in the order in which it came; in place of its place, where its entry in the first column it
+    /// reaches goes.
     records: Vec<Entry>,
     /// Those that reach a second column on the first axis, on the second, and all others that reach more than one.
     straddlers: [Vec<u32>; 3],
@@ -24,8 +25,8 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Sorts `count` boxes, of which `pick` gives the one at a place. Returns the grid that they are sorted by: coarser than the one asked for,
-    /// should that give every box too many entries.
+    /// Sorts `count` boxes, of which `pick` gives the one at a place. Returns the grid that they are sorted by:
+    /// coarser than the one asked for, should that give every box too many entries.
     #[inline(always)]
     pub(crate) fn fill<B: Bounds>(&mut self, grid: Grid, count: usize, pick: impl Fn(usize) -> B) -> Grid {
         let mut grid = grid;
@@ -50,8 +51,8 @@ impl Columns {
         ColumnEntries { start, ends, entries: &self.entries[start as usize..end as usize] }
     }
 
-    /// Which entries a box may overlap: stretches of them, one a column that it reaches, by bins. `longest` is the number of bins that
-    /// any box but those left out reaches beyond its first.
+    /// Which entries a box may overlap: stretches of them, one a column that it reaches, by bins. `longest` is the
+    /// number of bins that any box but those left out reaches beyond its first.
     #[inline(always)]
     pub(crate) fn stretches(&self, grid: &Grid, codes: &Codes, longest: u32, mut visit: impl FnMut(Stretch)) {
         let Reach { bin, y, z } = grid.reach(codes);
@@ -120,8 +121,8 @@ impl Columns {
 
     /// The first half of sorting: makes the record of every box at `places`, and counts the entries in every bin.
     ///
-    /// Nothing here depends on where a box is but three lists and one addition: a branch on whether a box straddles would be guessed wrong
-    /// for every fifth box (1.5 ns a box, Zen 4, 2026-11-21).
+    /// Nothing here depends on where a box is but three lists and one addition: a branch on whether a box straddles
+    /// would be guessed wrong for every fifth box (1.5 ns a box, Zen 4, 2026-11-21).
     #[inline(always)]
     pub(crate) fn count<B: Bounds>(&mut self, grid: &Grid, places: Range<usize>, pick: impl Fn(usize) -> B) {
         let cells = grid.count() << grid.bin_bits;
@@ -232,8 +233,8 @@ pub(crate) const PLACE: u32 = HOME_Y - 1;
 /// Most boxes of one sweep: their entries, at most four each, can still be counted.
 pub(crate) const MOST_BOXES: usize = 1 << 29;
 
-/// The places of two boxes that overlap in a column, and whether the column owns the pair: it has the greater of their minima
-/// on both axes.
+/// The places of two boxes that overlap in a column, and whether the column owns the pair: it has the greater of
+/// their minima on both axes.
 #[inline(always)]
 pub(crate) const fn owned(one: u32, other: u32) -> (u32, u32, bool) {
     (one & PLACE, other & PLACE, (one | other) >> 30 == 3)

@@ -36,7 +36,8 @@ impl Part {
     }
 }
 
-/// Nodes below one another before parts are split by count, whatever their keys. Below, every node has eight equal parts.
+/// Nodes below one another before parts are split by count, whatever their keys. Below, every node has eight equal
+/// parts.
 const DEEP: usize = 20;
 
 /// Most nodes below one another, with 2^31 boxes.
@@ -142,7 +143,8 @@ impl Parts {
         (0..self.count).filter(is_large).max_by_key(|&place| self.parts[place].len())
     }
 
-    /// Those that become nodes, and those whose boxes fit beside them: single ones, and the smallest for which there is room.
+    /// Those that become nodes, and those whose boxes fit beside them: single ones, and the smallest for which
+    /// there is room.
     fn inner_first(&mut self) -> (&[Part], &[Part]) {
         let parts = &mut self.parts[..self.count];
         parts.sort_unstable_by_key(|part| (core::cmp::Reverse(part.len()), part.start));

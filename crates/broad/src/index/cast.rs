@@ -7,8 +7,8 @@ use asunder_geometry::{
 
 /// A ray, or a box that is moved along a line, made ready to be tested against many boxes.
 ///
-/// How far along is told in lengths of the direction, as by the ray it comes from. What is no box, and what is moved in a direction
-/// that is not finite, meets nothing; in the direction zero, all that it overlaps, at distance 0.
+/// How far along is told in lengths of the direction, as by the ray it comes from. What is no box, and what is
+/// moved in a direction that is not finite, meets nothing; in the direction zero, all that it overlaps, at distance 0.
 ///
 /// ```
 /// use asunder_broad::{Cast, Found, Index};
@@ -59,15 +59,16 @@ impl Cast {
         if bounds.is_valid() { Self::new(bounds.corners(), along) } else { Self::NOWHERE }
     }
 
-    /// A moved box meets another on an axis from when their near sides touch until their far sides do. A ray is a box too: the
-    /// smallest of f32 that holds its origin.
+    /// A moved box meets another on an axis from when their near sides touch until their far sides do. A ray is a
+    /// box too: the smallest of f32 that holds its origin.
     fn new((low, high): ([f32; 3], [f32; 3]), along: [f32; 3]) -> Self {
         let longest =
             along.iter().fold(0.0, |most: f32, part| if part.abs() > most { part.abs() } else { most });
         if !along.iter().all(|part| part.is_finite()) {
             return Self::NOWHERE;
         }
-        // The power of two below the longest part: within, directions are about as long as 1, and nothing overflows early.
+        // The power of two below the longest part: within, directions are about as long as 1, and nothing overflows
+        // early.
         let unit =
             if longest > 0.0 { f64::from_bits(f64::from(longest).to_bits() & (0x7ff << 52)) } else { 1.0 };
         let mut cast = Self { unit: 1.0 / unit, from_near: high, from_far: low, ..Self::NOWHERE };

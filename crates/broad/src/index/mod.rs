@@ -8,30 +8,32 @@
 //! overlap  test the eight boxes of a node at once; hand over boxes; put nodes on a stack
 //! order    test the eight boxes of a node at once; whatever is nearest is next: a node is looked into, a box is handed over
 //! ```
-//! Lauterbach et al., "Fast BVH construction on GPUs" (2009), for the order; Wald, Benthin and Boulos, "Getting rid of packets"
-//! (2008), for wide nodes; Ize, "Robust BVH ray traversal" (2013), for bounds that lose no box.
+//! Lauterbach et al., "Fast BVH construction on GPUs" (2009), for the order; Wald, Benthin and Boulos, "Getting rid
+//! of packets" (2008), for wide nodes; Ize, "Robust BVH ray traversal" (2013), for bounds that lose no box.
 //!
 //! What each part buys (AMD EPYC Zen 4, 2026-11-21; a box asked of 100,000 in `gas`, unless said otherwise):
 //! 1. Eight boxes a node in rows: one instruction tests eight. A node is four cache lines; a third of the
 //!    time is spent waiting for the first.
 //! 2. AVX2 by hand (wide): 1.2 to 1.4 times. The compiler makes four lanes and four single ones of the loops.
 //! 3. A sort instead of splits by cost: built in 42 ns a box, where parry3d's binned build takes 450 to 500.
-//! 4. Giants apart: 300 walls of 60 m among 100,000 boxes of 1 m make a box's overlaps 1.4 times as dear as without walls, not 2 times;
-//!    rays 1.3 times, not 1.8.
+//! 4. Giants apart: 300 walls of 60 m among 100,000 boxes of 1 m make a box's overlaps 1.4 times as dear as without
+//!    walls, not 2 times; rays 1.3 times, not 1.8.
 //! 5. Small pieces lie in their parent: fewer nodes, and none that holds a single box (not measured by itself).
-//! 6. One rule for nodes and boxes, monotone under rounding: no box is lost between levels, and no margin is needed for that.
-//! 7. The nearest piece goes on without waiting, and for one nearest box nothing waits that is further than a box seen: what is
-//!    nearest took 930 ns with a plain queue, and takes 570.
+//! 6. One rule for nodes and boxes, monotone under rounding: no box is lost between levels, and no margin is needed
+//!    for that.
+//! 7. The nearest piece goes on without waiting, and for one nearest box nothing waits that is further than a box
+//!    seen: what is nearest took 930 ns with a plain queue, and takes 570.
 //!
-//! Not the columns of the sweep (`crate::columns`): these have no order of distance, and what is nearest in an empty part of the world
-//! would have to be looked for ring by ring. Not measured themselves; a stand-in was, a grid of cells of 2 m (20 in `sizes` and
-//! `islands`; neither tuned) that holds each box once, with its sides, and knows the greatest side. For a box of the scene it takes 172 ns
-//! in `gas`, 136 among a million, 80 in `city`, 88 in `tower`; the tree 148, 149, 67 and 115. In `pile`, `sizes` and `islands` it takes
-//! 835, 487 and 6207 ns, the tree 304, 165 and 333.
+//! Not the columns of the sweep (`crate::columns`): these have no order of distance, and what is nearest in an
+//! empty part of the world would have to be looked for ring by ring. Not measured themselves; a stand-in was, a
+//! grid of cells of 2 m (20 in `sizes` and
+//! `islands`; neither tuned) that holds each box once, with its sides, and knows the greatest side. For a box of
+//! the scene it takes 172 ns in `gas`, 136 among a million, 80 in `city`, 88 in `tower`; the tree 148, 149, 67 and
+//! 115. In `pile`, `sizes` and `islands` it takes 835, 487 and 6207 ns, the tree 304, 165 and 333.
 //!
-//! Tried: many questions at once, sorted along a curve: 1.1 to 1.4 times as fast (2.5 in `islands`), their sort not counted. It is not
-//! offered; who has questions in such an order should ask them in it. Tried: nodes put on the stack without a branch, eight stores and a
-//! count: 25 % slower.
+//! Tried: many questions at once, sorted along a curve: 1.1 to 1.4 times as fast (2.5 in `islands`), their sort not
+//! counted. It is not offered; who has questions in such an order should ask them in it. Tried: nodes put on the
+//! stack without a branch, eight stores and a count: 25 % slower.
 
 mod build;
 mod cast;
@@ -86,7 +88,8 @@ impl<B: Bounds> Index<B> {
 
     /// Forgets all boxes, and takes these instead. Boxes that are empty sets are never found.
     ///
-    /// Only the first 2^31 boxes are looked at. Cost: about 45 ns a box, and 80 bytes a box, of which 16 are scratch memory.
+    /// Only the first 2^31 boxes are looked at. Cost: about 45 ns a box, and 80 bytes a box, of which 16 are
+    /// scratch memory.
     pub fn build(&mut self, boxes: &[B]) {
         self.build_from(boxes, |_| true);
     }
@@ -142,7 +145,8 @@ impl<B: Bounds> Index<B> {
         into.sort_unstable();
     }
 
-    /// Hands the number of every box that overlaps this one to `visitor`, each once, in no promised order, until it breaks off.
+    /// Hands the number of every box that overlaps this one to `visitor`, each once, in no promised order, until it
+    /// breaks off.
     #[inline]
     pub fn visit_overlapping(
         &self,

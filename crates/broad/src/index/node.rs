@@ -76,7 +76,8 @@ pub(crate) struct Far {
 impl Node {
     /// Which of the eight boxes are met before the limit, and where.
     ///
-    /// A NaN comes from a side that is touched all the way, or from two infinite ones, and bounds nothing: comparisons drop it.
+    /// A NaN comes from a side that is touched all the way, or from two infinite ones, and bounds nothing:
+    /// comparisons drop it.
     #[inline(always)]
     pub(crate) fn crossed(&self, cast: &Cast, limit: f32) -> Far {
         let [mut enter, mut leave] = [[0.0; WIDTH], [limit; WIDTH]];

@@ -24,8 +24,8 @@ const GIANT: f64 = 4.0;
 /// Boxes of which none is a giant: too few for it to matter.
 const FEW: usize = 64;
 
-/// So few boxes are sorted along one axis: to lay a curve through them costs some microseconds. A long row of boxes, of which
-/// only so many have a key of their own, makes many such handfuls.
+/// So few boxes are sorted along one axis: to lay a curve through them costs some microseconds. A long row of
+/// boxes, of which only so many have a key of their own, makes many such handfuls.
 const HANDFUL: usize = 24;
 
 /// Sorts the boxes along the curve, giants behind all others in no useful order; returns how many are none.
@@ -99,7 +99,8 @@ fn center(sides: &Sides, axis: usize) -> f32 {
     sides[axis] * 0.5 + sides[axis + 3] * 0.5
 }
 
-/// A Z-order curve whose cells are as near to cubes as halving allows: each bit halves the axis on which cells are longest.
+/// A Z-order curve whose cells are as near to cubes as halving allows: each bit halves the axis on which cells are
+/// longest.
 struct Curve {
     low: [f32; 3],
     scale: [f32; 3],

@@ -3,13 +3,15 @@
 use core::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Scratch memory of questions whose answers come in order of distance. Keep one a thread, so that asking allocates nothing.
+/// Scratch memory of questions whose answers come in order of distance. Keep one a thread, so that asking allocates
+/// nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Queue {
     heap: BinaryHeap<Reverse<Next>>,
 }
 
-/// A node or a box: its distance in the upper half, then a bit that puts nodes before boxes at the same, then its number.
+/// A node or a box: its distance in the upper half, then a bit that puts nodes before boxes at the same, then its
+/// number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Next(u64);
 

@@ -10,8 +10,8 @@ use core::ops::ControlFlow;
 
 /// A box that was found at a distance.
 ///
-/// The distance is never too great, down to 1e-38 m: what is in the box is that far away or further. It falls short by at most 1e-6 of itself, where
-/// f32 can tell.
+/// The distance is never too great, down to 1e-38 m: what is in the box is that far away or further. It falls short
+/// by at most 1e-6 of itself, where f32 can tell.
 ///
 /// ```
 /// use asunder_broad::Found;
@@ -25,7 +25,8 @@ pub struct Found {
     pub number: u32,
 }
 
-/// A question about distances: one rule for nodes and boxes, which is monotone, so that no box is nearer than the node around it.
+/// A question about distances: one rule for nodes and boxes, which is monotone, so that no box is nearer than the
+/// node around it.
 pub(super) trait Ask: Copy {
     fn ask<W: Width>(&self, width: W, node: &Node, limit: f32) -> Far;
     fn told(&self, within: f32) -> f64;
@@ -78,7 +79,8 @@ impl Ask for To {
 impl<B: Bounds> Index<B> {
     /// Replaces `into` by the boxes that are crossed no later than at `limit`, in order of distance, then of number.
     ///
-    /// None is left out that is crossed within 1e38 lengths; one that is missed by less than rounding (1e-6 of the distance) may be among them.
+    /// None is left out that is crossed within 1e38 lengths; one that is missed by less than rounding (1e-6 of the
+    /// distance) may be among them.
     pub fn crossed(&self, cast: &Cast, limit: f64, into: &mut Vec<Found>) {
         into.clear();
         let _ = self.visit_crossed(cast, limit, |found| {
@@ -88,7 +90,8 @@ impl<B: Bounds> Index<B> {
         into.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.number.cmp(&b.number)));
     }
 
-    /// Hands every box that is crossed no later than at `limit` to `visitor`, each once, in no promised order, until it breaks off.
+    /// Hands every box that is crossed no later than at `limit` to `visitor`, each once, in no promised order,
+    /// until it breaks off.
     pub fn visit_crossed(
         &self,
         cast: &Cast,
@@ -102,8 +105,8 @@ impl<B: Bounds> Index<B> {
         widest(Visit { nodes: &self.nodes, asked: cast, limit, visitor })
     }
 
-    /// Hands boxes that are crossed to `visitor` in order of distance, then of number. What it returns is the limit from then on:
-    /// the same, or the distance of what it found in the box; below 0 to end.
+    /// Hands boxes that are crossed to `visitor` in order of distance, then of number. What it returns is the limit
+    /// from then on: the same, or the distance of what it found in the box; below 0 to end.
     ///
     /// ```
     /// use asunder_broad::{Cast, Index, Queue};
@@ -131,7 +134,8 @@ impl<B: Bounds> Index<B> {
         widest(InOrder { nodes, asked: cast, limit: (limit, false), queue, visitor });
     }
 
-    /// Replaces `into` by the boxes nearest to a box, at most `count`, in order of distance, then of number. A point is a flat box.
+    /// Replaces `into` by the boxes nearest to a box, at most `count`, in order of distance, then of number. A
+    /// point is a flat box.
     ///
     /// Distances below 1e-19 m count as 0, and none is told that is beyond 1.8e19 m.
     ///
@@ -156,8 +160,8 @@ impl<B: Bounds> Index<B> {
         });
     }
 
-    /// Hands boxes no further from a box than `limit` to `visitor` in order of distance, then of number. What it returns is the
-    /// limit from then on; below 0 to end.
+    /// Hands boxes no further from a box than `limit` to `visitor` in order of distance, then of number. What it
+    /// returns is the limit from then on; below 0 to end.
     ///
     /// ```
     /// use asunder_broad::{Index, Queue};
@@ -219,11 +223,12 @@ impl<A: Ask, F: FnMut(Found) -> ControlFlow<()>> Kernel for Visit<'_, A, F> {
     }
 }
 
-/// The same, best first: whatever is nearest is next, be it a node to look into or a box to hand over (Hjaltason and Samet,
-/// "Distance browsing in spatial databases", 1999). At equal distances nodes come first, as they may hold a box with a lesser number.
+/// The same, best first: whatever is nearest is next, be it a node to look into or a box to hand over (Hjaltason
+/// and Samet, "Distance browsing in spatial databases", 1999). At equal distances nodes come first, as they may
+/// hold a box with a lesser number.
 ///
-/// Two shortcuts: the nearest part of a node, if nothing that waits is nearer, is next without having waited; and where one box
-/// is wanted, nothing waits that is further than a box that was seen.
+/// Two shortcuts: the nearest part of a node, if nothing that waits is nearer, is next without having waited; and
+/// where one box is wanted, nothing waits that is further than a box that was seen.
 struct InOrder<'a, A, F> {
     nodes: &'a [Node],
     asked: A,

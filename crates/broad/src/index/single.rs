@@ -8,7 +8,8 @@ use crate::width::Portable;
 use asunder_geometry::Bounds;
 
 impl Cast {
-    /// How far along a box is met, if no later than at `limit`: what an [`Index`](crate::Index) with this box would tell.
+    /// How far along a box is met, if no later than at `limit`: what an [`Index`](crate::Index) with this box would
+    /// tell.
     ///
     /// A box that holds another is met no later than that one.
     ///
@@ -27,7 +28,8 @@ impl Cast {
     }
 }
 
-/// How far two boxes are apart, at least, in metres, if they are boxes: what an [`Index`](crate::Index) of one would tell of the other.
+/// How far two boxes are apart, at least, in metres, if they are boxes: what an [`Index`](crate::Index) of one
+/// would tell of the other.
 ///
 /// A box that holds another is no further from a third than that one.
 ///

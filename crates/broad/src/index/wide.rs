@@ -1,7 +1,8 @@
-//! What is asked of a node, in AVX2: one instruction where [`super::node`] has a loop over eight lanes, with the same results.
+//! What is asked of a node, in AVX2: one instruction where [`super::node`] has a loop over eight lanes, with the
+//! same results.
 //!
-//! The compiler does not find these by itself: it unrolls the loops first, and puts four lanes and four times one together again.
-//! All questions take 1.2 to 1.4 times as long that way (AMD EPYC Zen 4, 2026-11-21).
+//! The compiler does not find these by itself: it unrolls the loops first, and puts four lanes and four times one
+//! together again. All questions take 1.2 to 1.4 times as long that way (AMD EPYC Zen 4, 2026-11-21).
 
 use super::cast::Cast;
 use super::node::{Far, Node, Sides};

@@ -38,8 +38,9 @@ const FULL: usize = 32;
 /// and is expected to have so many times fewer then.
 const GAIN: f64 = 2.0;
 
-/// Columns within columns at most, for clumps of clumps of clumps: each costs twice as much of this as boxes get entries in it on average,
-/// so that there are twelve where few straddle, four where all do, and never more than 256 entries a box.
+/// Columns within columns at most, for clumps of clumps of clumps: each costs twice as much of this as boxes get
+/// entries in it on average, so that there are twelve where few straddle, four where all do, and never more than
+/// 256 entries a box.
 const DEEPEST: usize = 24;
 
 impl Scratch {

@@ -13,15 +13,18 @@
 //!   both axes? where two codes are equal, do the boxes overlap? is it admitted?      settle
 //! sort the pairs, by digits                                                          order
 //! ```
-//! Codes are monotone: a code that is less proves a bound that is less, and only equal codes ask the boxes (1 pair in 100).
-//! The owner rule names one column for every pair, by codes as well, so that no pair comes twice and none is lost.
+//! Codes are monotone: a code that is less proves a bound that is less, and only equal codes ask the boxes (1 pair
+//! in 100). The owner rule names one column for every pair, by codes as well, so that no pair comes twice and none
+//! is lost.
 //!
-//! Baraff's sweep and prune (1992) in the cells of a regular grid, after Terdiman, "Box pruning revisited" (2017), for the wide
-//! tests on integers; Tracy, Buss & Woods, "Efficient large-scale sweep and prune methods with AABB insertion and removal"
-//! (2009), for the segmentation. Cost: linear in boxes and pairs, for boxes of like size; a scene of all sizes costs more entries.
+//! Baraff's sweep and prune (1992) in the cells of a regular grid, after Terdiman, "Box pruning revisited" (2017),
+//! for the wide tests on integers; Tracy, Buss & Woods, "Efficient large-scale sweep and prune methods with AABB
+//! insertion and removal" (2009), for the segmentation. Cost: linear in boxes and pairs, for boxes of like size; a
+//! scene of all sizes costs more entries.
 //!
 //! # What each technique bought
-//! At 10,000 boxes of `gas` and `pile`, ns a box in all, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep takes 1,240.
+//! At 10,000 boxes of `gas` and `pile`, ns a box in all, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep
+//! takes 1,240.
 //!
 //! | technique | gas | pile |
 //! |---|---|---|
@@ -34,9 +37,9 @@
 //! | 6. pairs sorted by digits (radix), not by runs | 28.4 | 80 |
 //! | 7. the owner in two bits of the place; lanes with equal codes told by the lanes; one box a hit and round | 28.6 | 77 |
 //!
-//! Tried without gain: bins for a quarter or for all of the boxes (1 %); runs of pairs by rank in eight lanes (15 ns a pair in
-//! sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3 %); codes and bins of a box
-//! by hand in AVX2, half the instructions (6 % slower).
+//! Tried without gain: bins for a quarter or for all of the boxes (1 %); runs of pairs by rank in eight lanes (15
+//! ns a pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
+//! %); codes and bins of a box by hand in AVX2, half the instructions (6 % slower).
 
 mod level;
 pub(crate) mod order;
@@ -57,8 +60,9 @@ use settle::Question;
 
 /// All overlapping pairs of boxes. Keep one between frames: a steady scene then allocates nothing.
 ///
-/// It holds no history: the list depends on the boxes and the filter alone, and is the same at any thread count and vector width.
-/// In [`Sweep::pairs`], from 30,000 boxes on, the threads of the current rayon pool share the work (feature `parallel`).
+/// It holds no history: the list depends on the boxes and the filter alone, and is the same at any thread count and
+/// vector width. In [`Sweep::pairs`], from 30,000 boxes on, the threads of the current rayon pool share the work
+/// (feature `parallel`).
 ///
 /// ```
 /// use asunder_broad::{PairId, Sweep};
@@ -98,8 +102,9 @@ impl Sweep {
 
     /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
     ///
-    /// `admit` is asked once for each pair of overlapping boxes, the smaller number first, in any order and from any thread: bit tests
-    /// on layers and owners belong here. Boxes behind the first 2^29 are not looked at. Cost: some 30 ns a box and 10 ns a pair.
+    /// `admit` is asked once for each pair of overlapping boxes, the smaller number first, in any order and from
+    /// any thread: bit tests on layers and owners belong here. Boxes behind the first 2^29 are not looked at. Cost:
+    /// some 30 ns a box and 10 ns a pair.
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty.
@@ -131,8 +136,8 @@ impl Sweep {
         Ok(())
     }
 
-    /// Hands every overlapping pair that `admit` lets pass to `visitor`, each once, in no promised order, until it breaks off. For
-    /// outputs that are too long to keep. On one thread.
+    /// Hands every overlapping pair that `admit` lets pass to `visitor`, each once, in no promised order, until it
+    /// breaks off. For outputs that are too long to keep. On one thread.
     pub fn visit<B: Bounds>(
         &mut self,
         boxes: &[B],

@@ -170,8 +170,8 @@ const BITS: [i16; LANES] = {
     bits
 };
 
-/// Which of sixteen boxes one overlaps, as far as codes can tell: in every 16 bits the lower byte has the lanes that may overlap, the
-/// upper byte those of them of which codes cannot tell.
+/// Which of sixteen boxes one overlaps, as far as codes can tell: in every 16 bits the lower byte has the lanes
+/// that may overlap, the upper byte those of them of which codes cannot tell.
 #[inline(always)]
 fn overlapping<W: Width>(width: W, one: &Codes, others: [&[i16; LANES]; 6]) -> u32 {
     let mut gaps = [0; LANES];
@@ -185,7 +185,8 @@ fn overlapping<W: Width>(width: W, one: &Codes, others: [&[i16; LANES]; 6]) -> u
     width.mask(&gaps)
 }
 
-/// The mask of a hit from gaps between codes: below zero two boxes overlap, above zero they do not, and at zero codes cannot tell.
+/// The mask of a hit from gaps between codes: below zero two boxes overlap, above zero they do not, and at zero
+/// codes cannot tell.
 #[inline(always)]
 pub(super) fn gaps_to_mask(gaps: &[i16; LANES]) -> u32 {
     let [mut may, mut close] = [0; 2];

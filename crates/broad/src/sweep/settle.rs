@@ -16,7 +16,8 @@ pub(super) type Pairs = [PairId; PAIRS];
 /// No pair yet.
 pub(super) const NO_PAIRS: Pairs = [PairId { a: 0, b: 0 }; PAIRS];
 
-/// What the boxes of a column are called outside: places in a column that was itself swept in columns, and so on outwards.
+/// What the boxes of a column are called outside: places in a column that was itself swept in columns, and so on
+/// outwards.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Names<'a> {
     /// The entries' places in the column around.
@@ -58,8 +59,8 @@ where
 
     /// Hits to pairs that this column owns; returns how many.
     ///
-    /// One box of every hit at a time, and the hits that have more once again: a loop over the boxes of each hit would end where
-    /// the processor does not expect it (2 ns a pair, Zen 4, 2026-11-21).
+    /// One box of every hit at a time, and the hits that have more once again: a loop over the boxes of each hit
+    /// would end where the processor does not expect it (2 ns a pair, Zen 4, 2026-11-21).
     #[inline(always)]
     fn settle<const NESTED: bool>(
         &self,

@@ -8,7 +8,8 @@
 //!   and throw its pairs into ranges of the first number
 //! put each range together from the groups and sort it    threads take ranges
 //! ```
-//! Which part, group or range a thread works at changes nothing: the ranges follow each other in the list, and each is sorted.
+//! Which part, group or range a thread works at changes nothing: the ranges follow each other in the list, and each
+//! is sorted.
 
 use super::level::{Level, Scratch};
 use super::order::Order;

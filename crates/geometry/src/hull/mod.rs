@@ -159,8 +159,8 @@ impl Hull {
         Ok(self)
     }
 
-    /// An address that two hulls have in common exactly when they share their data, whatever their rounding; only good while
-    /// both live. It differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two hulls have in common exactly when they share their data, whatever their rounding; only
+    /// good while both live. It differs from run to run: look up by it, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {

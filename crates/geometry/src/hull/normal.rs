@@ -10,8 +10,8 @@ pub(crate) fn area_vector(count: usize, corner: impl Fn(usize) -> Vec3) -> DVec3
     newell(count, corner).0
 }
 
-/// The area vector, and the sum of the lengths of what was multiplied for it, as far as that was rounded: its rounding is
-/// a few f64::EPSILON of that.
+/// The area vector, and the sum of the lengths of what was multiplied for it, as far as that was rounded: its
+/// rounding is a few f64::EPSILON of that.
 fn newell(count: usize, corner: impl Fn(usize) -> Vec3) -> (DVec3, f64) {
     if count == 3 {
         return triangle([corner(0), corner(1), corner(2)]);

@@ -2,8 +2,8 @@
 //!
 //! The builder fed with its own vertices might merge other facets, because what is one flat face depends on points that
 //! are no vertices. So the loops are stored, and believed only as far as they are checked: closed, of Euler's formula,
-//! convex up to what merging may cost. All else is worked out again, by the code that worked it out first and from the same
-//! order of vertices and faces: the hull comes back equal in every bit.
+//! convex up to what merging may cost. All else is worked out again, by the code that worked it out first and from
+//! the same order of vertices and faces: the hull comes back equal in every bit.
 
 use super::check::Examiner;
 use super::cloud::{Cloud, half_diagonal};

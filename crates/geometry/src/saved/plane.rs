@@ -270,7 +270,8 @@ struct PartForm {
     shape: ConvexForm,
 }
 
-/// The shapes that a part may have. Compounds are not among them, so that no input, however deep, makes a loader recurse.
+/// The shapes that a part may have. Compounds are not among them, so that no input, however deep, makes a loader
+/// recurse.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Shape2")]
 enum ConvexForm {

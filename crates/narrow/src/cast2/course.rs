@@ -20,8 +20,9 @@ const MAX_TRIES: usize = 20;
 /// Share of the gap that a step of shapes that turn may leave unused.
 const UNUSED: f64 = 0.03;
 
-/// Roundings of a projection, in units of 2^-53 of the reach: those of parts of compounds (16) and of searched supports (4),
-/// the root and quotient of a rotation in between (3), and the product and sum for the offset (3); rounded up.
+/// Roundings of a projection, in units of 2^-53 of the reach: those of parts of compounds (16) and of searched
+/// supports (4), the root and quotient of a rotation in between (3), and the product and sum for the offset (3);
+/// rounded up.
 const ROUNDINGS: f64 = 32.0;
 
 /// Two convex parts over a stretch of their bodies' motion.
@@ -57,7 +58,8 @@ pub(super) struct Touching {
 
 /// What there is to see at a time.
 struct Look {
-    /// Unit axis from A to B, and bounds on the separation: what it shows, and that of the points. Neither holds the slack.
+    /// Unit axis from A to B, and bounds on the separation: what it shows, and that of the points. Neither holds
+    /// the slack.
     axis: DVec2,
     least: f64,
     most: f64,
@@ -214,7 +216,8 @@ impl<'a> Course<'a> {
         found.max(over / (closing.max(0.0) + self.pace)).min(rest)
     }
 
-    /// The impact that a look shows. Where nothing turns, its axis leads on to where there is no gap along it, if that is nearer.
+    /// The impact that a look shows. Where nothing turns, its axis leads on to where there is no gap along it, if
+    /// that is nearer.
     fn settled(&self, look: &Look, now: f64) -> Touching {
         let [on_a, on_b] = look.points;
         let rounding = self.precision.projection() + self.slack;

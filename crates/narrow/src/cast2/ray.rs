@@ -8,7 +8,8 @@
 //! it goes in behind the origin: where it comes out, by the same search from the other end, tells inside from behind
 //! where rounding could tell otherwise, the exact tier says whether the origin is inside
 //! ```
-//! One search serves circles, capsules, segments, rectangles and polygons, rounded or not; a half-plane is one quotient.
+//! One search serves circles, capsules, segments, rectangles and polygons, rounded or not; a half-plane is one
+//! quotient.
 
 use super::sum;
 use crate::exact::{Site2, holds2};
@@ -17,17 +18,17 @@ use crate::polygon::outline::{Outline, Turn, is_searched};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Circle, Pose2, Ray2, Shape2};
 
-/// Roundings of a coordinate of the ray seen from the shape, in units of 2^-52 of all that is added up: two rotations and
-/// two quotients of 8 units of 2^-53 at most, differences, and the projection.
+/// Roundings of a coordinate of the ray seen from the shape, in units of 2^-52 of all that is added up: two
+/// rotations and two quotients of 8 units of 2^-53 at most, differences, and the projection.
 const ROUNDINGS: f64 = 16.0;
 
-/// Where a ray enters a shape, at most `limit` lengths of its direction from its origin; nothing if it does not. The limit may
-/// be infinite; NaN counts as no limit, and a negative one as zero.
+/// Where a ray enters a shape, at most `limit` lengths of its direction from its origin; nothing if it does not.
+/// The limit may be infinite; NaN counts as no limit, and a negative one as zero.
 ///
-/// Whether it starts inside is exact; then the distance is 0 and the normal is against the ray. Of a compound, the part that it
-/// enters first; one that it starts inside of before any other. Cost: 30 to 80 ns for a shape of few vertices, the
-/// logarithm of the vertices for a polygon of many, the number of parts for a compound; some microseconds where the origin lies
-/// on the outline up to rounding.
+/// Whether it starts inside is exact; then the distance is 0 and the normal is against the ray. Of a compound, the
+/// part that it enters first; one that it starts inside of before any other. Cost: 30 to 80 ns for a shape of few
+/// vertices, the logarithm of the vertices for a polygon of many, the number of parts for a compound; some
+/// microseconds where the origin lies on the outline up to rounding.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Pose2, Ray2, Shape2, glam::Vec2};
@@ -154,7 +155,8 @@ impl Asked<'_> {
         })
     }
 
-    /// Whether the origin is inside, of a line that enters before it, or as good as there; nothing where the shape is behind.
+    /// Whether the origin is inside, of a line that enters before it, or as good as there; nothing where the shape
+    /// is behind.
     fn is_entered(&self, beam: &Beam, entry: &Entry) -> Option<bool> {
         if matches!(self.shape, Shape2::HalfPlane(_)) {
             return Some(entry.along == f64::NEG_INFINITY || self.is_inside());

@@ -1,7 +1,9 @@
-//! How two bodies move, as the casts see it: one stretch, or two where a body turns, in each of which everything is smooth.
+//! How two bodies move, as the casts see it: one stretch, or two where a body turns, in each of which everything is
+//! smooth.
 //!
-//! Within a stretch, times run from 0 to 1. Positions move at constant speed; cosine and sine move along a chord q(s) and are
-//! made of unit length, so that with L the least length of q, and q x q' the area that it spans, a constant,
+//! Within a stretch, times run from 0 to 1. Positions move at constant speed; cosine and sine move along a chord
+//! q(s) and are made of unit length, so that with L the least length of q, and q x q' the area that it spans, a
+//! constant,
 //!
 //! ```text
 //! angular speed         |q x q'| / |q|^2                     <= |q x q'| / L^2
@@ -15,8 +17,8 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Motion2, Pose2, Rotation2};
 
-/// By how much a pose's rotation may lie beside the smooth way, in radians or as a stretch: it is rounded to f32 twice, and
-/// where the way begins and ends of unit length up to one rounding.
+/// By how much a pose's rotation may lie beside the smooth way, in radians or as a stretch: it is rounded to f32
+/// twice, and where the way begins and ends of unit length up to one rounding.
 const ROTATION_ROUNDING: f64 = f32::EPSILON as f64;
 
 /// What both bodies do.
@@ -149,7 +151,8 @@ impl Stretch {
         self.spins.iter().any(|spin| spin.rounding > 0.0)
     }
 
-    /// More than the difference of the positions may be off by up to a time, in the poses that are given for it and here.
+    /// More than the difference of the positions may be off by up to a time, in the poses that are given for it and
+    /// here.
     pub(super) fn lost(&self, end: f64) -> f64 {
         4.0 * f64::EPSILON * (self.positions + sum(self.offset) + self.paths * end)
     }

@@ -9,10 +9,10 @@
 //!   the gap is within tolerance: an impact at s
 //!   s = s + h
 //! ```
-//! Along a fixed axis n the gap of two shapes that only move shrinks at the rate n.d: the step is their quotient, and the
-//! next axis belongs to where that leads. This is Newton's iteration on the gap, ends after as many steps as features are met
-//! with polytopes, and never steps too far (van den Bergen, "Ray casting against general convex objects with application
-//! to continuous collision detection", 2004).
+//! Along a fixed axis n the gap of two shapes that only move shrinks at the rate n.d: the step is their quotient,
+//! and the next axis belongs to where that leads. This is Newton's iteration on the gap, ends after as many steps
+//! as features are met with polytopes, and never steps too far (van den Bergen, "Ray casting against general convex
+//! objects with application to continuous collision detection", 2004).
 //!
 //! With rotation the usual step is the gap over the fastest that any point may move (Mirtich 1996, "conservative
 //! advancement"), which converges only linearly, and slowly where shapes graze. Here it is of second order:
@@ -26,8 +26,8 @@
 //! ```
 //! Near the contact K h^2 vanishes beside the gap, and the iteration is Newton's again.
 //!
-//! A half-space that turns has an axis that turns with it: the same, with the vertices of the other seen from the plane.
-//! Cost: a distance and a few support searches a step.
+//! A half-space that turns has an axis that turns with it: the same, with the vertices of the other seen from the
+//! plane. Cost: a distance and a few support searches a step.
 
 use super::passage::{Course, Moment, length};
 use crate::polyhedron::closest::{Closest, Placed, closest};
@@ -157,8 +157,8 @@ impl Course<'_> {
         Step::By(step * (1.0 - 16.0 * f64::EPSILON), 0.5 * rest)
     }
 
-    /// The separation along an axis after a step, every vertex moved along its own tangent: a lower bound, but for what its
-    /// path bends.
+    /// The separation along an axis after a step, every vertex moved along its own tangent: a lower bound, but for
+    /// what its path bends.
     fn shown(&self, moment: &Moment, axis: DVec3, closing: f64, step: f64) -> f64 {
         let [spin_a, spin_b] = moment.spins.map(|spin| spin * step);
         // A plane takes its axis along.

@@ -6,19 +6,19 @@
 //! the boxes touch while all of them do: from the latest entry to the earliest exit
 //! the latest entry's axis is the normal; its features' closest points say how near they are
 //! ```
-//! The separating axis theorem for bodies that move: Eberly, "Dynamic collision detection using oriented bounding boxes"
-//! (1999). No search and no distance: the answer is as good as a projection, some 1e-14 of the size, and a miss is proved by
-//! one axis, or by one on which they have parted before they meet on another.
+//! The separating axis theorem for bodies that move: Eberly, "Dynamic collision detection using oriented bounding
+//! boxes" (1999). No search and no distance: the answer is as good as a projection, some 1e-14 of the size, and a
+//! miss is proved by one axis, or by one on which they have parted before they meet on another.
 //!
 //! What makes it fast:
 //!
 //! 1. fifteen slabs in lanes: a quotient, two differences and two products each, no branch;
-//! 2. edges' axes are not made of unit length: along an axis of length below 1 a projection is off by no more than along one
-//!    of length 1, so that axes of edges that are all but parallel drop out by that doubt alone;
+//! 2. edges' axes are not made of unit length: along an axis of length below 1 a projection is off by no more than
+//!    along one of length 1, so that axes of edges that are all but parallel drop out by that doubt alone;
 //! 3. rounding is half a width more on every axis: whatever the slabs say holds beyond it, both ways;
 //! 4. seen from where the bounding spheres meet: what is far away has cancelled before anything is turned;
-//! 5. closest points: a corner of one clamped to the other, or two edges; each other's nearest in turns where faces or edges
-//!    lie on each other.
+//! 5. closest points: a corner of one clamped to the other, or two edges; each other's nearest in turns where faces
+//!    or edges lie on each other.
 
 use super::advance::{End, Met};
 use super::passage::{Passage, Stretch, length};
@@ -149,7 +149,8 @@ impl Boxes {
         }
         let mut slabs = Slabs { enter: [0.0; LANES], leave: [0.0; LANES] };
         for lane in 0..LANES {
-            // Where nothing moves along the axis both are infinite, or NaN just on the slab's end, which bounds nothing.
+            // Where nothing moves along the axis both are infinite, or NaN just on the slab's end, which bounds
+            // nothing.
             let inverse = 1.0 / pace[lane].abs();
             let ahead = if pace[lane] < 0.0 { -at[lane] } else { at[lane] };
             let half = wide[lane] + doubt;

@@ -10,16 +10,18 @@
 //!   |v| within tolerance: an impact at s
 //!   n = v/|v|
 //! ```
-//! G. van den Bergen, "Ray casting against general convex objects with application to continuous collision detection" (2004):
-//! the point that moves against A - B. Every step is certified by its own projection, so that nothing before s, and no miss,
-//! hangs on the simplex; that proposes axes, and gives the points that say how near they are. Where it stalls, or they touch
-//! at the start, it tells nothing, and `advance` is asked, which narrows each distance down before it moves on.
+//! G. van den Bergen, "Ray casting against general convex objects with application to continuous collision
+//! detection" (2004): the point that moves against A - B. Every step is certified by its own projection, so that
+//! nothing before s, and no miss, hangs on the simplex; that proposes axes, and gives the points that say how near
+//! they are. Where it stalls, or they touch at the start, it tells nothing, and `advance` is asked, which narrows
+//! each distance down before it moves on.
 //!
 //! What makes it fast:
 //!
 //! 1. one search for the whole way: no distance is found but the last;
 //! 2. it starts where the bounding spheres meet: a step saved, and the way there no longer costs digits;
-//! 3. supports in f32 lanes, with their bound, until what they show is near what they may be off by: half of each one's cost;
+//! 3. supports in f32 lanes, with their bound, until what they show is near what they may be off by: half of each
+//!    one's cost;
 //! 4. shapes stand, and the origin moves: nothing is placed twice.
 
 use super::advance::{End, Met};
@@ -119,8 +121,8 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
 }
 
 impl March<'_> {
-    /// What an axis shows after so much of the stretch. By rough supports, unless they are not wanted or the gap is near what
-    /// they may be off by: of one far below zero only the corner matters.
+    /// What an axis shows after so much of the stretch. By rough supports, unless they are not wanted or the gap is
+    /// near what they may be off by: of one far below zero only the corner matters.
     fn shown(&self, axis: DVec3, done: f64, is_rough: bool) -> Shown {
         // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
         let closing = axis.dot(self.drift) + 16.0 * f64::EPSILON * length(self.drift);
@@ -139,8 +141,8 @@ impl March<'_> {
 }
 
 impl Simplex {
-    /// Takes one corner more, and leaves out those that do not carry the point nearest to where the origin has moved to. How far
-    /// that is; nothing where it is among them.
+    /// Takes one corner more, and leaves out those that do not carry the point nearest to where the origin has
+    /// moved to. How far that is; nothing where it is among them.
     fn grow(&mut self, corner: Option<Corner>, origin: DVec3) -> Option<f64> {
         if let Some(corner) = corner {
             self.corners.try_push(corner).ok()?;

@@ -35,7 +35,8 @@ pub(super) struct Course<'a> {
     size: f64,
     /// Those of the cores.
     core_size: f64,
-    /// For each part, how far its core reaches from its body's axis of turning, in metres, and from its body's position.
+    /// For each part, how far its core reaches from its body's axis of turning, in metres, and from its body's
+    /// position.
     pub(super) arms: [Arm; 2],
 }
 
@@ -127,8 +128,8 @@ impl Passage {
         self.between - self.drift * fraction
     }
 
-    /// Where two parts may touch until a fraction: from where their bounding spheres meet to where they part. Nothing where
-    /// they never do. Those of a body that turns are about its position.
+    /// Where two parts may touch until a fraction: from where their bounding spheres meet to where they part.
+    /// Nothing where they never do. Those of a body that turns are about its position.
     pub(super) fn stretch(&self, parts: [&Part; 2], until: f64) -> Option<Stretch> {
         let sphere = |i: usize| {
             let (center, radius) = (parts[i].center, f64::from(parts[i].shape.outer_radius()));
@@ -154,8 +155,8 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// From where two spheres meet to where they part, by their centres, each from its body's position, and B's position less
-    /// A's. No root and no quotient for what passes by: the cross product's square tells.
+    /// From where two spheres meet to where they part, by their centres, each from its body's position, and B's
+    /// position less A's. No root and no quotient for what passes by: the cross product's square tells.
     pub(super) fn of_spheres(
         [from, to, between]: [DVec3; 3],
         radii: f64,
@@ -221,7 +222,8 @@ impl<'a> Course<'a> {
         let ((basis_a, shift_a), (basis_b, shift_b)) =
             (self.parts[0].placed(&basis(0)), self.parts[1].placed(&basis(1)));
         let [a, b] = self.parts.map(|part| part.shape);
-        // What the positions and their difference lost is a few roundings of the way, where a projection has over a hundred.
+        // What the positions and their difference lost is a few roundings of the way, where a projection has over a
+        // hundred.
         let way = (length(passage.between) + fraction * length(passage.drift)) / 32.0;
         let off_center = length(a.center().as_dvec3()) + length(b.center().as_dvec3());
         let reach = self.size + off_center + length(shift_a) + length(shift_b) + length(between) + way;
@@ -234,8 +236,8 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// What the rounding of poses at a fraction may add to a gap, in metres: of positions to f64, and of the rotations of
-    /// those that turn to f32.
+    /// What the rounding of poses at a fraction may add to a gap, in metres: of positions to f64, and of the
+    /// rotations of those that turn to f32.
     pub(super) fn rounding(&self, fraction: f64, between: DVec3) -> f64 {
         let is_between = fraction > 0.0 && fraction < 1.0;
         let turned = |i: usize| match self.passage.turns[i] {

@@ -10,14 +10,16 @@
 //!                     the ray as a point that moves                                                    (advance)
 //! compound            the nearest of its parts
 //! ```
-//! All in f64. Only whether the origin is inside is asked of exact arithmetic, where it lies within rounding of the surface.
+//! All in f64. Only whether the origin is inside is asked of exact arithmetic, where it lies within rounding of the
+//! surface.
 //!
 //! What makes it fast:
 //!
 //! 1. distances are in lengths of the direction as it was given: no root and no division make it of unit length;
-//! 2. a sphere is met in world axes, so that no rotation is made a matrix of; a capsule turns two vectors out, a cuboid two in;
-//! 3. insides are told by squares, and a sphere around a hull is passed by the square of a cross product: roots are drawn of
-//!    what is hit, and there the error's beside the distance's;
+//! 2. a sphere is met in world axes, so that no rotation is made a matrix of; a capsule turns two vectors out, a
+//!    cuboid two in;
+//! 3. insides are told by squares, and a sphere around a hull is passed by the square of a cross product: roots are
+//!    drawn of what is hit, and there the error's beside the distance's;
 //! 4. no sphere is asked about before a closed form of its own cost.
 
 mod planes;
@@ -66,15 +68,15 @@ enum Meeting {
 
 /// Where a ray first meets a posed shape, within `limit` lengths of its direction, which may be infinite.
 ///
-/// An origin inside the shape, or on its surface exactly, is a hit at distance 0. Else the distance is right up to `error`,
-/// in metres along the ray: rounding of f64, some 1e-14 of the distance from the shape and of its size, over the cosine to the
-/// normal; of a hull also what its faces are off from its vertices
-/// ([`planarity_error`](asunder_geometry::Hull::planarity_error)). By as much, before it is divided by the cosine, may a ray
-/// have gone into a shape that it is said to miss. A thin shape (segment, triangle, flat hull) is hit by what passes within
-/// rounding. A NaN limit counts as none, and a negative one as zero. Of compounds, the nearest part.
+/// An origin inside the shape, or on its surface exactly, is a hit at distance 0. Else the distance is right up to
+/// `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance from the shape and of its size,
+/// over the cosine to the normal; of a hull also what its faces are off from its vertices
+/// ([`planarity_error`](asunder_geometry::Hull::planarity_error)). By as much, before it is divided by the cosine,
+/// may a ray have gone into a shape that it is said to miss. A thin shape (segment, triangle, flat hull) is hit by
+/// what passes within rounding. A NaN limit counts as none, and a negative one as zero. Of compounds, the nearest part.
 ///
-/// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for hulls; a few
-/// distances for what is rounded and for segments and flat hulls.
+/// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for
+/// hulls; a few distances for what is rounded and for segments and flat hulls.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Ray3, Shape3, glam::{DVec3, Vec3}};
@@ -227,7 +229,8 @@ impl<'a> Cast<'a> {
         let (pace, radius) = (self.squared.sqrt(), f64::from(part.shape.outer_radius()));
         let unit = self.way / pace;
         let beyond = length(part.center - self.from) + radius;
-        // Whatever the limit is, so that it changes no answer. A half-space is here only where the ray starts on its surface.
+        // Whatever the limit is, so that it changes no answer. A half-space is here only where the ray starts on
+        // its surface.
         let far = if radius.is_finite() { beyond * 1.0625 } else { 1.0 };
         let pair = Pair3::new(point, &origin, self.shape, self.pose);
         let passage = Passage { rounding: 0.0, ..Passage::straight(&pair, unit * far) };

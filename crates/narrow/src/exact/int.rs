@@ -29,8 +29,8 @@
 //! 2. [`sum_of_products`] picks those lengths once for an inner product, and resolves the sign once.
 //! 3. Results leave the registers only once. Built in a local that is then returned, they are stored, loaded and
 //!    stored again: a product of 1x1 limbs takes 9 ns that way, against 4.
-//! 4. Twelve limbs in place. With 16 or 20, tried: 2x3 takes 8 ns in place of 7, a product of 5x5 that is added on 38 or
-//!    42 in place of 32; saved are allocations that only the longest results need.
+//! 4. Twelve limbs in place. With 16 or 20, tried: 2x3 takes 8 ns in place of 7, a product of 5x5 that is added on
+//!    38 or 42 in place of 32; saved are allocations that only the longest results need.
 //!
 //! Tried, the loops on slices over other storage, products 1x1, 2x3, 5x5: smallvec 11, 14, 28 ns; arrayvec, which
 //! cannot grow, 8, 11, 27 ns.

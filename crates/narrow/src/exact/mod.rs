@@ -24,8 +24,8 @@
 //! 4. Of the vertices only those that f64 cannot tell from the furthest are compared exactly.
 //! 5. A corner's share is told from products of corners (the Gram matrix), each made once.
 //!
-//! Coordinates of P bits make signs of at most 4 P bits; radii, of 8 P. Cost: linear in the vertices, in f64, plus a few
-//! hundred products of integers of a few words.
+//! Coordinates of P bits make signs of at most 4 P bits; radii, of 8 P. Cost: linear in the vertices, in f64, plus
+//! a few hundred products of integers of a few words.
 
 mod frame2;
 mod frame3;

@@ -99,7 +99,8 @@ impl Simplex {
         Carried::Origin
     }
 
-    /// Whether there are four corners, and the origin is strictly inside: its volumes with all four faces have one sign.
+    /// Whether there are four corners, and the origin is strictly inside: its volumes with all four faces have one
+    /// sign.
     fn is_around_origin(&self) -> bool {
         let [a, b, c, d] = self.points.as_slice() else { return false };
         let (ab, cd) = (cross3(a, b), cross3(c, d));

@@ -10,8 +10,8 @@ use crate::shadow::is_many;
 use crate::whole2::{Wholes2, part_count};
 
 impl Pair2<'_> {
-    /// A contact of compounds. A direction that parts them as wholes comes first, where there may be one or it saves much;
-    /// pairs of parts, with what two of them left, come next.
+    /// A contact of compounds. A direction that parts them as wholes comes first, where there may be one or it
+    /// saves much; pairs of parts, with what two of them left, come next.
     pub(super) fn contact_of_parts(
         &self,
         asked: &Asked,

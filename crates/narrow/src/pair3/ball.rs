@@ -1,7 +1,7 @@
 //! A sphere and a cuboid that are parts of nothing: answered at once, in the cuboid's axes.
 //!
-//! Separation, error and normal are those of the general path to the last bit, and points up to rounding. That path carries
-//! more along: the distance takes some 340 ns there and 45 here (AMD EPYC, Zen 4, 2026-11-21).
+//! Separation, error and normal are those of the general path to the last bit, and points up to rounding. That path
+//! carries more along: the distance takes some 340 ns there and 45 here (AMD EPYC, Zen 4, 2026-11-21).
 
 use super::{Pair3, Part, reach_of};
 use crate::answer::{Closest3, ContactPoint3, Measured3, Separation3, Tier, Verdict};

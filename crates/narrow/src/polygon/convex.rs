@@ -170,8 +170,8 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// Shapes with a gap between their cores that one direction shows for certain: the nearest points first, and then the
-    /// axes that matter beside them.
+    /// Shapes with a gap between their cores that one direction shows for certain: the nearest points first, and
+    /// then the axes that matter beside them.
     fn gap(&self, [a, b]: [&Outline; 2], asked: &Asked, shown: (f64, DVec2), band: f64) -> Probe {
         let looked = self.look_closer(a, b, Some(shown));
         let (normal, least) = match &looked.1 {

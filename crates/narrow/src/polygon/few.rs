@@ -9,9 +9,10 @@
 //! That an edge's own vertex is furthest along its own normal is no guess: polygons are convex by exact predicates.
 //!
 //! What is lost to rounding: the normal is stored within 4 u of the true one (2 in direction, 2 in length), turned,
-//! 2.9 u, and multiplied by a scale, 2 u: less than 9 u of what is projected, which is a difference of points. Placing a
-//! vertex takes 2.9 u, adding the offset 1 u, each product 2 u, the difference 1 u. All in all less than 16 u of the reach:
-//! within two projections' rounding of the truth, in both directions, and so are parts', whose matrices take 3 u more.
+//! 2.9 u, and multiplied by a scale, 2 u: less than 9 u of what is projected, which is a difference of points.
+//! Placing a vertex takes 2.9 u, adding the offset 1 u, each product 2 u, the difference 1 u. All in all less than
+//! 16 u of the reach: within two projections' rounding of the truth, in both directions, and so are parts', whose
+//! matrices take 3 u more.
 //!
 //! 1. Coordinates stand in arrays of one length, eight or sixteen, and what is left is filled with the last: no loop
 //!    has a count.
@@ -19,8 +20,8 @@
 //! 3. The best edge's normal is made a unit vector by one step of Newton's, without a root.
 //!
 //! Together, AMD EPYC, Zen 4, 2026-11-21: `poly8/mixed/separation` 160 ns to 132, `poly8/mixed/manifold` 189 to 164.
-//! Not done: all of it compiled for AVX2, four lanes in place of two: boolean 48 ns to 40, separation 133 to 118, manifold
-//! 166 to 148, less what a call through run-time detection costs.
+//! Not done: all of it compiled for AVX2, four lanes in place of two: boolean 48 ns to 40, separation 133 to 118,
+//! manifold 166 to 148, less what a call through run-time detection costs.
 //!
 //! The loops are the scalar definition too; a test holds them to the bits of one edge after the other.
 

@@ -205,8 +205,9 @@ impl Reference {
     }
 }
 
-/// The nearest points of two cores with a gap between them, where they lie on the edge that the best axis is normal to and
-/// along that axis: then they are as far apart as it shows, and no search is needed. `tiny` is how much further is as near.
+/// The nearest points of two cores with a gap between them, where they lie on the edge that the best axis is normal
+/// to and along that axis: then they are as far apart as it shows, and no search is needed. `tiny` is how much
+/// further is as near.
 pub(super) fn nearest_on_edge([a, b]: [&impl Placed; 2], axis: &Axis, tiny: f64) -> Option<Witness> {
     let witness = match axis.of {
         AxisOf::EdgeA(edge) => on_edge(a, b, (edge, axis.normal), tiny, false),

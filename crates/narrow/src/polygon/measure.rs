@@ -48,14 +48,14 @@ pub(crate) struct Measure {
     /// Both radii, and A's.
     pub(super) radii: f64,
     radius_a: f64,
-    /// How much another axis must beat a face of A by. Relative to the smaller shape: what is nothing to a floor may be all
-    /// of a pebble. Never below rounding.
+    /// How much another axis must beat a face of A by. Relative to the smaller shape: what is nothing to a floor
+    /// may be all of a pebble. Never below rounding.
     pub(super) preference: f64,
 }
 
 impl Measure {
-    /// Two shapes, and B's position less A's. `summed` is how long the vectors were that the position is a sum of, in metres,
-    /// where it is one of several: of parts.
+    /// Two shapes, and B's position less A's. `summed` is how long the vectors were that the position is a sum of,
+    /// in metres, where it is one of several: of parts.
     #[inline]
     pub(crate) fn new([a, b]: [&Shape2; 2], offset: DVec2, summed: Option<f64>) -> Self {
         let radii = [f64::from(a.radius()), f64::from(b.radius())];
@@ -86,8 +86,8 @@ impl Measure {
         roundings: f64,
     ) -> Self {
         let radii = radius_a + radius_b;
-        // What the distance iteration's steps are relative to: radii do not enter it. A half-plane has no size: only the
-        // other shape's vertices enter its pairs.
+        // What the distance iteration's steps are relative to: radii do not enter it. A half-plane has no size:
+        // only the other shape's vertices enter its pairs.
         let core =
             |outer: f32, radius: f64| if outer < f32::INFINITY { f64::from(outer) - radius } else { 0.0 };
         let size = core(outer_a, radius_a) + core(outer_b, radius_b);
@@ -121,7 +121,8 @@ impl Measure {
         Probe::Beyond(at_least(separation - self.radii, &self.precision), hint)
     }
 
-    /// The answer, where it is beyond doubt by the axes, or by the nearest points where those lie on the best axis' edge.
+    /// The answer, where it is beyond doubt by the axes, or by the nearest points where those lie on the best axis'
+    /// edge.
     #[inline]
     pub(super) fn at_once(
         &self,
@@ -140,8 +141,8 @@ impl Measure {
     #[inline]
     pub(super) fn within(&self, placed: [&impl Placed; 2], asked: &Asked, axes: &Axes) -> Option<Probe> {
         let (best, rounding) = (axes.best(), self.precision.projection());
-        // Every edge normal was tried, or is known to be no better. Shapes without an inside may lie on one line, and have
-        // no axis along it.
+        // Every edge normal was tried, or is known to be no better. Shapes without an inside may lie on one line,
+        // and have no axis along it.
         if best.separation < -(axes.short + 2.0 * rounding) {
             let is_thin = placed[0].is_flat() && placed[1].is_flat();
             let verdict = Verdict { overlapping: true, tier: Tier::Bound };
@@ -181,8 +182,8 @@ impl Measure {
         }
     }
 
-    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
-    /// most that the gap can be.
+    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap`
+    /// is the most that the gap can be.
     #[inline]
     fn overlap_of_cores(
         &self,

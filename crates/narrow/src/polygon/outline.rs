@@ -194,8 +194,8 @@ impl<'a> Outline<'a> {
         self.support_near(direction, None)
     }
 
-    /// The same, asked of one vertex first, which it may be, or be beside: two edges tell. Of those that tie up to rounding it
-    /// may be another.
+    /// The same, asked of one vertex first, which it may be, or be beside: two edges tell. Of those that tie up to
+    /// rounding it may be another.
     #[inline]
     pub(crate) fn support_near(&self, direction: DVec2, near: Option<usize>) -> Support {
         let local = self.turn.turn_back(direction);
@@ -251,14 +251,14 @@ impl<'a> Outline<'a> {
         best
     }
 
-    /// The vertex furthest along a direction, of those from `from` on up to so many edges later. Those edges turn by less
-    /// than half a circle, and the direction lies between the first one's normal and the last one's.
+    /// The vertex furthest along a direction, of those from `from` on up to so many edges later. Those edges turn
+    /// by less than half a circle, and the direction lies between the first one's normal and the last one's.
     ///
-    /// Then edges first ascend and afterwards descend, and the last that ascends is found by halving. An edge e of which
-    /// the sign of d.e is rounded away has |d.e| <= 2 u |d| |e|: where it vanishes, both products are at most |d| |e| / 2,
-    /// and their sum is rounded by next to nothing; the difference of two f32 is off by u at most. All such edges stand
-    /// side by side, nearly on one line, and are no longer together than the polygon, 2 R. So whichever of them the search
-    /// ends at, it falls short of the furthest vertex by at most 4 u R: [`OF_SEARCH`].
+    /// Then edges first ascend and afterwards descend, and the last that ascends is found by halving. An edge e of
+    /// which the sign of d.e is rounded away has |d.e| <= 2 u |d| |e|: where it vanishes, both products are at most
+    /// |d| |e| / 2, and their sum is rounded by next to nothing; the difference of two f32 is off by u at most. All such edges stand
+    /// side by side, nearly on one line, and are no longer together than the polygon, 2 R. So whichever of them the
+    /// search ends at, it falls short of the furthest vertex by at most 4 u R: [`OF_SEARCH`].
     #[inline]
     pub(super) fn climb(&self, from: usize, edges: usize, direction: DVec2) -> usize {
         self.climb_local(from, edges, self.turn.turn_back(direction))

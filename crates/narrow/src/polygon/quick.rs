@@ -1,4 +1,5 @@
-//! What can be told of two bodies before they are made ready for a kernel: circles around and inside them, and rectangles.
+//! What can be told of two bodies before they are made ready for a kernel: circles around and inside them, and
+//! rectangles.
 //!
 //! | trick | gain, AMD EPYC, Zen 4 |
 //! |---|---|
@@ -6,8 +7,8 @@
 //! | circles inside both | polygons of 64, deep: 314 ns to 12 |
 //! | two rectangles: `rects`, at once | 103 ns to 30 |
 //!
-//! A stored rotation stretches by its length, which is one up to the rounding of f32: radii are widened, or narrowed, by more
-//! than that. What positions and centres lose is bounded by the sum of their coordinates.
+//! A stored rotation stretches by its length, which is one up to the rounding of f32: radii are widened, or
+//! narrowed, by more than that. What positions and centres lose is bounded by the sum of their coordinates.
 
 use super::few::{self, Few};
 use super::measure::{Asked, Measure, Probe};

@@ -6,18 +6,19 @@
 //! ```
 //! Gottschalk, Lin and Manocha, "OBBTree" (1996), in the plane. That is the projection of all eight vertices.
 //!
-//! What is lost to rounding: C and S are sums of exact products, 1 u; a product, 1 u; three sums, 3 u; the offset, its products
-//! and their sum, 4 u; the scale to unit length, 3 u: less than 10 u of the reach. An axis is the stored direction itself
-//! and so not beside its place at all. Parts' matrices and offsets add what they do everywhere.
+//! What is lost to rounding: C and S are sums of exact products, 1 u; a product, 1 u; three sums, 3 u; the offset,
+//! its products and their sum, 4 u; the scale to unit length, 3 u: less than 10 u of the reach. An axis is the
+//! stored direction itself and so not beside its place at all. Parts' matrices and offsets add what they do everywhere.
 //!
 //! | trick | gain, rectangles of a broad phase, yes or no |
 //! |---|---|
 //! | closed form in place of eight dot products an axis | 103 ns to 52 |
 //! | asked before a pair has been made ready for other kernels | 52 ns to 30 |
 //!
-//! `rect/mixed/manifold` of `compare` went from 130 ns to 97 (AMD EPYC, Zen 4, 2026-11-21; both beside other work). What was
-//! saved are jumps that cannot be foretold (which edge, which sign) and waiting: a load of 16 bytes that were stored as two
-//! times 8 is not forwarded, and takes 5 ns or more. What bought what, in a bare loop over the same pairs:
+//! `rect/mixed/manifold` of `compare` went from 130 ns to 97 (AMD EPYC, Zen 4, 2026-11-21; both beside other work).
+//! What was saved are jumps that cannot be foretold (which edge, which sign) and waiting: a load of 16 bytes that
+//! were stored as two times 8 is not forwarded, and takes 5 ns or more. What bought what, in a bare loop over the
+//! same pairs:
 //!
 //! | trick | gain |
 //! |---|---|
@@ -28,9 +29,9 @@
 //! | the edge that looks at the reference, by two signs and one comparison | 90 to 85 |
 //! | two contact points are stored once, in their order, not swapped | resting: 122 to 118 |
 //!
-//! Did not pay, since all of them copy points or ends through memory: choosing the reference shape by pointers, one path for A
-//! and B (8 % slower); ordering the clipped ends before making points of them (15 % slower); points written at reckoned
-//! places without jumps (6 % slower); everything inlined into one function (8 % slower).
+//! Did not pay, since all of them copy points or ends through memory: choosing the reference shape by pointers, one
+//! path for A and B (8 % slower); ordering the clipped ends before making points of them (15 % slower); points
+//! written at reckoned places without jumps (6 % slower); everything inlined into one function (8 % slower).
 
 use super::outline::Turn;
 use super::placed::Placed;
@@ -108,8 +109,8 @@ impl Rects {
         }
     }
 
-    /// The axis that is normal to an edge, by shape and index. Looked up, since which edge it is cannot be foretold; and
-    /// from constants: vectors that were just put into an array by halves would be waited for.
+    /// The axis that is normal to an edge, by shape and index. Looked up, since which edge it is cannot be
+    /// foretold; and from constants: vectors that were just put into an array by halves would be waited for.
     #[inline]
     fn axis(&self, of: AxisOf, turns: [&Turn; 2]) -> Axis {
         let (edge, which, sign) = match of {
@@ -121,7 +122,8 @@ impl Rects {
         Axis { separation: separation * turn.unit(), normal: turn.turn(outward * turn.unit()), of }
     }
 
-    /// The best axis of one shape, whose first is number `first`: the edge, and the separation along its stored direction.
+    /// The best axis of one shape, whose first is number `first`: the edge, and the separation along its stored
+    /// direction.
     #[inline]
     fn best(&self, first: usize) -> (usize, f64) {
         let along = |axis: usize| self.offsets[axis].abs() - self.reaches[axis];
@@ -130,8 +132,8 @@ impl Rects {
         if (x > y) | ((x == y) & (edge_x < edge_y)) { (edge_x, x) } else { (edge_y, y) }
     }
 
-    /// The best axis of either shape, and what the hint names where it is within the band; or that one shows more than the
-    /// limit: which is told before a normal is turned.
+    /// The best axis of either shape, and what the hint names where it is within the band; or that one shows more
+    /// than the limit: which is told before a normal is turned.
     #[inline]
     fn axes(&self, turns: [&Turn; 2], kept: Option<AxisOf>, wanted: &Wanted) -> Result<Axes, (f64, AxisOf)> {
         let ((edge_a, in_a), (edge_b, in_b)) = (self.best(0), self.best(2));
@@ -152,8 +154,8 @@ impl Rects {
     }
 }
 
-/// Finds the best axes of two rectangles: half extents of both, how they are turned, and B's position less A's; what the hint
-/// names, and what is wanted. An error is an axis that shows more than the limit.
+/// Finds the best axes of two rectangles: half extents of both, how they are turned, and B's position less A's;
+/// what the hint names, and what is wanted. An error is an axis that shows more than the limit.
 #[inline]
 pub(super) fn best_axes(
     halves: [DVec2; 2],

@@ -129,8 +129,8 @@ pub(crate) fn doubt(precision: &Precision) -> f64 {
     2.0 * precision.projection()
 }
 
-/// The normal of an edge, from A to B, and both shapes projected on it. `near` is a vertex of the other shape that may be
-/// the furthest one, or beside it; of the edge's own shape its start is.
+/// The normal of an edge, from A to B, and both shapes projected on it. `near` is a vertex of the other shape that
+/// may be the furthest one, or beside it; of the edge's own shape its start is.
 pub(super) fn axis(a: &Outline, b: &Outline, of: AxisOf, near: Option<usize>) -> Axis {
     let (normal, near_a, near_b) = match of {
         AxisOf::EdgeA(edge) => (a.normal(edge), Some(edge), near),

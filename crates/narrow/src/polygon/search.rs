@@ -10,25 +10,25 @@
 //!   few edges: evaluate each
 //!   else split it where the chord's normal has its support
 //! ```
-//! The step is that of the expanding polytope (van den Bergen, "Proximity queries and penetration depth computation on 3D game
-//! objects", 2001), without its queue, its iteration limit and its tolerance: what is left out is proved to be
-//! worse, by corners that were met, for every direction and not only for edges. A gap shows as h(n) < 0 and ends the search:
-//! it is then the search for a separating direction of Chung and Wang (1996).
+//! The step is that of the expanding polytope (van den Bergen, "Proximity queries and penetration depth computation
+//! on 3D game objects", 2001), without its queue, its iteration limit and its tolerance: what is left out is proved
+//! to be worse, by corners that were met, for every direction and not only for edges. A gap shows as h(n) < 0 and
+//! ends the search: it is then the search for a separating direction of Chung and Wang (1996).
 //!
 //! What keeps it cheap:
-//! 1. A support is found by halving (`Outline::climb`), within the edges of the arc: 4096 edges take 12 steps at first, then
-//!    ever fewer. All splits of a pair of circles about one centre, where nothing can be left out, add up to a linear
-//!    number of steps.
+//! 1. A support is found by halving (`Outline::climb`), within the edges of the arc: 4096 edges take 12 steps at
+//!    first, then ever fewer. All splits of a pair of circles about one centre, where nothing can be left out, add
+//!    up to a linear number of steps.
 //! 2. Where the centre of B lies as seen from A is a good first direction, last frame's axis a better one.
 //! 3. Bounds are compared as squares; a root is taken only of a new best.
-//! 4. The distance iteration asks its last corner first: 2340 ns to 2100 for polygons of 64 vertices in a gap, 6.25 us to
-//!    5.9 for 4096.
-//! 5. An edge's own end is asked first when its axis is projected, and beside a gap the vertex that faces it: 2100 ns to
-//!    1900, and 5.9 us to 4.55.
+//! 4. The distance iteration asks its last corner first: 2340 ns to 2100 for polygons of 64 vertices in a gap, 6.25
+//!    us to 5.9 for 4096.
+//! 5. An edge's own end is asked first when its axis is projected, and beside a gap the vertex that faces it: 2100
+//!    ns to 1900, and 5.9 us to 4.55.
 //!
 //! How it grows, in ns (AMD EPYC, Zen 4, 2026-11-21, a busy machine, the lower of two runs; rows `grown*` of
-//! `compare -- narrow`, of pairs that circles do not tell; `apart` and `light` lie within 1e-2 of size of touching, `deep` on
-//! one centre, where every edge is as good):
+//! `compare -- narrow`, of pairs that circles do not tell; `apart` and `light` lie within 1e-2 of size of touching,
+//! `deep` on one centre, where every edge is as good):
 //!
 //! | vertices | 8 | 16 | 32 | 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 |
 //! |---|---|---|---|---|---|---|---|---|---|---|
@@ -40,9 +40,9 @@
 //!
 //! Up to 16 vertices it is all edges side by side that answer (`few`).
 //!
-//! Error: an arc that was left out has no axis within the band of the best, but for the rounding of two projections, which the
-//! band is wider than. An edge's own evaluation is as in `few`, plus a searched support: within two projections' rounding,
-//! which count what a search may lose.
+//! Error: an arc that was left out has no axis within the band of the best, but for the rounding of two
+//! projections, which the band is wider than. An edge's own evaluation is as in `few`, plus a searched support:
+//! within two projections' rounding, which count what a search may lose.
 
 use super::outline::Outline;
 use super::sat::{Axes, Axis, AxisOf, Named, Outcome, Sides, Wanted, axis, doubt, hint_of_direction};

@@ -49,8 +49,8 @@ fn on_circle(angle: f64) -> DVec2 {
     (0..quarter as i64).fold(point, |point, _| point.perp())
 }
 
-/// Polygons that a search by angles has trouble with: round, needles, steps that shrink, edges all but parallel, far from
-/// their origin.
+/// Polygons that a search by angles has trouble with: round, needles, steps that shrink, edges all but parallel,
+/// far from their origin.
 fn outlines(random: &mut Random) -> Vec<Vec2> {
     let count = [17, 20, 33, 64, 300, 4096][random.below(6)];
     let angle = |i: usize| core::f64::consts::TAU * i as f64 / count as f64;
@@ -157,7 +157,8 @@ fn pair(random: &mut Random, most: usize) -> ([Shape2; 2], [Turn; 2], DVec2) {
     (shapes, turns, offset)
 }
 
-/// Whichever kernel it is, the best axis is the plain definition's up to rounding, and nothing within the band is missing.
+/// Whichever kernel it is, the best axis is the plain definition's up to rounding, and nothing within the band is
+/// missing.
 #[test]
 fn kernels_find_the_best_axis_of_all() {
     let mut random = Random(Rand64::new(42));
@@ -390,8 +391,8 @@ fn lanes_give_the_bits_of_one_edge_after_the_other() {
     }
 }
 
-/// Symptom: a pebble hundreds of thousands of kilometres away was 1e-45 m from another, and the closest points were NaN. Cause: out
-/// there both ends of an edge of 28 nm round to one point, and a place along it was nought by nought.
+/// Symptom: a pebble hundreds of thousands of kilometres away was 1e-45 m from another, and the closest points were
+/// NaN. Cause: out there both ends of an edge of 28 nm round to one point, and a place along it was nought by nought.
 #[test]
 fn an_edge_that_rounds_to_a_point_far_out_is_no_place_to_be() {
     let outline = [[-0.552, -0.674], [-0.526, -0.684], [0.258, -0.666], [0.556, -0.364], [-1.0, 1.0]];

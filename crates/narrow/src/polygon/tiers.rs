@@ -115,8 +115,8 @@ impl Convex<'_> {
         self.exactly(&[])
     }
 
-    /// The second tier and the third, and how the cores lie. `best` is the separation that the first tier found best, and
-    /// its axis.
+    /// The second tier and the third, and how the cores lie. `best` is the separation that the first tier found
+    /// best, and its axis.
     ///
     /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
     pub(super) fn look_closer(

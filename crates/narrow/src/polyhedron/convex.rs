@@ -142,8 +142,8 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// [`Convex::probe`], and where the answer is accepted [`Convex::touch`]; whether points were made. Both at once, since
-    /// it costs something to look at a cuboid as a solid.
+    /// [`Convex::probe`], and where the answer is accepted [`Convex::touch`]; whether points were made. Both at
+    /// once, since it costs something to look at a cuboid as a solid.
     pub(crate) fn contact(
         &self,
         asked: Asked,
@@ -231,8 +231,8 @@ impl<'a> Convex<'a> {
     }
 
     /// Contact points of shapes within the limit, on their surfaces, made where last frame's hint says they were unless
-    /// that is worse by two preferences; filled in, since they are large. False for two half-spaces that overlap without
-    /// end, which have none.
+    /// that is worse by two preferences; filled in, since they are large. False for two half-spaces that overlap
+    /// without end, which have none.
     fn touch(&self, near: &Near, asked: Asked, touch: &mut Touch) -> bool {
         let (a, b) = match &near.evidence {
             Evidence::HalfSpaces(a, b) => (a, b),

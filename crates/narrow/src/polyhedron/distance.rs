@@ -169,8 +169,8 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
 /// Whether four corners hold the origin for certain.
 ///
 /// They do where the origin lies on the same side of all four faces: the four volumes that it spans with them have one
-/// sign. A corner is off by at most `projection` in each coordinate, so that a volume of corners no longer than m is off
-/// by less than 6 m^2 of that, and by less than 16 roundings of m^3.
+/// sign. A corner is off by at most `projection` in each coordinate, so that a volume of corners no longer than m
+/// is off by less than 6 m^2 of that, and by less than 16 roundings of m^3.
 pub(super) fn is_around_origin([a, b, c, d]: [DVec3; 4], precision: &Precision) -> bool {
     let longest = [a, b, c, d].iter().map(|corner| corner.abs().element_sum()).fold(0.0, f64::max);
     let doubt = longest * longest * (6.0 * precision.projection() + 8.0 * f64::EPSILON * longest);
@@ -212,8 +212,8 @@ impl Simplex {
         Grown::Nearer
     }
 
-    /// The unit direction to the origin that is square to the simplex: where the origin is all but on it, the straight one
-    /// is rounding, and this one tells.
+    /// The unit direction to the origin that is square to the simplex: where the origin is all but on it, the
+    /// straight one is rounding, and this one tells.
     fn square_to_origin(&self, straight: DVec3) -> DVec3 {
         let square = match *self.corners.as_slice() {
             [(_, a), (_, b), (_, c)] => (b - a).cross(c - a),

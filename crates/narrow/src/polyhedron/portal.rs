@@ -8,10 +8,10 @@
 //! 3 the origin between v and the portal: it is inside the tetrahedron of v and the three, and so inside M
 //! 4 else the furthest vertex beyond the portal, and of the three smaller portals it makes the one that the ray meets
 //! ```
-//! Snethen, "XenoCollide: complex collision made simple" (Game Programming Gems 7, 2008). Each step asks for one vertex of A
-//! and one of B, and neither for a face nor for a distance: yes or no for two hulls of 32 vertices takes 4 to 6 of them.
-//! What is answered was checked beyond rounding; whatever stalls, or is too close to call, is left to the distance
-//! iteration.
+//! Snethen, "XenoCollide: complex collision made simple" (Game Programming Gems 7, 2008). Each step asks for one
+//! vertex of A and one of B, and neither for a face nor for a distance: yes or no for two hulls of 32 vertices
+//! takes 4 to 6 of them. What is answered was checked beyond rounding; whatever stalls, or is too close to call, is
+//! left to the distance iteration.
 
 use super::distance::is_around_origin;
 use super::solid::Solid;
@@ -76,8 +76,8 @@ impl Look<'_, '_> {
         self.direction.try_normalize().unwrap_or(DVec3::X)
     }
 
-    /// The furthest vertex along a direction of any length; nothing if that parts the solids, if there is no direction, or if
-    /// there were too many. A root is taken only where the solids seem to be parted.
+    /// The furthest vertex along a direction of any length; nothing if that parts the solids, if there is no
+    /// direction, or if there were too many. A root is taken only where the solids seem to be parted.
     fn along(&mut self, mut direction: DVec3) -> Option<DVec3> {
         let mut square = direction.length_squared();
         // The lanes are f32: what is much shorter or longer would leave their range, and with it their bound.

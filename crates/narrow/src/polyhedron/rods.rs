@@ -75,8 +75,8 @@ pub(super) fn side_by_side(
     None
 }
 
-/// The edges at a core's furthest vertex that run nearly across a direction, in order: looked for around the vertices that
-/// are as far, which are few.
+/// The edges at a core's furthest vertex that run nearly across a direction, in order: looked for around the
+/// vertices that are as far, which are few.
 fn edges_across(solid: &Solid, direction: DVec3, slack: f64) -> ArrayVec<u16, MAX_EDGES> {
     let local = solid.turned_back(direction);
     let least = solid.local_support(local).reach - slack;

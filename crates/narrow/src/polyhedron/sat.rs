@@ -19,17 +19,19 @@
 //! An axis that is a little off its place shows a little less than it should, never more. How much that may be is kept
 //! beside the best separation ([`Axes::short`]): one edge pair at a small angle costs only its own pair's precision.
 //!
-//! What makes it cheap, and what each bought on two hulls of 32 vertices (AMD EPYC, Zen 4, 2026-11-21; the plain test took
-//! 52 us on mixed pairs and 85 on deep ones, and takes 1.6 and 6.5):
+//! What makes it cheap, and what each bought on two hulls of 32 vertices (AMD EPYC, Zen 4, 2026-11-21; the plain
+//! test took 52 us on mixed pairs and 85 on deep ones, and takes 1.6 and 6.5):
 //!
 //! 1. *arcs eight at a time*, in f32, over data built with the hull: deep 85 -> 19 us;
-//! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 -> 7.8 us;
-//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound will do,
-//!    f32 alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
+//! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 ->
+//!    7.8 us;
+//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound
+//!    will do, f32 alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
 //! 4. *the edges themselves, and vertices seen so far*, bound an edge pair's axis before it is projected, without a
-//!    quotient: prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they do: 3.3 -> 3.1;
-//! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold, sliding
-//!    4.2 -> 1.0, tumbling 3.2 -> 1.7. In a gap the same (`across`).
+//!    quotient: prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they do: 3.3
+//!    -> 3.1;
+//! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold,
+//!    sliding 4.2 -> 1.0, tumbling 3.2 -> 1.7. In a gap the same (`across`).
 //!
 //! And on two of 256 that are symmetric enough for nothing to be culled, as equal double cones in one place (1.9 ms):
 //!
@@ -39,11 +41,11 @@
 //!
 //! Tried, and dropped: AVX2 for the whole test behind run-time detection (0 to 15 % slower, though the whole program
 //! compiled for it is 8 to 15 % faster: calls that are not inlined pay for the border); AVX2 for the support alone (no
-//! gain); one lane in place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow for 8
-//! vertices); masks in place of eight numbers (slower in portable Rust); the best
+//! gain); one lane in place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow
+//! for 8 vertices); masks in place of eight numbers (slower in portable Rust); the best
 //! direction of the search before as a first bound (no gain); the furthest vertex as a sum of indices
-//! without branches (20 % slower: branches are guessed, sums are waited for); arcs' eights given up between the two great
-//! circles and the meeting point (cones 15 % faster, all else 3 to 6 % slower).
+//! without branches (20 % slower: branches are guessed, sums are waited for); arcs' eights given up between the two
+//! great circles and the meeting point (cones 15 % faster, all else 3 to 6 % slower).
 //!
 //! Cost: linear in faces, edges and vertices; what the spheres leave, faces times vertices and edges times edges.
 
@@ -180,11 +182,11 @@ impl Search<'_> {
         4.0 * (self.slack + self.precision.projection())
     }
 
-    /// By how much edges may be better than the best face and still count as even with it: nothing next to the f32 of the
-    /// answer.
+    /// By how much edges may be better than the best face and still count as even with it: nothing next to the f32
+    /// of the answer.
     ///
-    /// Where edges end at one normal, or are parallel, as those of two prisms, all their pairs have the axis of a face up to
-    /// rounding: one by one, two prisms of 128 sides in one place took 14 ms.
+    /// Where edges end at one normal, or are parallel, as those of two prisms, all their pairs have the axis of a
+    /// face up to rounding: one by one, two prisms of 128 sides in one place took 14 ms.
     fn even(&self, best: f64) -> f64 {
         64.0 * self.precision.projection() + best.abs() * f64::from(f32::EPSILON) / 128.0
     }
@@ -218,8 +220,8 @@ struct Found {
     aside: f64,
     /// A separation that the shapes have for certain.
     floor: f64,
-    /// Vertices of A, and of B, that were furthest along some axis. Along any other, the truth is no more than what they
-    /// show.
+    /// Vertices of A, and of B, that were furthest along some axis. Along any other, the truth is no more than what
+    /// they show.
     seen: [ArrayVec<(usize, DVec3), SEEN>; 2],
 }
 
@@ -229,8 +231,8 @@ impl Found {
         Self { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, seen }
     }
 
-    /// The most promising face of each solid first, since the better the best axis is, the more is culled by it. Returns
-    /// those faces, and the other's vertices that are furthest against them.
+    /// The most promising face of each solid first, since the better the best axis is, the more is culled by it.
+    /// Returns those faces, and the other's vertices that are furthest against them.
     fn by_first_faces(&mut self, sights: &mut [Sight; 2], search: &Search) -> [Option<[usize; 2]>; 2] {
         let mut first = [None; 2];
         for (which, sight) in sights.iter_mut().enumerate() {
@@ -312,7 +314,8 @@ impl Found {
         });
     }
 
-    /// The same, each edge of B turned once: a third less where each comes with many of A. Apart, for the stack that it takes.
+    /// The same, each edge of B turned once: a third less where each comes with many of A. Apart, for the stack
+    /// that it takes.
     #[inline(never)]
     fn by_many_edges(
         &mut self,
@@ -335,8 +338,8 @@ impl Found {
         });
     }
 
-    /// Whether the axis of two edges is not the best, or even with the best face, by no more than these edges: they show no
-    /// less than the truth. No root of a quotient: everything stays as long as the cross product.
+    /// Whether the axis of two edges is not the best, or even with the best face, by no more than these edges: they
+    /// show no less than the truth. No root of a quotient: everything stays as long as the cross product.
     #[inline(always)]
     fn is_settled(&mut self, edges: [&EdgeAt; 2], cross: &Cross, search: &Search) -> bool {
         // As long as two: it takes 6 ns.
@@ -349,12 +352,13 @@ impl Found {
         self.is_too_little(shown, (cross, length), search)
     }
 
-    /// Whether what is shown along an axis across two edges, times the length of their cross product, is no more than the
-    /// best axis so far, or than is even with the best face.
+    /// Whether what is shown along an axis across two edges, times the length of their cross product, is no more
+    /// than the best axis so far, or than is even with the best face.
     #[inline(always)]
     fn is_too_little(&mut self, shown: f64, (cross, length): (&Cross, f64), search: &Search) -> bool {
-        // Twice the rounding of an axis across two edges, which is a projection's over their sine: times the length of the
-        // cross product that is a projection's times both edges' lengths, of which half the sum of squares is no less.
+        // Twice the rounding of an axis across two edges, which is a projection's over their sine: times the length
+        // of the cross product that is a projection's times both edges' lengths, of which half the sum of squares
+        // is no less.
         let most = shown + search.precision.projection() * (2.0 * cross.lengths() + length);
         if most <= self.axes.best().separation * length {
             return true;
@@ -414,15 +418,15 @@ impl Found {
         is_nothing
     }
 
-    /// Whether an axis of edges beats the one so far: by what it shows, or, where that is the same up to rounding, as it is
-    /// for all edges of the same direction, because its edges are those that touch.
+    /// Whether an axis of edges beats the one so far: by what it shows, or, where that is the same up to rounding,
+    /// as it is for all edges of the same direction, because its edges are those that touch.
     fn is_better(&self, axis: &Axis, aside: f64, rounding: f64) -> bool {
         let more = axis.separation - self.axes.edges.separation;
         more > rounding || more >= -rounding && aside < self.aside - rounding
     }
 
-    /// Whether the axis of two edges is not the best, or even with the best face, by the vertices seen so far: all that they
-    /// show is more than the truth.
+    /// Whether the axis of two edges is not the best, or even with the best face, by the vertices seen so far: all
+    /// that they show is more than the truth.
     fn shows_too_little(&mut self, (cross, length): (&Cross, f64), search: &Search) -> bool {
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         for (_, point) in &self.seen[1] {

@@ -1,9 +1,9 @@
 //! The point of a simplex that is nearest to the origin.
 //!
-//! The corner that came last is part of what is nearest, or the step brought nothing: of the fourteen faces of a tetrahedron
-//! the seven that hold it are tried. The affine nearest point of a face counts if it lies inside that face, and the nearest
-//! of those wins: no tree of regions, down which rounding could lead a wrong branch. Squared distances are compared, and the
-//! point is made for the winner alone.
+//! The corner that came last is part of what is nearest, or the step brought nothing: of the fourteen faces of a
+//! tetrahedron the seven that hold it are tried. The affine nearest point of a face counts if it lies inside that
+//! face, and the nearest of those wins: no tree of regions, down which rounding could lead a wrong branch. Squared
+//! distances are compared, and the point is made for the winner alone.
 
 use asunder_geometry::glam::DVec3;
 
@@ -16,8 +16,8 @@ pub(crate) struct Nearest {
     pub(crate) weights: [f64; 4],
 }
 
-/// The nearest point among the faces of one to four corners that the last corner is part of, or nothing where a tetrahedron
-/// holds the origin.
+/// The nearest point among the faces of one to four corners that the last corner is part of, or nothing where a
+/// tetrahedron holds the origin.
 pub(crate) fn nearest_to_origin(corners: &[DVec3]) -> Option<Nearest> {
     if let &[a, b, c, d] = corners
         && holds_origin([a, b, c, d])

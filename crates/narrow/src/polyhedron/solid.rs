@@ -125,8 +125,8 @@ impl<'a> Solid<'a> {
         self.forth(self.vertices[to].as_dvec3() - self.vertices[from].as_dvec3())
     }
 
-    /// A direction, of any length, that lies between the normals beside an edge, in the frame of the pair: outwards as seen
-    /// from there. Zero for a segment, which looks everywhere.
+    /// A direction, of any length, that lies between the normals beside an edge, in the frame of the pair: outwards
+    /// as seen from there. Zero for a segment, which looks everywhere.
     #[inline]
     pub(crate) fn out_of_edge(&self, half_edge: usize) -> DVec3 {
         let edges = self.topology.half_edges();
@@ -149,8 +149,8 @@ impl<'a> Solid<'a> {
 
     /// The vertex furthest along a direction of unit length; ties go to the lowest index. Cost: linear in the vertices.
     ///
-    /// f32 lanes leave out what is lower by more than they can be off; f64 chooses among the rest, so that the answer is
-    /// that of `support_one_by_one` to the last bit. 32 vertices: 35 ns one by one, 19 here (AMD EPYC, Zen 4,
+    /// f32 lanes leave out what is lower by more than they can be off; f64 chooses among the rest, so that the
+    /// answer is that of `support_one_by_one` to the last bit. 32 vertices: 35 ns one by one, 19 here (AMD EPYC, Zen 4,
     /// 2026-11-21).
     #[inline]
     pub(crate) fn support(&self, direction: DVec3) -> Support {
@@ -178,9 +178,9 @@ impl<'a> Solid<'a> {
         best
     }
 
-    /// A vertex that is the furthest along a direction of any length up to a rounding of f32; a bound on how far any of them
-    /// reaches, and by how much that may exceed the truth. Half the cost of [`Solid::support`], and less where many are
-    /// equally far.
+    /// A vertex that is the furthest along a direction of any length up to a rounding of f32; a bound on how far
+    /// any of them reaches, and by how much that may exceed the truth. Half the cost of [`Solid::support`], and
+    /// less where many are equally far.
     #[inline]
     pub(crate) fn rough_support(&self, direction: DVec3) -> (Support, f64) {
         let lanes = self.back(direction).as_vec3();
@@ -199,8 +199,8 @@ impl<'a> Solid<'a> {
     /// How far the lanes of two vertices may be off together, in the shape's own axes.
     #[inline(always)]
     fn lane_doubt(&self, direction: Vec3) -> f32 {
-        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides; and one each where
-        // the doubt, and perhaps a slack, is taken off.
+        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides; and one each
+        // where the doubt, and perhaps a slack, is taken off.
         10.5 * (f32::EPSILON / 2.0) * self.extent * direction.abs().element_sum()
     }
 

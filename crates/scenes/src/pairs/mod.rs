@@ -98,7 +98,8 @@ pub enum SolidKind {
     Hull256,
     /// Cylinders of 128 sides, as hulls: two faces of 128 corners, and all other edges in bundles of parallels.
     Prism256,
-    /// Globes of 16 circles of latitude with 16 corners each: every edge has parallels, and every corner a corner opposite.
+    /// Globes of 16 circles of latitude with 16 corners each: every edge has parallels, and every corner a corner
+    /// opposite.
     Globe256,
 }
 

@@ -10,7 +10,8 @@ use glam::{DVec3, Vec3};
 /// Metres from one street to the next.
 const BLOCK: f64 = 20.0;
 
-/// One body of `one_of` moves, and one at least: traffic along the streets between buildings on square lots, one box a lot.
+/// One body of `one_of` moves, and one at least: traffic along the streets between buildings on square lots, one
+/// box a lot.
 pub(super) fn streets(count: usize, one_of: usize, seed: u64) -> Replay3 {
     let mut random = Random::new(seed ^ 0xc177);
     let mut replay = Replay3::default();

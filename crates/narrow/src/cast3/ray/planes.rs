@@ -15,8 +15,8 @@ pub(super) fn cuboid(line: &Line, basis: &Basis3, cuboid: &Cuboid) -> Meeting {
     let (mut enter, mut leave, mut face) = (f64::NEG_INFINITY, f64::INFINITY, 0);
     let mut beyond = f64::NEG_INFINITY;
     for axis in 0..3 {
-        // Seen from where the ray comes: at so much before the middle, and as far again behind it. Along the slab both are
-        // infinite, or NaN on a face, which bounds nothing.
+        // Seen from where the ray comes: at so much before the middle, and as far again behind it. Along the slab
+        // both are infinite, or NaN on a face, which bounds nothing.
         let (before, inverse) = (-origin[axis].copysign(origin[axis] * way[axis]), 1.0 / way[axis].abs());
         let (first, last) = ((before - half[axis]) * inverse, (before + half[axis]) * inverse);
         face = if first > enter { axis } else { face };

@@ -11,7 +11,8 @@ pub(super) fn sphere(line: &Line, radius: f64) -> Meeting {
         .unwrap_or_else(|| enter(line, line.origin, radius))
 }
 
-/// What is known of a ray that starts so far from a core, as a square, and not certainly outside; nothing of one that is.
+/// What is known of a ray that starts so far from a core, as a square, and not certainly outside; nothing of one
+/// that is.
 #[inline(always)]
 fn is_outside(squared: f64, radius: f64, doubt: f64) -> Option<Meeting> {
     let (outer, inner) = (radius + doubt, radius - doubt);
@@ -21,8 +22,8 @@ fn is_outside(squared: f64, radius: f64, doubt: f64) -> Option<Meeting> {
     Some(if inner > 0.0 && squared < inner * inner { Meeting::Inside } else { Meeting::Unclear })
 }
 
-/// Where a ray from outside, at `from` as seen from its centre, enters a sphere, if it does. The foot of the perpendicular
-/// comes first: nothing cancels that the distance did not lose.
+/// Where a ray from outside, at `from` as seen from its centre, enters a sphere, if it does. The foot of the
+/// perpendicular comes first: nothing cancels that the distance did not lose.
 #[inline(always)]
 fn enter(line: &Line, from: DVec3, radius: f64) -> Meeting {
     let inverse = 1.0 / line.squared;
@@ -42,7 +43,8 @@ fn enter(line: &Line, from: DVec3, radius: f64) -> Meeting {
     Meeting::At(distance, (foot - line.way * half_chord) / radius, error)
 }
 
-/// By how much half a chord, given with its square, is off where the circle's line is by `doubt`: the root of what is off.
+/// By how much half a chord, given with its square, is off where the circle's line is by `doubt`: the root of what
+/// is off.
 #[inline(always)]
 fn off_by(doubt: f64, radius: f64, (squared, half_chord): (f64, f64)) -> f64 {
     let off = doubt * (2.0 * radius + doubt);

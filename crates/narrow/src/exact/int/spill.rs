@@ -1,7 +1,7 @@
 //! Limbs of a number that is too long to be held in place, in memory that is used again.
 //!
-//! A heap of crates that touch exactly asks long questions each frame: with memory of its own for each number, every such
-//! question went to the allocator some dozen times. Each thread keeps what its numbers leave behind.
+//! A heap of crates that touch exactly asks long questions each frame: with memory of its own for each number,
+//! every such question went to the allocator some dozen times. Each thread keeps what its numbers leave behind.
 
 use core::cell::RefCell;
 use core::ops::{Deref, DerefMut};

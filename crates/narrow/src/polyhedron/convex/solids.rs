@@ -8,9 +8,9 @@
 //!                  the distance, if there may be one within the limit                                  (distance)
 //!                  the best axis, in overlap, and where contact points are wanted                      (sat)
 //! ```
-//! Most pairs that a broad phase hands over are apart, and most others overlap by more than rounding: what tells them apart
-//! is asked first, and the axes, of which there are thousands, only when the depth is wanted. In a gap no contact is built on
-//! the axes of edges, and only those of faces are asked for.
+//! Most pairs that a broad phase hands over are apart, and most others overlap by more than rounding: what tells
+//! them apart is asked first, and the axes, of which there are thousands, only when the depth is wanted. In a gap
+//! no contact is built on the axes of edges, and only those of faces are asked for.
 
 use super::{Asked, Convex, Evidence, Near, Probe, Wanted};
 use crate::answer::{Tier, Verdict};
@@ -203,8 +203,8 @@ impl Convex<'_> {
         }
     }
 
-    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap` is the
-    /// most that the gap can be.
+    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap`
+    /// is the most that the gap can be.
     fn overlap_of_cores(&self, axes: Axes, verdict: Verdict, gap: f64) -> Probe {
         let best = *axes.best();
         let depth = best.separation - self.radii;

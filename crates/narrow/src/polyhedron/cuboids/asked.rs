@@ -63,8 +63,8 @@ impl Posed<'_> {
         }
     }
 
-    /// How they touch within a margin, or what keeps them apart. The manifold, where one is wanted, is filled in where they
-    /// touch.
+    /// How they touch within a margin, or what keeps them apart. The manifold, where one is wanted, is filled in
+    /// where they touch.
     #[inline]
     pub(crate) fn contact(&self, margin: f64, hint: Hint, manifold: Option<&mut Manifold3>) -> Contact {
         if self.are_far(margin) {
@@ -80,8 +80,8 @@ impl Posed<'_> {
         self.contact_of(&placed, margin, hint, manifold)
     }
 
-    /// What is clear at once of one of eight that were looked at, with the hint of its last frame. Whether they overlap is
-    /// enough for a sensor.
+    /// What is clear at once of one of eight that were looked at, with the hint of its last frame. Whether they
+    /// overlap is enough for a sensor.
     #[inline(always)]
     pub(crate) fn clear_in((eight, lane): (&Eight, usize), hint: Hint, sensor: bool) -> Option<Contact> {
         match eight.parted(lane) {

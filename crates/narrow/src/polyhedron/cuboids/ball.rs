@@ -74,8 +74,8 @@ impl Nearest {
         }
     }
 
-    /// Corners of the cuboid that carry the nearest place: a corner, both ends of an edge, or of a face the triangle of the
-    /// nearest corner and its neighbours, which holds the quarter that the place is in.
+    /// Corners of the cuboid that carry the nearest place: a corner, both ends of an edge, or of a face the
+    /// triangle of the nearest corner and its neighbours, which holds the quarter that the place is in.
     pub(crate) fn corners(&self) -> ArrayVec<usize, 3> {
         let free = (0..3).filter(|axis| self.held >> axis & 1 == 0);
         let corner = usize::from(self.corner);

@@ -1,4 +1,5 @@
-//! How two cuboids touch, and where they nearly do (`super::gap`): the rules of `super::super::manifold`, for sharp cuboids.
+//! How two cuboids touch, and where they nearly do (`super::gap`): the rules of `super::super::manifold`, for sharp
+//! cuboids.
 
 use super::super::sat::AxisOf;
 use super::names::{self, Names};

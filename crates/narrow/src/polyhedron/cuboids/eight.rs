@@ -6,8 +6,8 @@
 //!                  the axis that parts them, or how far they overlap on all
 //! those that are parted are done; the others go on as one pair does, from what is there already
 //! ```
-//! A loop over the lanes, from memory to memory, is what LLVM turns into vector instructions of any width. Since all that a
-//! lane goes through is the code of one pair, its bits are those of one pair.
+//! A loop over the lanes, from memory to memory, is what LLVM turns into vector instructions of any width. Since
+//! all that a lane goes through is the code of one pair, its bits are those of one pair.
 //!
 //! What it bought on pairs that a broad phase hands over, in ns a pair (AMD EPYC, Zen 4, 2026-11-21):
 //!
@@ -19,8 +19,8 @@
 //! | 3. axes graded side by side (`super::graded`) | 39 | 57 | 160 |
 //!
 //! 1 and 2 are used, and 3 where a separation is all that is asked for. Tried, and left out: AVX-512
-//! (nothing on yes or no, 5 to 13 % on separations); inscribed spheres before the lanes (nothing on such pairs; one pair by
-//! itself gains 10 %). Last frame's axis is not tried before the others here: all fifteen cost 12 ns.
+//! (nothing on yes or no, 5 to 13 % on separations); inscribed spheres before the lanes (nothing on such pairs; one
+//! pair by itself gains 10 %). Last frame's axis is not tried before the others here: all fifteen cost 12 ns.
 
 use super::super::sat::AxisOf;
 use super::asked::measured;
@@ -118,8 +118,8 @@ impl Eight {
         asked.limits[k] = margin + size.radii;
     }
 
-    /// Looks at what was put in, and grades the axes where that is wanted: it is half as much again, and pays where nothing
-    /// but a number is asked for. Lanes that hold nothing say nothing.
+    /// Looks at what was put in, and grades the axes where that is wanted: it is half as much again, and pays where
+    /// nothing but a number is asked for. Lanes that hold nothing say nothing.
     #[inline]
     pub(crate) fn look<const GRADED: bool>(&mut self) {
         wide::look::<GRADED>(&self.asked, &mut self.seen);

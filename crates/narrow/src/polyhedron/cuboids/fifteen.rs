@@ -80,8 +80,8 @@ impl Fifteen {
         greater(faces, edges)
     }
 
-    /// The axis that parts the cores by more than `limit` metres for certain: 0 to 2 for A's faces, 3 to 5 for B's, from 6
-    /// for edge pairs; -1 where there is none. Of faces the best one counts.
+    /// The axis that parts the cores by more than `limit` metres for certain: 0 to 2 for A's faces, 3 to 5 for B's,
+    /// from 6 for edge pairs; -1 where there is none. Of faces the best one counts.
     ///
     /// An edge pair counts by its closed form less what that may be off by, both times the axis' length.
     #[inline(always)]

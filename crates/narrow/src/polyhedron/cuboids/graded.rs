@@ -1,5 +1,5 @@
-//! The best axes of two cores that overlap, without a branch: what [`Placed::settle`](super::placed::Placed::settle) does
-//! step by step, for kernels that hold many pairs side by side.
+//! The best axes of two cores that overlap, without a branch: what
+//! [`Placed::settle`](super::placed::Placed::settle) does step by step, for kernels that hold many pairs side by side.
 //!
 //! ```text
 //! best face of A, of B                   as there

@@ -8,19 +8,19 @@
 //! each corner of the rectangle within the parallelogram
 //! what is no higher than wanted is kept; of more than four points, four
 //! ```
-//! Liang and Barsky, "A new concept and method for line clipping" (1984). Three times four slots, side by side, whatever
-//! the patch looks like, and one bit a slot that says whether a point is there: nothing branches on the patch's shape.
-//! Names are made for the points that are kept, and for no other.
+//! Liang and Barsky, "A new concept and method for line clipping" (1984). Three times four slots, side by side,
+//! whatever the patch looks like, and one bit a slot that says whether a point is there: nothing branches on the
+//! patch's shape. Names are made for the points that are kept, and for no other.
 //!
-//! Where a corner lies on the line of an edge, up to a slack, several features meet in one place, and which of them names
-//! it depends on the order in which sides are cut. That is left to the general clipper, whose names count.
+//! Where a corner lies on the line of an edge, up to a slack, several features meet in one place, and which of them
+//! names it depends on the order in which sides are cut. That is left to the general clipper, whose names count.
 
 use super::names::{self, Name, Names};
 use super::placed::Placed;
 use crate::lanes::Lanes;
 
-/// Slots of a patch: the starts of the incident face's four edges within the rectangle, their ends, the four corners of the
-/// rectangle, and four that are never used, so that an index costs no division.
+/// Slots of a patch: the starts of the incident face's four edges within the rectangle, their ends, the four
+/// corners of the rectangle, and four that are never used, so that an index costs no division.
 pub(super) const SLOTS: usize = 16;
 
 /// The patch that two faces share.
@@ -103,11 +103,11 @@ impl Placed {
         }
     }
 
-    /// A face and the one of the other cuboid that is most opposed to it, of those at its furthest corners. Nothing where
-    /// the incident cuboid is all within the slack.
+    /// A face and the one of the other cuboid that is most opposed to it, of those at its furthest corners. Nothing
+    /// where the incident cuboid is all within the slack.
     ///
-    /// Corners that an edge joins are as far as each other where the edge rises by no more than the slack: then its axis'
-    /// faces have only some of them.
+    /// Corners that an edge joins are as far as each other where the edge rises by no more than the slack: then its
+    /// axis' faces have only some of them.
     #[inline(always)]
     pub(super) fn faces(&self, is_b: bool, face: usize, slack: f64) -> Option<(Reference, Faces)> {
         let other = self.incident(is_b);
@@ -199,8 +199,8 @@ impl Faces {
             let exit = &mut exits[usize::from(side) % 4];
             *exit = if is_cut { 8 * k + 2 } else { *exit };
         }
-        // Clockwise, a corner follows where an edge goes out through the side that it begins, or another corner. Where no
-        // edge goes out there are four, or none.
+        // Clockwise, a corner follows where an edge goes out through the side that it begins, or another corner.
+        // Where no edge goes out there are four, or none.
         let is_uncut = exits[0].min(exits[1]).min(exits[2].min(exits[3])) == NONE;
         follows[0] = if is_uncut { 3 } else { follows[0] };
         for k in 0..4 {
@@ -279,16 +279,17 @@ const fn sides() -> [[u8; 16]; 2] {
     sides
 }
 
-/// How many slacks a corner keeps from every line of an edge where nothing but the corner names it. The clipper takes its
-/// slack by the sum of coordinates, which is up to a root of two of a distance; and what it joins is nearer than one.
+/// How many slacks a corner keeps from every line of an edge where nothing but the corner names it. The clipper
+/// takes its slack by the sum of coordinates, which is up to a root of two of a distance; and what it joins is
+/// nearer than one.
 const CLEAR: f64 = 1.5;
 
 /// No place in the order of corners.
 const NONE: usize = 32;
 
 impl Patch {
-    /// The slot of a bit of `held`: of eight for each edge, the first for its start, the next for its end, and those after
-    /// that for the corners of the reference face that follow it.
+    /// The slot of a bit of `held`: of eight for each edge, the first for its start, the next for its end, and
+    /// those after that for the corners of the reference face that follow it.
     #[inline(always)]
     pub(super) fn slot(&self, place: u32) -> usize {
         let (k, turn) = (place as usize / 8 % 4, place as usize % 8);

@@ -69,8 +69,8 @@ impl Posed<'_> {
 
     /// B as A sees it, and what the fifteen axes say.
     ///
-    /// Out of line, and all of it written to memory here: that makes LLVM see rows, and no row is read back before it has
-    /// been written whole.
+    /// Out of line, and all of it written to memory here: that makes LLVM see rows, and no row is read back before
+    /// it has been written whole.
     #[inline(never)]
     pub(super) fn placed(&self) -> Placed {
         let [a, b] = self.cuboids;

@@ -5,9 +5,9 @@
 //! 70 quadrilaterals = ten shapes (steps from corner to corner) times eight beginnings
 //! twice the area of each = the cross product of its diagonals
 //! ```
-//! All of them are looked at, since that takes no branch: the walk around the patch, which finds the same, takes six times
-//! as long (AMD EPYC, Zen 4, 2026-11-21). Areas are only compared, and f32 does. Where the largest holds no corner as
-//! deep as any, the walk decides.
+//! All of them are looked at, since that takes no branch: the walk around the patch, which finds the same, takes
+//! six times as long (AMD EPYC, Zen 4, 2026-11-21). Areas are only compared, and f32 does. Where the largest holds
+//! no corner as deep as any, the walk decides.
 
 use super::super::reduce::{Spot, pick_four};
 use super::patch::{Patch, SLOTS};
@@ -32,8 +32,8 @@ const SHAPES: [[usize; 3]; 10] = [
 /// Bits of an area that number it.
 const NUMBER: u32 = 127;
 
-/// What the area of each is multiplied by, so that of many alike the same one is taken in every frame: less than 1 by at
-/// most 0.2 %, and from each to the next by more than the bits of an area that its number takes the place of.
+/// What the area of each is multiplied by, so that of many alike the same one is taken in every frame: less than 1
+/// by at most 0.2 %, and from each to the next by more than the bits of an area that its number takes the place of.
 const WEIGHTS: [[f32; 8]; 10] = weights(false);
 
 /// The same, and zero for those without the first corner.
@@ -118,7 +118,8 @@ fn greater(a: f32, b: f32) -> f32 {
 /// By how many corners on they lead, less two; by coordinate; by corner, the first few again at the end.
 type Diagonals = [[[f32; 12]; 2]; 3];
 
-/// From memory to memory, here and below: that makes LLVM see eight lanes. In registers all the way it comes out scalar.
+/// From memory to memory, here and below: that makes LLVM see eight lanes. In registers all the way it comes out
+/// scalar.
 #[inline(never)]
 fn fill_diagonals(places: &[[f32; 12]; 2], diagonals: &mut Diagonals) {
     for (on, diagonals) in diagonals.iter_mut().enumerate() {

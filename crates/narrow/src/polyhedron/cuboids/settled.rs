@@ -187,7 +187,8 @@ impl Placed {
             let (scaled, squared) = self.fifteen.edge_pair(next);
             let inverse = 1.0 / squared.sqrt();
             if squared <= PARALLEL_EDGES * PARALLEL_EDGES {
-                // As `Axes::leave_out` has it. Of no length at all the second is no number, or endless, and the first counts.
+                // As `Axes::leave_out` has it. Of no length at all the second is no number, or endless, and the
+                // first counts.
                 let by_axis = (scaled + 2.0 * doubt) * inverse - face;
                 left_out = left_out.max(self.precision.of_parallel_edges(squared).min(by_axis));
                 continue;
@@ -267,7 +268,8 @@ fn edge_normal(pair: usize, axis_b: DVec3, offset: DVec3) -> DVec3 {
 }
 
 impl Best {
-    /// The best axis in the world, by A's axes, one of B's as A sees them, B's centre, and how far that lies along B's own.
+    /// The best axis in the world, by A's axes, one of B's as A sees them, B's centre, and how far that lies along
+    /// B's own.
     #[inline(always)]
     pub(super) fn normal(
         &self,

@@ -1,7 +1,8 @@
 //! Eight pairs with registers as wide as the processor has.
 //!
-//! The one place of this crate where a function is compiled for more than the target promises. It is the same function, of
-//! plain arithmetic without fused operations, so that its bits are the same; what it buys is in `super::eight`.
+//! The one place of this crate where a function is compiled for more than the target promises. It is the same
+//! function, of plain arithmetic without fused operations, so that its bits are the same; what it buys is in
+//! `super::eight`.
 #![allow(unsafe_code, reason = "the compiler cannot know what a processor was asked at run time")]
 
 use super::eight::{Asked8, Seen8};

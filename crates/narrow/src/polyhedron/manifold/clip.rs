@@ -142,11 +142,12 @@ impl<const N: usize> Polygon<N> {
         }
     }
 
-    /// Takes away what stays beyond a corner of the reference face by more than a few slacks, where its sides meet at so
-    /// small an angle that all of it is within the slack of both. `places` are the face's corners, from half-edge `first`.
+    /// Takes away what stays beyond a corner of the reference face by more than a few slacks, where its sides meet
+    /// at so small an angle that all of it is within the slack of both. `places` are the face's corners, from
+    /// half-edge `first`.
     ///
-    /// A face narrower than the slack is a needle that would never end: its lines part by no more than the slack long past
-    /// its tip. Its extent ends it. What lies off a corner of a right angle or more does not come so far.
+    /// A face narrower than the slack is a needle that would never end: its lines part by no more than the slack
+    /// long past its tip. Its extent ends it. What lies off a corner of a right angle or more does not come so far.
     #[inline]
     pub(super) fn cut_tips(&mut self, places: &[[f64; 2]], first: u16, slack: f64) {
         if !self.is_loose {
@@ -186,8 +187,9 @@ impl<const N: usize> Polygon<N> {
     /// Where the corners begin that are not beyond a side, and how many they are, around the polygon; none if all are
     /// beyond.
     ///
-    /// A convex polygon goes beyond a line once. One that is dented, by rounding or because slivers were merged into its
-    /// face, may do so twice; then only what is around the furthest corner counts, and other corners beyond are left out.
+    /// A convex polygon goes beyond a line once. One that is dented, by rounding or because slivers were merged
+    /// into its face, may do so twice; then only what is around the furthest corner counts, and other corners
+    /// beyond are left out.
     fn run_within(&self, furthest: f64, slack: f64) -> Option<(usize, usize)> {
         let (beyond, count) = (self.beyond.as_slice(), self.beyond.len());
         if count <= 64 {
@@ -219,8 +221,8 @@ impl<const N: usize> Polygon<N> {
         Some((begin, count - removed))
     }
 
-    /// Takes a run of so many corners, and what stands where the polygon comes back from beyond a side and where it goes
-    /// out.
+    /// Takes a run of so many corners, and what stands where the polygon comes back from beyond a side and where it
+    /// goes out.
     fn keep(&mut self, (begin, kept): (usize, usize), side: &Side, slack: f64) {
         let count = self.ring().len();
         let around = |i: usize| if i >= count { i - count } else { i };

@@ -4,8 +4,8 @@ use asunder_geometry::glam::DVec3;
 
 /// Coordinates seen along the direction of measurement: across it, and how high over the reference plane.
 ///
-/// The sides of a face are lines in it, so that clipping is done in the plane; a point comes back to space once, when it
-/// has been chosen.
+/// The sides of a face are lines in it, so that clipping is done in the plane; a point comes back to space once,
+/// when it has been chosen.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::polyhedron) struct Frame {
     /// A point of the reference plane.

@@ -12,8 +12,9 @@
 //! where edges turn out to lie beside each other, or a face beside what touches: any features as deep    (over)
 //! reduce to four                                                                                        (reduce)
 //! ```
-//! Two hulls of 32 vertices face on face take 370 ns here, about a twelfth of their whole answer without a hint: a third of
-//! it is clipping, a fifth the incident face, 7 % the choice of four (AMD EPYC, Zen 4, 2026-11-21). What makes it cheap:
+//! Two hulls of 32 vertices face on face take 370 ns here, about a twelfth of their whole answer without a hint: a
+//! third of it is clipping, a fifth the incident face, 7 % the choice of four (AMD EPYC, Zen 4, 2026-11-21). What
+//! makes it cheap:
 //!
 //! 1. the incident face is looked for around the deepest vertex only, and not among all faces and their loops; where
 //!    vertices are many, lanes of f32 leave out most; it is the first that has all of three vertices or more (335 ns to
@@ -134,8 +135,8 @@ impl Ask<'_> {
         self.witness.map_or(self.axes.best().separation, |witness| witness.distance)
     }
 
-    /// Points on the first axis that has one as deep as any, of last frame's, the preferred and the best; whether there is
-    /// one.
+    /// Points on the first axis that has one as deep as any, of last frame's, the preferred and the best; whether
+    /// there is one.
     fn along_axes(&self, a: &Solid, b: &Solid, touch: &mut Touch) -> bool {
         let (depths, at_stake) = (self.depths(a, b), self.at_stake());
         let kept = self.last.and_then(|last| self.axis_of(a, b, last));

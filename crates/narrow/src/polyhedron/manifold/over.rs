@@ -28,8 +28,8 @@ const NEARER: f64 = 1e-3;
 /// How many slacks are tried, one after the other. The last is 1.3e-4 of the smaller shape.
 const WIDER: [f64; 3] = [1.0, 16.0, 256.0];
 
-/// A point of the cores on an axis, and how far its ends are apart across it: no more than the slack, or if nothing is over
-/// each other within that, what it took.
+/// A point of the cores on an axis, and how far its ends are apart across it: no more than the slack, or if nothing
+/// is over each other within that, what it took.
 ///
 /// A merged face's own corners may lie further from its plane than the slack of a much smaller shape.
 #[cold]
@@ -137,8 +137,8 @@ impl Outline {
     }
 }
 
-/// Adds the half of an outline that lies to the right of the way from the first of the sorted corners to the last, which
-/// itself is left to the other half.
+/// Adds the half of an outline that lies to the right of the way from the first of the sorted corners to the last,
+/// which itself is left to the other half.
 fn add_chain<'a>(sorted: impl Iterator<Item = &'a Seen>, corners: &mut ArrayVec<Seen, MAX_HULL_VERTICES>) {
     let start = corners.len();
     let mut last: Option<Seen> = None;

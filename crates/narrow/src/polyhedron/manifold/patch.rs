@@ -209,8 +209,8 @@ impl<'d, const N: usize> Spots<'d, N> {
         Self { depths, list: ArrayVec::new() }
     }
 
-    /// Takes a corner if it is wanted. Where edges run over corners, several features meet in one place: the deepest names
-    /// it, or of those that are as deep the first. `last` is the spot taken before.
+    /// Takes a corner if it is wanted. Where edges run over corners, several features meet in one place: the
+    /// deepest names it, or of those that are as deep the first. `last` is the spot taken before.
     fn offer(&mut self, corner: &Corner, height: f64, separation: f64, last: &mut Option<usize>) {
         if separation > self.depths.within {
             return;

@@ -5,9 +5,9 @@
 //! an axis                   their distance is no less than their separation along it, all vertices projected
 //! both the same             that is the distance, whatever the points and the axis were guessed from
 //! ```
-//! Guessed are a vertex straight over a face, two edges over each other, edges side by side, and corners. Of bodies at rest
-//! nearly all guesses are right. Two cuboids or hulls of 32 vertices in a gap took 2.4 to 9 us, and take 0.7 to 1.6 with
-//! their contact points (AMD EPYC, Zen 4, 2026-11-21).
+//! Guessed are a vertex straight over a face, two edges over each other, edges side by side, and corners. Of bodies
+//! at rest nearly all guesses are right. Two cuboids or hulls of 32 vertices in a gap took 2.4 to 9 us, and take
+//! 0.7 to 1.6 with their contact points (AMD EPYC, Zen 4, 2026-11-21).
 
 use super::super::distance::{TELLING, Witness};
 use super::super::manifold::are_side_by_side;
@@ -20,11 +20,11 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::DISTANCE_GAP;
 
 impl Hinted {
-    /// The axis of solids that a gap parts, and their closest points, where it is the axis of the distance: what is deepest
-    /// lies straight over a face, or two edges over each other.
+    /// The axis of solids that a gap parts, and their closest points, where it is the axis of the distance: what is
+    /// deepest lies straight over a face, or two edges over each other.
     ///
-    /// The separation along it bounds the distance from below, the points from above, whatever they are; both must be the
-    /// same up to rounding. No search, no iteration, and no other axis.
+    /// The separation along it bounds the distance from below, the points from above, whatever they are; both must
+    /// be the same up to rounding. No search, no iteration, and no other axis.
     pub(crate) fn across(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Option<(Axes, Witness)> {
         let Axis { separation, normal, of } = self.axis;
         let doubt = 8.0 * precision.projection();
@@ -68,8 +68,8 @@ impl Hinted {
     }
 }
 
-/// The same of edges near a direction that parted the solids in the last frame, at the vertices that are furthest along it:
-/// there the nearest points are looked for, and the axis from one to the other must show their distance.
+/// The same of edges near a direction that parted the solids in the last frame, at the vertices that are furthest
+/// along it: there the nearest points are looked for, and the axis from one to the other must show their distance.
 ///
 /// That is for edges side by side, whose cross product is no axis, and for corners.
 pub(crate) fn across_edges(
@@ -152,8 +152,8 @@ fn corners_of<'a>(solid: &'a Solid, face: usize) -> impl Iterator<Item = usize> 
     solid.topology.face_vertices(face).take(3)
 }
 
-/// How far a face may lie below its plane under a point that is inside it by more than `doubt`, as seen along its outward
-/// normal: none of its corners lies lower. Nothing where the point is not.
+/// How far a face may lie below its plane under a point that is inside it by more than `doubt`, as seen along its
+/// outward normal: none of its corners lies lower. Nothing where the point is not.
 fn sunk_below(solid: &Solid, face: usize, (outward, point): (DVec3, DVec3), doubt: f64) -> Option<f64> {
     let is_over = in_face(solid, face, outward, point) > doubt;
     if !is_over {

@@ -1,15 +1,16 @@
 //! Which edges of two solids may touch: those whose arcs on the Gauss map cross.
 //!
-//! An edge pair bounds the Minkowski difference exactly where the arc between the normals at A's edge crosses the negative
-//! of the arc between the normals at B's (Gregorius, "The separating axis test between convex polyhedra", GDC 2013). Each
-//! arc's ends must lie on different sides of the other's great circle, whose pole is the edge, and of the two antipodal
-//! points where the circles meet both arcs must pass through the same. Anything within the slack may.
+//! An edge pair bounds the Minkowski difference exactly where the arc between the normals at A's edge crosses the
+//! negative of the arc between the normals at B's (Gregorius, "The separating axis test between convex polyhedra",
+//! GDC 2013). Each arc's ends must lie on different sides of the other's great circle, whose pole is the edge, and
+//! of the two antipodal points where the circles meet both arcs must pass through the same. Anything within the
+//! slack may.
 //!
 //! The edge of a flat polygon has a half circle, from one side's normal over the outward direction in the plane to the
 //! other's; a segment has its whole great circle, and zero for ends and middle.
 //!
-//! One arc of A at a time against eight of B, in f32: a pair that is kept needlessly costs a verified axis, and the slack
-//! covers what f32 rounds. `may_cross` is the definition; the lanes do the same operations in the same order.
+//! One arc of A at a time against eight of B, in f32: a pair that is kept needlessly costs a verified axis, and the
+//! slack covers what f32 rounds. `may_cross` is the definition; the lanes do the same operations in the same order.
 
 use super::super::solid::Solid;
 use super::MAX_EDGES;
@@ -20,8 +21,8 @@ use asunder_geometry::EdgeArc;
 use asunder_geometry::glam::Vec3;
 use asunder_geometry::tolerance::ARC_SLACK;
 
-/// Slack of a dot product of unit vectors in f32: that of the arcs, and more than what is rounded on the way to it, which
-/// is the vectors, the turn from B's axes to A's (10 units of 2^-24) and the product.
+/// Slack of a dot product of unit vectors in f32: that of the arcs, and more than what is rounded on the way to it,
+/// which is the vectors, the turn from B's axes to A's (10 units of 2^-24) and the product.
 const SLACK: f32 = ARC_SLACK as f32 + 16.0 * f32::EPSILON;
 
 /// Three coordinates of eight vectors.
@@ -79,8 +80,8 @@ fn turned(v: &Eight, [x, y, z]: &[Vec3; 3]) -> Eight {
     turned
 }
 
-/// Visits those pairs of the given edges, by their numbers, whose arcs may cross; the visitor gets their lower half-edges, and
-/// the place of B's edge in the list. Cost: their product, an eighth of it in steps.
+/// Visits those pairs of the given edges, by their numbers, whose arcs may cross; the visitor gets their lower
+/// half-edges, and the place of B's edge in the list. Cost: their product, an eighth of it in steps.
 pub(super) fn for_edge_pairs(
     (a, edges_a): (&Solid, &[u16]),
     (b, edges_b): (&Solid, &[u16]),

@@ -1,19 +1,19 @@
 //! Which eights of arcs lie near an arc at all: told by a cap of the Gauss map about each.
 //!
-//! Of two hulls of 256 vertices that are symmetric enough for nothing to be culled, 762 arcs meet 96 eights, 17 ns each. Edges
-//! of many come sorted by where they look, so that the caps about eight of them are small: one step says of eight caps
-//! whether an arc may reach any of theirs.
+//! Of two hulls of 256 vertices that are symmetric enough for nothing to be culled, 762 arcs meet 96 eights, 17 ns
+//! each. Edges of many come sorted by where they look, so that the caps about eight of them are small: one step
+//! says of eight caps whether an arc may reach any of theirs.
 //!
-//! Arcs cross at a point that is in both their caps, so that their centres are no further apart than both radii. The cosine
-//! of that sum is a product of cosines less one of sines: no angle is ever made.
+//! Arcs cross at a point that is in both their caps, so that their centres are no further apart than both radii.
+//! The cosine of that sum is a product of cosines less one of sines: no angle is ever made.
 
 use crate::counted::count_step;
 use asunder_geometry::EdgeArc;
 use asunder_geometry::glam::Vec3;
 use asunder_geometry::tolerance::ARC_SLACK;
 
-/// Slack of both sides of the comparison, each of which is rounded by less than 4e-6: vectors turned to other axes, by 6e-7
-/// each, and sums of three products.
+/// Slack of both sides of the comparison, each of which is rounded by less than 4e-6: vectors turned to other axes,
+/// by 6e-7 each, and sums of three products.
 const SLACK: f32 = ARC_SLACK as f32 + 1e-5;
 
 /// Caps whose cosine is below this are the whole sphere: up to a half circle, ends inside a cap mean an arc inside it.

@@ -4,17 +4,18 @@
 //! c, r   centre and radius of a sphere inside B;    n, h   a normal of A and how far A reaches along it
 //! separation along n  =  min over B of n.x - max over A of n.x  <=  n.c - h - r
 //! ```
-//! That is one dot product a face. Along the arc of an edge, n.c - h is the projection of c, seen from a point of the edge,
-//! on a unit vector that turns: a cosine. If it is greatest inside the arc, it is greater there than at both ends by at
-//! most 1 / cos(t / 2) for an arc of t. What cannot come up to the best axis found so far is left out.
+//! That is one dot product a face. Along the arc of an edge, n.c - h is the projection of c, seen from a point of
+//! the edge, on a unit vector that turns: a cosine. If it is greatest inside the arc, it is greater there than at
+//! both ends by at most 1 / cos(t / 2) for an arc of t. What cannot come up to the best axis found so far is left out.
 //!
-//! 1. *The sphere* ("Inscribed spheres", box2d.org, September 2026) leaves 11 of 90 edges of a hull of 32 vertices, and 39
-//!    where they overlap deeply.
-//! 2. *Points*: any vertex of B is a sphere of no radius. One that is furthest against some edge's normal mostly shows that
-//!    edge, and its neighbours, to be deeper than the best, where the sphere, which lies in the middle, cannot. What is
-//!    left is looked at one by one, and brings such a point each time.
+//! 1. *The sphere* ("Inscribed spheres", box2d.org, September 2026) leaves 11 of 90 edges of a hull of 32 vertices,
+//!    and 39 where they overlap deeply.
+//! 2. *Points*: any vertex of B is a sphere of no radius. One that is furthest against some edge's normal mostly
+//!    shows that edge, and its neighbours, to be deeper than the best, where the sphere, which lies in the middle,
+//!    cannot. What is left is looked at one by one, and brings such a point each time.
 //! 3. *Lanes*: eight faces or edges a step. One by one, with the same tests, took four times as long.
-//! 4. *Neighbours in one octet*, of hulls with many edges: one point tells all eight. 256 vertices deep and turned, 12 % less.
+//! 4. *Neighbours in one octet*, of hulls with many edges: one point tells all eight. 256 vertices deep and turned,
+//!    12 % less.
 //!
 //! f32 lanes with a bound on their rounding: nothing is left out wrongly.
 
@@ -53,8 +54,8 @@ pub(super) struct Sight<'a, 'b> {
 struct Ball {
     center: Vec3,
     radius: f64,
-    /// The most that can be lost to rounding of how far the centre lies over a face: conversions, products, sums and the
-    /// height are below 6 units of 2^-24 of the terms' sum.
+    /// The most that can be lost to rounding of how far the centre lies over a face: conversions, products, sums
+    /// and the height are below 6 units of 2^-24 of the terms' sum.
     doubt: f32,
 }
 
@@ -106,8 +107,8 @@ impl<'a, 'b> Sight<'a, 'b> {
         }
     }
 
-    /// Visits faces whose axis may show `separation`, ascending. The visitor returns the vertex of the other solid that is
-    /// furthest against the face, and what the next one must show.
+    /// Visits faces whose axis may show `separation`, ascending. The visitor returns the vertex of the other solid
+    /// that is furthest against the face, and what the next one must show.
     pub(super) fn for_faces(&mut self, mut separation: f64, mut visit: impl FnMut(usize) -> (usize, f64)) {
         for place in 0..self.over.len() {
             let mut open = above(&self.over[place], self.sphere.least(separation));
@@ -157,8 +158,8 @@ impl<'a, 'b> Sight<'a, 'b> {
         }
     }
 
-    /// Asks for the vertex that is furthest against the middle of each edge's arc. It mostly settles that edge and some of
-    /// its neighbours.
+    /// Asks for the vertex that is furthest against the middle of each edge's arc. It mostly settles that edge and
+    /// some of its neighbours.
     fn look_closer(&mut self, separation: f64, lanes: &mut ArrayVec<u16, MAX_EDGES>) {
         let (mut kept, mut at) = (0, 0);
         let (mut asked, mut in_vain) = (0, 0);
@@ -248,8 +249,9 @@ impl Ball {
             // Greatest inside the arc only where it rises from both ends.
             let is_inside =
                 (other + slack > cosine * over) & (over + slack > cosine * other) & (higher > 0.0);
-            // 1 / cos(t / 2) squared is 2 / (1 + cos t). Of blades, whose faces are all but back to back, the sum is largely
-            // the cosine's rounding, half a unit: without that, what is left is too small and nothing is left out wrongly.
+            // 1 / cos(t / 2) squared is 2 / (1 + cos t). Of blades, whose faces are all but back to back, the sum
+            // is largely the cosine's rounding, half a unit: without that, what is left is too small and nothing is
+            // left out wrongly.
             let opening = 1.0 + cosine - f32::EPSILON / 2.0;
             let does_rise = is_inside & (2.001 * higher * higher > square * opening);
             *open = u32::from((higher > least) | does_rise);

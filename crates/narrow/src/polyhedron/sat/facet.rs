@@ -1,7 +1,7 @@
 //! A proof, in some thirty products, that an axis is the best of all: no other is looked at.
 //!
-//! Two solids overlap by the distance of the origin from the surface of their difference M = A - B, and the axis of a face
-//! or of two edges is the best one exactly when the facet of M that it belongs to is nearest.
+//! Two solids overlap by the distance of the origin from the surface of their difference M = A - B, and the axis of
+//! a face or of two edges is the best one exactly when the facet of M that it belongs to is nearest.
 //!
 //! ```text
 //! T      the facet: a face of A less B's vertex, or B's face, or the parallelogram of two edges; it lies at depth d
@@ -10,10 +10,11 @@
 //! ball   about the difference D of the centres, of radius r = both inner radii: M reaches at least D.n + r along n
 //! proof  the ball reaches d in every direction in which the disc does not
 //! ```
-//! Then the ball of radius d about the origin lies inside M, which it touches at the foot. Of pairs that overlap by little
-//! next to their faces, which is most of them, nearly all are settled so; where last frame's axis is still the best, nothing
-//! but that axis is ever asked for. The idea is that of an expanding polytope's last step (van den Bergen, "Proximity queries and
-//! penetration depth computation on 3D game objects", GDC 2001), with a polytope that needs no expanding.
+//! Then the ball of radius d about the origin lies inside M, which it touches at the foot. Of pairs that overlap by
+//! little next to their faces, which is most of them, nearly all are settled so; where last frame's axis is still
+//! the best, nothing but that axis is ever asked for. The idea is that of an expanding polytope's last step (van
+//! den Bergen, "Proximity queries and penetration depth computation on 3D game objects", GDC 2001), with a polytope
+//! that needs no expanding.
 
 use super::super::solid::Solid;
 use super::{Axis, AxisOf};
@@ -42,8 +43,9 @@ pub(super) fn is_nearest(
             let edges @ [(from_a, to_a), (from_b, to_b)] = [a.edge(edge_a), b.edge(edge_b)];
             let along = |point: DVec3| axis.normal.dot(point);
             let lowest = along(from_a).min(along(to_a)) - along(from_b).max(along(to_b));
-            // Edges that are named by a stale hint need not be where the solids reach furthest; and the axis of edges at a
-            // small angle is beside its place by so much that not all four corners lie in one plane across it.
+            // Edges that are named by a stale hint need not be where the solids reach furthest; and the axis of
+            // edges at a small angle is beside its place by so much that not all four corners lie in one plane
+            // across it.
             let is_facet = lowest >= depth - 0.5 * doubt;
             if is_facet { in_parallelogram(edges, axis.normal) } else { f64::NEG_INFINITY }
         }
@@ -95,7 +97,8 @@ fn does_ball_cover(a: &Solid, b: &Solid, normal: DVec3, (depth, disc): (f64, f64
     if spare >= 0.0 && spare * spare >= square {
         return true;
     }
-    // Not from both squares: of a centre straight behind the facet, their difference is rounding, and its root is far more.
+    // Not from both squares: of a centre straight behind the facet, their difference is rounding, and its root is
+    // far more.
     let across = (center - normal * along).length();
     // The angle up to which the disc reaches, by the tangent of its half.
     let tangent = disc / depth;

@@ -177,15 +177,16 @@ fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
         let pair = convex(&shape_a, poses[0], &shape_b, poses[1]);
         pair.with_solids(|a, b| {
             for solid in [a, b] {
-                // Any direction, those of faces, where many vertices are equally far but for rounding, and of axes, where
-                // lattices have exact ties.
+                // Any direction, those of faces, where many vertices are equally far but for rounding, and of axes,
+                // where lattices have exact ties.
                 let faces = (0..solid.face_count()).map(|face| solid.normal(face));
                 let axes = [DVec3::X, -DVec3::Y, DVec3::Z, random.vector().as_dvec3().normalize()];
                 for direction in faces.chain(axes) {
                     let (lanes, definition) = (solid.support(direction), solid.support_one_by_one(direction));
                     assert_eq!(lanes.vertex, definition.vertex, "case {case}");
                     assert_eq!(lanes.reach.to_bits(), definition.reach.to_bits(), "case {case}");
-                    // In f32 alone: a bound that no vertex is beyond, and a vertex that is no further below it than told.
+                    // In f32 alone: a bound that no vertex is beyond, and a vertex that is no further below it than
+                    // told.
                     for length in [1.0, 1e-18, 1e18] {
                         let (rough, excess) = solid.rough_support(direction * length);
                         let (truth, rounding) = (definition.reach * length, 1e-12 * length * 1e3);

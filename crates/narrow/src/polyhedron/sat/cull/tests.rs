@@ -8,7 +8,8 @@ use asunder_geometry::glam::DVec3;
 /// So many directions of an arc are asked for what they show, besides the one along which most is shown.
 const SAMPLES: usize = 9;
 
-/// Unit directions along an edge's arc, from one face's normal to the other's, in the shape's own axes; the one nearest to
+/// Unit directions along an edge's arc, from one face's normal to the other's, in the shape's own axes; the one
+/// nearest to
 /// `towards` among them, where it is inside.
 fn along_arc(normals: [DVec3; 2], towards: DVec3) -> Vec<DVec3> {
     let [left, right] = normals;

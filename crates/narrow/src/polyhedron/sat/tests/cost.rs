@@ -92,8 +92,8 @@ fn twice_the_vertices_cost_less_than_three_times_as_much() {
     }
 }
 
-/// A millisecond at 4 ns a step. Least favourable are two equal prisms in one place, whose 50,000 pairs of edges that may
-/// touch are all even, and double cones, all of whose axes are as good.
+/// A millisecond at 4 ns a step. Least favourable are two equal prisms in one place, whose 50,000 pairs of edges
+/// that may touch are all even, and double cones, all of whose axes are as good.
 const MOST: usize = 250_000;
 
 #[test]
