@@ -1,6 +1,7 @@
 //! One pair in space.
 
 mod ball;
+mod balls;
 mod compounds;
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
@@ -133,8 +134,8 @@ impl<'a> Pair3<'a> {
     }
 
     fn general_verdict(&self) -> Verdict {
-        if let Some(ball) = self.ball() {
-            return ball.verdict();
+        if let Some(found) = self.verdict_of_balls() {
+            return found;
         }
         let mut tier = Tier::Bound;
         if self.gap_of_spheres() > 0.0 {
@@ -167,8 +168,8 @@ impl<'a> Pair3<'a> {
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
             return found;
         }
-        if let Some(ball) = self.ball() {
-            return ball.separation(limit);
+        if let Some(found) = self.separation_of_balls(limit) {
+            return found;
         }
         match self.nearest(limit, Wanted::Number) {
             Ok((parts, near)) => Separation3::Measured(Measured3 {
@@ -183,8 +184,8 @@ impl<'a> Pair3<'a> {
     /// The closest points of shapes that do not overlap; nothing where they do. Cost: some support searches, each
     /// linear in the vertices.
     pub fn distance(&self) -> Option<Closest3> {
-        if let Some(ball) = self.ball() {
-            return ball.distance();
+        if let Some(found) = self.distance_of_balls() {
+            return found;
         }
         let (parts, near) = self.nearest(f64::INFINITY, Wanted::Closest).ok()?;
         let [on_a, on_b] = near.closest?;
@@ -270,8 +271,8 @@ impl<'a> Pair3<'a> {
         hint: Hint,
         manifolds: &mut impl Room,
     ) -> (Hint, Option<bool>) {
-        if let Some(ball) = self.ball() {
-            return (Hint::NONE, ball.contact(margin, manifolds));
+        if let Some(found) = self.contact_of_balls(margin, manifolds) {
+            return (Hint::NONE, found);
         }
         let (margin, reach) = (margin.max(0.0), reach_of(margin));
         if self.gap_of_spheres() > reach {
@@ -378,6 +379,7 @@ impl<'a> Pair3<'a> {
         let (basis, relative) = match (a.shape, b.shape) {
             // A ball has no axes: it takes those of the cuboid, in which the centre is one rotation away.
             (Shape3::Sphere(_), Shape3::Cuboid(_)) => (basis_b, IDENTITY),
+            (Shape3::Sphere(_), Shape3::Sphere(_)) => (IDENTITY, IDENTITY),
             _ if a.is_turned() || b.is_turned() => (basis_a, basis_b.relative_to(&basis_a)),
             _ => (basis_a, self.pose_b.basis_from(&self.pose_a)),
         };

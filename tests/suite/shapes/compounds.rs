@@ -113,7 +113,7 @@ fn a_compound_of_one_part_is_that_part() {
         if matches!(
             (shape_a, shape_b),
             (Shape3::Cuboid(_), Shape3::Cuboid(_) | Shape3::Sphere(_))
-                | (Shape3::Sphere(_), Shape3::Cuboid(_))
+                | (Shape3::Sphere(_), Shape3::Cuboid(_) | Shape3::Sphere(_))
         ) {
             assert_alike(&of_part, &of_body, f64::from(bodies.pair().size()));
         } else {
