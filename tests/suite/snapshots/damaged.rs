@@ -203,10 +203,10 @@ fn other(value: &Value, random: &mut Random) -> Value {
         Value::Number(number) => {
             let number = number.as_u64().unwrap_or(0);
             json!(random.pick(&[
-                number + 1,
+                number.wrapping_add(1),
                 number.wrapping_sub(1),
                 0,
-                number + 2,
+                number.wrapping_add(2),
                 u64::from(u32::MAX),
                 u64::MAX,
                 1 << 40
