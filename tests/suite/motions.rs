@@ -249,6 +249,20 @@ fn what_has_no_end_may_turn() {
     assert!(world.impacts().is_empty());
 }
 
+/// A rod of a thousand kilometres that turns half round about its end, past a post far from its boxes at start and end.
+#[test]
+fn the_largest_bodies_sweep_no_less() {
+    let mut world = World3::new();
+    let rod = asunder::Segment3::new(Vec3::ZERO, Vec3::X * 1e6).unwrap();
+    let rod = world.insert(Collider3::new(rod).bullet());
+    let post = Collider3::new(Sphere::new(1e3).unwrap());
+    let post = world.insert(post.at(Pose3::at([0.0, 9.5e5, 0.0]).unwrap()));
+    let half_turn = Motion3::new([0.0; 3], Quat::from_xyzw(0.0, 0.0, 1.0, 0.0)).unwrap();
+    world.set_motion(rod, half_turn).unwrap();
+    world.update();
+    assert!(matches!(world.impacts(), [hit] if (hit.bullet, hit.other) == (rod, post)));
+}
+
 /// So many bullets that several threads look at them.
 #[test]
 fn every_number_of_threads_says_the_same() {

@@ -1,7 +1,9 @@
 //! This frame's motions: what a body is about to do, so that an update can say what it will run into.
 
+use crate::collider::Collider;
 use crate::space::{BodyKey2, BodyKey3, Space};
 use crate::world::{StaleKey, World, slot_of};
+use asunder_geometry::tolerance;
 use asunder_narrow::{Impact2, Impact3};
 
 /// What a bullet runs into during its motion: see [`Collider::bullet`](crate::Collider::bullet).
@@ -104,4 +106,39 @@ impl<S: Space> World<S> {
             self.mark_dirty(slot);
         }
     }
+}
+
+/// The box around a body throughout its motion, rounded outwards.
+///
+/// It is that around both ends, grown by what may stand out in between. A point that turns is at R(t) v, and the boxes hold
+/// (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no further than w t |v| from the first and w (1 - t) |v| from the
+/// second, and so 2 t (1 - t) w |v| from their mean: at most half of w |v|.
+pub(crate) fn swept_bounds<S: Space>(body: &Collider<S>, motion: &S::Motion) -> S::Aabb {
+    let turn_speed = S::turn_speed(motion, &body.pose);
+    // Rotations in between are rounded to f32 at times, by less than 1.2e-7.
+    let out = swing(turn_speed, turn_speed / 2.0 + 2.4e-7, S::arm(&body.shape));
+    let margin = rounded_up(f64::from(body.margin) + out);
+    let around = |pose: &S::Pose| S::bounds(&body.shape, pose, margin);
+    S::union(&around(&body.pose), &around(&S::end(motion, &body.pose)))
+}
+
+/// By how many metres at most two bodies come nearer to each other in their motions; no more than a margin may be.
+pub(crate) fn approach<S: Space>(bodies: [&Collider<S>; 2], motions: [Option<S::Motion>; 2]) -> f32 {
+    let mut most = S::drift(motions);
+    for (body, motion) in bodies.into_iter().zip(motions) {
+        let turn_speed = motion.map_or(0.0, |motion| S::turn_speed(&motion, &body.pose));
+        most += swing(turn_speed, turn_speed, S::arm(&body.shape));
+    }
+    rounded_up(most).min(tolerance::MAX_RADIUS)
+}
+
+/// How far a point within `reach` comes by turning, in metres: so much of it, and never further than across.
+fn swing(turn_speed: f64, share: f64, reach: f64) -> f64 {
+    // What does not turn has no share of a reach that may be infinite.
+    if turn_speed > 0.0 { share.min(2.0) * reach } else { 0.0 }
+}
+
+fn rounded_up(metres: f64) -> f32 {
+    let rounded = metres as f32;
+    if f64::from(rounded) < metres { rounded.next_up() } else { rounded }
 }

@@ -1,8 +1,7 @@
 //! What differs between the plane and space: types, `bounds` and `collide`. All else is written once.
 
 use crate::collider::Collider;
-use asunder_geometry::glam::{DVec2, DVec3};
-use asunder_geometry::{Aabb2, Aabb3, Bounds, Motion2, Motion3, Pose2, Pose3, Shape2, Shape3, tolerance};
+use asunder_geometry::{Aabb2, Aabb3, Bounds, Motion2, Motion3, Pose2, Pose3, Shape2, Shape3};
 use asunder_narrow::{
     Batch, Batch2, Batch3, Hint, Impact2, Impact3, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3, collide2,
     collide3,
@@ -59,13 +58,25 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     #[doc(hidden)]
     fn bounds(shape: &Self::Shape, pose: &Self::Pose, margin: f32) -> Self::Aabb;
 
-    /// The box around a body throughout its motion, rounded outwards.
+    /// The least box around both.
     #[doc(hidden)]
-    fn swept_bounds(body: &Collider<Self>, motion: &Self::Motion) -> Self::Aabb;
+    fn union(one: &Self::Aabb, other: &Self::Aabb) -> Self::Aabb;
 
-    /// By how many metres at most two bodies come nearer to each other in their motions.
+    /// How far a shape reaches from its body's position, in metres, whichever way it is turned. Infinite without end.
     #[doc(hidden)]
-    fn approach(bodies: [&Collider<Self>; 2], motions: [Option<Self::Motion>; 2]) -> f32;
+    fn arm(shape: &Self::Shape) -> f64;
+
+    /// Where a motion from a pose ends.
+    #[doc(hidden)]
+    fn end(motion: &Self::Motion, from: &Self::Pose) -> Self::Pose;
+
+    /// A bound on the angular speed of a motion from a pose, in radians for all of it.
+    #[doc(hidden)]
+    fn turn_speed(motion: &Self::Motion, from: &Self::Pose) -> f64;
+
+    /// How far two motions move two positions against each other, in metres.
+    #[doc(hidden)]
+    fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
     /// When two bodies that are apart first touch in their motions, and the share of the motions that is done by then.
     #[doc(hidden)]
@@ -87,29 +98,6 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
 }
 
-/// No point of a body turns further than this from where it was, given how fast it turns: and never further than
-/// across.
-fn swing(turn_speed: f64, reach: f64) -> f64 {
-    // A half-space that does not turn: zero times infinity.
-    if turn_speed > 0.0 { turn_speed.min(2.0) * reach } else { 0.0 }
-}
-
-/// The margin for a box around both ends of a motion that holds everything in between.
-///
-/// A point that turns is at R(t) v, and the boxes hold (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no
-/// further than w t |v| from the first and w (1 - t) |v| from the second, and so 2 t (1 - t) w |v| from their mean:
-/// at most half of w |v|.
-fn grown(margin: f32, turn_speed: f64, reach: f64) -> f32 {
-    // Rotations in between are rounded to f32 at times, by less than 1.2e-7.
-    let most = if turn_speed > 0.0 { ((turn_speed / 2.0).min(2.0) + 2.4e-7) * reach } else { 0.0 };
-    if most > 0.0 { rounded_up(f64::from(margin) + most) } else { margin }
-}
-
-/// Rounded up to f32, and no more than any margin may be.
-fn rounded_up(metres: f64) -> f32 {
-    if metres > 0.0 { (metres as f32).next_up().min(tolerance::MAX_RADIUS) } else { 0.0 }
-}
-
 impl Space for Plane {
     type Key = BodyKey2;
     type Pose = Pose2;
@@ -128,28 +116,25 @@ impl Space for Plane {
         shape.bounds(pose, margin)
     }
 
-    fn swept_bounds(body: &Collider<Self>, motion: &Motion2) -> Aabb2 {
-        let grown = grown(
-            body.margin,
-            motion.turn_speed(&body.pose),
-            f64::from(body.shape.center().length() + body.shape.outer_radius()),
-        );
-        let end = motion.pose_at(&body.pose, 1.0);
-        body.shape.bounds(&body.pose, grown).union(&body.shape.bounds(&end, grown))
+    fn union(one: &Aabb2, other: &Aabb2) -> Aabb2 {
+        one.union(other)
     }
 
-    fn approach([a, b]: [&Collider<Self>; 2], motions: [Option<Motion2>; 2]) -> f32 {
-        let [moved_a, moved_b] =
-            motions.map(|motion| motion.map_or(DVec2::ZERO, |motion| motion.displacement()));
-        let turned = |body: &Collider<Self>, motion: Option<Motion2>| {
-            motion.map_or(0.0, |motion| {
-                swing(
-                    motion.turn_speed(&body.pose),
-                    f64::from(body.shape.center().length() + body.shape.outer_radius()),
-                )
-            })
-        };
-        rounded_up((moved_a - moved_b).length() + turned(a, motions[0]) + turned(b, motions[1]))
+    fn arm(shape: &Shape2) -> f64 {
+        shape.center().as_dvec2().length() + f64::from(shape.outer_radius())
+    }
+
+    fn end(motion: &Motion2, from: &Pose2) -> Pose2 {
+        motion.pose_at(from, 1.0)
+    }
+
+    fn turn_speed(motion: &Motion2, from: &Pose2) -> f64 {
+        motion.turn_speed(from)
+    }
+
+    fn drift(motions: [Option<Motion2>; 2]) -> f64 {
+        let [a, b] = motions.map(|motion| motion.unwrap_or(Motion2::STILL).displacement());
+        (a - b).length()
     }
 
     fn impact([a, b]: [&Collider<Self>; 2], motions: [Option<Motion2>; 2]) -> Option<(f64, Impact2)> {
@@ -197,28 +182,25 @@ impl Space for Volume {
         shape.bounds(pose, margin)
     }
 
-    fn swept_bounds(body: &Collider<Self>, motion: &Motion3) -> Aabb3 {
-        let grown = grown(
-            body.margin,
-            motion.turn_speed(&body.pose),
-            f64::from(body.shape.center().length() + body.shape.outer_radius()),
-        );
-        let end = motion.pose_at(&body.pose, 1.0);
-        body.shape.bounds(&body.pose, grown).union(&body.shape.bounds(&end, grown))
+    fn union(one: &Aabb3, other: &Aabb3) -> Aabb3 {
+        one.union(other)
     }
 
-    fn approach([a, b]: [&Collider<Self>; 2], motions: [Option<Motion3>; 2]) -> f32 {
-        let [moved_a, moved_b] =
-            motions.map(|motion| motion.map_or(DVec3::ZERO, |motion| motion.displacement()));
-        let turned = |body: &Collider<Self>, motion: Option<Motion3>| {
-            motion.map_or(0.0, |motion| {
-                swing(
-                    motion.turn_speed(&body.pose),
-                    f64::from(body.shape.center().length() + body.shape.outer_radius()),
-                )
-            })
-        };
-        rounded_up((moved_a - moved_b).length() + turned(a, motions[0]) + turned(b, motions[1]))
+    fn arm(shape: &Shape3) -> f64 {
+        shape.center().as_dvec3().length() + f64::from(shape.outer_radius())
+    }
+
+    fn end(motion: &Motion3, from: &Pose3) -> Pose3 {
+        motion.pose_at(from, 1.0)
+    }
+
+    fn turn_speed(motion: &Motion3, from: &Pose3) -> f64 {
+        motion.turn_speed(from)
+    }
+
+    fn drift(motions: [Option<Motion3>; 2]) -> f64 {
+        let [a, b] = motions.map(|motion| motion.unwrap_or(Motion3::STILL).displacement());
+        (a - b).length()
     }
 
     fn impact([a, b]: [&Collider<Self>; 2], motions: [Option<Motion3>; 2]) -> Option<(f64, Impact3)> {

@@ -10,11 +10,12 @@
 
 use crate::collider::Collider;
 use crate::contact::{Candidate, Record};
-use crate::motion::Motions;
+use crate::motion::{Motions, approach};
 use crate::space::Space;
 use crate::world::{ASKED, Scratch, World};
 use asunder_broad::PairId;
 use asunder_narrow::{Answer, ArrayVec, Batch, Hint};
+use core::ops::Range;
 use slotmap::SlotMap;
 
 /// Pairs in one batch. Fixed, so that where batches are cut does not depend on the threads.
@@ -115,16 +116,14 @@ impl<S: Space> Asker<'_, S> {
             S::collide(&jobs, batch);
         }
     }
-}
 
-impl<S: Space> Asker<'_, S> {
     /// By how much the bodies' motions may bring them nearer. A sensor looks no further than it reaches.
     #[inline]
     fn approach(&self, pair: PairId, bodies: [&Collider<S>; 2]) -> f32 {
         if self.motions.is_empty() || bodies[0].sensor || bodies[1].sensor {
             return 0.0;
         }
-        S::approach(bodies, [self.motions.of(pair.a), self.motions.of(pair.b)])
+        approach(bodies, [self.motions.of(pair.a), self.motions.of(pair.b)])
     }
 }
 
@@ -149,8 +148,7 @@ fn gather<S: Space>(world: &mut World<S>) {
                 last += 1;
             }
             if let Some(record) = last_records.get(last).filter(|record| record.pair == pair) {
-                let range = record.manifolds.start as usize..record.manifolds.end as usize;
-                manifolds.extend_from_slice(&last_manifolds[range]);
+                manifolds.extend_from_slice(&last_manifolds[range_of(&record.manifolds)]);
                 let manifolds = start..manifolds.len() as u32;
                 records.push(Record {
                     manifolds,
@@ -163,28 +161,41 @@ fn gather<S: Space>(world: &mut World<S>) {
         }
         let Some((answer, of_batch)) = answers.next() else { break };
         let keys = (keys[pair.a as usize], keys[pair.b as usize]);
-        let (hint, contact) = match answer {
-            Answer::Apart { hint } => (*hint, None),
-            Answer::Contact { hint, overlapping, manifolds } => (*hint, Some((*overlapping, manifolds))),
-        };
+        let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = *answer;
         candidates.push(Candidate { pair, keys, hint });
-        if let (Some((overlapping, range)), Some(a), Some(b)) =
-            (contact, bodies.get(keys.0), bodies.get(keys.1))
+        if let (Answer::Contact { overlapping, manifolds: range, .. }, Some(a), Some(b)) =
+            (answer, bodies.get(keys.0), bodies.get(keys.1))
         {
-            let found = &of_batch[range.start as usize..range.end as usize];
+            let found = &of_batch[range_of(range)];
             manifolds.extend_from_slice(found);
-            let is_beyond = || S::least_separation(found) > a.margin + b.margin;
-            records.push(Record {
-                pair,
-                keys,
-                user_data: (a.user_data, b.user_data),
-                manifolds: start..manifolds.len() as u32,
-                sensor: a.sensor || b.sensor,
-                overlapping,
-                begun: overlapping,
-                is_new: false,
-                speculative: !overlapping && !found.is_empty() && is_beyond(),
-            });
+            let range = start..manifolds.len() as u32;
+            records.push(record_of::<S>((pair, keys), [a, b], *overlapping, found, range));
         }
     }
+}
+
+/// A contact, as the narrow phase alone knows it; its past is merged in later.
+fn record_of<S: Space>(
+    (pair, keys): (PairId, (S::Key, S::Key)),
+    [a, b]: [&Collider<S>; 2],
+    overlapping: bool,
+    found: &[S::Manifold],
+    manifolds: Range<u32>,
+) -> Record<S::Key> {
+    let is_beyond = || S::least_separation(found) > a.margin + b.margin;
+    Record {
+        pair,
+        keys,
+        user_data: (a.user_data, b.user_data),
+        manifolds,
+        sensor: a.sensor || b.sensor,
+        overlapping,
+        begun: overlapping,
+        is_new: false,
+        speculative: !overlapping && !found.is_empty() && is_beyond(),
+    }
+}
+
+fn range_of(range: &Range<u32>) -> Range<usize> {
+    range.start as usize..range.end as usize
 }

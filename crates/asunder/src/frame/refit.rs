@@ -1,5 +1,6 @@
 //! Stage 1: moved poses to boxes, rounded outwards.
 
+use crate::motion::swept_bounds;
 use crate::space::Space;
 use crate::world::World;
 use slotmap::Key;
@@ -18,7 +19,7 @@ pub(super) fn refit<S: Space>(world: &mut World<S>) {
         match (body, motions.of(slot)) {
             (None, _) => asunder_geometry::Bounds::NOTHING,
             (Some(body), None) => S::bounds(&body.shape, &body.pose, body.margin),
-            (Some(body), Some(motion)) => S::swept_bounds(body, &motion),
+            (Some(body), Some(motion)) => swept_bounds(body, &motion),
         }
     };
     scratch.refitted.clear();

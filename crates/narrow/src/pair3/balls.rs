@@ -6,8 +6,10 @@
 //! normal        along b - a; up where the centres are one, or so near that rounding would choose
 //! yes or no     the number's beyond twice the bound, else by integers
 //! ```
-//! The general path, which knows them as points with a radius, takes ten times as long: it makes both bodies' axes, and looks
-//! for the closest points of two segments.
+//! The general path, which knows them as points with a radius, makes both bodies' axes and looks for the closest points
+//! of two segments: a distance takes 325 ns there and 10 here (AMD EPYC, Zen 4, 2026-11-22).
+//!
+//! What is told of a sphere and a cuboid (`ball`) is told in the same way: [`Told`].
 
 use super::{IDENTITY, Pair3, Part, reach_of};
 use crate::answer::{Closest3, ContactPoint3, Measured3, Separation3, Tier, Verdict};
@@ -42,8 +44,8 @@ impl Pair3<'_> {
     #[inline]
     pub(super) fn separation_of_balls(&self, limit: f64) -> Option<Separation3> {
         match self.balls() {
-            Some(balls) => Some(balls.separation(limit)),
-            None => self.ball().map(|ball| ball.separation(limit)),
+            Some(balls) => Some(balls.within(limit)),
+            None => self.ball().map(|ball| ball.seen().within(limit)),
         }
     }
 
@@ -51,7 +53,7 @@ impl Pair3<'_> {
     pub(super) fn distance_of_balls(&self) -> Option<Option<Closest3>> {
         match self.balls() {
             Some(balls) => Some(balls.distance()),
-            None => self.ball().map(|ball| ball.distance()),
+            None => self.ball().map(|ball| ball.seen().distance()),
         }
     }
 
@@ -74,32 +76,47 @@ impl Pair3<'_> {
     }
 }
 
-impl Balls<'_> {
-    #[inline]
-    fn beyond(&self, limit: f64) -> bool {
-        self.separation > limit + self.precision.projection()
-    }
+/// A separation in closed form, with all that is told of it.
+pub(super) trait Told {
+    /// In metres, off by less than the projection of [`Told::precision`].
+    fn separation(&self) -> f64;
+    fn precision(&self) -> &Precision;
+    /// Whether they overlap, by integers.
+    fn exactly(&self) -> bool;
+    /// Unit axis in world axes, from A to B.
+    fn normal(&self) -> Vec3;
+    /// Where they are nearest to each other, or deepest in each other.
+    fn anchors(&self) -> [Vec3; 2];
+    fn feature(&self) -> FeatureId;
 
+    /// Whether they overlap: by the number, and where it may be rounding, exactly.
     #[inline]
     fn verdict(&self) -> Verdict {
-        let doubt = 2.0 * self.precision.projection();
-        if self.separation > doubt || self.separation < -doubt {
-            return Verdict { overlapping: self.separation < 0.0, tier: Tier::Bound };
+        let (separation, doubt) = (self.separation(), 2.0 * self.precision().projection());
+        if separation > doubt || separation < -doubt {
+            return Verdict { overlapping: separation < 0.0, tier: Tier::Bound };
         }
         Verdict { overlapping: self.exactly(), tier: Tier::Exact }
     }
 
-    #[cold]
-    fn exactly(&self) -> bool {
-        let Pair3 { shape_a, shape_b, pose_a, pose_b, .. } = self.pair;
-        let (a, b) = (Part::whole(shape_a, &IDENTITY), Part::whole(shape_b, &IDENTITY));
-        exact::overlaps3([&a.site(pose_a), &b.site(pose_b)], &[[0, 0]])
+    #[inline]
+    fn beyond(&self, limit: f64) -> bool {
+        self.separation() > limit + self.precision().projection()
     }
 
     #[inline]
-    fn separation(&self, limit: f64) -> Separation3 {
+    fn measured(&self, overlapping: bool) -> Measured3 {
+        Measured3 {
+            separation: signed(self.separation(), overlapping),
+            error: self.precision().of_distance(self.separation(), 0.0),
+            normal: self.normal(),
+        }
+    }
+
+    #[inline]
+    fn within(&self, limit: f64) -> Separation3 {
         match self.beyond(limit) {
-            true => Separation3::AtLeast(at_least(self.separation, &self.precision)),
+            true => Separation3::AtLeast(at_least(self.separation(), self.precision())),
             false => Separation3::Measured(self.measured(self.verdict().overlapping)),
         }
     }
@@ -128,36 +145,55 @@ impl Balls<'_> {
         }
         if let Some(manifold) = manifolds.room(separation) {
             (manifold.normal, manifold.separation, manifold.error) = (normal, separation, error);
-            let [anchor_a, anchor_b] = self.anchors();
-            let feature = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
+            let ([anchor_a, anchor_b], feature) = (self.anchors(), self.feature());
             manifold.points.push(ContactPoint3 { separation, anchor_a, anchor_b, feature });
         }
         Some(overlapping)
     }
+}
 
+impl Told for Balls<'_> {
     #[inline]
-    fn measured(&self, overlapping: bool) -> Measured3 {
-        Measured3 {
-            separation: signed(self.separation, overlapping),
-            error: self.precision.of_distance(self.separation, 0.0),
-            normal: self.normal().as_vec3(),
-        }
+    fn separation(&self) -> f64 {
+        self.separation
     }
 
     #[inline]
-    fn normal(&self) -> DVec3 {
+    fn precision(&self) -> &Precision {
+        &self.precision
+    }
+
+    #[cold]
+    fn exactly(&self) -> bool {
+        let Pair3 { shape_a, shape_b, pose_a, pose_b, .. } = self.pair;
+        let (a, b) = (Part::whole(shape_a, &IDENTITY), Part::whole(shape_b, &IDENTITY));
+        exact::overlaps3([&a.site(pose_a), &b.site(pose_b)], &[[0, 0]])
+    }
+
+    #[inline]
+    fn normal(&self) -> Vec3 {
+        self.axis().as_vec3()
+    }
+
+    #[inline]
+    fn anchors(&self) -> [Vec3; 2] {
+        let axis = self.axis();
+        [(axis * self.radii[0]).as_vec3(), (axis * -self.radii[1]).as_vec3()]
+    }
+
+    fn feature(&self) -> FeatureId {
+        FeatureId::new(Feature::Vertex(0), Feature::Vertex(0))
+    }
+}
+
+impl Balls<'_> {
+    #[inline]
+    fn axis(&self) -> DVec3 {
         if self.distance > self.precision.projection() {
             return self.pair.between / self.distance;
         }
         // Mirrored where both change places.
         if self.pair.between.y < 0.0 { DVec3::NEG_Y } else { DVec3::Y }
-    }
-
-    /// Where they are nearest to each other, or deepest in each other.
-    #[inline]
-    fn anchors(&self) -> [Vec3; 2] {
-        let normal = self.normal();
-        [(normal * self.radii[0]).as_vec3(), (normal * -self.radii[1]).as_vec3()]
     }
 }
 

@@ -1,21 +1,22 @@
 use super::*;
+use crate::answer::{Closest3, Measured3, Separation3};
 use crate::feature::Hint;
 use crate::polyhedron::convex::{Asked, Probe, Wanted};
 use asunder_geometry::Sphere;
 use asunder_geometry::glam::Quat;
+use oorandom::Rand64;
 
-/// A generator of numbers that is small and always the same.
-struct Numbers(u64);
+/// Seeded numbers.
+struct Numbers(Rand64);
 
 impl Numbers {
     fn below(&mut self, end: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % end
+        self.0.rand_range(0..end)
     }
 
     /// From -1 to 1.
     fn number(&mut self) -> f64 {
-        self.below(1 << 24) as f64 / f64::from(1 << 23) - 1.0
+        2.0 * self.0.rand_float() - 1.0
     }
 
     fn vector(&mut self) -> DVec3 {
@@ -87,7 +88,7 @@ impl Case {
 }
 
 fn cases() -> impl Iterator<Item = Case> {
-    let mut numbers = Numbers(7);
+    let mut numbers = Numbers(Rand64::new(7));
     (0..12_000).map(move |_| Case::new(&mut numbers))
 }
 
