@@ -52,8 +52,11 @@ impl Shapes {
                 let [from, to] = segment.ends();
                 SharedShape::segment(from, to)
             }
+            Shape3::TriMesh(mesh) => {
+                SharedShape::trimesh(mesh.vertices().to_vec(), mesh.triangles().to_vec()).ok()?
+            }
             // No scene here has one.
-            Shape3::Compound(_) => return None,
+            Shape3::Compound(_) | Shape3::HeightField(_) => return None,
         };
         if is_dear {
             self.known.push((shape.clone(), converted.clone()));

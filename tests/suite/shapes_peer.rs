@@ -84,6 +84,7 @@ pub(crate) fn twin(shape: &Shape3) -> Option<SharedShape> {
             });
             SharedShape(std::sync::Arc::new(Compound::new(twins.collect::<Option<Vec<_>>>()?)))
         }
+        Shape3::TriMesh(_) | Shape3::HeightField(_) => return None,
     })
 }
 

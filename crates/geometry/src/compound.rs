@@ -242,6 +242,7 @@ impl Compound3 {
             match part.shape {
                 Shape3::Compound(_) => return Err(CompoundError::Nested { index }),
                 Shape3::HalfSpace(_) => return Err(CompoundError::Unbounded { index }),
+                Shape3::TriMesh(_) | Shape3::HeightField(_) => return Err(CompoundError::Ground { index }),
                 _ => {}
             }
             let radius = f64::from(part.shape.outer_radius());
@@ -327,6 +328,11 @@ pub enum CompoundError {
         /// Index of the part.
         index: usize,
     },
+    /// A part is ground: a mesh, a height field or a chain.
+    Ground {
+        /// Index of the part.
+        index: usize,
+    },
     /// A part has no end.
     Unbounded {
         /// Index of the part.
@@ -349,6 +355,7 @@ impl core::fmt::Display for CompoundError {
             Self::Nested { index } => {
                 write!(f, "part {index} is made of several parts itself: give those instead")
             }
+            Self::Ground { index } => write!(f, "part {index} is ground: make it a body of its own"),
             Self::Unbounded { index } => {
                 write!(f, "part {index} has no end: make it a body of its own")
             }

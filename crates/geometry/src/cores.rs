@@ -49,7 +49,7 @@ pub struct Core2<'a> {
 /// The core of a shape in space: the shape is everything within [`Shape3::radius`] of it.
 ///
 /// A polyhedron has a normal for each face. A triangle or flat hull has two faces, back to back. A segment has one
-/// edge and a point none; both have one face loop and no normals. A half-space and a compound have no vertices.
+/// edge and a point none; both have one face loop and no normals. A half-space, a compound and ground have no vertices.
 ///
 /// ```
 /// use asunder_geometry::{Capsule3, Shape3, Triangle3, glam::{DVec3, Vec3}};
@@ -283,9 +283,11 @@ impl<'a> Few<'a> {
                     topology: Cuboid::topology(),
                 }
             }
-            Shape3::Hull(_) | Shape3::HalfSpace(_) | Shape3::Compound(_) => {
-                Self::without_faces(&[], Topology::point(), shape)
-            }
+            Shape3::Hull(_)
+            | Shape3::HalfSpace(_)
+            | Shape3::Compound(_)
+            | Shape3::TriMesh(_)
+            | Shape3::HeightField(_) => Self::without_faces(&[], Topology::point(), shape),
         }
     }
 

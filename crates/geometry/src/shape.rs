@@ -8,8 +8,11 @@ use crate::circle::Circle;
 use crate::compound::{Compound2, Compound3, Part2, Part3};
 use crate::cores::{Core2, Core3};
 use crate::cuboid::Cuboid;
+use crate::ground::Ground;
 use crate::half_space::{HalfPlane, HalfSpace};
+use crate::height_field::HeightField;
 use crate::hull::Hull;
+use crate::mesh::TriMesh;
 use crate::polygon::Polygon;
 use crate::pose2::Pose2;
 use crate::pose3::Pose3;
@@ -57,7 +60,7 @@ pub enum Shape2 {
 /// assert!(shape.outer_radius() >= 3_f32.sqrt());
 /// assert!(shape.bounds(&Pose3::IDENTITY, 0.0).contains(Vec3::ONE) && shape.contains(Vec3::ONE));
 /// assert_eq!(shape.support(DVec3::ONE), Some(DVec3::ONE));
-/// assert_eq!((shape.radius(), shape.core().vertices().len()), (0.0, 8));
+/// assert_eq!((shape.radius(), shape.core().vertices().len(), shape.is_ground()), (0.0, 8, false));
 /// # Ok::<(), asunder_geometry::ExtentError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -79,6 +82,10 @@ pub enum Shape3 {
     Segment(Segment3),
     /// Several convex parts.
     Compound(Compound3),
+    /// Triangles that make up a level.
+    TriMesh(TriMesh),
+    /// Ground with one height above each point of a grid.
+    HeightField(HeightField),
 }
 
 impl Shape2 {
@@ -188,6 +195,8 @@ impl Shape3 {
             Self::Triangle(triangle) => triangle.bounds(pose, margin),
             Self::Segment(segment) => segment.bounds(pose, margin),
             Self::Compound(compound) => compound.bounds(pose, margin),
+            Self::TriMesh(mesh) => mesh.bounds(pose, margin),
+            Self::HeightField(field) => field.bounds(pose, margin),
         }
     }
 
@@ -199,6 +208,8 @@ impl Shape3 {
             Self::Triangle(triangle) => triangle.center(),
             Self::Segment(segment) => segment.center(),
             Self::Compound(compound) => compound.center(),
+            Self::TriMesh(mesh) => mesh.center(),
+            Self::HeightField(field) => field.center(),
             Self::Sphere(_) | Self::Cuboid(_) | Self::HalfSpace(_) => Vec3::ZERO,
         }
     }
@@ -215,6 +226,8 @@ impl Shape3 {
             Self::Triangle(triangle) => triangle.outer_radius(),
             Self::Segment(segment) => segment.outer_radius(),
             Self::Compound(compound) => compound.outer_radius(),
+            Self::TriMesh(mesh) => mesh.outer_radius(),
+            Self::HeightField(field) => field.outer_radius(),
         }
     }
 
@@ -227,10 +240,17 @@ impl Shape3 {
             Self::Cuboid(cuboid) => cuboid.radius(),
             Self::Hull(hull) => hull.radius(),
             Self::HalfSpace(_) | Self::Triangle(_) | Self::Segment(_) | Self::Compound(_) => 0.0,
+            Self::TriMesh(_) | Self::HeightField(_) => 0.0,
         }
     }
 
-    /// What is left without the rounding. A half-space and a compound have none: their core has no vertices.
+    /// Whether it is ground: a triangle mesh or a height field. Bodies that carry it are always fixed.
+    #[inline]
+    pub const fn is_ground(&self) -> bool {
+        matches!(self, Self::TriMesh(_) | Self::HeightField(_))
+    }
+
+    /// What is left without the rounding. A half-space, a compound and ground have none: their core has no vertices.
     #[inline]
     pub fn core(&self) -> Core3<'_> {
         Core3::of(self)
@@ -249,6 +269,8 @@ impl Shape3 {
             Self::Triangle(triangle) => triangle.contains(point),
             Self::Segment(segment) => segment.contains(point),
             Self::Compound(compound) => compound.contains(point),
+            Self::TriMesh(mesh) => mesh.contains(point),
+            Self::HeightField(field) => field.contains(point),
         }
     }
 
@@ -266,6 +288,13 @@ impl Shape3 {
                 Some(vertex + along * f64::from(part.shape().radius()))
             };
             return furthest(compound.parts().iter().filter_map(of_part), |point| point.dot(along));
+        }
+        if let Some(ground) = Ground::of(self) {
+            let of_triangle = |triangle| {
+                let vertices = ground.triangle(triangle)?.vertices().map(|vertex| vertex.as_dvec3());
+                furthest(vertices.into_iter(), |vertex| vertex.dot(along))
+            };
+            return furthest((0..ground.triangle_count()).filter_map(of_triangle), |point| point.dot(along));
         }
         let core = self.core();
         let vertex = furthest(core.vertices().iter().map(|vertex| vertex.as_dvec3()), |v| v.dot(along))?;
@@ -366,6 +395,18 @@ impl From<Triangle3> for Shape3 {
 impl From<Segment3> for Shape3 {
     fn from(segment: Segment3) -> Self {
         Self::Segment(segment)
+    }
+}
+
+impl From<TriMesh> for Shape3 {
+    fn from(mesh: TriMesh) -> Self {
+        Self::TriMesh(mesh)
+    }
+}
+
+impl From<HeightField> for Shape3 {
+    fn from(field: HeightField) -> Self {
+        Self::HeightField(field)
     }
 }
 

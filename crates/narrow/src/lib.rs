@@ -52,6 +52,7 @@ mod cast3;
 mod counted;
 mod exact;
 mod feature;
+mod ground3;
 mod impact2;
 mod impact3;
 mod jobs3;

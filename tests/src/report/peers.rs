@@ -140,6 +140,12 @@ macro_rules! peer {
                         let twins = parts.map(|part| Some((pose(part.pose()), shape(part.shape())?)));
                         SharedShape::compound(twins.collect::<Option<Vec<_>>>()?)
                     }
+                    Shape3::TriMesh(mesh) => {
+                        let vertices = mesh.vertices().iter().map(|&vertex| vector(vertex)).collect();
+                        SharedShape::trimesh(vertices, mesh.triangles().to_vec()).ok()?
+                    }
+                    // Its triangles are cut along the other diagonal, or not: no twin.
+                    Shape3::HeightField(_) => return None,
                 })
             }
         }

@@ -103,6 +103,7 @@ fn vertices2(shape: &Shape2) -> usize {
 fn is_solid3(shape: &Shape3) -> bool {
     match shape {
         Shape3::HalfSpace(_) | Shape3::Triangle(_) | Shape3::Segment(_) => false,
+        Shape3::TriMesh(_) | Shape3::HeightField(_) => false,
         Shape3::Hull(hull) => hull.dimension() == 3 || hull.radius() > 0.0,
         Shape3::Compound(compound) => compound.parts().iter().all(|part| is_solid3(part.shape())),
         Shape3::Sphere(_) | Shape3::Capsule(_) | Shape3::Cuboid(_) => shape.outer_radius() > 0.0,

@@ -119,7 +119,7 @@ impl Shape3 {
     pub fn mass_properties(&self, density: f32) -> Result<MassProperties3, MassError> {
         let density = check_density(density)?;
         match self {
-            Self::HalfSpace(_) => Err(MassError::Unbounded),
+            Self::HalfSpace(_) | Self::TriMesh(_) | Self::HeightField(_) => Err(MassError::Unbounded),
             Self::Compound(compound) => {
                 let parts = compound.parts().iter();
                 let parts: Vec<MassProperties3> =

@@ -5,7 +5,9 @@ use crate::compound::{Compound3, CompoundError, Part3};
 use crate::cuboid::Cuboid;
 use crate::direction::DirectionError;
 use crate::half_space::HalfSpace;
+use crate::height_field::HeightField;
 use crate::hull::Hull;
+use crate::mesh::{MeshError, TriMesh};
 use crate::motion3::Motion3;
 use crate::pose3::{Pose3, PoseError};
 use crate::radius::RadiusError;
@@ -30,6 +32,8 @@ stored_as! {
     Triangle3: TriangleForm,
     Segment3: SegmentForm,
     Compound3: CompoundForm,
+    TriMesh: MeshForm,
+    HeightField: FieldForm,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -298,6 +302,7 @@ impl ConvexForm {
             Shape3::Triangle(shape) => Self::Triangle(shape),
             Shape3::Segment(shape) => Self::Segment(shape),
             Shape3::HalfSpace(_) | Shape3::Compound(_) => return None,
+            Shape3::TriMesh(_) | Shape3::HeightField(_) => return None,
         })
     }
 
@@ -310,5 +315,49 @@ impl ConvexForm {
             Self::Triangle(shape) => Shape3::Triangle(shape),
             Self::Segment(shape) => Shape3::Segment(shape),
         }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "TriMesh", deny_unknown_fields)]
+struct MeshForm {
+    vertices: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    one_sided: bool,
+}
+
+impl Form for MeshForm {
+    type Of = TriMesh;
+    type Error = MeshError;
+
+    fn of(value: &TriMesh) -> Self {
+        Self {
+            vertices: value.vertices().iter().map(|vertex| vertex.to_array()).collect(),
+            triangles: value.triangles().to_vec(),
+            one_sided: value.is_one_sided(),
+        }
+    }
+
+    fn build(self) -> Result<TriMesh, MeshError> {
+        let vertices: Vec<Vec3> = self.vertices.into_iter().map(Vec3::from_array).collect();
+        let mesh = TriMesh::new(vertices, self.triangles)?;
+        Ok(if self.one_sided { mesh.one_sided() } else { mesh })
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "HeightField", deny_unknown_fields)]
+struct FieldForm {}
+
+impl Form for FieldForm {
+    type Of = HeightField;
+    type Error = MeshError;
+
+    fn of(_: &HeightField) -> Self {
+        Self {}
+    }
+
+    fn build(self) -> Result<HeightField, MeshError> {
+        Err(MeshError::NoTriangles)
     }
 }

@@ -3,7 +3,7 @@
 use asunder_geometry::tolerance::MAX_POSITION;
 use asunder_geometry::{
     Capsule2, Capsule3, Circle, Compound2, Compound3, Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Segment2,
-    Segment3, Shape2, Shape3, Sphere, Triangle3,
+    Segment3, Shape2, Shape3, Sphere, TriMesh, Triangle3,
 };
 use asunder_tests::cases::{Case2, Case3};
 use glam::{DVec2, DVec3, Vec2, Vec3};
@@ -82,6 +82,11 @@ impl Scaled for Shape3 {
             Self::HalfSpace(half_space) => (*half_space).into(),
             Self::Triangle(_) => Triangle3::new(vertices[0], vertices[1], vertices[2]).ok()?.into(),
             Self::Segment(_) => Segment3::new(vertices[0], vertices[1]).ok()?.into(),
+            Self::TriMesh(mesh) => {
+                let vertices = vectors3(mesh.vertices(), k)?;
+                TriMesh::new(vertices, mesh.triangles()).ok()?.into()
+            }
+            Self::HeightField(_) => return None,
             Self::Compound(compound) => {
                 let parts = compound.parts().iter();
                 let parts = parts.map(|part| Some((part.pose().scaled(k)?, part.shape().scaled(k)?)));

@@ -1,0 +1,200 @@
+//! Ground made of triangles, whatever keeps them.
+
+use crate::aabb::Aabb3;
+use crate::height_field::HeightField;
+use crate::mesh::TriMesh;
+use crate::shape::Shape3;
+use crate::triangle::Triangle3;
+use core::ops::ControlFlow;
+
+/// Ground made of numbered triangles: a mesh or a height field.
+///
+/// Half-edge `i` of a triangle goes from its corner `i` to the next. Vertices have numbers too; equal points of a
+/// mesh have one number.
+///
+/// ```
+/// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+/// use core::ops::ControlFlow;
+/// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
+/// let shape = Shape3::from(mesh);
+/// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
+/// assert_eq!((ground.triangle_count(), ground.is_one_sided()), (2, false));
+/// assert_eq!(ground.corners(1), [Vec3::X, Vec3::Z, Vec3::ONE]);
+/// assert_eq!(ground.triangle(1).map(|triangle| triangle.vertices()), Some(ground.corners(1)));
+/// assert_eq!((ground.vertex_numbers(1), ground.neighbor(0, 1)), ([1, 2, 3], Some((1, 0))));
+/// let mut seen = vec![];
+/// let _ = ground.visit_near(&Aabb3::new(Vec3::splat(0.9), Vec3::splat(2.0)), |triangle| {
+///     seen.push((triangle, ground.patch(triangle), ground.prominent(triangle).any_edge(true)));
+///     ControlFlow::Continue(())
+/// });
+/// assert_eq!(seen, [(1, 1, true)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub enum Ground<'a> {
+    /// A triangle mesh.
+    Mesh(&'a TriMesh),
+    /// A height field.
+    Field(&'a HeightField),
+}
+
+/// Which edges and corners of a triangle may give a contact another normal than the triangle's: where the ground bends
+/// away from the body there, or ends. Conservative: a bit that is set may be needless.
+///
+/// ```
+/// use asunder_geometry::Prominent;
+/// let all = Prominent::ALL;
+/// assert!(all.edge(0, true) && all.corner(2, false) && all.any(true) && all.any_edge(false));
+/// let none = Prominent::NONE.with_edge(1, true);
+/// assert!(none.edge(1, true) && !none.edge(1, false) && !none.corner(1, true) && !none.any(false));
+/// assert!(none.with_corner(1, false).corner(1, false));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Prominent(u16);
+
+impl Prominent {
+    /// No edge and no corner.
+    pub const NONE: Self = Self(0);
+    /// Every edge and corner, seen from either side.
+    pub const ALL: Self = Self(0xFFF);
+
+    const fn edge_bit(edge: usize, is_front: bool) -> u16 {
+        1 << (edge % 3 + if is_front { 0 } else { 6 })
+    }
+
+    const fn corner_bit(corner: usize, is_front: bool) -> u16 {
+        1 << (corner % 3 + if is_front { 3 } else { 9 })
+    }
+
+    /// The same and this edge, seen from the front or the back.
+    #[must_use]
+    pub const fn with_edge(self, edge: usize, is_front: bool) -> Self {
+        Self(self.0 | Self::edge_bit(edge, is_front))
+    }
+
+    /// The same and this corner, seen from the front or the back.
+    #[must_use]
+    pub const fn with_corner(self, corner: usize, is_front: bool) -> Self {
+        Self(self.0 | Self::corner_bit(corner, is_front))
+    }
+
+    /// Whether an edge may matter to a body in front, or behind.
+    #[inline]
+    pub const fn edge(self, edge: usize, is_front: bool) -> bool {
+        self.0 & Self::edge_bit(edge, is_front) != 0
+    }
+
+    /// Whether a corner may matter to a body in front, or behind.
+    #[inline]
+    pub const fn corner(self, corner: usize, is_front: bool) -> bool {
+        self.0 & Self::corner_bit(corner, is_front) != 0
+    }
+
+    /// Whether any edge may matter.
+    #[inline]
+    pub const fn any_edge(self, is_front: bool) -> bool {
+        self.0 & (if is_front { 0o7 } else { 0o700 }) != 0
+    }
+
+    /// Whether any edge or corner may matter.
+    #[inline]
+    pub const fn any(self, is_front: bool) -> bool {
+        self.0 & (if is_front { 0o77 } else { 0o7700 }) != 0
+    }
+}
+
+impl<'a> Ground<'a> {
+    /// The ground that a shape is, if it is one.
+    #[inline]
+    pub fn of(shape: &'a Shape3) -> Option<Self> {
+        match shape {
+            Shape3::TriMesh(mesh) => Some(Self::Mesh(mesh)),
+            Shape3::HeightField(field) => Some(Self::Field(field)),
+            _ => None,
+        }
+    }
+
+    /// Whether only its front is solid: where the vertices of a triangle wind counter-clockwise.
+    #[inline]
+    pub fn is_one_sided(self) -> bool {
+        match self {
+            Self::Mesh(mesh) => mesh.is_one_sided(),
+            Self::Field(field) => field.is_one_sided(),
+        }
+    }
+
+    /// Triangles are numbered below this. Some numbers may have none: holes, and what was dropped.
+    #[inline]
+    pub fn triangle_count(self) -> u32 {
+        match self {
+            Self::Mesh(mesh) => mesh.triangle_count(),
+            Self::Field(field) => field.triangle_count(),
+        }
+    }
+
+    /// The corners of a triangle, in metres and local axes. Of a number without a triangle, anything.
+    #[inline]
+    pub fn corners(self, triangle: u32) -> [glam::Vec3; 3] {
+        match self {
+            Self::Mesh(mesh) => mesh.corners(triangle),
+            Self::Field(field) => field.corners(triangle),
+        }
+    }
+
+    /// A triangle; nothing where the number has none.
+    #[inline]
+    pub fn triangle(self, triangle: u32) -> Option<Triangle3> {
+        match self {
+            Self::Mesh(mesh) => mesh.triangle(triangle),
+            Self::Field(field) => field.triangle(triangle),
+        }
+    }
+
+    /// The numbers of a triangle's vertices, in the order of its corners.
+    #[inline]
+    pub fn vertex_numbers(self, triangle: u32) -> [u32; 3] {
+        match self {
+            Self::Mesh(mesh) => mesh.vertex_numbers(triangle),
+            Self::Field(field) => field.vertex_numbers(triangle),
+        }
+    }
+
+    /// The triangle on the other side of a half-edge, and which of its half-edges that is. Nothing where the ground
+    /// ends, where more than two triangles meet, or where two do that wind differently.
+    #[inline]
+    pub fn neighbor(self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
+        match self {
+            Self::Mesh(mesh) => mesh.neighbor(triangle, edge),
+            Self::Field(field) => field.neighbor(triangle, edge),
+        }
+    }
+
+    /// Which edges and corners may give other normals than the triangle's own.
+    #[inline]
+    pub fn prominent(self, triangle: u32) -> Prominent {
+        match self {
+            Self::Mesh(mesh) => mesh.prominent(triangle),
+            Self::Field(field) => field.prominent(triangle),
+        }
+    }
+
+    /// The least number of the triangles that lie in one plane with this one and hang together with it.
+    #[inline]
+    pub fn patch(self, triangle: u32) -> u32 {
+        match self {
+            Self::Mesh(mesh) => mesh.patch(triangle),
+            Self::Field(field) => field.patch(triangle),
+        }
+    }
+
+    /// Hands every triangle whose own box overlaps this one, in local axes, to `visitor`, each once, until it breaks
+    /// off. The order is a function of the ground and the box. Cost: logarithmic in the triangles, and linear in those
+    /// that are handed over.
+    #[inline]
+    pub fn visit_near(self, bounds: &Aabb3, visitor: impl FnMut(u32) -> ControlFlow<()>) -> ControlFlow<()> {
+        match self {
+            Self::Mesh(mesh) => mesh.visit_near(bounds, visitor),
+            Self::Field(field) => field.visit_near(bounds, visitor),
+        }
+    }
+}

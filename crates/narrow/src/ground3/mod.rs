@@ -1,0 +1,5 @@
+//! Shapes on ground that is made of triangles.
+
+mod near;
+
+pub(crate) use near::OnGround;

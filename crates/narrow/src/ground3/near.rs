@@ -1,0 +1,95 @@
+//! Which triangles of ground a convex part may touch.
+
+use crate::pair3::{Pair3, Part};
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
+use core::ops::ControlFlow;
+
+/// Ground, and a body that may touch it.
+#[derive(Clone, Copy)]
+pub(crate) struct OnGround<'a> {
+    pub(crate) ground: Ground<'a>,
+    /// The body's shape. It may be ground, too.
+    pub(crate) body: &'a Shape3,
+    /// The ground is B, and the body A.
+    pub(crate) is_b: bool,
+    /// The ground's axes in the world.
+    pub(crate) basis: Basis3,
+    /// The body's axes in the world.
+    pub(crate) body_basis: Basis3,
+    /// The body's position less the ground's.
+    pub(crate) to_body: DVec3,
+}
+
+impl<'a> OnGround<'a> {
+    /// Where one shape is ground. Of two, B is; the other is the body.
+    #[inline]
+    pub(crate) fn of(pair: &Pair3<'a>) -> Option<Self> {
+        let (a, b) = (Ground::of(pair.shape_a), Ground::of(pair.shape_b));
+        let [basis_a, basis_b] = [&pair.pose_a, &pair.pose_b];
+        match (a, b) {
+            (_, Some(ground)) => Some(Self {
+                ground,
+                body: pair.shape_a,
+                is_b: true,
+                basis: basis_b.basis(),
+                body_basis: basis_a.basis(),
+                to_body: -pair.between,
+            }),
+            (Some(ground), None) => Some(Self {
+                ground,
+                body: pair.shape_b,
+                is_b: false,
+                basis: basis_a.basis(),
+                body_basis: basis_b.basis(),
+                to_body: pair.between,
+            }),
+            (None, None) => None,
+        }
+    }
+
+    /// The box around a convex part of the body in the ground's axes, grown by `reach` metres and rounded outwards.
+    /// Everything, for a half-space.
+    pub(crate) fn bounds(&self, part: &Part, reach: f64) -> Aabb3 {
+        let (axes, shift) = part.placed(&self.body_basis);
+        let core = part.shape.core();
+        let origin = self.basis.turn_back(self.to_body + shift);
+        let axes = [axes.x, axes.y, axes.z].map(|axis| self.basis.turn_back(axis));
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for vertex in core.vertices() {
+            let [x, y, z] = vertex.as_dvec3().to_array();
+            let place = axes[0] * x + axes[1] * y + axes[2] * z + origin;
+            (low, high) = (low.min(place), high.max(place));
+        }
+        if core.vertices().is_empty() {
+            return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
+        }
+        let radius = f64::from(part.shape.radius());
+        let lengths = self.to_body.length() + shift.length() + f64::from(part.shape.outer_radius());
+        let lengths = lengths + part.shape.center().as_dvec3().length();
+        let grow = DVec3::splat(radius + reach + 64.0 * f64::EPSILON * lengths);
+        let (low, high) = (low - grow, high + grow);
+        let down = |value: f64| (value as f32).next_down();
+        let up = |value: f64| (value as f32).next_up();
+        Aabb3::new(
+            Vec3::new(down(low.x), down(low.y), down(low.z)),
+            Vec3::new(up(high.x), up(high.y), up(high.z)),
+        )
+    }
+
+    /// Hands every triangle that a convex part may be within `reach` metres of to `visit`, with its number and as a
+    /// shape in the ground's axes, until it says to stop; returns whether it did.
+    pub(crate) fn any_near(
+        &self,
+        part: &Part,
+        reach: f64,
+        mut visit: impl FnMut(u32, &Shape3) -> bool,
+    ) -> bool {
+        let flow = self.ground.visit_near(&self.bounds(part, reach), |number| {
+            let stops =
+                self.ground.triangle(number).is_some_and(|triangle| visit(number, &Shape3::Triangle(triangle)));
+            if stops { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        flow.is_break()
+    }
+}
