@@ -4,22 +4,15 @@
 //! The default scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Scene files are described
 //! in `asunder_scenes::level`.
 
-mod game;
 mod heap;
-mod physics;
-mod picture;
-mod plane;
-mod report;
-mod response;
-mod volume;
 
 use asunder::{Collider, Collider2, Collider3, Layers, Plane, Space, Volume};
+use asunder_examples::game::{Game, MARGIN};
+use asunder_examples::physics::Physics;
+use asunder_examples::report::Times;
 use asunder_scenes::level::{Level, Level2, Level3, LevelLayers};
 use clap::Parser;
-use game::{Game, MARGIN};
 use indicatif::{ProgressBar, ProgressStyle};
-use physics::Physics;
-use report::Times;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -68,12 +61,12 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
         Level::Plane(level) => {
             let mut game = plane_game(&level)?;
             run(&mut game, &level.name, options.steps);
-            options.svg.as_ref().map(|_| picture::plane::draw(&game.world))
+            options.svg.as_ref().map(|_| asunder_examples::picture::plane::draw(&game.world))
         }
         Level::Volume(level) => {
             let mut game = volume_game(&level)?;
             run(&mut game, &level.name, options.steps);
-            options.svg.as_ref().map(|_| picture::volume::draw(&game.world))
+            options.svg.as_ref().map(|_| asunder_examples::picture::volume::draw(&game.world))
         }
     };
     if let (Some(file), Some(picture)) = (&options.svg, picture) {

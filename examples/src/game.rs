@@ -7,15 +7,17 @@ use asunder::{Collider, Event, World};
 
 /// How close bodies come before they get a contact, each. A contact that exists before it is needed lets the response
 /// stop a body at the surface instead of inside it.
-pub(crate) const MARGIN: f32 = 0.02;
+pub const MARGIN: f32 = 0.02;
 
 /// A body this far from where it started, in metres, has left the level.
 const LEFT: f64 = 1000.0;
 
 /// The world and the bodies in it, in their own order.
-pub(crate) struct Game<S: Physics> {
-    pub(crate) world: World<S>,
-    pub(crate) counts: Counts,
+pub struct Game<S: Physics> {
+    /// What finds the contacts.
+    pub world: World<S>,
+    /// What has happened so far.
+    pub counts: Counts,
     gravity: S::Vector,
     bodies: Vec<Body<S>>,
     motions: Vec<Motion<S>>,
@@ -25,19 +27,25 @@ pub(crate) struct Game<S: Physics> {
 
 /// What has happened since the start.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Counts {
-    pub(crate) began: usize,
-    pub(crate) ended: usize,
-    pub(crate) sensed: usize,
-    pub(crate) left: usize,
+pub struct Counts {
+    /// Contacts that began.
+    pub began: usize,
+    /// Contacts that ended.
+    pub ended: usize,
+    /// Events of sensors among those.
+    pub sensed: usize,
+    /// Bodies that have left the level.
+    pub left: usize,
     /// Of any step, in metres.
-    pub(crate) deepest: f64,
+    pub deepest: f64,
 }
 
 /// A shape that moves and has no mass: without an inside, without an end, or too thin for its mass to be told from
 /// zero.
 #[derive(Debug)]
-pub(crate) struct NoMass;
+pub struct NoMass;
+
+impl std::error::Error for NoMass {}
 
 impl std::fmt::Display for NoMass {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -57,7 +65,8 @@ struct Body<S: Physics> {
 }
 
 impl<S: Physics> Game<S> {
-    pub(crate) fn new(gravity: S::Vector) -> Self {
+    /// An empty game, with gravity in m/s^2.
+    pub fn new(gravity: S::Vector) -> Self {
         Self {
             world: World::new(),
             counts: Counts::default(),
@@ -73,7 +82,7 @@ impl<S: Physics> Game<S> {
     ///
     /// # Errors
     /// A shape that has no mass to speak of.
-    pub(crate) fn add(
+    pub fn add(
         &mut self,
         collider: Collider<S>,
         shape: &S::Shape,
@@ -107,7 +116,7 @@ impl<S: Physics> Game<S> {
     }
 
     /// One step: the contacts of the last update push, bodies move, and the world finds the next contacts.
-    pub(crate) fn step(&mut self, seconds: f64) {
+    pub fn step(&mut self, seconds: f64) {
         for (body, motion) in self.bodies.iter().zip(&mut self.motions) {
             motion.start_step(S::turned_inertia(&body.inverse_inertia, body.turn));
         }
@@ -126,7 +135,7 @@ impl<S: Physics> Game<S> {
     }
 
     /// Brings the world's contacts up to date and counts what they say.
-    pub(crate) fn update(&mut self) {
+    pub fn update(&mut self) {
         self.world.update();
         for event in S::events(&self.world) {
             match event {
@@ -141,18 +150,18 @@ impl<S: Physics> Game<S> {
     }
 
     /// The deepest overlap of any contact point of the last update, in metres.
-    pub(crate) fn deepest_now(&self) -> f64 {
+    pub fn deepest_now(&self) -> f64 {
         S::touches(&self.world).iter().map(|touch| -touch.separation).fold(0.0, f64::max)
     }
 
     /// The greatest speed of any body, in m/s: near zero once the scene is at rest.
-    pub(crate) fn fastest_now(&self) -> f64 {
+    pub fn fastest_now(&self) -> f64 {
         let bodies = self.bodies.iter().zip(&self.motions).filter(|(body, _)| body.is_here);
         bodies.map(|(_, motion)| S::dot(motion.velocity, motion.velocity)).fold(0.0, f64::max).sqrt()
     }
 
     /// A number that differs wherever the poses of two runs do (FNV-1a over their bits).
-    pub(crate) fn digest(&self) -> u64 {
+    pub fn digest(&self) -> u64 {
         let mut digest = 0xcbf2_9ce4_8422_2325_u64;
         for pose in self.bodies.iter().filter_map(|body| S::pose_of(&self.world, body.key)) {
             for byte in S::pose_bits(&pose).into_iter().flat_map(u64::to_le_bytes) {

@@ -5,7 +5,7 @@ use asunder::{Collider, Event, Space, World};
 use core::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 /// Vectors, and what bodies spin by: a number in the plane, a vector in space.
-pub(crate) trait Linear:
+pub trait Linear:
     Copy
     + Default
     + PartialEq
@@ -30,8 +30,10 @@ impl<T> Linear for T where
 }
 
 /// A dimension that the game can be played in.
-pub(crate) trait Physics: Space {
+pub trait Physics: Space {
+    /// Places and velocities.
     type Vector: Linear;
+    /// Angular velocities, in radians a second.
     type Spin: Linear;
     /// A rotation in f64: the poses' own f32 would drift over many small turns.
     type Turn: Copy;
@@ -40,15 +42,19 @@ pub(crate) trait Physics: Space {
     /// Of what no torque turns.
     const IMMOVABLE: Self::Inertia;
 
+    /// The inner product.
     fn dot(a: Self::Vector, b: Self::Vector) -> f64;
     /// The spin that a push at the end of an arm gives.
     fn torque(arm: Self::Vector, push: Self::Vector) -> Self::Spin;
     /// The velocity that a spin gives the end of an arm.
     fn sweep(spin: Self::Spin, arm: Self::Vector) -> Self::Vector;
+    /// The spin that a torque gives.
     fn respond(inertia: &Self::Inertia, torque: Self::Spin) -> Self::Spin;
     /// The inverse inertia of a turned body, in world axes.
     fn turned_inertia(inertia: &Self::Inertia, turn: Self::Turn) -> Self::Inertia;
+    /// A rotation, turned on by a small one.
     fn turned_by(turn: Self::Turn, spin: Self::Spin) -> Self::Turn;
+    /// A vector of the body in world axes.
     fn turned(turn: Self::Turn, local: Self::Vector) -> Self::Vector;
 
     /// Nothing where the shape is too thin for its mass to be told from zero.
@@ -58,10 +64,15 @@ pub(crate) trait Physics: Space {
     /// Nothing where the numbers are no pose: the body has left every level that there can be.
     fn pose(position: Self::Vector, turn: Self::Turn) -> Option<Self::Pose>;
 
+    /// Adds a body.
     fn insert(world: &mut World<Self>, collider: Collider<Self>) -> Self::Key;
+    /// Takes a body out.
     fn remove(world: &mut World<Self>, key: Self::Key);
+    /// Moves a body.
     fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose);
+    /// Where a body is.
     fn pose_of(world: &World<Self>, key: Self::Key) -> Option<Self::Pose>;
+    /// What the last update reported.
     fn events(world: &World<Self>) -> &[Event<Self::Key>];
     /// Every point of every contact, in the world's order.
     fn touches(world: &World<Self>) -> Vec<Touch<Self>>;
@@ -70,29 +81,38 @@ pub(crate) trait Physics: Space {
 }
 
 /// Mass at unit density, and how it is spread.
-pub(crate) struct Mass<S: Physics> {
-    pub(crate) mass: f64,
-    pub(crate) center: S::Vector,
-    pub(crate) inverse_inertia: S::Inertia,
+pub struct Mass<S: Physics> {
+    /// In kilograms.
+    pub mass: f64,
+    /// The centre of mass, in the body's axes.
+    pub center: S::Vector,
+    /// About the centre of mass.
+    pub inverse_inertia: S::Inertia,
 }
 
 /// One point of a contact.
-pub(crate) struct Touch<S: Physics> {
-    pub(crate) id: TouchId<S::Key>,
+pub struct Touch<S: Physics> {
+    /// What stays the same of it.
+    pub id: TouchId<S::Key>,
     /// From the first body to the second.
-    pub(crate) normal: S::Vector,
-    pub(crate) separation: f64,
+    pub normal: S::Vector,
+    /// In metres; negative in overlap.
+    pub separation: f64,
     /// Relative to the first body's position.
-    pub(crate) anchor_a: S::Vector,
+    pub anchor_a: S::Vector,
     /// Relative to the second body's position.
-    pub(crate) anchor_b: S::Vector,
+    pub anchor_b: S::Vector,
 }
 
 /// What stays the same of a contact point from frame to frame.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct TouchId<K: Key> {
-    pub(crate) a: K,
-    pub(crate) b: K,
-    pub(crate) parts: (u32, u32),
-    pub(crate) feature: u64,
+pub struct TouchId<K: Key> {
+    /// The first body.
+    pub a: K,
+    /// The second body.
+    pub b: K,
+    /// Which parts of both.
+    pub parts: (u32, u32),
+    /// The bits of its feature id.
+    pub feature: u64,
 }

@@ -28,7 +28,7 @@ struct Solid {
 }
 
 /// Draws the world as of its last update.
-pub(crate) fn draw(world: &World3) -> String {
+pub fn draw(world: &World3) -> String {
     let view = View::new(DVec3::new(0.60, 0.62, 0.90));
     let solids: Vec<Solid> = world
         .iter()

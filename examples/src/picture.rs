@@ -2,8 +2,8 @@
 
 mod mesh;
 mod order;
-pub(crate) mod plane;
-pub(crate) mod volume;
+pub mod plane;
+pub mod volume;
 
 use asunder::glam::{DVec2, DVec3};
 use core::fmt::Write;

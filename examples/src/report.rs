@@ -8,14 +8,15 @@ use std::time::Instant;
 
 /// Times summed over the steps of a run.
 #[derive(Default)]
-pub(crate) struct Times {
+pub struct Times {
     stages: [Duration; 5],
     worst_update: Duration,
     all: Duration,
 }
 
 impl Times {
-    pub(crate) fn measure<S: Physics>(&mut self, game: &mut Game<S>, step: impl FnOnce(&mut Game<S>)) {
+    /// Adds what a step takes.
+    pub fn measure<S: Physics>(&mut self, game: &mut Game<S>, step: impl FnOnce(&mut Game<S>)) {
         let start = Instant::now();
         step(game);
         self.all += start.elapsed();
@@ -32,7 +33,8 @@ fn stages(stats: &Stats) -> [(&'static str, Duration); 5] {
     [("refit", refit), ("sweep", sweep), ("collide", collide), ("merge", merge), ("report", report)]
 }
 
-pub(crate) fn print<S: Physics>(game: &Game<S>, name: &str, steps: u32, times: &Times) {
+/// Prints what a run cost and what touches at its end.
+pub fn print<S: Physics>(game: &Game<S>, name: &str, steps: u32, times: &Times) {
     let (stats, counts) = (game.world.stats(), game.counts);
     let mean = |sum: Duration| sum.as_secs_f64() * 1e3 / f64::from(steps.max(1));
     let name = if name.is_empty() { "unnamed" } else { name };

@@ -10,7 +10,7 @@ const GRASS: Color = DVec3::new(0.40, 0.62, 0.27);
 const WATER: Color = DVec3::new(0.25, 0.55, 0.85);
 
 /// Draws the world as of its last update.
-pub(crate) fn draw(world: &World2) -> String {
+pub fn draw(world: &World2) -> String {
     let bodies: Vec<(&Collider2, Vec<Vec<DVec2>>)> =
         world.iter().map(|(_, body)| (body, outlines(body))).collect();
     // What has no end is drawn as far as the rest goes.

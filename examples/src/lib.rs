@@ -1,0 +1,27 @@
+//! The game around the engine that the larger examples share: bodies with mass and speed, pushed apart by the
+//! contacts of a world, and pictures of it.
+//!
+//! Nothing here is part of the engine, and all of it is written against its public face.
+//!
+//! ```
+//! use asunder::glam::{DVec3, Vec3};
+//! use asunder::{Collider3, Cuboid, HalfSpace, Pose3, Shape3, Volume};
+//! use asunder_examples::game::Game;
+//! let mut game = Game::<Volume>::new(DVec3::NEG_Y * 9.81);
+//! let (floor, here) = (Shape3::from(HalfSpace::new(Vec3::Y)?), Pose3::IDENTITY);
+//! game.add(Collider3::new(floor.clone()).fixed(), &floor, &here, DVec3::ZERO, DVec3::ZERO)?;
+//! let (cube, above) = (Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?), Pose3::at([0.0, 0.6, 0.0])?);
+//! game.add(Collider3::new(cube.clone()).at(above), &cube, &above, DVec3::ZERO, DVec3::ZERO)?;
+//! game.update();
+//! (0..60).for_each(|_| game.step(1.0 / 60.0));
+//! assert!(game.fastest_now() < 0.01 && game.counts.deepest < 0.01);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod game;
+pub mod physics;
+pub mod picture;
+mod plane;
+pub mod report;
+mod response;
+mod volume;
