@@ -144,5 +144,5 @@ fn run<S: Physics>(game: &mut Game<S>, name: &str, steps: u32) {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    report::print(game, name, steps, &times);
+    asunder_examples::report::print(game, name, steps, &times);
 }
