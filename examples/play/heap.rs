@@ -1,10 +1,10 @@
 //! The default scene: a tower of mixed bodies that falls into a heap.
 
-use asunder::glam::{DVec3, Vec3};
-use asunder::{Capsule3, Compound3, Cuboid, Hull, Pose3, Shape3, Sphere};
+use asunder::glam::DVec3;
+use asunder::{Cuboid, Pose3, Shape3};
+use asunder_examples::things;
 use asunder_scenes::level::{Level3, LevelBody3};
 use asunder_scenes::random::Random;
-use core::f64::consts::TAU;
 use std::error::Error;
 
 /// Metres between neighbours in the tower: no two bodies of it touch.
@@ -18,7 +18,7 @@ const VARIANTS: usize = 96;
 pub(crate) fn heap(count: usize, seed: u64) -> Result<Level3, Box<dyn Error>> {
     let mut random = Random::new(seed);
     let shapes: Vec<Shape3> =
-        (0..VARIANTS).map(|number| shape(number, &mut random)).collect::<Result<_, _>>()?;
+        (0..VARIANTS).map(|number| things::shape(number, &mut random)).collect::<Result<_, _>>()?;
     let width = libm::ceil(libm::cbrt(count as f64 / 1.4)).max(1.0) as usize;
     let mut bodies = tray(0.5 * SPACING * (2 * width + 3) as f64)?;
     for number in 0..count {
@@ -56,45 +56,4 @@ fn body(shape: Shape3, pose: Pose3, fixed: bool) -> LevelBody3 {
         layers: None,
         user_data: 0,
     }
-}
-
-/// No vertex further than half a metre from the origin.
-fn shape(number: usize, random: &mut Random) -> Result<Shape3, Box<dyn Error>> {
-    Ok(match number % 6 {
-        0 => {
-            let edge = random.range(0.18, 0.28);
-            let stretch = random.within(DVec3::splat(0.8), DVec3::splat(1.0));
-            Cuboid::from_half_extents((stretch * edge).as_vec3())?.into()
-        }
-        1 => {
-            let (size, stretch) =
-                (random.range(0.3, 0.46), random.within(DVec3::splat(0.7), DVec3::splat(1.0)));
-            let points: Vec<Vec3> =
-                (0..16).map(|_| (random.direction() * stretch * size).as_vec3()).collect();
-            Hull::from_points(&points)?.into()
-        }
-        2 => Sphere::new(random.range(0.2, 0.34) as f32)?.into(),
-        3 => {
-            let (half_height, radius) = (random.range(0.12, 0.26), random.range(0.12, 0.22));
-            Capsule3::from_half_height(half_height as f32, radius as f32)?.into()
-        }
-        4 => {
-            let head = Cuboid::from_half_extents(Vec3::new(0.22, 0.1, 0.1))?.rounded(0.03)?;
-            let handle = Capsule3::from_half_height(0.26, 0.09)?;
-            let parts = [(Pose3::at([0.0, 0.3, 0.0])?, head.into()), (Pose3::IDENTITY, handle.into())];
-            Compound3::new(parts)?.into()
-        }
-        _ => {
-            let sides = 5 + random.below(8);
-            let (radius, half_height) = (random.range(0.2, 0.32), random.range(0.2, 0.36));
-            let corners: Vec<Vec3> = (0..2 * sides)
-                .map(|i| {
-                    let angle = TAU * (i / 2) as f64 / sides as f64;
-                    let y = if i % 2 == 0 { -half_height } else { half_height };
-                    DVec3::new(libm::cos(angle) * radius, y, libm::sin(angle) * radius).as_vec3()
-                })
-                .collect();
-            Hull::from_points(&corners)?.into()
-        }
-    })
 }

@@ -8,17 +8,13 @@ mod heap;
 
 use asunder::{Collider, Collider2, Collider3, Layers, Plane, Space, Volume};
 use asunder_examples::game::{Game, MARGIN};
-use asunder_examples::physics::Physics;
-use asunder_examples::report::Times;
+use asunder_examples::{picture, report};
 use asunder_scenes::level::{Level, Level2, Level3, LevelLayers};
 use clap::Parser;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// One step, in seconds.
-const STEP: f64 = 1.0 / 60.0;
 const SEED: u64 = 20_260;
 
 /// Steps a scene with the asunder collision engine, then prints what each stage cost and what touches.
@@ -60,21 +56,17 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
     let picture = match level {
         Level::Plane(level) => {
             let mut game = plane_game(&level)?;
-            run(&mut game, &level.name, options.steps);
-            options.svg.as_ref().map(|_| asunder_examples::picture::plane::draw(&game.world))
+            report::run(&mut game, &level.name, options.steps);
+            options.svg.as_ref().map(|_| picture::plane::draw(&game.world))
         }
         Level::Volume(level) => {
             let mut game = volume_game(&level)?;
-            run(&mut game, &level.name, options.steps);
-            options.svg.as_ref().map(|_| asunder_examples::picture::volume::draw(&game.world))
+            report::run(&mut game, &level.name, options.steps);
+            options.svg.as_ref().map(|_| picture::volume::draw(&game.world))
         }
     };
     if let (Some(file), Some(picture)) = (&options.svg, picture) {
-        if let Some(folder) = file.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-        }
-        std::fs::write(file, picture).map_err(|error| format!("{}: {error}", file.display()))?;
-        println!("picture        {}", file.display());
+        picture::save(file, &picture)?;
     }
     Ok(())
 }
@@ -129,20 +121,4 @@ fn with_flags<S: Space>(
         }
         None => collider,
     }
-}
-
-fn run<S: Physics>(game: &mut Game<S>, name: &str, steps: u32) {
-    let bar = ProgressBar::new(u64::from(steps));
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left  {msg}") {
-        bar.set_style(style);
-    }
-    let mut times = Times::default();
-    game.update();
-    for _ in 0..steps {
-        times.measure(game, |game| game.step(STEP));
-        bar.set_message(format!("{} contacts", game.world.stats().contacts));
-        bar.inc(1);
-    }
-    bar.finish_and_clear();
-    asunder_examples::report::print(game, name, steps, &times);
 }

@@ -25,4 +25,5 @@ pub mod picture;
 mod plane;
 pub mod report;
 mod response;
+pub mod things;
 mod volume;

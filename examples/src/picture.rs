@@ -7,6 +7,21 @@ pub mod volume;
 
 use asunder::glam::{DVec2, DVec3};
 use core::fmt::Write;
+use std::error::Error;
+use std::path::Path;
+
+/// Writes a picture, and says where; makes the folder it goes to.
+///
+/// # Errors
+/// What the file system says, with the path.
+pub fn save(file: &Path, picture: &str) -> Result<(), Box<dyn Error>> {
+    if let Some(folder) = file.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    std::fs::write(file, picture).map_err(|error| format!("{}: {error}", file.display()))?;
+    println!("picture        {}", file.display());
+    Ok(())
+}
 
 /// Width of every picture in pixels.
 const WIDTH: f64 = 1400.0;

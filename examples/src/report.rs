@@ -4,11 +4,15 @@ use crate::game::Game;
 use crate::physics::Physics;
 use asunder::Stats;
 use core::time::Duration;
+use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Instant;
+
+/// One step, in seconds.
+const STEP: f64 = 1.0 / 60.0;
 
 /// Times summed over the steps of a run.
 #[derive(Default)]
-pub struct Times {
+struct Times {
     stages: [Duration; 5],
     worst_update: Duration,
     all: Duration,
@@ -16,7 +20,7 @@ pub struct Times {
 
 impl Times {
     /// Adds what a step takes.
-    pub fn measure<S: Physics>(&mut self, game: &mut Game<S>, step: impl FnOnce(&mut Game<S>)) {
+    fn measure<S: Physics>(&mut self, game: &mut Game<S>, step: impl FnOnce(&mut Game<S>)) {
         let start = Instant::now();
         step(game);
         self.all += start.elapsed();
@@ -33,8 +37,25 @@ fn stages(stats: &Stats) -> [(&'static str, Duration); 5] {
     [("refit", refit), ("sweep", sweep), ("collide", collide), ("merge", merge), ("report", report)]
 }
 
+/// Plays so many steps of 1/60 s behind a progress bar, then prints what they cost and what touches.
+pub fn run<S: Physics>(game: &mut Game<S>, name: &str, steps: u32) {
+    let bar = ProgressBar::new(u64::from(steps));
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left  {msg}") {
+        bar.set_style(style);
+    }
+    let mut times = Times::default();
+    game.update();
+    for _ in 0..steps {
+        times.measure(game, |game| game.step(STEP));
+        bar.set_message(format!("{} contacts", game.world.stats().contacts));
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    print(game, name, steps, &times);
+}
+
 /// Prints what a run cost and what touches at its end.
-pub fn print<S: Physics>(game: &Game<S>, name: &str, steps: u32, times: &Times) {
+fn print<S: Physics>(game: &Game<S>, name: &str, steps: u32, times: &Times) {
     let (stats, counts) = (game.world.stats(), game.counts);
     let mean = |sum: Duration| sum.as_secs_f64() * 1e3 / f64::from(steps.max(1));
     let name = if name.is_empty() { "unnamed" } else { name };

@@ -4,7 +4,7 @@
 //! is drawn as far as a level goes.
 
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
-use asunder::{Collider2, Collider3, Hull, Part3, Polygon, Pose2, Pose3, Shape2, Shape3};
+use asunder::{Collider2, Collider3, Ground, Hull, Part3, Polygon, Pose2, Pose3, Shape2, Shape3};
 use core::f64::consts::{PI, TAU};
 
 /// Half the side of a half-space's square, and of a half-plane's, in metres.
@@ -18,8 +18,12 @@ pub(super) struct Face {
     pub(super) corners: Vec<DVec3>,
 }
 
-/// The convex parts of a body, each as a body of its own.
+/// The convex parts of a body, each as a body of its own. Of ground, its triangles.
 pub(super) fn parts(body: &Collider3) -> Vec<Collider3> {
+    if let Some(ground) = Ground::of(body.shape()) {
+        let triangles = (0..ground.triangle_count()).filter_map(|number| ground.triangle(number));
+        return triangles.map(|triangle| Collider3::new(triangle).at(*body.pose()).fixed()).collect();
+    }
     let Shape3::Compound(compound) = body.shape() else { return vec![body.clone()] };
     let (pose, turn) = (body.pose(), body.pose().rotation());
     let placed = |part: &Part3| {
