@@ -18,6 +18,7 @@ pub mod clock;
 pub mod flat;
 pub mod judge;
 pub mod lean;
+pub mod mesh;
 pub mod narrow;
 pub mod parry;
 pub mod row;

@@ -17,7 +17,7 @@ use stages::Stages;
 pub use stages::{Figures, heading};
 
 /// Gap within which two bodies are a contact, in metres: half of it is each body's margin.
-const MARGIN: f32 = 0.02;
+pub(crate) const MARGIN: f32 = 0.02;
 
 /// One row: a world, and whether it is in the plane.
 pub type Case = (WorldScene, bool);
@@ -127,13 +127,13 @@ fn poses_at(replay: &mut Replay3, frame: u32) -> Vec<(u32, Pose3)> {
 }
 
 #[derive(Clone)]
-struct Ours {
-    world: World3,
+pub(crate) struct Ours {
+    pub(crate) world: World3,
     keys: Vec<BodyKey3>,
 }
 
 impl Ours {
-    fn new(bodies: &[Body3]) -> Result<Self, MarginError> {
+    pub(crate) fn new(bodies: &[Body3]) -> Result<Self, MarginError> {
         let mut world = World3::new();
         let mut keys = Vec::with_capacity(bodies.len());
         for body in bodies {
@@ -152,7 +152,7 @@ impl Ours {
         Ok(Self { world, keys })
     }
 
-    fn frame(&mut self, poses: &[(u32, Pose3)]) -> Walked {
+    pub(crate) fn frame(&mut self, poses: &[(u32, Pose3)]) -> Walked {
         for (i, pose) in poses {
             // No key is stale: no body is ever removed.
             let _ = self.world.set_pose(self.keys[*i as usize], *pose);
@@ -183,7 +183,7 @@ fn lean_of(bodies: &[Body3]) -> Option<Lean> {
     Some(Lean::new(bodies, MARGIN))
 }
 
-fn peer_frame(peer: &mut Lean, poses: &[(u32, Pose)]) -> Walked {
+pub(crate) fn peer_frame(peer: &mut Lean, poses: &[(u32, Pose)]) -> Walked {
     for (i, pose) in poses {
         peer.set_pose(*i, *pose);
     }

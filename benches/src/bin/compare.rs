@@ -1,10 +1,10 @@
-//! Prints our times beside parry3d's: `compare broad|narrow|world|certain [--json] [--quick]`.
+//! Prints our times beside parry3d's: `compare broad|narrow|world|mesh|certain [--json] [--quick]`.
 
 use asunder_benches::broad::queries;
 use asunder_benches::clock::Effort;
 use asunder_benches::judge::Judge;
-use asunder_benches::row::{Row, heading_with_accuracy, heading_with_figures};
-use asunder_benches::{broad, certain, flat, narrow, world};
+use asunder_benches::row::{Row, heading, heading_with_accuracy, heading_with_figures};
+use asunder_benches::{broad, certain, flat, mesh, narrow, world};
 use clap::{Args, Parser, Subcommand};
 use std::error::Error;
 
@@ -24,6 +24,8 @@ enum Part {
     Narrow(Options),
     /// Whole frames, from poses to contact points.
     World(WorldOptions),
+    /// Bodies, rays and casts on triangle meshes, and making one.
+    Mesh(Options),
     /// What certainty costs: yes or no that is never wrong, beside the first tier alone.
     Certain(Options),
 }
@@ -67,7 +69,7 @@ impl Part {
         match self {
             Self::Broad(broad) => &broad.all,
             Self::World(world) => &world.all,
-            Self::Narrow(options) | Self::Certain(options) => options,
+            Self::Narrow(options) | Self::Mesh(options) | Self::Certain(options) => options,
         }
     }
 
@@ -77,6 +79,7 @@ impl Part {
             Self::Narrow(_) => heading_with_accuracy(),
             Self::Broad(_) => heading_with_figures(),
             Self::World(_) => world::heading(),
+            Self::Mesh(_) => heading(),
         }
     }
 }
@@ -95,7 +98,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     // One thread, so that its CPU time is all the time there is.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    pool.install(|| compare(&part)).map_err(|error| error.to_string().into())
+    pool.install(|| compare(&part).map_err(|error| error.to_string())).map_err(Into::into)
 }
 
 /// A number of threads, of which there must be one.
@@ -131,7 +134,7 @@ impl Options {
     }
 }
 
-fn compare(part: &Part) -> Result<(), asunder::MarginError> {
+fn compare(part: &Part) -> Result<(), Box<dyn Error>> {
     let options = part.options();
     let effort = options.effort();
     let wanted = |name: &str| name.contains(&options.only);
@@ -158,6 +161,11 @@ fn compare(part: &Part) -> Result<(), asunder::MarginError> {
             for case in certain::cases().iter().filter(|case| wanted(&certain::name(case))) {
                 let row = certain::measure(case, &effort);
                 println!("{}", if options.json { row.to_json() } else { row.to_text() });
+            }
+        }
+        Part::Mesh(_) => {
+            for case in mesh::cases(&effort).iter().filter(|case| wanted(&mesh::name(case))) {
+                show(&mesh::measure(case, &effort)?, options);
             }
         }
         Part::World(_) => {

@@ -7,6 +7,7 @@
 //! - [`hard`]: pairs on which collision tests go wrong, family by family.
 //! - [`level`]: scene files.
 //! - [`pairs`]: posed pairs of shapes for a narrow phase.
+//! - [`terrain`]: hills of triangles.
 //! - [`worlds`]: bodies with simple motion for a whole frame.
 #![deny(missing_docs)]
 
@@ -15,5 +16,6 @@ pub mod hard;
 pub mod level;
 pub mod pairs;
 pub mod random;
+pub mod terrain;
 mod turn;
 pub mod worlds;

