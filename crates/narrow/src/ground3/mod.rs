@@ -1,5 +1,10 @@
 //! Shapes on ground that is made of triangles.
 
+mod ask;
+mod ask_box;
+mod ask_sides;
 mod near;
 
+pub(crate) use ask_box::Corners;
+pub(crate) use ask_sides::Touched;
 pub(crate) use near::OnGround;
