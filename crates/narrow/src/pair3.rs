@@ -7,7 +7,7 @@ mod part;
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::feature::Hint;
-use crate::ground3::OnGround;
+use crate::ground3::{OnGround, contact_on_ground};
 use crate::least::Least;
 use crate::polyhedron::convex::{Asked, Convex, IDENTITY, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
@@ -275,6 +275,9 @@ impl<'a> Pair3<'a> {
         manifolds: &mut impl Room,
     ) -> (Hint, Option<bool>) {
         if let Some(found) = self.contact_of_balls(margin, manifolds) {
+            return (Hint::NONE, found);
+        }
+        if let Some(found) = contact_on_ground(self, margin, manifolds) {
             return (Hint::NONE, found);
         }
         let (margin, reach) = (margin.max(0.0), reach_of(margin));

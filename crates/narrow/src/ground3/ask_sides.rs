@@ -3,17 +3,9 @@
 use super::near::OnGround;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::tolerance::{ON_TRIANGLE, SAME_NORMAL};
 use asunder_geometry::{Aabb3, Ground};
 use core::ops::ControlFlow;
-
-/// Sine of the angle by which a normal may lean into a face beside a touched edge or vertex, and still be its own.
-const LEANING: f64 = 1e-4;
-
-/// Sine of the angle to a triangle's normal within which another is rounding.
-const LEVEL: f64 = 1e-6;
-
-/// Share of a triangle's extent within which a point lies on it.
-const TOUCHING: f64 = 1e-7;
 
 /// Triangles around a touched point that are looked at: beyond, the ground is a fan that no normal is owed to.
 const MOST_AROUND: usize = 32;
@@ -67,7 +59,7 @@ impl OnGround<'_> {
         let corners = self.ground.corners(touched.triangle).map(|corner| corner.as_dvec3());
         let Some(own) = normal_of(corners).try_normalize() else { return (touched.triangle, touched.away) };
         let own = if own.dot(touched.away) < 0.0 { -own } else { own };
-        if own.cross(touched.away).length() <= LEVEL {
+        if own.cross(touched.away).length() <= SAME_NORMAL {
             return (touched.triangle, own);
         }
         let around = self.around(touched.point, corners, center);
@@ -77,7 +69,7 @@ impl OnGround<'_> {
         let mut best: Option<((bool, f64), &Around)> = None;
         for one in around.iter().filter(|one| one.sees) {
             // The triangle itself, where others are no nearer.
-            let nearness = one.facing.dot(touched.away) + if one.number == touched.triangle { LEVEL } else { 0.0 };
+            let nearness = one.facing.dot(touched.away) + if one.number == touched.triangle { SAME_NORMAL } else { 0.0 };
             let rank = (is_free(&around, touched.point, one.facing), nearness);
             if best.is_none_or(|(known, _)| rank > known) {
                 best = Some((rank, one));
@@ -94,7 +86,7 @@ impl OnGround<'_> {
         center: DVec3,
     ) -> ArrayVec<Around, MOST_AROUND> {
         let mut around = ArrayVec::new();
-        let slack = TOUCHING * extent(corners);
+        let slack = ON_TRIANGLE * extent(corners);
         let low = (point - DVec3::splat(slack)).as_vec3();
         let high = (point + DVec3::splat(slack)).as_vec3();
         let next = |v: Vec3, is_up: bool| {
@@ -104,7 +96,7 @@ impl OnGround<'_> {
         let _ = self.ground.visit_near(&bounds, |number| {
             let seen = self.ground.corners(number);
             let corners = seen.map(|corner| corner.as_dvec3());
-            let slack = TOUCHING * extent(corners) + slack;
+            let slack = ON_TRIANGLE * extent(corners) + slack;
             if let Some(normal) = normal_of(corners).try_normalize()
                 && holds(corners, normal, point, slack)
             {
@@ -136,11 +128,11 @@ fn holds(corners: [DVec3; 3], normal: DVec3, point: DVec3, slack: f64) -> bool {
 /// Whether no triangle around a point rises into a direction.
 fn is_free(around: &[Around], point: DVec3, away: DVec3) -> bool {
     around.iter().all(|one| {
-        let near = 16.0 * TOUCHING * extent(one.corners);
+        let near = 16.0 * ON_TRIANGLE * extent(one.corners);
         one.corners.iter().all(|&corner| {
             let way = corner - point;
             let length = way.length();
-            length <= near || way.dot(away) <= LEANING * length
+            length <= near || way.dot(away) <= SAME_NORMAL * length
         })
     })
 }
