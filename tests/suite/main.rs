@@ -34,6 +34,8 @@
 //!   parry3d's word
 //! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the
 //!   exact yes or no say
+//! - [`ground_questions`]: overlaps, distances, rays and casts over meshes and height fields are the least of all
+//!   triangles', one by one; sides; characters on ground
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
@@ -78,6 +80,8 @@ mod characters;
 mod debug_lines;
 mod exactness;
 mod fuzzed;
+#[path = "ground/questions.rs"]
+mod ground_questions;
 mod hard;
 mod hints;
 mod hulls;

@@ -1,11 +1,15 @@
 //! Ground made of triangles, whatever keeps them.
 
-use crate::aabb::Aabb3;
+pub(crate) mod slab;
+
+use crate::aabb::{Aabb3, Bounds};
 use crate::height_field::HeightField;
 use crate::mesh::TriMesh;
 use crate::shape::Shape3;
 use crate::triangle::Triangle3;
 use core::ops::ControlFlow;
+use glam::{DVec3, Vec3};
+use slab::{Slab, gap};
 
 /// Ground made of numbered triangles: a mesh or a height field.
 ///
@@ -195,6 +199,81 @@ impl<'a> Ground<'a> {
         match self {
             Self::Mesh(mesh) => mesh.visit_near(bounds, visitor),
             Self::Field(field) => field.visit_near(bounds, visitor),
+        }
+    }
+
+    /// Hands every triangle whose box a moving box meets to `visitor`, each once and roughly in the order of meeting,
+    /// up to a limit that `visitor` may lower: it returns the new one.
+    ///
+    /// The moving box has its centre at `from` and these half extents, in metres and local axes; zero, for a ray. It
+    /// moves along `direction`, of any length, by `limit` lengths of it. Boxes are widened by more than rounding:
+    /// none is lost. The order is a function of the ground and the question. Nothing is met by what is not finite.
+    ///
+    /// ```
+    /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
+    /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
+    /// let shape = Shape3::from(mesh);
+    /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
+    /// let mut met = vec![];
+    /// ground.visit_along(DVec3::new(0.1, 2.0, 0.1), DVec3::NEG_Y, Vec3::ZERO, 10.0, |triangle| {
+    ///     met.push(triangle);
+    ///     1.5
+    /// });
+    /// assert_eq!(met, [1], "its box is met first, and the other's is beyond the limit");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_along(
+        self,
+        from: DVec3,
+        direction: DVec3,
+        grown: Vec3,
+        limit: f64,
+        visitor: impl FnMut(u32) -> f64,
+    ) {
+        let Some(slab) = Slab::new(from, direction, grown) else { return };
+        self.visit_in_order(limit, |low, high| slab.enters(low, high, limit), visitor);
+    }
+
+    /// Hands every triangle whose box is within `limit` metres of this one, in local axes, to `visitor`, each once and
+    /// roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. The order is a
+    /// function of the ground and the question.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+    /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
+    /// let shape = Shape3::from(mesh);
+    /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
+    /// let mut near = vec![];
+    /// ground.visit_nearest(&Aabb3::new(Vec3::splat(-2.0), Vec3::splat(-1.0)), f64::INFINITY, |triangle| {
+    ///     near.push(triangle);
+    ///     f64::INFINITY
+    /// });
+    /// assert_eq!(near, [0, 1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_nearest(self, bounds: &Aabb3, limit: f64, visitor: impl FnMut(u32) -> f64) {
+        if bounds.is_valid() {
+            self.visit_in_order(limit, |low, high| Some(gap(bounds, low, high)), visitor);
+        }
+    }
+
+    fn visit_in_order(
+        self,
+        limit: f64,
+        place: impl Fn([f32; 3], [f32; 3]) -> Option<f64>,
+        mut visitor: impl FnMut(u32) -> f64,
+    ) {
+        let at = |number: u32| {
+            let [a, b, c] = self.triangle(number)?.vertices();
+            Some((place(a.min(b).min(c).to_array(), a.max(b).max(c).to_array())?, number))
+        };
+        let mut order: Vec<(f64, u32)> = (0..self.triangle_count()).filter_map(at).collect();
+        order.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+        let mut limit = limit;
+        for (place, number) in order {
+            if place <= limit {
+                limit = visitor(number).min(limit);
+            }
         }
     }
 }

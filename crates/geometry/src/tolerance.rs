@@ -129,6 +129,21 @@ pub const UPRIGHT: f64 = 1e-3;
 /// on to edges beside them.
 pub const EDGE_HOLD: f64 = 0.05;
 
+/// Sine of the angle up to which two directions of contact on ground count as the same, and by which a direction may
+/// lean over an edge or corner of ground towards a face beside it.
+///
+/// Triangles that were meant to lie in one plane have vertices rounded to f32, so that their normals differ by
+/// that over their height. A larger value merges normals of facets that a smooth ground has on purpose; with a smaller
+/// one a body on a flat floor of thin triangles has several manifolds, and may trip over their edges.
+pub const SAME_NORMAL: f64 = 1e-4;
+
+/// Share of a triangle's extent within which a point counts as lying on it, where all triangles are looked for that meet
+/// in a touched point.
+///
+/// Above the rounding of f32 vertices, so that edges that nearly meet do; a larger value takes faces into account that
+/// are beside the point, and with a smaller one what touches in an inner edge may seem to touch a rim.
+pub const ON_TRIANGLE: f64 = 1e-7;
+
 /// The smallest bounding radius a shape may have, in metres.
 pub const MIN_RADIUS: f32 = 1e-6;
 

@@ -21,6 +21,7 @@
 
 mod advance;
 mod boxes;
+mod ground;
 mod march;
 mod passage;
 mod ray;
@@ -28,6 +29,7 @@ mod ray;
 mod tests;
 
 use crate::answer::Separation3;
+use crate::ground3::OnGround;
 use crate::impact3::Impact3;
 use crate::pair3::{Pair3, Part, for_parts};
 use advance::{End, Met, advance};
@@ -110,6 +112,9 @@ impl Pair3<'_> {
     }
 
     fn first_touch(&self, passage: &Passage) -> Option<Impact3> {
+        if let Some(on) = OnGround::of(self) {
+            return self.first_touch_on(&on, passage);
+        }
         let are_planes = |shape: &Shape3| matches!(shape, Shape3::HalfSpace(_));
         // Planes that overlap only far out look parted from near.
         if passage.is_still() || are_planes(self.shape_a) && are_planes(self.shape_b) {

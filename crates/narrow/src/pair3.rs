@@ -3,10 +3,11 @@
 mod ball;
 mod balls;
 mod compounds;
+mod part;
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
-use crate::exact::Site3;
 use crate::feature::Hint;
+use crate::ground3::{OnGround, contact_on_ground};
 use crate::least::Least;
 use crate::polyhedron::convex::{Asked, Convex, IDENTITY, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
@@ -17,6 +18,7 @@ use crate::precision::rounded_down;
 use crate::room::{Deepest, Room, in_place};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
+pub(crate) use part::{Part, for_parts};
 
 /// Two posed shapes in space, ready to be asked about each other.
 ///
@@ -55,25 +57,14 @@ pub struct Pair3<'a> {
     pub(crate) between: DVec3,
 }
 
-/// A convex part of a body, as the body stands.
-#[derive(Clone, Copy)]
-pub(crate) struct Part<'a> {
-    pub(crate) index: u32,
-    pub(crate) shape: &'a Shape3,
-    /// Where it is in its compound; a shape that is none is its own only part.
-    local: Option<&'a Pose3>,
-    /// Its bounding sphere's centre less the body's position, in world axes.
-    pub(crate) center: DVec3,
-}
-
 /// Two convex parts in the frame of the first, and the way back from there.
-struct Parts<'a> {
+pub(crate) struct Parts<'a> {
     indices: [u32; 2],
     /// A's axes in the world, or those of a cuboid that A is a ball beside.
-    basis: Basis3,
+    pub(crate) basis: Basis3,
     /// Each part's origin less its body's position, in world axes.
     shifts: [DVec3; 2],
-    convex: Convex<'a>,
+    pub(crate) convex: Convex<'a>,
 }
 
 /// Two parts within the margin of each other.
@@ -141,6 +132,9 @@ impl<'a> Pair3<'a> {
         if self.gap_of_spheres() > 0.0 {
             return Verdict { overlapping: false, tier };
         }
+        if let Some(on) = OnGround::of(self) {
+            return self.verdict_on(&on);
+        }
         let overlapping = self.any(0.0, |parts| {
             let verdict = parts.convex.verdict();
             tier = tier.max(verdict.tier);
@@ -154,6 +148,9 @@ impl<'a> Pair3<'a> {
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
     pub fn guess(&self) -> bool {
+        if let Some(on) = OnGround::of(self) {
+            return self.guess_on(&on);
+        }
         self.any(0.0, |parts| parts.convex.guess())
     }
 
@@ -171,6 +168,9 @@ impl<'a> Pair3<'a> {
         if let Some(found) = self.separation_of_balls(limit) {
             return found;
         }
+        if let Some(on) = OnGround::of(self) {
+            return self.separation_on(&on, limit);
+        }
         match self.nearest(limit, Wanted::Number) {
             Ok((parts, near)) => Separation3::Measured(Measured3 {
                 separation: near.separation,
@@ -186,6 +186,9 @@ impl<'a> Pair3<'a> {
     pub fn distance(&self) -> Option<Closest3> {
         if let Some(found) = self.distance_of_balls() {
             return found;
+        }
+        if let Some(on) = OnGround::of(self) {
+            return self.distance_on(&on);
         }
         let (parts, near) = self.nearest(f64::INFINITY, Wanted::Closest).ok()?;
         let [on_a, on_b] = near.closest?;
@@ -274,6 +277,9 @@ impl<'a> Pair3<'a> {
         if let Some(found) = self.contact_of_balls(margin, manifolds) {
             return (Hint::NONE, found);
         }
+        if let Some(found) = contact_on_ground(self, margin, manifolds) {
+            return (Hint::NONE, found);
+        }
         let (margin, reach) = (margin.max(0.0), reach_of(margin));
         if self.gap_of_spheres() > reach {
             return (hint, None);
@@ -348,7 +354,7 @@ impl<'a> Pair3<'a> {
 
     /// A lower bound on the separation: the gap between spheres about the bodies' positions, less what it may have
     /// lost to rounding. It asks for no rotation.
-    fn gap_of_spheres(&self) -> f64 {
+    pub(crate) fn gap_of_spheres(&self) -> f64 {
         // A sum of coordinates bounds a length, and needs no root.
         let radius = |shape: &Shape3| {
             f64::from(shape.outer_radius()) + f64::from(shape.center().abs().element_sum().next_up())
@@ -371,7 +377,7 @@ impl<'a> Pair3<'a> {
         if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
     }
 
-    fn parts(&self, bases: &[Basis3; 2], a: Part<'a>, b: Part<'a>) -> Parts<'a> {
+    pub(crate) fn parts(&self, bases: &[Basis3; 2], a: Part<'a>, b: Part<'a>) -> Parts<'a> {
         let (basis_a, shift_a) = a.placed(&bases[0]);
         let (basis_b, shift_b) = b.placed(&bases[1]);
         // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
@@ -393,32 +399,6 @@ impl<'a> Pair3<'a> {
     }
 }
 
-impl<'a> Part<'a> {
-    /// A shape as a part of nothing: a compound by its bounding sphere alone.
-    pub(crate) fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
-        let center = basis.turn(shape.center().as_dvec3());
-        Self { index: 0, shape, local: None, center }
-    }
-
-    /// Whether its axes are not its body's.
-    fn is_turned(&self) -> bool {
-        self.local.is_some_and(|pose| pose.rotation().to_array()[..3] != [0.0; 3])
-    }
-
-    /// Shape and poses as they were given, for exact questions.
-    pub(crate) fn site(&self, body: &Pose3) -> Site3<'a> {
-        Site3 { shape: self.shape, body: *body, part: self.local }
-    }
-
-    /// Its axes in the world, and its origin less the body's position.
-    pub(crate) fn placed(&self, body: &Basis3) -> (Basis3, DVec3) {
-        let Some(pose) = self.local else { return (*body, DVec3::ZERO) };
-        let local = pose.basis();
-        let basis = Basis3 { x: body.turn(local.x), y: body.turn(local.y), z: body.turn(local.z) };
-        (basis, body.turn(pose.position()))
-    }
-}
-
 /// A NaN counts as no limit, and a negative limit as zero.
 #[inline]
 pub(crate) fn limit_of(limit: f32) -> f64 {
@@ -430,21 +410,6 @@ pub(crate) fn limit_of(limit: f32) -> f64 {
 #[inline]
 pub(crate) fn reach_of(margin: f32) -> f64 {
     margin.max(0.0).next_up().into()
-}
-
-/// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
-pub(crate) fn for_parts<'a>(
-    shape: &'a Shape3,
-    basis: &Basis3,
-    mut visit: impl FnMut(Part<'a>) -> bool,
-) -> bool {
-    let Shape3::Compound(compound) = shape else {
-        return visit(Part::whole(shape, basis));
-    };
-    compound.parts().iter().zip(0..).any(|(part, index)| {
-        let center = basis.turn(part.center());
-        visit(Part { index, shape: part.shape(), local: Some(part.pose()), center })
-    })
 }
 
 impl Parts<'_> {
@@ -483,12 +448,12 @@ impl Parts<'_> {
     }
 
     /// From the frame of the pair to a world vector from A's position.
-    fn anchor_a(&self, point: DVec3) -> Vec3 {
+    pub(crate) fn anchor_a(&self, point: DVec3) -> Vec3 {
         (self.basis.turn(point) + self.shifts[0]).as_vec3()
     }
 
     /// From the frame of the pair to a world vector from B's position.
-    fn anchor_b(&self, point: DVec3) -> Vec3 {
+    pub(crate) fn anchor_b(&self, point: DVec3) -> Vec3 {
         (self.basis.turn(point - self.convex.offset) + self.shifts[1]).as_vec3()
     }
 }

@@ -9,6 +9,7 @@
 //! what is rounded, segments, flat hulls, triangles seen edge on:
 //!                     the ray as a point that moves                                                    (advance)
 //! compound            the nearest of its parts
+//! mesh, height field  the nearest of its triangles                                                     (ground)
 //! ```
 //! All in f64. Only whether the origin is inside is asked of exact arithmetic, where it lies within rounding of the
 //! surface.
@@ -22,6 +23,7 @@
 //!    drawn of what is hit, and there the error's beside the distance's;
 //! 4. no sphere is asked about before a closed form of its own cost.
 
+mod ground;
 mod planes;
 mod round;
 
@@ -31,7 +33,7 @@ use crate::exact::{self, Site3};
 use crate::impact3::RayHit3;
 use crate::pair3::{Pair3, Part, for_parts};
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Basis3, Hull, Pose3, Ray3, Shape3};
+use asunder_geometry::{Basis3, Ground, Hull, Pose3, Ray3, Shape3};
 use std::sync::LazyLock;
 
 /// What the ray's origin is as a shape.
@@ -102,6 +104,9 @@ pub fn cast_ray3(shape: &Shape3, pose: &Pose3, ray: &Ray3, limit: f64) -> Option
         return cast.answer(meeting, limit, || Part::whole(shape, &pose.basis()));
     }
     let basis = pose.basis();
+    if let Some(ground) = Ground::of(shape) {
+        return cast.over(ground, &basis, limit);
+    }
     if !matches!(shape, Shape3::Compound(_)) {
         let meeting = cast.meeting(shape, &basis, DVec3::ZERO, limit);
         return cast.answer(meeting, limit, || Part::whole(shape, &basis));

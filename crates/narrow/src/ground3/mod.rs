@@ -1,5 +1,12 @@
 //! Shapes on ground that is made of triangles.
 
+mod ask;
+mod ask_box;
+mod ask_sides;
+mod contact;
 mod near;
 
+pub(crate) use ask_box::Corners;
+pub(crate) use ask_sides::Touched;
+pub(crate) use contact::contact_on_ground;
 pub(crate) use near::OnGround;

@@ -95,3 +95,11 @@ impl<'a> OnGround<'a> {
         flow.is_break()
     }
 }
+
+impl OnGround<'_> {
+    /// What belongs to the body and to the ground, as A's and B's.
+    #[inline]
+    pub(crate) fn in_order<T>(&self, of_body: T, of_ground: T) -> [T; 2] {
+        if self.is_b { [of_body, of_ground] } else { [of_ground, of_body] }
+    }
+}

@@ -9,7 +9,7 @@ mod distance;
 pub(crate) mod half_space;
 pub(crate) mod manifold;
 mod portal;
-mod reduce;
+pub(crate) mod reduce;
 mod rods;
 pub(crate) mod sat;
 pub(crate) mod simplex;

@@ -30,15 +30,15 @@ const BEATS: f64 = 1e-6;
 
 /// A corner of a patch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
+pub(crate) struct Spot {
     /// Where it is, seen along the normal.
-    pub(super) at: [f64; 2],
+    pub(crate) at: [f64; 2],
     /// How far the shapes are apart there.
-    pub(super) separation: f64,
+    pub(crate) separation: f64,
 }
 
 /// Four of more than four corners, by their places in the list. The list goes clockwise around a convex patch.
-pub(super) fn pick_four<S, I>(count: usize, spot: S, id: I, slack: f64) -> [usize; 4]
+pub(crate) fn pick_four<S, I>(count: usize, spot: S, id: I, slack: f64) -> [usize; 4]
 where
     S: Fn(usize) -> Spot,
     I: Fn(usize) -> FeatureId,

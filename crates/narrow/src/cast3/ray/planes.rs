@@ -5,7 +5,7 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Core3, Cuboid, HalfSpace, Hull, Triangle3};
 
 /// Sine of the angle to a triangle's plane below which it counts as seen edge on.
-const EDGE_ON: f64 = 1e-6;
+pub(super) const EDGE_ON: f64 = 1e-6;
 
 /// Between the planes of which pairs the ray is: a box by slabs.
 #[inline(always)]

@@ -13,11 +13,11 @@ use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
 /// How a shape looks against a normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::polyhedron) struct Opposed {
+pub(crate) struct Opposed {
     /// The face, or the one loop of a point or segment.
-    pub(in crate::polyhedron) face: usize,
+    pub(crate) face: usize,
     /// The vertex that reaches furthest against the normal.
-    pub(in crate::polyhedron) deepest: usize,
+    pub(crate) deepest: usize,
 }
 
 /// The face with which a shape looks against `normal`: of those that have the most of its furthest vertices, the most
@@ -25,7 +25,7 @@ pub(in crate::polyhedron) struct Opposed {
 ///
 /// Of two vertices that are equally far, one may have a third face that is more opposed than both of their edge's
 /// own; what touches may be at the other.
-pub(in crate::polyhedron) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> Opposed {
+pub(crate) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> Opposed {
     if solid.is_slender() {
         return Opposed { face: 0, deepest: solid.support(-normal).vertex };
     }

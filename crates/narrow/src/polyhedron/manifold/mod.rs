@@ -35,7 +35,7 @@ mod patch;
 mod single;
 
 pub(super) use frame::Frame;
-pub(super) use incident::opposed_face;
+pub(crate) use incident::opposed_face;
 pub(super) use single::{are_side_by_side, nearest_edges};
 
 use super::distance::Witness;

@@ -1,0 +1,144 @@
+//! Motions that end on ground made of triangles.
+//!
+//! ```text
+//! for each convex part of the body
+//!   for each triangle whose box the part's box meets on its way, nearest first, until the first touch so far
+//!     one-sided, and the part's centre starts behind:       passed through
+//!     the part starts and ends on one side of its plane:    passed by
+//!     else:                                                 when the two touch, as any two convex shapes
+//! the triangle touched first, and the direction that is its there: no inner edge or vertex has one of its own
+//! ```
+//! The side is that at the start of the motion: what comes from the front is stopped however fast it is.
+
+use super::advance::{End, Met};
+use super::passage::Passage;
+use super::{impact_of, part_end};
+use crate::ground3::{Corners, OnGround, Touched};
+use crate::impact3::Impact3;
+use crate::pair3::{Pair3, Part};
+use asunder_geometry::Shape3;
+use asunder_geometry::glam::{DVec3, Vec3};
+use core::ops::ControlFlow;
+
+/// The first touch so far.
+struct First {
+    met: Met,
+    part: u32,
+    triangle: u32,
+    /// The part's centre at the start, in the ground's axes.
+    center: DVec3,
+}
+
+/// One motion over one ground.
+struct Search<'s> {
+    pair: &'s Pair3<'s>,
+    on: &'s OnGround<'s>,
+    passage: &'s Passage,
+    /// The body's way over the ground, in the ground's axes.
+    way: DVec3,
+    first: Option<First>,
+    /// Whether they touch at the start.
+    touches: bool,
+}
+
+impl Pair3<'_> {
+    pub(super) fn first_touch_on(&self, on: &OnGround, passage: &Passage) -> Option<Impact3> {
+        if passage.is_still() {
+            return self.overlaps_seen(on).then(|| self.touching_at_start());
+        }
+        let drift = if on.is_b { passage.drift } else { -passage.drift };
+        let way = on.basis.turn_back(drift);
+        let mut search = Search { pair: self, on, passage, way, first: None, touches: false };
+        let reach = if passage.is_straight() { drift.length() } else { f64::INFINITY };
+        on.for_body_parts(reach, |part| {
+            search.over(part);
+            search.touches
+        });
+        if search.touches {
+            return Some(self.touching_at_start());
+        }
+        search.first.map(|first| told(on, passage, &first))
+    }
+}
+
+impl Search<'_> {
+    fn until(&self) -> f64 {
+        self.first.as_ref().map_or(1.0, |first| first.met.fraction)
+    }
+
+    /// The triangles on the way of a part.
+    fn over(&mut self, part: &Part) {
+        let placed = Corners::of(self.on, part);
+        let on = self.on;
+        let bounds = on.bounds(part, 0.0);
+        let (mut low, mut high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let [of_body, of_ground] = on.in_order(0, 1);
+        if self.passage.turns[of_ground].is_some() || !low.is_finite() {
+            // Seen from ground that turns, a body flies in curves.
+            let _ = on.ground.visit_near(&asunder_geometry::Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY), |number| {
+                if self.look(part, &placed, number) < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            return;
+        }
+        if self.passage.turns[of_body].is_some() {
+            let arm = part.center.length() + f64::from(part.shape.outer_radius());
+            let middle = on.basis.turn_back(on.to_body);
+            let arm = DVec3::splat(arm * (1.0 + 64.0 * f64::EPSILON) + 64.0 * f64::EPSILON * middle.length());
+            (low, high) = (middle - arm, middle + arm);
+        }
+        let half = ((high - low) * (0.5 + f64::from(f32::EPSILON))).as_vec3();
+        on.ground.visit_along((low + high) * 0.5, self.way, half, self.until(), |number| {
+            self.look(part, &placed, number)
+        });
+    }
+
+    /// When a part touches a triangle; tells until when others matter.
+    fn look(&mut self, part: &Part, placed: &Corners, number: u32) -> f64 {
+        let on = self.on;
+        let until = self.until();
+        let corners = on.ground.corners(number);
+        let is_beside = || self.passage.is_straight() && placed.stays_beside(corners, self.way * until);
+        if !on.sees(corners, placed.center) || is_beside() {
+            return until;
+        }
+        let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return until };
+        let of_ground = Part::whole(&triangle, &on.basis);
+        let parts = on.in_order(*part, of_ground);
+        let Some(stretch) = self.passage.stretch([&parts[0], &parts[1]], until) else { return until };
+        let met = match part_end(self.passage, parts, &stretch, until) {
+            End::Apart => return until,
+            End::Met(met) => met,
+            End::Unclear(met) => {
+                let parts = self.pair.parts(&self.passage.bases, parts[0], parts[1]);
+                self.touches = parts.convex.verdict().overlapping;
+                if self.touches {
+                    return -1.0;
+                }
+                met
+            }
+        };
+        let (part, center) = (part.index, placed.center);
+        let rank = (met.fraction, part, number);
+        if self.first.as_ref().is_none_or(|known| rank < (known.met.fraction, known.part, known.triangle)) {
+            self.first = Some(First { met, part, triangle: number, center });
+        }
+        self.until()
+    }
+}
+
+/// A touch in the direction that is the ground's there.
+fn told(on: &OnGround, passage: &Passage, first: &First) -> Impact3 {
+    let met = &first.met;
+    let [_, of_ground] = on.in_order(0, 1);
+    let basis = passage.turns[of_ground].map_or(on.basis, |turn| turn.basis_at(met.fraction));
+    let towards_body = if on.is_b { -met.normal } else { met.normal };
+    let touched = Touched {
+        triangle: first.triangle,
+        point: basis.turn_back(met.anchors[of_ground]),
+        away: basis.turn_back(towards_body),
+    };
+    let (triangle, away) = on.facing(&touched, first.center);
+    let away = basis.turn(away);
+    let normal = if on.is_b { -away } else { away };
+    impact_of(&Met { normal, ..*met }, on.in_order(first.part, triangle))
+}

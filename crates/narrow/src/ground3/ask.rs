@@ -1,0 +1,191 @@
+//! Whether a body shares a point with ground, and how near it is to it.
+//!
+//! Ground is the union of its triangles, as a compound is of its parts, and is asked in the same way: each convex part
+//! of the body against each triangle near it, as two convex shapes, with the same error and the same exactness.
+//!
+//! ```text
+//! overlap      the triangles whose boxes the part's box meets; the axis across the triangle; then as any pair
+//! separation   the triangles nearest first by their boxes, until those are further off than the least so far
+//! ```
+//! Two grounds are asked about each triangle of one against those of the other that are near it.
+
+use super::ask_box::Corners;
+use super::ask_sides::sphere_of;
+use super::near::OnGround;
+use crate::answer::{Closest3, Measured3, Separation3, Tier, Verdict};
+use crate::feature::Hint;
+use crate::least::Least;
+use crate::pair3::{Pair3, Part, Parts, for_parts};
+use crate::polyhedron::convex::{Asked, Near, Probe, Wanted};
+use crate::precision::rounded_down;
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
+use core::ops::ControlFlow;
+
+/// What is told of the triangle that is nearest.
+struct Told {
+    separation: f32,
+    normal: Vec3,
+    closest: Option<[Vec3; 2]>,
+}
+
+impl OnGround<'_> {
+    /// Visits the convex parts of the body until the visitor says to stop; returns whether it did. A body that is
+    /// ground itself has its triangles for parts: those that may be within `reach` metres.
+    pub(crate) fn for_body_parts(&self, reach: f64, mut visit: impl FnMut(&Part) -> bool) -> bool {
+        let Some(body) = Ground::of(self.body) else {
+            return for_parts(self.body, &self.body_basis, |part| visit(&part));
+        };
+        let flow = body.visit_near(&self.bounds_for(reach), |number| {
+            let stops = self.as_part(body, number, &mut visit).unwrap_or(false);
+            if stops { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        flow.is_break()
+    }
+
+    fn as_part<R>(&self, body: Ground, number: u32, visit: impl FnOnce(&Part) -> R) -> Option<R> {
+        let triangle = Shape3::Triangle(body.triangle(number)?);
+        let mut part = Part::whole(&triangle, &self.body_basis);
+        part.index = number;
+        Some(visit(&part))
+    }
+
+    /// A box around the ground in the axes of a body that is ground too, grown by some metres.
+    fn bounds_for(&self, reach: f64) -> Aabb3 {
+        let (center, radius) = sphere_of(self.ground);
+        let center = self.body_basis.turn_back(self.basis.turn(center) - self.to_body);
+        let lengths = self.to_body.length() + center.length() + radius;
+        let grow = DVec3::splat(radius + reach + 64.0 * f64::EPSILON * lengths);
+        // A conversion rounds to the nearest.
+        let up = |v: DVec3| v.as_vec3() * (1.0 + 2.0 * f32::EPSILON * v.as_vec3().signum());
+        Aabb3::new(-up(grow - center), up(center + grow))
+    }
+}
+
+impl Pair3<'_> {
+    pub(crate) fn verdict_on(&self, on: &OnGround) -> Verdict {
+        let mut tier = Tier::Bound;
+        let overlapping = self.any_on(on, false, |parts| {
+            let verdict = parts.convex.verdict();
+            tier = tier.max(verdict.tier);
+            verdict.overlapping
+        });
+        Verdict { overlapping, tier }
+    }
+
+    pub(crate) fn guess_on(&self, on: &OnGround) -> bool {
+        self.any_on(on, false, |parts| parts.convex.guess())
+    }
+
+    /// Whether any part overlaps a triangle that sees it.
+    pub(crate) fn overlaps_seen(&self, on: &OnGround) -> bool {
+        self.gap_of_spheres() <= 0.0 && self.any_on(on, true, |parts| parts.convex.verdict().overlapping)
+    }
+
+    /// Whether the answer is yes for any part and a triangle near it.
+    fn any_on(&self, on: &OnGround, only_seen: bool, mut ask: impl FnMut(&Parts) -> bool) -> bool {
+        let bases = self.bases();
+        on.for_body_parts(0.0, |part| {
+            let placed = Corners::of(on, part);
+            let flow = on.ground.visit_near(&on.bounds(part, 0.0), |number| {
+                let corners = on.ground.corners(number);
+                let is_meant = placed.gap(corners) <= 0.0 && (!only_seen || on.sees(corners, placed.center));
+                let is_yes = is_meant
+                    && on.ground.triangle(number).is_some_and(|triangle| {
+                        let triangle = Shape3::Triangle(triangle);
+                        ask(&self.parts_on(on, &bases, *part, (number, &triangle)))
+                    });
+                if is_yes { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            flow.is_break()
+        })
+    }
+
+    /// A part of the body and a triangle of the ground.
+    pub(crate) fn parts_on<'s>(
+        &'s self,
+        on: &OnGround,
+        bases: &[Basis3; 2],
+        part: Part<'s>,
+        (number, triangle): (u32, &'s Shape3),
+    ) -> Parts<'s> {
+        let mut of_ground = Part::whole(triangle, &on.basis);
+        of_ground.index = number;
+        let [a, b] = on.in_order(part, of_ground);
+        self.parts(bases, a, b)
+    }
+
+    pub(crate) fn separation_on(&self, on: &OnGround, limit: f64) -> Separation3 {
+        match self.nearest_on(on, limit, Wanted::Number) {
+            Ok((Told { separation, normal, .. }, error)) => {
+                Separation3::Measured(Measured3 { separation, error, normal })
+            }
+            Err(at_least) => Separation3::AtLeast(at_least),
+        }
+    }
+
+    pub(crate) fn distance_on(&self, on: &OnGround) -> Option<Closest3> {
+        let (told, error) = self.nearest_on(on, f64::INFINITY, Wanted::Closest).ok()?;
+        let [anchor_a, anchor_b] = told.closest?;
+        Some(Closest3 { distance: told.separation, error, normal: told.normal, anchor_a, anchor_b })
+    }
+
+    /// The part and triangle with the least separation and the error that covers all others, or a bound where all are
+    /// beyond the limit.
+    fn nearest_on(&self, on: &OnGround, limit: f64, wanted: Wanted) -> Result<(Told, f32), f32> {
+        let gap = self.gap_of_spheres();
+        if gap > limit {
+            return Err(rounded_down(gap));
+        }
+        let mut least = Least::within(limit);
+        // What no box within reach holds.
+        least.give_up(rounded_down(limit));
+        let bases = self.bases();
+        let mut look = |part: &Part| self.look_around(on, &bases, (part, wanted), &mut least);
+        if let Some(body) = Ground::of(on.body) {
+            body.visit_nearest(&on.bounds_for(0.0), limit, |number| {
+                on.as_part(body, number, &mut look).unwrap_or(f64::INFINITY)
+            });
+        } else {
+            for_parts(on.body, &on.body_basis, |part| {
+                look(&part);
+                false
+            });
+        }
+        least.finish()
+    }
+
+    /// Offers what is near a part; tells how near others must be to matter.
+    fn look_around(
+        &self,
+        on: &OnGround,
+        bases: &[Basis3; 2],
+        (part, wanted): (&Part, Wanted),
+        least: &mut Least<Told>,
+    ) -> f64 {
+        let placed = Corners::of(on, part);
+        on.ground.visit_nearest(&on.bounds(part, 0.0), least.reach(), |number| {
+            if least.passes_over(placed.gap(on.ground.corners(number))) {
+                return least.reach();
+            }
+            if let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) {
+                let parts = self.parts_on(on, bases, *part, (number, &triangle));
+                let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted };
+                match parts.convex.probe(asked) {
+                    Probe::Beyond(at_least, _) => least.give_up(at_least),
+                    Probe::Near(near) => least.offer(told(&parts, &near), near.separation, near.error),
+                }
+            }
+            least.reach()
+        });
+        least.reach()
+    }
+}
+
+fn told(parts: &Parts, near: &Near) -> Told {
+    Told {
+        separation: near.separation,
+        normal: parts.basis.turn(near.normal).as_vec3(),
+        closest: near.closest.map(|[on_a, on_b]| [parts.anchor_a(on_a), parts.anchor_b(on_b)]),
+    }
+}

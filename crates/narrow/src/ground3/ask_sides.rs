@@ -1,0 +1,146 @@
+//! From which side ground is seen, and which way it faces where it is touched.
+
+use super::near::OnGround;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::tolerance::{ON_TRIANGLE, SAME_NORMAL};
+use asunder_geometry::{Aabb3, Ground};
+use core::ops::ControlFlow;
+
+/// Triangles around a touched point that are looked at: beyond, the ground is a fan that no normal is owed to.
+const MOST_AROUND: usize = 32;
+
+/// A point of the ground, in its own axes, and the unit direction from there to the body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touched {
+    pub(crate) triangle: u32,
+    pub(crate) point: DVec3,
+    pub(crate) away: DVec3,
+}
+
+/// A triangle around a touched point.
+struct Around {
+    number: u32,
+    corners: [DVec3; 3],
+    /// The unit normal, towards the body.
+    facing: DVec3,
+    /// Whether it sees the body.
+    sees: bool,
+}
+
+/// Not of unit length; of a triangle's front.
+fn normal_of([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
+impl OnGround<'_> {
+    /// Whether a triangle sees a part with this centre: always, unless the ground is one-sided and the centre behind.
+    pub(crate) fn sees(&self, corners: [Vec3; 3], center: DVec3) -> bool {
+        if !self.ground.is_one_sided() {
+            return true;
+        }
+        let corners = corners.map(|corner| corner.as_dvec3());
+        let height = normal_of(corners).dot(center - corners[0]);
+        height >= 0.0
+    }
+
+    /// The direction in which a touched triangle pushes a part with this centre, and whose it is: no ghosts.
+    ///
+    /// ```text
+    /// the triangle's normal:                               its own
+    /// else, where nothing around the point rises into it:  it is that of an edge or a vertex that stands out
+    /// else the normal of a face around the point:          one that nothing rises into, if there is any;
+    ///                                                      of those the one nearest to the direction found
+    /// ```
+    /// A direction belongs to a point of a set if no part of the set near it lies that way (its normal cone; Ericson,
+    /// "Real-Time Collision Detection" (2005), 5.1, has the same as Voronoi regions of edges and vertices). Asked of
+    /// all triangles that hold the point and not of those across its edges, it also holds where edges do not meet.
+    pub(crate) fn facing(&self, touched: &Touched, center: DVec3) -> (u32, DVec3) {
+        let corners = self.ground.corners(touched.triangle).map(|corner| corner.as_dvec3());
+        let Some(own) = normal_of(corners).try_normalize() else { return (touched.triangle, touched.away) };
+        let own = if own.dot(touched.away) < 0.0 { -own } else { own };
+        if own.cross(touched.away).length() <= SAME_NORMAL {
+            return (touched.triangle, own);
+        }
+        let around = self.around(touched.point, corners, center);
+        if is_free(&around, touched.point, touched.away) {
+            return (touched.triangle, touched.away);
+        }
+        let mut best: Option<((bool, f64), &Around)> = None;
+        for one in around.iter().filter(|one| one.sees) {
+            // The triangle itself, where others are no nearer.
+            let nearness = one.facing.dot(touched.away) + if one.number == touched.triangle { SAME_NORMAL } else { 0.0 };
+            let rank = (is_free(&around, touched.point, one.facing), nearness);
+            if best.is_none_or(|(known, _)| rank > known) {
+                best = Some((rank, one));
+            }
+        }
+        best.map_or((touched.triangle, touched.away), |(_, one)| (one.number, one.facing))
+    }
+
+    /// The triangles that hold a point.
+    fn around(
+        &self,
+        point: DVec3,
+        corners: [DVec3; 3],
+        center: DVec3,
+    ) -> ArrayVec<Around, MOST_AROUND> {
+        let mut around = ArrayVec::new();
+        let slack = ON_TRIANGLE * extent(corners);
+        let low = (point - DVec3::splat(slack)).as_vec3();
+        let high = (point + DVec3::splat(slack)).as_vec3();
+        let next = |v: Vec3, is_up: bool| {
+            v.to_array().map(|value| if is_up { value.next_up() } else { value.next_down() })
+        };
+        let bounds = Aabb3::new(next(low, false).into(), next(high, true).into());
+        let _ = self.ground.visit_near(&bounds, |number| {
+            let seen = self.ground.corners(number);
+            let corners = seen.map(|corner| corner.as_dvec3());
+            let slack = ON_TRIANGLE * extent(corners) + slack;
+            if let Some(normal) = normal_of(corners).try_normalize()
+                && holds(corners, normal, point, slack)
+            {
+                let is_behind = normal.dot(center - corners[0]) < 0.0;
+                let facing = if is_behind && !self.ground.is_one_sided() { -normal } else { normal };
+                around.push(Around { number, corners, facing, sees: self.sees(seen, center) });
+            }
+            if around.is_full() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        // Whatever the index hands over first.
+        around.sort_unstable_by_key(|one| one.number);
+        around
+    }
+}
+
+fn extent([a, b, c]: [DVec3; 3]) -> f64 {
+    (b - a).abs().max_element().max((c - a).abs().max_element())
+}
+
+fn holds(corners: [DVec3; 3], normal: DVec3, point: DVec3, slack: f64) -> bool {
+    let [a, b, c] = corners;
+    let beside = |from: DVec3, to: DVec3| {
+        let inwards = normal.cross(to - from);
+        inwards.dot(point - from) < -slack * inwards.length()
+    };
+    normal.dot(point - a).abs() <= slack && !beside(a, b) && !beside(b, c) && !beside(c, a)
+}
+
+/// Whether no triangle around a point rises into a direction.
+fn is_free(around: &[Around], point: DVec3, away: DVec3) -> bool {
+    around.iter().all(|one| {
+        let near = 16.0 * ON_TRIANGLE * extent(one.corners);
+        one.corners.iter().all(|&corner| {
+            let way = corner - point;
+            let length = way.length();
+            length <= near || way.dot(away) <= SAME_NORMAL * length
+        })
+    })
+}
+
+/// Where the bounding sphere of ground is, in its own axes, and its radius.
+pub(super) fn sphere_of(ground: Ground) -> (DVec3, f64) {
+    match ground {
+        Ground::Mesh(mesh) => (mesh.center().as_dvec3(), mesh.outer_radius().into()),
+        Ground::Field(field) => (field.center().as_dvec3(), field.outer_radius().into()),
+    }
+}

@@ -1,0 +1,375 @@
+//! Contacts of a body on ground.
+//!
+//! ```text
+//! for each convex part of the body, its vertices in the ground's axes:                                (standing)
+//!   for each triangle near its box:
+//!     the side the part's centre is on; one-sided ground is seen from its front alone                 (facet)
+//!     all of the part is further above the plane than wanted: done, and most are
+//!     a ball: the nearest point of the triangle; its feature's neighbours say whether it counts       (ball)
+//!     no edge or corner stands out near the part, or the part's lowest vertex is well inside:
+//!         the triangle's own normal                                                                   (prism)
+//!     else the kernels of part and triangle: their axis, if the feature's neighbours let it through   (meeting)
+//!         else the triangle's own normal
+//!   points go to the group of their normal                                                            (groups)
+//!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
+//! ```
+//! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature among *all* ground
+//! around it: an edge gives a direction that leans towards neither face, a corner one that leans along none of its
+//! edges. What flat and concave edges would give is refused, and the triangle's own normal stands in.
+//!
+//! **The short way.** Where the lowest vertex of the part is over the triangle, in a gap of the cores it is the closest
+//! point, and the normal is the answer. In overlap by h, a direction that leans by the angle a over an edge r away is
+//! at least r sin a + h cos a deep, and so no better than the normal's h as long as r >= h tan(a / 2); up to a right
+//! angle, as long as r >= h. Only beyond that the kernels are asked.
+//!
+//! **Yes or no** is exact, as everywhere: of all triangles that see the part. What is not settled by rounding bounds is
+//! asked last, the likeliest first, and no further than the first yes.
+//!
+//! **Half-spaces** have one normal and no end: every triangle is looked at, and the lowest corners count. Cost: linear
+//! in the ground.
+
+mod ball;
+mod facet;
+mod groups;
+mod meeting;
+mod plane;
+mod prism;
+mod standing;
+
+use super::OnGround;
+use crate::answer::ContactPoint3;
+use crate::feature::FeatureId;
+use crate::pair3::{Pair3, Part, for_parts, reach_of};
+use crate::polyhedron::solid::Solid;
+use crate::precision::{IN_SPACE, Precision, signed};
+use crate::room::Room;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Aabb3, Pose3, Shape3};
+use ball::Nearest;
+use core::ops::ControlFlow;
+use facet::Facet;
+use groups::{Group, Groups};
+use meeting::{Meeting, Met};
+use prism::{Incident, Prism};
+use standing::{Extent, Place, Standing};
+
+/// Triangles whose yes or no waits until all have been seen.
+const MOST_UNCLEAR: usize = 32;
+
+/// Whether a body and ground overlap if they are within the margin; their manifolds go where they are wanted. Nothing
+/// where neither is ground; grounds have no contacts with each other.
+pub(crate) fn contact_on_ground(
+    pair: &Pair3,
+    margin: f32,
+    manifolds: &mut impl Room,
+) -> Option<Option<bool>> {
+    let on = OnGround::of(pair)?;
+    if on.body.is_ground() {
+        return Some(None);
+    }
+    let poses = if on.is_b { [&pair.pose_a, &pair.pose_b] } else { [&pair.pose_b, &pair.pose_a] };
+    let asking = Asking { on: &on, poses, margin: margin.max(0.0), reach: reach_of(margin) };
+    let mut found: Option<bool> = None;
+    for_parts(on.body, &on.body_basis, |part| {
+        if let Some(overlapping) = asking.contact_of(part, found == Some(true), manifolds) {
+            found = Some(found.unwrap_or(false) || overlapping);
+        }
+        found == Some(true) && !manifolds.is_wanted()
+    });
+    Some(found)
+}
+
+/// What is asked of a body on ground.
+struct Asking<'a> {
+    on: &'a OnGround<'a>,
+    /// The body's and the ground's.
+    poses: [&'a Pose3; 2],
+    margin: f32,
+    /// The widest gap in which a point is wanted, in metres.
+    reach: f64,
+}
+
+/// What is known of a part so far.
+struct Known {
+    groups: Groups,
+    /// Settled beyond rounding.
+    overlapping: bool,
+    /// The triangle that showed it first.
+    shown_by: Option<u32>,
+    /// Triangles that f64 could not tell of: whether none of their points is a contact, how deep, and which.
+    unclear: ArrayVec<(bool, f64, u32), MOST_UNCLEAR>,
+    incident: Option<Incident>,
+}
+
+/// A part among the triangles.
+struct Seen<'s> {
+    asking: &'s Asking<'s>,
+    standing: &'s Standing<'s>,
+    meeting: Meeting<'s>,
+    /// The part's box, grown by the reach.
+    bounds: Aabb3,
+    is_ball: bool,
+}
+
+impl<'a> Asking<'a> {
+    /// Whether a part overlaps, if it is within the margin. Once another part does, its own yes or no is of no
+    /// interest.
+    fn contact_of(&self, part: Part<'a>, is_settled: bool, manifolds: &mut impl Room) -> Option<bool> {
+        let place = Place::of(self.on, &part, self.poses);
+        let bounds = self.on.bounds(&part, self.reach);
+        let core = part.shape.core();
+        let solid = Solid::new(&core, place.axes, place.origin, f64::from(part.shape.radius()));
+        let standing = Standing::new(part, place, &solid);
+        let meeting = Meeting::new(self.on, part, self.poses);
+        let is_ball = matches!(part.shape, Shape3::Sphere(_));
+        let seen = Seen { asking: self, standing: &standing, meeting, bounds, is_ball };
+        let mut known = Known::new(standing.slack);
+        if let Shape3::HalfSpace(half_space) = part.shape {
+            seen.look_at_all(place.axes.turn(half_space.unit_normal()), &mut known);
+        } else {
+            let _ = self.on.ground.visit_near(&bounds, |number| {
+                seen.look_at(number, &mut known);
+                let is_enough = known.overlapping && !manifolds.is_wanted();
+                if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+        }
+        seen.conclude(&mut known, is_settled);
+        let Known { groups, overlapping, .. } = &mut known;
+        if !*overlapping && groups.least() == f64::INFINITY {
+            return None;
+        }
+        if manifolds.is_wanted() {
+            groups.finish();
+            let least = groups.least();
+            for group in groups.iter() {
+                self.add_manifold(&standing, group, (*overlapping, is_settled, least), manifolds);
+            }
+        }
+        Some(*overlapping)
+    }
+
+    fn add_manifold(
+        &self,
+        standing: &Standing,
+        group: &Group,
+        (overlapping, is_settled, least): (bool, bool, f64),
+        to: &mut impl Room,
+    ) {
+        let on = self.on;
+        let Some(deepest) =
+            group.pins.iter().reduce(|least, next| if next.separation < least.separation { next } else { least })
+        else {
+            return;
+        };
+        // The deepest of all has the sign of the decision.
+        let separation = match overlapping {
+            true if deepest.separation <= least => signed(deepest.separation, true),
+            false if !is_settled => signed(deepest.separation, false),
+            _ => deepest.separation as f32,
+        };
+        let Some(manifold) = to.room(separation) else { return };
+        let sides = [standing.part.index, group.base.patch];
+        [manifold.part_a, manifold.part_b] = if on.is_b { sides } else { [sides[1], sides[0]] };
+        let towards = on.basis.turn(group.base.normal);
+        manifold.normal = if on.is_b { -towards } else { towards }.as_vec3();
+        let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE[1] };
+        let off = (f64::from(separation) - deepest.separation).abs();
+        let error = precision.of_distance(deepest.separation, deepest.doubt + off);
+        (manifold.separation, manifold.error) = (separation, error);
+        for pin in &group.pins {
+            let of_body = (on.basis.turn(pin.on_body) - on.to_body).as_vec3();
+            let of_ground = on.basis.turn(pin.on_ground).as_vec3();
+            let (anchor_a, anchor_b, feature) = if on.is_b {
+                (of_body, of_ground, FeatureId::new(pin.of_body, pin.of_ground))
+            } else {
+                (of_ground, of_body, FeatureId::new(pin.of_ground, pin.of_body))
+            };
+            let separation = pin.separation as f32;
+            let _ = manifold.points.try_push(ContactPoint3 { separation, anchor_a, anchor_b, feature });
+        }
+        manifold.points.sort_unstable_by_key(|point| point.feature);
+    }
+}
+
+impl Known {
+    fn new(slack: f64) -> Self {
+        Self {
+            groups: Groups::new(slack),
+            overlapping: false,
+            shown_by: None,
+            unclear: ArrayVec::new(),
+            incident: None,
+        }
+    }
+}
+
+impl Seen<'_> {
+    /// Looks at one triangle.
+    fn look_at(&self, number: u32, known: &mut Known) {
+        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
+        let extent = standing.extent(facet.normal, facet.origin());
+        let doubt = self.doubt_over(&facet);
+        let separation = extent.low - standing.radius;
+        if separation > self.asking.reach + doubt {
+            return;
+        }
+        let prism =
+            Prism { ground, standing, facet: &facet, extent: &extent, reach: self.asking.reach, doubt };
+        if self.is_ball {
+            return self.look_at_from_ball(&prism, known);
+        }
+        if self.needs_kernels(&prism) {
+            let ways = (self.asking.margin, self.asking.reach);
+            match self.meeting.add_points((ground, &facet), &standing.place, ways, &mut known.groups) {
+                Met::Apart => return,
+                Met::Near { overlapping, has_points } => {
+                    if overlapping {
+                        known.settle(number);
+                    }
+                    if !has_points {
+                        self.add_by_normal(&prism, known);
+                    }
+                    return;
+                }
+            }
+        }
+        let has_points = self.add_by_normal(&prism, known);
+        if known.overlapping || separation > doubt {
+            return;
+        }
+        if prism.does_cross() {
+            return known.settle(number);
+        }
+        self.doubt_of(number, (has_points, separation), known);
+    }
+
+    fn add_by_normal(&self, prism: &Prism, known: &mut Known) -> bool {
+        let normal = prism.facet.normal;
+        let incident = match known.incident {
+            Some(incident) if incident.is_for(normal) => incident,
+            _ => *known.incident.insert(Incident::of(self.standing, normal)),
+        };
+        prism.add_points(&incident, &mut known.groups)
+    }
+
+    fn look_at_from_ball(&self, prism: &Prism, known: &mut Known) {
+        let Prism { ground, facet, doubt, .. } = *prism;
+        let nearest = Nearest::of(self.standing, facet, doubt);
+        if nearest.separation > self.asking.reach + doubt {
+            return;
+        }
+        let is_within = nearest.separation <= self.asking.reach;
+        let has_points = is_within
+            && nearest.add_point((self.standing, facet), ground, doubt, &mut known.groups);
+        if known.overlapping || nearest.separation > doubt {
+            return;
+        }
+        if nearest.separation < -doubt {
+            return known.settle(facet.number);
+        }
+        self.doubt_of(facet.number, (has_points, nearest.separation), known);
+    }
+
+    /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer.
+    fn needs_kernels(&self, prism: &Prism) -> bool {
+        let Prism { ground, standing, facet, extent, .. } = *prism;
+        let prominent = ground.prominent(facet.number);
+        if !prominent.any(facet.is_front) {
+            return false;
+        }
+        let radius = standing.outer_radius + self.asking.reach + prism.doubt;
+        let is_near = |edge: usize| {
+            let (from, along) = facet.edge(edge);
+            let place = ((standing.center - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            (standing.center - from - along * place).length_squared() <= radius * radius
+        };
+        let stands_out = |edge: usize| {
+            prominent.edge(edge, facet.is_front)
+                || prominent.corner(edge, facet.is_front)
+                || prominent.corner((edge + 1) % 3, facet.is_front)
+        };
+        let counts = [0, 1, 2].map(|edge| stands_out(edge) && is_near(edge));
+        if counts == [false; 3] {
+            return false;
+        }
+        // The short way.
+        let depth = -extent.low;
+        let lowest = standing.point(extent.lowest);
+        let is_inside = facet.is_over(lowest, standing.slack);
+        !(is_inside && (depth <= 0.0 || facet.inside(lowest, |edge| counts[edge]) >= depth))
+    }
+
+    /// Keeps a triangle for later, or asks at once where there is no room.
+    fn doubt_of(&self, number: u32, (has_points, separation): (bool, f64), known: &mut Known) {
+        if let Err(full) = known.unclear.try_push((!has_points, separation, number)) {
+            let (.., number) = full.element();
+            if self.meeting.overlaps(self.asking.on.ground, number) {
+                known.settle(number);
+            }
+        }
+    }
+
+    /// Settles what was left open, and that overlap and points go together.
+    fn conclude(&self, known: &mut Known, is_settled: bool) {
+        let slack = self.standing.slack;
+        if !known.overlapping && !(is_settled && known.groups.least() >= -slack) {
+            known.unclear.sort_unstable_by(|a, b| {
+                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2))
+            });
+            let mut numbers = known.unclear.iter().map(|&(.., number)| number);
+            match numbers.find(|&number| self.meeting.overlaps(self.asking.on.ground, number)) {
+                Some(number) => known.settle(number),
+                None => known.groups.keep_within(-slack),
+            }
+        }
+        if known.groups.least() > slack
+            && let Some(number) = known.shown_by
+        {
+            self.add_last(number, known);
+        }
+    }
+
+    /// The part's lowest point over a triangle that it overlaps, where every point was cut away.
+    fn add_last(&self, number: u32, known: &mut Known) {
+        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
+        let extent = standing.extent(facet.normal, facet.origin());
+        let doubt = self.doubt_over(&facet);
+        let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt };
+        known.groups.add(&prism.base(), prism.lowest());
+    }
+
+    /// What a height over a triangle may be off by, in metres.
+    fn doubt_over(&self, facet: &Facet) -> f64 {
+        let standing = self.standing;
+        let lever = (standing.center - facet.origin()).abs().element_sum() + standing.outer_radius;
+        standing.doubt(facet.origin()) + facet.tilt * lever
+    }
+}
+
+impl Known {
+    fn settle(&mut self, number: u32) {
+        self.overlapping = true;
+        self.shown_by.get_or_insert(number);
+    }
+}
+
+impl Prism<'_> {
+    /// Whether the part certainly shares a point with the triangle: a vertex of the core that is nearer to the
+    /// triangle's inside than the radius, or one on either side whose segment crosses the inside.
+    fn does_cross(&self) -> bool {
+        let Self { standing, facet, extent: &Extent { low, lowest, high, highest }, doubt, .. } = *self;
+        let from = standing.point(lowest);
+        let is_inside = |point: DVec3| facet.inside(point, |_| true) > 2.0 * doubt;
+        if low >= 0.0 {
+            return low < standing.radius - doubt && is_inside(from);
+        }
+        if low >= -doubt || high <= doubt {
+            return false;
+        }
+        let share = low / (low - high);
+        is_inside(from + (standing.point(highest) - from) * share)
+    }
+}

@@ -1,0 +1,97 @@
+//! A ball and a triangle: the point of the triangle nearest to the centre, and the feature that it lies on.
+
+use super::facet::{Facet, Furthest, edge_number, is_same};
+use super::groups::{Base, Groups, Pin};
+use super::standing::Standing;
+use crate::feature::Feature;
+use asunder_geometry::Ground;
+use asunder_geometry::glam::DVec3;
+
+/// What is nearest to a ball's centre on a triangle.
+pub(super) struct Nearest {
+    at: DVec3,
+    feature: Furthest,
+    /// Of the surfaces, in metres.
+    pub(super) separation: f64,
+    /// Unit direction from there to the centre.
+    towards: DVec3,
+}
+
+impl Nearest {
+    /// Ericson, "Real-time collision detection" (2005), 5.1.5.
+    pub(super) fn of(standing: &Standing, facet: &Facet, doubt: f64) -> Self {
+        let center = standing.center;
+        let (feature, at) = nearest_to(facet, center);
+        let (between, radius) = (center - at, standing.radius);
+        let distance = between.length();
+        if feature == Furthest::Face || distance <= doubt {
+            let height = facet.height(center);
+            let at = center - facet.normal * height;
+            return Self { at, feature: Furthest::Face, separation: height - radius, towards: facet.normal };
+        }
+        Self { at, feature, separation: distance - radius, towards: between / distance }
+    }
+
+    /// Adds the contact point, where ground lets the direction through; whether it did.
+    pub(super) fn add_point(
+        &self,
+        (standing, facet): (&Standing, &Facet),
+        ground: Ground,
+        doubt: f64,
+        groups: &mut Groups,
+    ) -> bool {
+        let is_face = self.feature == Furthest::Face || is_same(facet.normal, self.towards);
+        let is_prominent = match self.feature {
+            Furthest::Face => true,
+            Furthest::Edge(edge) => ground.prominent(facet.number).edge(edge, facet.is_front),
+            Furthest::Corner(corner) => ground.prominent(facet.number).corner(corner, facet.is_front),
+        };
+        if !is_face && !(is_prominent && facet.may_give(ground, self.feature, self.towards)) {
+            return false;
+        }
+        let patch = ground.patch(facet.number);
+        let of_ground = match self.feature {
+            _ if is_face => Feature::Face(patch),
+            Furthest::Corner(corner) => Feature::Vertex(ground.vertex_numbers(facet.number)[corner % 3]),
+            Furthest::Edge(edge) => Feature::Edge(edge_number(ground, facet.number, edge)),
+            Furthest::Face => Feature::Face(patch),
+        };
+        let normal = if is_face { facet.normal } else { self.towards };
+        let on_body = standing.center - normal * standing.radius;
+        let pin = Pin {
+            on_body,
+            on_ground: self.at,
+            separation: self.separation,
+            doubt,
+            of_body: Feature::Vertex(0),
+            of_ground,
+        };
+        groups.add(&Base { normal, patch, weight: if is_face { facet.area } else { 0.0 } }, pin);
+        true
+    }
+}
+
+/// The nearest point of a triangle, and what it lies on.
+fn nearest_to(facet: &Facet, point: DVec3) -> (Furthest, DVec3) {
+    let mut best: Option<(f64, Furthest, DVec3)> = None;
+    for edge in 0..3 {
+        let (from, along) = facet.edge(edge);
+        let from_start = point - from;
+        if facet.inwards(along).dot(from_start) >= 0.0 {
+            continue;
+        }
+        let share = from_start.dot(along) / along.length_squared();
+        let (feature, at) = if share <= 0.0 {
+            (Furthest::Corner(edge), from)
+        } else if share >= 1.0 {
+            (Furthest::Corner((edge + 1) % 3), facet.corners[(edge + 1) % 3])
+        } else {
+            (Furthest::Edge(edge), from + along * share)
+        };
+        let squared = (point - at).length_squared();
+        if best.is_none_or(|(least, ..)| squared < least) {
+            best = Some((squared, feature, at));
+        }
+    }
+    best.map_or((Furthest::Face, point), |(_, feature, at)| (feature, at))
+}

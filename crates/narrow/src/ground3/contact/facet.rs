@@ -1,0 +1,249 @@
+//! A triangle of ground as a convex part of a body sees it, and what lies beside its edges and corners.
+//!
+//! Which normals an edge or a corner may give is its Voronoi region: the directions in which it is the nearest of all
+//! ground around it. Directions of ground are taken without a side, so that the same holds from in front and behind.
+
+use asunder_geometry::Ground;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::SAME_NORMAL;
+
+/// Triangles around a corner that are looked at, each way. More than that meet in no level that was meant to be one;
+/// then the triangle's own normal is taken.
+const MOST_AROUND: usize = 64;
+
+/// A triangle in the ground's axes, its normal on the side of the part that looks at it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facet {
+    pub(super) number: u32,
+    pub(super) corners: [DVec3; 3],
+    /// Unit normal towards the part.
+    pub(super) normal: DVec3,
+    /// The corner that heights are measured from: between the two shorter sides, whose product loses least.
+    origin: DVec3,
+    /// Whether the part is in front.
+    pub(super) is_front: bool,
+    /// Sine of the angle by which the normal may be off.
+    pub(super) tilt: f64,
+    /// Twice the area, in square metres.
+    pub(super) area: f64,
+}
+
+/// What of a triangle touches, as told by a direction: what of it reaches furthest there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Furthest {
+    Corner(usize),
+    /// By its half-edge.
+    Edge(usize),
+    Face,
+}
+
+impl Facet {
+    /// The triangle with a number as a part whose centre this is sees it. Nothing for one-sided ground whose front is
+    /// not seen, and where the triangle has no normal.
+    pub(super) fn seen(ground: Ground, number: u32, center: DVec3) -> Option<Self> {
+        let corners = ground.corners(number).map(|corner| corner.as_dvec3());
+        let sides = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
+        let squares = sides.map(|side| side.length_squared());
+        let longest = if squares[0] >= squares[1] && squares[0] >= squares[2] {
+            0
+        } else if squares[1] >= squares[2] {
+            1
+        } else {
+            2
+        };
+        let (one, other) = ((longest + 1) % 3, (longest + 2) % 3);
+        let cross = sides[one].cross(sides[other]);
+        let area = cross.length();
+        // Two roundings a side and a product, and as many again for the unit length.
+        let tilt = 8.0 * f64::EPSILON * (squares[one] + squares[other]) / area;
+        // A NaN too is refused.
+        if !(tilt < SAME_NORMAL) {
+            return None;
+        }
+        let (front, origin) = (cross / area, corners[other]);
+        let is_front = front.dot(center - origin) >= 0.0;
+        if !is_front && ground.is_one_sided() {
+            return None;
+        }
+        let normal = if is_front { front } else { -front };
+        Some(Self { number, corners, normal, origin, is_front, tilt, area })
+    }
+
+    /// How far a point is above the plane, in metres.
+    #[inline]
+    pub(super) fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point - self.origin)
+    }
+
+    /// The point below a height of zero: where heights are measured from.
+    #[inline]
+    pub(super) fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// Where a half-edge starts, and its direction.
+    #[inline]
+    pub(super) fn edge(&self, edge: usize) -> (DVec3, DVec3) {
+        let from = self.corners[edge % 3];
+        (from, self.corners[(edge + 1) % 3] - from)
+    }
+
+    /// From a half-edge into the triangle: square to both, as long as the edge.
+    #[inline]
+    pub(super) fn inwards(&self, along: DVec3) -> DVec3 {
+        let inwards = self.normal.cross(along);
+        if self.is_front { inwards } else { -inwards }
+    }
+
+    /// The least distance of a point's foot from the sides of those half-edges that count, positive inside, in metres.
+    /// Infinite where none counts.
+    #[inline]
+    pub(super) fn inside(&self, point: DVec3, counts: impl Fn(usize) -> bool) -> f64 {
+        let mut least = f64::INFINITY;
+        for edge in 0..3 {
+            if counts(edge) {
+                let (from, along) = self.edge(edge);
+                let distance = self.inwards(along).dot(point - from) / along.length();
+                least = if distance < least { distance } else { least };
+            }
+        }
+        least
+    }
+
+    /// Whether a point's foot is in the triangle, or beside it by no more than `slack` metres.
+    #[inline]
+    pub(super) fn is_over(&self, point: DVec3, slack: f64) -> bool {
+        (0..3).all(|edge| {
+            let (from, along) = self.edge(edge);
+            let aside = self.inwards(along).dot(point - from);
+            // The sum of absolute values bounds the length, and needs no root.
+            aside >= -slack * along.abs().element_sum()
+        })
+    }
+
+    /// The feature that reaches furthest in a unit direction; corners within the tolerance of it count as far.
+    pub(super) fn furthest(&self, towards: DVec3) -> Furthest {
+        let is_level = [0, 1, 2].map(|edge| {
+            let (_, along) = self.edge(edge);
+            let rise = towards.dot(along);
+            rise * rise <= SAME_NORMAL * SAME_NORMAL * along.length_squared()
+        });
+        let reaches = self.corners.map(|corner| towards.dot(corner - self.origin));
+        let top = if reaches[0] >= reaches[1] && reaches[0] >= reaches[2] {
+            0
+        } else if reaches[1] >= reaches[2] {
+            1
+        } else {
+            2
+        };
+        // Edge `top` leaves the corner, the one before leads to it.
+        match (is_level[top], is_level[(top + 2) % 3]) {
+            (true, true) => Furthest::Face,
+            (true, false) => Furthest::Edge(top),
+            (false, true) => Furthest::Edge((top + 2) % 3),
+            (false, false) => Furthest::Corner(top),
+        }
+    }
+
+    /// Whether ground around a feature lets it give this unit direction, from the ground to the body.
+    pub(super) fn may_give(&self, ground: Ground, furthest: Furthest, towards: DVec3) -> bool {
+        match furthest {
+            Furthest::Face => true,
+            Furthest::Edge(edge) => {
+                if !leans_off(self.across(edge), towards) {
+                    return false;
+                }
+                match ground.neighbor(self.number, edge) {
+                    Some((other, twin)) => leans_off(across(ground, other, twin), towards),
+                    None => towards.dot(self.normal) >= -SAME_NORMAL,
+                }
+            }
+            Furthest::Corner(corner) => self.may_corner_give(ground, corner, towards),
+        }
+    }
+
+    /// Walks around a corner, first one way and, where ground ends there, the other.
+    fn may_corner_give(&self, ground: Ground, corner: usize, towards: DVec3) -> bool {
+        let is_off = |triangle: u32, from: usize, to: usize| {
+            let corners = ground.corners(triangle);
+            leans_off(corners[to % 3].as_dvec3() - corners[from % 3].as_dvec3(), towards)
+        };
+        let (next, before) = ((corner + 1) % 3, (corner + 2) % 3);
+        if !is_off(self.number, corner, next) || !is_off(self.number, corner, before) {
+            return false;
+        }
+        let mut at = (self.number, corner);
+        for _ in 0..MOST_AROUND {
+            let Some((other, twin)) = ground.neighbor(at.0, at.1) else { break };
+            if other == self.number {
+                return true;
+            }
+            // The twin leads to the corner; the edge after it leaves it.
+            at = (other, (twin + 1) % 3);
+            if !is_off(other, at.1, at.1 + 1) {
+                return false;
+            }
+        }
+        let mut at = (self.number, before);
+        for _ in 0..MOST_AROUND {
+            let Some((other, twin)) = ground.neighbor(at.0, at.1) else {
+                return towards.dot(self.normal) >= -SAME_NORMAL;
+            };
+            // The twin leaves the corner; the edge before it leads there.
+            at = (other, (twin + 2) % 3);
+            if !is_off(other, twin, at.1) {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// From a half-edge towards the third corner, square to the edge.
+    fn across(&self, edge: usize) -> DVec3 {
+        let (from, along) = self.edge(edge);
+        square_to(self.corners[(edge + 2) % 3] - from, along)
+    }
+
+    /// Whether ground goes on in the same plane behind a half-edge.
+    pub(super) fn goes_on(&self, ground: Ground, edge: usize) -> bool {
+        let Some((other, _)) = ground.neighbor(self.number, edge) else { return false };
+        if ground.patch(other) == ground.patch(self.number) {
+            return true;
+        }
+        let [a, b, c] = ground.corners(other).map(|corner| corner.as_dvec3());
+        let cross = (b - a).cross(c - a);
+        let front = if self.is_front { self.normal } else { -self.normal };
+        is_same(front, cross)
+    }
+}
+
+/// The number of an edge: of its two half-edges, the lower.
+pub(super) fn edge_number(ground: Ground, triangle: u32, edge: usize) -> u32 {
+    let number = |triangle: u32, edge: usize| triangle.wrapping_mul(3).wrapping_add(edge as u32);
+    let own = number(triangle, edge);
+    ground.neighbor(triangle, edge).map_or(own, |(other, twin)| own.min(number(other, twin)))
+}
+
+/// Whether a direction of any length is along a unit normal, up to the tolerance.
+#[inline]
+pub(super) fn is_same(normal: DVec3, other: DVec3) -> bool {
+    normal.dot(other) > 0.0
+        && normal.cross(other).length_squared() <= SAME_NORMAL * SAME_NORMAL * other.length_squared()
+}
+
+/// From a half-edge of a triangle towards its third corner, square to the edge.
+fn across(ground: Ground, triangle: u32, edge: usize) -> DVec3 {
+    let corners = ground.corners(triangle).map(|corner| corner.as_dvec3());
+    let from = corners[edge % 3];
+    square_to(corners[(edge + 2) % 3] - from, corners[(edge + 1) % 3] - from)
+}
+
+fn square_to(vector: DVec3, along: DVec3) -> DVec3 {
+    vector - along * (vector.dot(along) / along.length_squared())
+}
+
+/// Whether a unit direction does not lean towards ground that leaves in a direction of any length.
+fn leans_off(leaving: DVec3, towards: DVec3) -> bool {
+    let lean = towards.dot(leaving);
+    lean <= 0.0 || lean * lean <= SAME_NORMAL * SAME_NORMAL * leaving.length_squared()
+}

@@ -1,0 +1,239 @@
+//! Contact points by their normals: one group is one manifold.
+//!
+//! ```text
+//! a normal within the tolerance of a group's joins it; the group's own is that of the largest triangle in it
+//! a point that is there already, by name or by place, stays once: the deeper
+//! a group that is full:    only the corners of what it covers stay
+//! too many normals:        the deepest stay
+//! at last:                 the corners around the patch, four of them at most, and always one as deep as any
+//! ```
+//! The largest triangle's normal, and not the deepest's or the first's: of triangles that were meant to lie in one plane
+//! it is rounded least, and it is another one the least often while a body slides.
+
+use super::facet::is_same;
+use crate::feature::{Feature, FeatureId};
+use crate::polyhedron::reduce::{Spot, pick_four};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+
+/// Most normals of a part at a time. A body that touches more ground than this is kept by the deepest of it.
+const MOST_GROUPS: usize = 16;
+
+/// Most points of a group before only its corners are kept.
+const MOST_POINTS: usize = 24;
+
+/// A contact point in the ground's axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pin {
+    pub(super) on_body: DVec3,
+    pub(super) on_ground: DVec3,
+    pub(super) separation: f64,
+    /// By how much that may be off, in metres.
+    pub(super) doubt: f64,
+    pub(super) of_body: Feature,
+    pub(super) of_ground: Feature,
+}
+
+/// A normal, and what it rests on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Base {
+    /// Unit normal from the ground to the body.
+    pub(super) normal: DVec3,
+    /// The least triangle of the patch.
+    pub(super) patch: u32,
+    /// Of several the normal of the greatest is taken: an area, or zero where it is not a face's own.
+    pub(super) weight: f64,
+}
+
+/// A normal and its points.
+pub(super) struct Group {
+    pub(super) base: Base,
+    pub(super) pins: ArrayVec<Pin, MOST_POINTS>,
+}
+
+/// All normals of a part.
+pub(super) struct Groups {
+    groups: ArrayVec<Group, MOST_GROUPS>,
+    /// Places that differ by no more are the same, in metres.
+    slack: f64,
+}
+
+impl Pin {
+    fn id(&self) -> FeatureId {
+        FeatureId::new(self.of_body, self.of_ground)
+    }
+
+    fn is_same_as(&self, other: &Self, slack: f64) -> bool {
+        (self.of_body == other.of_body && self.of_ground == other.of_ground)
+            || (self.on_body - other.on_body).length_squared() <= slack * slack
+    }
+}
+
+impl Groups {
+    pub(super) fn new(slack: f64) -> Self {
+        Self { groups: ArrayVec::new(), slack }
+    }
+
+    pub(super) fn iter(&self) -> core::slice::Iter<'_, Group> {
+        self.groups.iter()
+    }
+
+    /// The least separation of all points; infinite without any.
+    pub(super) fn least(&self) -> f64 {
+        self.groups.iter().map(Group::least).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Adds a point. Cost: linear in the normals and in the points of its own.
+    pub(super) fn add(&mut self, base: &Base, pin: Pin) {
+        let slack = self.slack;
+        if let Some(group) = self.groups.iter_mut().find(|group| is_same(group.base.normal, base.normal)) {
+            if base.weight > group.base.weight {
+                (group.base.normal, group.base.weight) = (base.normal, base.weight);
+            }
+            group.base.patch = group.base.patch.min(base.patch);
+            group.add(pin, slack);
+            return;
+        }
+        let group = Group { base: *base, pins: core::iter::once(pin).collect() };
+        if let Err(full) = self.groups.try_push(group) {
+            let shallowest = self
+                .groups
+                .iter_mut()
+                .reduce(|most, next| if next.least() > most.least() { next } else { most });
+            match shallowest {
+                Some(shallowest) if shallowest.least() > pin.separation => *shallowest = full.element(),
+                _ => {}
+            }
+        }
+    }
+
+    /// Takes away points that are deeper than shapes which share no point can be; those without any left go.
+    pub(super) fn keep_within(&mut self, least: f64) {
+        for group in &mut self.groups {
+            group.pins.retain(|pin| pin.separation >= least - pin.doubt);
+        }
+        self.groups.retain(|group| !group.pins.is_empty());
+    }
+
+    /// Reduces each group to what a manifold holds, and puts them in the order of their patches.
+    pub(super) fn finish(&mut self) {
+        let slack = self.slack;
+        for group in &mut self.groups {
+            group.reduce(slack);
+        }
+        self.groups.sort_by_key(|group| group.base.patch);
+    }
+}
+
+impl Group {
+    fn least(&self) -> f64 {
+        self.pins.iter().map(|pin| pin.separation).fold(f64::INFINITY, f64::min)
+    }
+
+    fn add(&mut self, pin: Pin, slack: f64) {
+        if let Some(known) = self.pins.iter_mut().find(|known| known.is_same_as(&pin, slack)) {
+            let is_deeper = pin.separation < known.separation - slack;
+            let is_as_deep = pin.separation <= known.separation + slack;
+            if is_deeper || (is_as_deep && pin.id() < known.id()) {
+                *known = pin;
+            }
+            return;
+        }
+        if self.pins.is_full() {
+            let mut around = self.around(slack);
+            if around.len() > MOST_POINTS / 2 {
+                around = self.four_of(&around, slack);
+            }
+            self.keep(around, slack);
+        }
+        let _ = self.pins.try_push(pin);
+    }
+
+    fn reduce(&mut self, slack: f64) {
+        if self.pins.len() < 3 {
+            return;
+        }
+        let mut around = self.around(slack);
+        if around.len() > 4 {
+            around = self.four_of(&around, slack);
+        }
+        self.keep(around, slack);
+    }
+
+    /// Keeps points by their places in the list, and one that is as deep as any.
+    fn keep(&mut self, mut kept: ArrayVec<usize, MOST_POINTS>, slack: f64) {
+        let least = self.least();
+        if !kept.iter().any(|&i| self.pins[i].separation <= least + slack)
+            && let Some(deepest) = self.pins.iter().position(|pin| pin.separation == least)
+        {
+            let at = self.pins[deepest].on_body;
+            let distance = |i: usize| (self.pins[i].on_body - at).length_squared();
+            let nearest = (0..kept.len()).reduce(|a, b| if distance(kept[b]) < distance(kept[a]) { b } else { a });
+            match nearest {
+                Some(nearest) if kept.len() > 3 => kept[nearest] = deepest,
+                _ => kept.push(deepest),
+            }
+        }
+        kept.sort_unstable();
+        let pins = kept.iter().map(|&i| self.pins[i]).collect();
+        self.pins = pins;
+    }
+
+    fn places(&self) -> ArrayVec<[f64; 2], MOST_POINTS> {
+        let (x, y) = self.base.normal.any_orthonormal_pair();
+        let from = self.pins.first().map_or(DVec3::ZERO, |pin| pin.on_ground);
+        self.pins.iter().map(|pin| [x.dot(pin.on_ground - from), y.dot(pin.on_ground - from)]).collect()
+    }
+
+    /// The points around what the group covers, clockwise; what lies on the line between two others is left out.
+    ///
+    /// Andrew, "Another efficient algorithm for convex hulls in two dimensions" (1979).
+    fn around(&self, slack: f64) -> ArrayVec<usize, MOST_POINTS> {
+        let places = self.places();
+        let mut order: ArrayVec<usize, MOST_POINTS> = (0..places.len()).collect();
+        let along = |i: usize, j: usize| {
+            let ([xi, yi], [xj, yj]) = (places[i], places[j]);
+            xi.total_cmp(&xj).then(yi.total_cmp(&yj)).then(i.cmp(&j))
+        };
+        order.sort_unstable_by(|&i, &j| along(i, j));
+        let mut around = ArrayVec::new();
+        self.half(order.iter().copied(), &places, slack, &mut around);
+        self.half(order.iter().rev().copied(), &places, slack, &mut around);
+        around
+    }
+
+    /// One half of the way around, its last point left for the other.
+    fn half(
+        &self,
+        order: impl Iterator<Item = usize>,
+        places: &[[f64; 2]],
+        slack: f64,
+        around: &mut ArrayVec<usize, MOST_POINTS>,
+    ) {
+        let first = around.len();
+        for next in order {
+            while let [.., one, other] = around[first..] {
+                let ([ax, ay], [bx, by], [cx, cy]) = (places[one], places[other], places[next]);
+                let (dx, dy) = (cx - ax, cy - ay);
+                let aside = dx * (by - ay) - dy * (bx - ax);
+                // Beside the line by more than the slack: it stays.
+                if aside > slack * (dx.abs() + dy.abs()) {
+                    break;
+                }
+                around.pop();
+            }
+            if around.try_push(next).is_err() {
+                return;
+            }
+        }
+        around.pop();
+    }
+
+    /// Four of those around.
+    fn four_of(&self, around: &[usize], slack: f64) -> ArrayVec<usize, MOST_POINTS> {
+        let places = self.places();
+        let spot = |i: usize| Spot { at: places[around[i]], separation: self.pins[around[i]].separation };
+        let four = pick_four(around.len(), spot, |i| self.pins[around[i]].id(), slack);
+        four.into_iter().map(|i| around[i]).collect()
+    }
+}

@@ -1,0 +1,214 @@
+//! Contact points by a triangle's own normal: the body's lowest face against the prism over the triangle.
+//!
+//! ```text
+//! the face that the body turns to the triangle, its corners moved out to the surface           (Incident)
+//! corners of it in the prism:                          a vertex of the body on the face
+//! each side of the triangle behind which the ground does not go on in the same plane,
+//! cut by the sides of the body's face:                 its ends, or crossings of two edges
+//! what is further up than wanted is left out
+//! ```
+//! These are the corners of what the body's face shares with the whole flat patch, and not with the triangle: a side
+//! behind which the patch goes on makes no point. So a body on a floor stands on its own corners wherever the floor was
+//! cut into triangles, the points keep their names while it slides, and no choice of four is asked for. Clipping face
+//! against triangle and merging afterwards leaves a point on every cut, of which the choice of four is another one with
+//! every step.
+
+use super::facet::{Facet, edge_number};
+use super::groups::{Base, Groups, Pin};
+use super::standing::{Extent, Standing};
+use crate::feature::Feature;
+use crate::polyhedron::manifold::opposed_face;
+use asunder_geometry::Ground;
+use asunder_geometry::glam::DVec3;
+
+/// Cosine up to which a body's face looks away from the ground so much that it has no inside as seen along the normal.
+const STEEP: f64 = 1e-3;
+
+/// The face of a part that looks against a normal; kept, since neighbours most often have one normal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Incident {
+    normal: DVec3,
+    face: usize,
+    /// The direction out of the face in which the surface lies beyond the core, if any is across it.
+    outwards: Option<DVec3>,
+}
+
+/// What of a part stands over a triangle.
+pub(super) struct Prism<'p> {
+    pub(super) ground: Ground<'p>,
+    pub(super) standing: &'p Standing<'p>,
+    pub(super) facet: &'p Facet,
+    pub(super) extent: &'p Extent,
+    /// The widest gap in which a point is wanted, in metres.
+    pub(super) reach: f64,
+    /// What a separation may be off by, in metres.
+    pub(super) doubt: f64,
+}
+
+impl Incident {
+    pub(super) fn of(standing: &Standing, normal: DVec3) -> Self {
+        let face = opposed_face(standing.solid, normal, standing.slack).face;
+        Self { normal, face, outwards: standing.solid.outwards(face, -normal) }
+    }
+
+    /// Whether it stands for a normal, too: one that is the same up to what f32 vertices leave of a plane.
+    pub(super) fn is_for(&self, normal: DVec3) -> bool {
+        (self.normal - normal).length_squared() <= 1e-14
+    }
+}
+
+impl Prism<'_> {
+    /// Adds contact points by the triangle's own normal; whether there are any.
+    pub(super) fn add_points(&self, incident: &Incident, groups: &mut Groups) -> bool {
+        let base = self.base();
+        let mut is_any = self.add_corners(incident, &base, groups);
+        if let Some(outwards) = incident.outwards
+            && self.standing.solid.vertices.len() > 1
+        {
+            for edge in 0..3 {
+                if !self.facet.goes_on(self.ground, edge) {
+                    is_any |= self.add_side(incident.face, outwards, edge, (&base, groups));
+                }
+            }
+        }
+        is_any
+    }
+
+    pub(super) fn base(&self) -> Base {
+        let Facet { number, normal, area, .. } = *self.facet;
+        Base { normal, patch: self.ground.patch(number), weight: area }
+    }
+
+    /// The lowest point of the part over the triangle's plane, wherever that is.
+    pub(super) fn lowest(&self) -> Pin {
+        let vertex = self.extent.lowest;
+        let at = self.standing.point(vertex) - self.facet.normal * self.standing.radius;
+        self.pin(at, self.extent.low - self.standing.radius, Feature::Vertex(vertex as u32))
+    }
+
+    fn pin(&self, on_body: DVec3, separation: f64, of_body: Feature) -> Pin {
+        let on_ground = on_body - self.facet.normal * separation;
+        let of_ground = Feature::Face(self.ground.patch(self.facet.number));
+        Pin { on_body, on_ground, separation, doubt: self.doubt, of_body, of_ground }
+    }
+
+    fn add_corners(&self, incident: &Incident, base: &Base, groups: &mut Groups) -> bool {
+        let (standing, facet) = (self.standing, self.facet);
+        let (mut is_any, mut has_lowest) = (false, false);
+        let deep = self.extent.low + standing.slack;
+        let mut add = |vertex: usize| {
+            let core = standing.point(vertex);
+            let height = facet.height(core);
+            let (at, separation) = if height <= deep {
+                (core - facet.normal * standing.radius, height - standing.radius)
+            } else if let Some(outwards) = incident.outwards {
+                // What is less deep belongs to a tilted face, and lies out along its normal.
+                let at = core + outwards * standing.radius;
+                (at, facet.height(at))
+            } else {
+                return;
+            };
+            if separation <= self.reach && facet.is_over(at, standing.slack) {
+                groups.add(base, self.pin(at, separation, Feature::Vertex(vertex as u32)));
+                is_any = true;
+            }
+        };
+        for vertex in standing.solid.topology.face_vertices(incident.face) {
+            add(vertex);
+            has_lowest |= vertex == self.extent.lowest;
+        }
+        if !has_lowest {
+            add(self.extent.lowest);
+        }
+        is_any
+    }
+
+    /// Adds the ends of what the part's face covers of a side of the triangle, as seen along the normal.
+    fn add_side(
+        &self,
+        face: usize,
+        outwards: DVec3,
+        edge: usize,
+        (base, groups): (&Base, &mut Groups),
+    ) -> bool {
+        let (standing, facet) = (self.standing, self.facet);
+        let facing = outwards.dot(facet.normal);
+        if facing > -STEEP {
+            return false;
+        }
+        let Some(span) = self.span(face, outwards, edge) else { return false };
+        let (from, along) = facet.edge(edge);
+        let vertices = standing.solid.topology.face_vertices(face);
+        let Some(first) = { vertices }.next() else { return false };
+        let over = standing.point(first) + outwards * standing.radius;
+        let mut is_any = false;
+        for (share, by) in span {
+            let on_ground = from + along * share;
+            let separation = outwards.dot(over - on_ground) / facing;
+            if separation > self.reach {
+                continue;
+            }
+            let (of_body, of_ground) = match by {
+                Some(body_edge) => {
+                    let number = edge_number(self.ground, facet.number, edge);
+                    (Feature::Edge(standing.solid.topology.edge_of(body_edge) as u32), Feature::Edge(number))
+                }
+                None => {
+                    let corner = if share > 0.5 { edge + 1 } else { edge };
+                    let numbers = self.ground.vertex_numbers(facet.number);
+                    (Feature::Face(face as u32), Feature::Vertex(numbers[corner % 3]))
+                }
+            };
+            let on_body = on_ground + facet.normal * separation;
+            let doubt = self.doubt / -facing;
+            groups.add(base, Pin { on_body, on_ground, separation, doubt, of_body, of_ground });
+            is_any = true;
+        }
+        is_any
+    }
+
+    /// The stretch of a side that lies over the part's face: two shares of its length, each with the half-edge of the
+    /// face that ends it there.
+    ///
+    /// Cyrus and Beck, "Generalized two- and three-dimensional clipping" (1978).
+    fn span(&self, face: usize, outwards: DVec3, edge: usize) -> Option<[(f64, Option<usize>); 2]> {
+        let (standing, facet) = (self.standing, self.facet);
+        let (solid, topology) = (standing.solid, standing.solid.topology);
+        let (from, along) = facet.edge(edge);
+        let shift = outwards * standing.radius;
+        if solid.is_slender() {
+            let [begin, end] = [0, solid.vertices.len() - 1].map(|vertex| standing.point(vertex) + shift);
+            let inwards = facet.inwards(along);
+            let (out, over) = (inwards.dot(begin - from), inwards.dot(end - from));
+            if (out < 0.0) == (over < 0.0) {
+                return None;
+            }
+            let crossing = begin + (end - begin) * (out / (out - over));
+            let share = along.dot(crossing - from) / along.length_squared();
+            // The same end twice: it is one point.
+            return (0.0..=1.0).contains(&share).then_some([(share, Some(0)); 2]);
+        }
+        let (mut enters, mut leaves) = ((0.0, None), (1.0, None));
+        for half_edge in topology.face_half_edges(face) {
+            let (start, stop) = topology.ends(half_edge);
+            let (start, stop) = (standing.point(start), standing.point(stop));
+            // A face goes counter-clockwise as seen from outside, which is against the normal.
+            let into = (stop - start).cross(facet.normal);
+            let (inside, change) = (into.dot(from - start - shift), into.dot(along));
+            if change == 0.0 {
+                if inside < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let share = -inside / change;
+            if change > 0.0 && share > enters.0 {
+                enters = (share, Some(half_edge));
+            }
+            if change < 0.0 && share < leaves.0 {
+                leaves = (share, Some(half_edge));
+            }
+        }
+        (enters.0 <= leaves.0).then_some([enters, leaves])
+    }
+}

@@ -1,0 +1,155 @@
+//! A convex part as it stands over ground: its vertices in the ground's axes.
+
+use crate::ground3::OnGround;
+use crate::pair3::Part;
+use crate::polyhedron::solid::Solid;
+use crate::precision::IN_SPACE;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::{FACE_PREFERENCE, MAX_HULL_VERTICES};
+use asunder_geometry::{Basis3, Pose3};
+
+/// Where a part is and how it is turned, in the ground's axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) axes: Basis3,
+    pub(super) origin: DVec3,
+    /// How long the vectors are that this is a sum of, in metres.
+    summed: f64,
+}
+
+/// A part that has vertices.
+pub(super) struct Standing<'s> {
+    pub(super) part: Part<'s>,
+    pub(super) place: Place,
+    /// The core, in the ground's axes.
+    pub(super) solid: &'s Solid<'s>,
+    /// The vertices, eight by eight; what fills up the last eight is the first.
+    octets: ArrayVec<[[f64; 8]; 3], { MAX_HULL_VERTICES / 8 }>,
+    pub(super) center: DVec3,
+    pub(super) radius: f64,
+    pub(super) outer_radius: f64,
+    /// Places that differ by no more are the same, in metres.
+    pub(super) slack: f64,
+    /// Lengths that enter a coordinate, in metres.
+    lengths: f64,
+}
+
+/// How far a part reaches down and up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) low: f64,
+    pub(super) lowest: usize,
+    pub(super) high: f64,
+    pub(super) highest: usize,
+}
+
+impl Place {
+    pub(super) fn of(on: &OnGround, part: &Part, [body, ground]: [&Pose3; 2]) -> Self {
+        let (axes, shift) = part.placed(&on.body_basis);
+        // Equal rotations cancel to the last bit.
+        let axes = match part.site(body).part {
+            None => body.basis_from(ground),
+            Some(_) => axes.relative_to(&on.basis),
+        };
+        let origin = on.basis.turn_back(on.to_body + shift);
+        Self { axes, origin, summed: on.to_body.length() + shift.length() }
+    }
+
+    /// From the part's own axes to the ground's.
+    #[inline]
+    pub(super) fn point(&self, local: DVec3) -> DVec3 {
+        self.origin + self.axes.turn(local)
+    }
+}
+
+impl<'s> Standing<'s> {
+    pub(super) fn new(part: Part<'s>, place: Place, solid: &'s Solid<'s>) -> Self {
+        let mut octets = ArrayVec::new();
+        for eight in solid.vertices.chunks(8) {
+            let mut octet = [[0.0; 8]; 3];
+            for i in 0..8 {
+                let vertex = eight.get(i).unwrap_or(&eight[0]);
+                let [x, y, z] = place.point(vertex.as_dvec3()).to_array();
+                (octet[0][i], octet[1][i], octet[2][i]) = (x, y, z);
+            }
+            let _ = octets.try_push(octet);
+        }
+        let center = part.shape.center().as_dvec3();
+        // A half-space has none, nor vertices that it would matter to.
+        let outer_radius = match solid.vertices.len() {
+            0 => 0.0,
+            _ => f64::from(part.shape.outer_radius()),
+        };
+        let lengths = place.summed + center.abs().element_sum() + outer_radius;
+        let mut standing = Self {
+            part,
+            place,
+            solid,
+            octets,
+            center: place.point(center),
+            radius: f64::from(part.shape.radius()),
+            outer_radius,
+            slack: 0.0,
+            lengths,
+        };
+        standing.slack = (2.0 * FACE_PREFERENCE * outer_radius).max(standing.doubt(standing.center));
+        standing
+    }
+
+    /// What a coordinate, and a product with a unit vector, may be off by at most, beside a point of ground.
+    #[inline]
+    pub(super) fn doubt(&self, ground: DVec3) -> f64 {
+        IN_SPACE[1] * (f64::EPSILON / 2.0) * (self.lengths + ground.abs().element_sum())
+    }
+
+    /// A vertex of the core.
+    #[inline]
+    pub(super) fn point(&self, vertex: usize) -> DVec3 {
+        match self.octets.get(vertex / 8) {
+            Some([x, y, z]) => DVec3::new(x[vertex % 8], y[vertex % 8], z[vertex % 8]),
+            None => self.center,
+        }
+    }
+
+    /// How high the vertices of the core are over a plane through `origin`; of equals, the first. Cost: linear in the
+    /// vertices, eight at a time.
+    #[inline]
+    pub(super) fn extent(&self, normal: DVec3, origin: DVec3) -> Extent {
+        let (mut low, mut high) = ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8]);
+        let (mut low_at, mut high_at) = ([0_u64; 8], [0_u64; 8]);
+        for (octet, number) in self.octets.iter().zip(0_u64..) {
+            let [x, y, z] = octet;
+            for i in 0..8 {
+                let height =
+                    normal.x * (x[i] - origin.x) + normal.y * (y[i] - origin.y) + normal.z * (z[i] - origin.z);
+                let (is_lower, is_higher) = (height < low[i], height > high[i]);
+                low[i] = if is_lower { height } else { low[i] };
+                low_at[i] = if is_lower { number } else { low_at[i] };
+                high[i] = if is_higher { height } else { high[i] };
+                high_at[i] = if is_higher { number } else { high_at[i] };
+            }
+        }
+        let (mut down, mut up) = (0, 0);
+        for i in 1..8 {
+            if low[i] < low[down] {
+                down = i;
+            }
+            if high[i] > high[up] {
+                up = i;
+            }
+        }
+        // What fills up the last eight is the first.
+        let count = self.solid.vertices.len();
+        let vertex = |at: u64, lane: usize| {
+            let vertex = 8 * at as usize + lane;
+            if vertex < count { vertex } else { 8 * at as usize }
+        };
+        Extent {
+            low: low[down],
+            lowest: vertex(low_at[down], down),
+            high: high[up],
+            highest: vertex(high_at[up], up),
+        }
+    }
+}
