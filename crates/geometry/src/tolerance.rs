@@ -77,6 +77,14 @@ pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 /// reported error) and a smaller one would refuse hulls that were built here.
 pub const MERGED_PLANARITY: f64 = 8.0 * COPLANAR;
 
+/// Share of its coordinates by which a vertex of a chain may lie beside the line of its neighbours and count as on it.
+///
+/// A line that is cut into segments has vertices rounded to f32, each by 6e-8 of its coordinates, as are the ends that
+/// it is measured from; this is four times as much, for what was computed in f32. A larger value takes bends for rounding,
+/// and contact points lie as much beside the segments; a smaller one lets the rounding of short segments turn
+/// normals.
+pub const STRAIGHT: f64 = 2.0 * (f32::EPSILON as f64);
+
 /// How far the square of a stored rotation's length in the plane may be from one: both components are rounded to
 /// f32 once.
 ///
@@ -149,3 +157,6 @@ pub const MAX_POLYGON_VERTICES: usize = 4096;
 
 /// The most parts a compound may have.
 pub const MAX_PARTS: usize = 4096;
+
+/// The most vertices a chain may have.
+pub const MAX_CHAIN_VERTICES: usize = 2_000_000;
