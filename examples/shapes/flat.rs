@@ -34,6 +34,7 @@ impl<'a> Flat<'a> {
                     [right * half, -right * half, -right * half - up * deep, right * half - up * deep];
                 corners.map(|v| pose.transform(v)).to_vec()
             }
+            Shape2::Chain(chain) => chain.vertices().iter().map(|&v| pose.transform(v)).collect(),
             _ => core.vertices().iter().map(|&v| pose.transform(v)).collect(),
         };
         let normal =
@@ -71,6 +72,16 @@ impl<'a> Flat<'a> {
                 canvas.line(from, to, &Paint::line(tint.base(), 3.0));
                 for end in [from, to] {
                     canvas.dot(end, 3.4, &Paint::fill(tint.base()).edged(tint.ink, 1.0));
+                }
+            }
+            Shape2::Chain(chain) => {
+                let back = if chain.is_closed() { self.vertices.first() } else { None };
+                for (from, to) in self.vertices.iter().zip(self.vertices.iter().skip(1).chain(back)) {
+                    canvas.line(*from, *to, &Paint::line(tint.ink, 5.0));
+                    canvas.line(*from, *to, &Paint::line(tint.base(), 3.0));
+                }
+                for &vertex in &self.vertices {
+                    canvas.dot(vertex, 3.4, &Paint::fill(tint.base()).edged(tint.ink, 1.0));
                 }
             }
             Shape2::Circle(_) => self.vertices.iter().for_each(|&v| canvas.dot(v, self.radius, &paint)),

@@ -9,8 +9,8 @@ use crate::solid::Solid;
 use crate::tint::{CARD, COOL, INK, Tint, WARM};
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{
-    Capsule2, Capsule3, Circle, Cuboid, HalfPlane, HalfSpace, Pose2, Pose3, Rect, Segment2, Segment3, Shape2,
-    Shape3, Sphere,
+    Capsule2, Capsule3, Chain, ChainError, Circle, Cuboid, HalfPlane, HalfSpace, Pose2, Pose3, Rect,
+    Segment2, Segment3, Shape2, Shape3, Sphere,
 };
 use std::error::Error;
 
@@ -85,7 +85,19 @@ fn flat_pages() -> Result<Vec<Page<Shape2>>, Box<dyn Error>> {
             vec![("Segment2", Segment2::new(Vec2::new(-0.45, -0.2), Vec2::new(0.45, 0.2))?.into())],
         ),
         page("compound2", vec![("Compound2", arch2()?.into())]),
+        page("chain", vec![("Chain, open", hill()?.into()), ("Chain, closed", island()?.into())]),
     ])
+}
+
+/// Ground that looks up.
+fn hill() -> Result<Chain, ChainError> {
+    let rise = [(0.5, -0.25), (0.28, -0.25), (0.1, -0.02), (-0.08, 0.06), (-0.26, 0.02), (-0.5, -0.2)];
+    Ok(Chain::open(rise.map(|(x, y)| Vec2::new(x, y)))?.one_sided())
+}
+
+fn island() -> Result<Chain, ChainError> {
+    let coast = [(0.45, -0.05), (0.2, 0.25), (-0.1, 0.16), (-0.42, 0.2), (-0.3, -0.2), (0.1, -0.26)];
+    Ok(Chain::closed(coast.map(|(x, y)| Vec2::new(x, y)))?.one_sided())
 }
 
 fn draw_solids(page: &Page<Shape3>) -> String {

@@ -78,7 +78,8 @@ impl Compound2 {
     /// A compound from its parts and where they are.
     ///
     /// # Errors
-    /// No parts, or more than [`MAX_PARTS`]; a part that is a compound or unbounded, or that reaches beyond 1e6 m.
+    /// No parts, or more than [`MAX_PARTS`]; a part that is a compound, ground or unbounded, or that reaches beyond
+    /// 1e6 m.
     pub fn new(parts: impl IntoIterator<Item = (Pose2, Shape2)>) -> Result<Self, CompoundError> {
         let parts: Arc<[Part2]> = parts.into_iter().map(|(pose, shape)| Part2::new(pose, shape)).collect();
         if parts.is_empty() {
@@ -92,6 +93,7 @@ impl Compound2 {
             match part.shape {
                 Shape2::Compound(_) => return Err(CompoundError::Nested { index }),
                 Shape2::HalfPlane(_) => return Err(CompoundError::Unbounded { index }),
+                Shape2::Chain(_) => return Err(CompoundError::Ground { index }),
                 _ => {}
             }
             let radius = f64::from(part.shape.outer_radius());
@@ -328,13 +330,13 @@ pub enum CompoundError {
         /// Index of the part.
         index: usize,
     },
-    /// A part is ground: a mesh, a height field or a chain.
-    Ground {
+    /// A part has no end.
+    Unbounded {
         /// Index of the part.
         index: usize,
     },
-    /// A part has no end.
-    Unbounded {
+    /// A part is ground, which is no convex shape and never moves.
+    Ground {
         /// Index of the part.
         index: usize,
     },
@@ -355,9 +357,11 @@ impl core::fmt::Display for CompoundError {
             Self::Nested { index } => {
                 write!(f, "part {index} is made of several parts itself: give those instead")
             }
-            Self::Ground { index } => write!(f, "part {index} is ground: make it a body of its own"),
             Self::Unbounded { index } => {
                 write!(f, "part {index} has no end: make it a body of its own")
+            }
+            Self::Ground { index } => {
+                write!(f, "part {index} is ground: make it a body of its own")
             }
             Self::TooLarge { index } => {
                 write!(f, "part {index} reaches beyond {MAX_RADIUS} m from the compound's origin: split it")

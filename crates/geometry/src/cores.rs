@@ -30,7 +30,8 @@ impl<T: Copy, const N: usize> Held<'_, T, N> {
 /// The core of a shape in the plane: the shape is everything within [`Shape2::radius`] of it.
 ///
 /// A point has one vertex and no edges. A segment has two vertices and two edges, one for each side of it; a polygon
-/// has as many edges as vertices, edge `i` from vertex `i` to the next. A half-plane and a compound have no vertices.
+/// has as many edges as vertices, edge `i` from vertex `i` to the next. A half-plane, a compound and a chain have no
+/// vertices.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Segment2, Shape2, glam::{DVec2, Vec2}};
@@ -100,7 +101,7 @@ impl<'a> Core2<'a> {
             Shape2::Segment(segment) => return Self::of_segment(segment.ends()),
             Shape2::Rect(rect) => (Held::Few(rect.vertices(), 4), Held::Many(Rect::NORMALS.as_slice())),
             Shape2::Polygon(polygon) => (Held::Many(polygon.vertices()), Held::Many(polygon.normals())),
-            Shape2::HalfPlane(_) | Shape2::Compound(_) => (Held::Many(&[]), none),
+            Shape2::HalfPlane(_) | Shape2::Compound(_) | Shape2::Chain(_) => (Held::Many(&[]), none),
         };
         Self { vertices, normals }
     }

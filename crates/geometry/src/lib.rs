@@ -9,6 +9,7 @@
 #![deny(missing_docs)]
 
 mod aabb;
+mod chain;
 mod circle;
 mod compound;
 mod cores;
@@ -43,6 +44,7 @@ mod triangle;
 mod vertex;
 
 pub use aabb::{Aabb2, Aabb3, Bounds};
+pub use chain::{Chain, ChainError, Run};
 pub use circle::Circle;
 pub use compound::{Compound2, Compound3, CompoundError, Part2, Part3};
 pub use cores::{Core2, Core3};

@@ -57,12 +57,18 @@ impl Segment2 {
     /// Ends that are equal, not finite, or out of range.
     pub fn new(from: Vec2, to: Vec2) -> Result<Self, VertexError> {
         check_vertices(&[from.as_dvec2().extend(0.0), to.as_dvec2().extend(0.0)])?;
-        let mut segment = Self { ends: [from, to], outer_radius: 0.0 };
-        let center = segment.center().as_dvec2();
-        let reach = segment.ends.map(|end| (end.as_dvec2() - center).length());
-        segment.outer_radius = round_up(reach[0].max(reach[1]) * (1.0 + 8.0 * f64::EPSILON));
+        let segment = Self::between([from, to]);
         check_size(segment.outer_radius)?;
         Ok(segment)
+    }
+
+    /// A segment whose ends were checked.
+    pub(crate) fn between(ends: [Vec2; 2]) -> Self {
+        let mut segment = Self { ends, outer_radius: 0.0 };
+        let center = segment.center().as_dvec2();
+        let reach = ends.map(|end| (end.as_dvec2() - center).length());
+        segment.outer_radius = round_up(reach[0].max(reach[1]) * (1.0 + 8.0 * f64::EPSILON));
+        segment
     }
 
     /// Both ends.

@@ -4,6 +4,7 @@
 //! added. The narrow phase knows no other kinds.
 
 use crate::aabb::{Aabb2, Aabb3};
+use crate::chain::Chain;
 use crate::circle::Circle;
 use crate::compound::{Compound2, Compound3, Part2, Part3};
 use crate::cores::{Core2, Core3};
@@ -50,6 +51,8 @@ pub enum Shape2 {
     Segment(Segment2),
     /// Several convex parts.
     Compound(Compound2),
+    /// A polyline: ground. Bodies of this shape are fixed.
+    Chain(Chain),
 }
 
 /// A shape in space. Cloning is cheap: large data is shared.
@@ -99,6 +102,7 @@ impl Shape2 {
             Self::HalfPlane(half_plane) => half_plane.bounds(pose, margin),
             Self::Segment(segment) => segment.bounds(pose, margin),
             Self::Compound(compound) => compound.bounds(pose, margin),
+            Self::Chain(chain) => chain.bounds(pose, margin),
         }
     }
 
@@ -110,6 +114,7 @@ impl Shape2 {
             Self::Polygon(polygon) => polygon.center(),
             Self::Segment(segment) => segment.center(),
             Self::Compound(compound) => compound.center(),
+            Self::Chain(chain) => chain.center(),
             Self::Circle(_) | Self::Rect(_) | Self::HalfPlane(_) => Vec2::ZERO,
         }
     }
@@ -126,6 +131,7 @@ impl Shape2 {
             Self::HalfPlane(_) => f32::INFINITY,
             Self::Segment(segment) => segment.outer_radius(),
             Self::Compound(compound) => compound.outer_radius(),
+            Self::Chain(chain) => chain.outer_radius(),
         }
     }
 
@@ -137,18 +143,32 @@ impl Shape2 {
             Self::Capsule(capsule) => capsule.radius(),
             Self::Rect(rect) => rect.radius(),
             Self::Polygon(polygon) => polygon.radius(),
-            Self::HalfPlane(_) | Self::Segment(_) | Self::Compound(_) => 0.0,
+            Self::HalfPlane(_) | Self::Segment(_) | Self::Compound(_) | Self::Chain(_) => 0.0,
         }
     }
 
-    /// What is left without the rounding. A half-plane and a compound have none: their core has no vertices.
+    /// Whether it is ground, which bodies stand on and which is always fixed: a chain. Two of a kind have no contacts.
+    ///
+    /// ```
+    /// use asunder_geometry::{Chain, Circle, Shape2, glam::Vec2};
+    /// let ground = Shape2::from(Chain::open([Vec2::X, Vec2::ZERO])?);
+    /// assert!(ground.is_ground() && !Shape2::from(Circle::new(1.0)?).is_ground());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub const fn is_ground(&self) -> bool {
+        matches!(self, Self::Chain(_))
+    }
+
+    /// What is left without the rounding. A half-plane, a compound and a chain have none: their core has no
+    /// vertices.
     #[inline]
     pub fn core(&self) -> Core2<'_> {
         Core2::of(self)
     }
 
     /// Whether the closed shape holds a local point, in metres (`Vec2`, `DVec2`). Nothing holds a NaN. Cost: linear in
-    /// the vertices.
+    /// the vertices; of a chain, in those near it.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let point = point.into();
         match self {
@@ -159,6 +179,7 @@ impl Shape2 {
             Self::HalfPlane(half_plane) => half_plane.contains(point),
             Self::Segment(segment) => segment.contains(point),
             Self::Compound(compound) => compound.contains(point),
+            Self::Chain(chain) => chain.contains(point),
         }
     }
 
@@ -168,6 +189,9 @@ impl Shape2 {
         let direction = direction.into();
         // By its largest component first: squares of very long and very short ones leave the range of f64.
         let along = (direction / direction.abs().max_element()).try_normalize()?;
+        if let Self::Chain(chain) = self {
+            return chain.furthest(along);
+        }
         if let Self::Compound(compound) = self {
             let of_part = |part: &Part2| {
                 let core = part.shape().core();
@@ -353,6 +377,12 @@ impl From<Segment2> for Shape2 {
 impl From<Compound2> for Shape2 {
     fn from(compound: Compound2) -> Self {
         Self::Compound(compound)
+    }
+}
+
+impl From<Chain> for Shape2 {
+    fn from(chain: Chain) -> Self {
+        Self::Chain(chain)
     }
 }
 

@@ -77,6 +77,39 @@ pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 /// reported error) and a smaller one would refuse hulls that were built here.
 pub const MERGED_PLANARITY: f64 = 8.0 * COPLANAR;
 
+/// Share of its coordinates by which a vertex of a chain may lie beside the line of its neighbours and count as on it.
+///
+/// A line that is cut into segments has vertices rounded to f32, each by 6e-8 of its coordinates, as are the ends that
+/// it is measured from; this is four times as much, for what was computed in f32. A larger value takes bends for rounding,
+/// and contact points lie as much beside the segments; a smaller one lets the rounding of short segments turn
+/// normals.
+pub const STRAIGHT: f64 = 2.0 * (f32::EPSILON as f64);
+
+/// Sine of the angle by which a contact's normal may lean over the end of a surface and still be its own.
+///
+/// Normals of kernels are good to some 1e-7 where a face is touched; what leans by more is a corner's, or none of the
+/// ground's. A larger value is an error that contacts on flat ground may have; a smaller one takes faces for corners.
+pub const ALONG_GROUND: f64 = 1e-6;
+
+/// Angle, in radians, up to which contact normals on ground count as one.
+///
+/// Two points are enough for a body on one plane, and it stands steadier on them than on several pairs. A larger value
+/// merges what is curved; a smaller one leaves a manifold for each facet of what looks flat.
+pub const ONE_NORMAL: f32 = 1e-4;
+
+/// Cosine of the angle between two faces from which on their corner counts as sharp: 60 degrees.
+///
+/// Beyond a sharp corner, a contact is the neighbour's alone: what stands a little in one face of a step lies deep
+/// behind the other. At a blunt corner it is as deep in both within a factor of one over this. A larger value drops
+/// contacts of short segments; a smaller one lets the steps of stairs push sideways.
+pub const SHARP_CORNER: f64 = 0.5;
+
+/// Sine of the angle by which the loose end of one-sided ground may push against its front.
+///
+/// What comes from the side, a little tilted, is met by the end, though its normal leads a little backwards; what
+/// comes from behind is not met.
+pub const BEHIND_END: f64 = 0.2;
+
 /// How far the square of a stored rotation's length in the plane may be from one: both components are rounded to
 /// f32 once.
 ///
@@ -164,3 +197,6 @@ pub const MAX_POLYGON_VERTICES: usize = 4096;
 
 /// The most parts a compound may have.
 pub const MAX_PARTS: usize = 4096;
+
+/// The most vertices a chain may have.
+pub const MAX_CHAIN_VERTICES: usize = 2_000_000;

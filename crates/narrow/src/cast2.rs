@@ -42,6 +42,7 @@
 //! of the arm. That is the best `error` that an impact of turning shapes can have.
 
 mod course;
+mod ground;
 mod piece;
 mod ray;
 mod stretch;
@@ -70,6 +71,9 @@ impl Pair2<'_> {
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
     ///   by how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.
+    /// - A one-sided chain is met from its front alone: what is behind a segment when it comes to touch it passes. Inner
+    ///   vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the first
+    ///   segment of the straight run that is met.
     /// - A displacement that is not finite counts as none.
     ///
     /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap,
@@ -125,7 +129,11 @@ impl Pair2<'_> {
         if !travel.stretches().iter().any(may_touch) {
             return None;
         }
-        if self.overlaps() {
+        if self.has_ground() {
+            if let Some(impact) = self.touching_ground_at_start() {
+                return Some(impact);
+            }
+        } else if self.overlaps() {
             return Some(self.touching_at_start());
         }
         if travel.is_still() {
@@ -136,6 +144,9 @@ impl Pair2<'_> {
 
     /// The first pair of parts that touch within a stretch.
     fn first_touch_in(&self, stretch: &Stretch) -> Option<Impact2> {
+        if self.has_ground() {
+            return self.first_touch_of_ground(stretch);
+        }
         let whole_b = Piece::whole(self.shape_b);
         let mut first: Option<Impact2> = None;
         let mut end = 1.0;

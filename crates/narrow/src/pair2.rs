@@ -1,9 +1,9 @@
-//! One pair in the plane, and batches of them.
+//! One pair in the plane.
 
 mod compounds;
+mod ground;
 
 use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2, Tier, Verdict};
-use crate::batch::Batch2;
 use crate::exact::Site2;
 use crate::feature::Hint;
 use crate::least::Least;
@@ -27,6 +27,7 @@ use asunder_geometry::{Pose2, Shape2};
 /// | circle, circle | the line through both centres | the same | one |
 /// | rectangle, polygon, capsule, segment, circle, with each other | edge normals | GJK | clipped edges |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
+/// | chain, anything | the least of its segments' | the same | a manifold for each normal of what is touched |
 ///
 /// Radii (of circles, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off.
 /// A segment has two edges, back to back.
@@ -66,10 +67,18 @@ struct Part<'a> {
 
 /// Two convex parts in the frame of the pair, and the way back from there.
 struct Parts<'a> {
+    place: Place,
+    convex: Convex<'a>,
+}
+
+/// Where two parts are: what leads back from the frame of the pair.
+#[derive(Clone, Copy)]
+struct Place {
     indices: [u32; 2],
     /// Each part's origin less its body's position, in world axes.
     shifts: [DVec2; 2],
-    convex: Convex<'a>,
+    /// B's origin less A's.
+    offset: DVec2,
 }
 
 impl<'a> Pair2<'a> {
@@ -117,6 +126,9 @@ impl<'a> Pair2<'a> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn verdict(&self) -> Verdict {
+        if self.has_ground() {
+            return self.verdict_on_ground();
+        }
         if let Some(overlapping) = self.bodies().overlap() {
             return Verdict { overlapping, tier: Tier::Bound };
         }
@@ -133,6 +145,9 @@ impl<'a> Pair2<'a> {
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
     pub fn guess(&self) -> bool {
+        if self.has_ground() {
+            return self.guess_on_ground();
+        }
         self.any(0.0, |parts| parts.convex.guess())
     }
 
@@ -163,14 +178,14 @@ impl<'a> Pair2<'a> {
     /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a
     /// limit.
     pub fn distance(&self) -> Option<Closest2> {
-        let (parts, near) = self.nearest(f64::INFINITY).ok()?;
+        let (place, near) = self.nearest(f64::INFINITY).ok()?;
         let [on_a, on_b] = near.closest?;
         Some(Closest2 {
             distance: near.separation,
             error: near.error,
             normal: near.normal.as_vec2(),
-            anchor_a: parts.anchor_a(on_a),
-            anchor_b: parts.anchor_b(on_b),
+            anchor_a: place.anchor_a(on_a),
+            anchor_b: place.anchor_b(on_b),
         })
     }
 
@@ -180,6 +195,14 @@ impl<'a> Pair2<'a> {
     /// them all. Nothing for two half-planes that overlap without end. Cost: as the separation, plus clipping two
     /// edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
+        if self.has_ground() {
+            let mut manifolds = self.manifolds(margin).into_iter();
+            let first = manifolds.next()?;
+            let deeper = |best: Manifold2, next: Manifold2| {
+                if next.separation < best.separation { next } else { best }
+            };
+            return Some(manifolds.fold(first, deeper));
+        }
         let mut best: Option<Manifold2> = None;
         self.contact(margin, Hint::NONE, true, |next| {
             if best.as_ref().is_none_or(|best| next.separation < best.separation) {
@@ -190,7 +213,8 @@ impl<'a> Pair2<'a> {
     }
 
     /// One manifold for each pair of convex parts at most `margin` metres apart, in order of the parts: at most one
-    /// unless a shape is a compound.
+    /// unless a shape is a compound. On a chain, one for each part of the other and each normal of what that touches,
+    /// of the chain's straight runs and corners; none of two chains.
     ///
     /// ```
     /// use asunder_geometry::{Compound2, HalfPlane, Pose2, Shape2, Circle, glam::Vec2};
@@ -207,13 +231,17 @@ impl<'a> Pair2<'a> {
     /// ```
     pub fn manifolds(&self, margin: f32) -> Vec<Manifold2> {
         let mut manifolds = Vec::new();
-        self.contact(margin, Hint::NONE, true, |manifold| manifolds.push(manifold));
+        if self.has_ground() {
+            self.contact_on_ground(margin, &mut manifolds);
+        } else {
+            self.contact(margin, Hint::NONE, true, |manifold| manifolds.push(manifold));
+        }
         manifolds
     }
 
     /// The hint for the next frame, and whether they overlap if they are within the margin. Manifolds go where they
     /// are wanted.
-    fn contact(
+    pub(crate) fn contact(
         &self,
         margin: f32,
         hint: Hint,
@@ -247,7 +275,10 @@ impl<'a> Pair2<'a> {
     }
 
     /// The pair of parts with the least separation, or a bound where all are beyond the limit.
-    fn nearest(&self, limit: f64) -> Result<(Parts<'a>, Near), f32> {
+    fn nearest(&self, limit: f64) -> Result<(Place, Near), f32> {
+        if self.has_ground() {
+            return self.nearest_on_ground(limit);
+        }
         let mut least = Least::within(limit);
         let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
@@ -263,16 +294,16 @@ impl<'a> Pair2<'a> {
                         Probe::Beyond(at_least, _) => least.give_up(at_least),
                         Probe::Near(near) => {
                             let (separation, error) = (near.separation, near.error);
-                            least.offer((parts, near), separation, error);
+                            least.offer((parts.place, near), separation, error);
                         }
                     }
                 }
                 false
             })
         });
-        let ((parts, mut near), error) = least.finish()?;
+        let ((place, mut near), error) = least.finish()?;
         near.error = error;
-        Ok((parts, near))
+        Ok((place, near))
     }
 
     /// As a whole, without parts.
@@ -314,7 +345,7 @@ impl<'a> Pair2<'a> {
         self.is_compound().then(|| self.between.length() + shift_a.length() + shift_b.length())
     }
 
-    fn parts(&self, a: Part<'a>, b: Part<'a>) -> Parts<'a> {
+    fn parts<'p>(&self, a: Part<'p>, b: Part<'p>) -> Parts<'p> {
         let (turn_a, shift_a) = a.placed(&self.turn_a);
         let (turn_b, shift_b) = b.placed(&self.turn_b);
         // Positions first, then the parts' places: what is far from the origin cancels.
@@ -322,7 +353,7 @@ impl<'a> Pair2<'a> {
         let summed = self.summed(shift_a, shift_b);
         let convex =
             Convex::new([a.site(&self.pose_a), b.site(&self.pose_b)], [turn_a, turn_b], offset, summed);
-        Parts { indices: [a.index, b.index], shifts: [shift_a, shift_b], convex }
+        Parts { place: Place { indices: [a.index, b.index], shifts: [shift_a, shift_b], offset }, convex }
     }
 }
 
@@ -373,14 +404,16 @@ impl Parts<'_> {
             return (near.hint, None);
         }
         if let Some(touch) = &near.touch {
-            keep(manifold(&near, touch, (self.indices, self.shifts())));
+            keep(manifold(&near, touch, (self.place.indices, self.place.shifts())));
         }
         (near.hint, Some((overlapping, near.separation)))
     }
+}
 
+impl Place {
     /// From the frame of the pair to world vectors from A's position and from B's.
     fn shifts(&self) -> [DVec2; 2] {
-        [self.shifts[0], self.shifts[1] - self.convex.offset]
+        [self.shifts[0], self.shifts[1] - self.offset]
     }
 
     /// From the frame of the pair to a world vector from A's position.
@@ -390,7 +423,7 @@ impl Parts<'_> {
 
     /// From the frame of the pair to a world vector from B's position.
     fn anchor_b(&self, point: DVec2) -> Vec2 {
-        (point - self.convex.offset + self.shifts[1]).as_vec2()
+        (point - self.offset + self.shifts[1]).as_vec2()
     }
 }
 
@@ -414,51 +447,5 @@ fn manifold(near: &Near, touch: &Touch, (indices, shifts): ([u32; 2], [DVec2; 2]
         separation: near.separation,
         error: near.error,
         points,
-    }
-}
-
-/// One question of a batch: are these within the margin of each other, and how do they touch?
-#[derive(Clone, Copy, Debug)]
-pub struct Job2<'a> {
-    /// Shape of A.
-    pub shape_a: &'a Shape2,
-    /// Pose of A.
-    pub pose_a: &'a Pose2,
-    /// Shape of B.
-    pub shape_b: &'a Shape2,
-    /// Pose of B.
-    pub pose_b: &'a Pose2,
-    /// Metres of gap within which a contact is wanted.
-    pub margin: f32,
-    /// What the last answer for this pair left, or [`Hint::NONE`].
-    pub hint: Hint,
-    /// Whether to leave out manifolds.
-    pub sensor: bool,
-}
-
-/// Answers a slice of jobs, appending to the batch. Jobs do not influence each other.
-///
-/// ```
-/// use asunder_geometry::{Rect, Pose2, Shape2, glam::Vec2};
-/// use asunder_narrow::{Answer, Batch2, Hint, Job2, collide2};
-/// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
-/// let (pose_a, pose_b) = (Pose2::IDENTITY, Pose2::at(Vec2::new(0.0, 1.5))?);
-/// let job = Job2 {
-///     shape_a: &square, pose_a: &pose_a, shape_b: &square, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
-/// };
-/// let mut batch = Batch2::default();
-/// collide2(&[job], &mut batch);
-/// assert!(matches!(&batch.answers[0], Answer::Contact { overlapping: true, manifolds, .. } if *manifolds == (0..1)));
-/// batch.clear();
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn collide2(jobs: &[Job2<'_>], batch: &mut Batch2) {
-    for job in jobs {
-        let pair = Pair2::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
-        let first = batch.manifolds.len() as u32;
-        let manifolds = &mut batch.manifolds;
-        let (hint, overlapping) =
-            pair.contact(job.margin, job.hint, !job.sensor, |manifold| manifolds.push(manifold));
-        batch.push(hint, overlapping, first);
     }
 }

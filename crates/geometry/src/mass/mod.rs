@@ -79,11 +79,11 @@ impl Shape2 {
     /// ```
     ///
     /// # Errors
-    /// A density that is not finite or not positive, and a half-plane.
+    /// A density that is not finite or not positive; a half-plane, and a chain, which never moves.
     pub fn mass_properties(&self, density: f32) -> Result<MassProperties2, MassError> {
         let density = check_density(density)?;
         match self {
-            Self::HalfPlane(_) => Err(MassError::Unbounded),
+            Self::HalfPlane(_) | Self::Chain(_) => Err(MassError::Unbounded),
             Self::Rect(rect) => Ok(plane::of_rect(rect, density)),
             Self::Compound(compound) => {
                 let parts = compound.parts().iter();

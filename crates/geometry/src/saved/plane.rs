@@ -1,6 +1,7 @@
 //! Forms of what lies in the plane.
 
 use super::{Form, said, stored_as};
+use crate::chain::{Chain, ChainError};
 use crate::circle::Circle;
 use crate::compound::{Compound2, CompoundError, Part2};
 use crate::direction::DirectionError;
@@ -30,6 +31,7 @@ stored_as! {
     HalfPlane: HalfPlaneForm,
     Segment2: SegmentForm,
     Compound2: CompoundForm,
+    Chain: ChainForm,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -264,6 +266,32 @@ impl Form for CompoundForm {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(rename = "Chain", deny_unknown_fields)]
+struct ChainForm {
+    vertices: Vec<[f32; 2]>,
+    #[serde(default)]
+    closed: bool,
+    #[serde(default)]
+    one_sided: bool,
+}
+
+impl Form for ChainForm {
+    type Of = Chain;
+    type Error = ChainError;
+
+    fn of(value: &Chain) -> Self {
+        let vertices = value.vertices().iter().map(|vertex| vertex.to_array()).collect();
+        Self { vertices, closed: value.is_closed(), one_sided: value.is_one_sided() }
+    }
+
+    fn build(self) -> Result<Chain, ChainError> {
+        let vertices = self.vertices.into_iter().map(Vec2::from_array);
+        let chain = if self.closed { Chain::closed(vertices) } else { Chain::open(vertices) }?;
+        Ok(if self.one_sided { chain.one_sided() } else { chain })
+    }
+}
+
+#[derive(Serialize, Deserialize)]
 #[serde(rename = "Part2", deny_unknown_fields)]
 struct PartForm {
     pose: Pose2,
@@ -291,7 +319,7 @@ impl ConvexForm {
             Shape2::Rect(shape) => Self::Rect(shape),
             Shape2::Polygon(shape) => Self::Polygon(shape),
             Shape2::Segment(shape) => Self::Segment(shape),
-            Shape2::HalfPlane(_) | Shape2::Compound(_) => return None,
+            Shape2::HalfPlane(_) | Shape2::Compound(_) | Shape2::Chain(_) => return None,
         })
     }
 

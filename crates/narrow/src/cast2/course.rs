@@ -3,13 +3,14 @@
 use super::piece::Piece;
 use super::stretch::Stretch;
 use super::{at_start, sum};
+use crate::ground2::Surface;
 use crate::pair2::Pair2;
 use crate::polygon::distance::{Reached, Until, Witness, distance};
 use crate::polygon::outline::{Outline, Turn};
 use crate::precision::Precision;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::tolerance::CAST_GAP2;
-use asunder_geometry::{Core2, Pose2, Rotation2, Shape2};
+use asunder_geometry::{Chain, Core2, Pose2, Rotation2, Run, Shape2};
 
 /// Rounds after which a cast says how far it came. Those that graze take some 25, the others 1 to 10.
 const MAX_ROUNDS: usize = 96;
@@ -272,6 +273,20 @@ impl<'a> Course<'a> {
         Touching { at: now, axis, apart: self.enough, points: self.on_surfaces(points, axis) }
     }
 
+    /// The straight run of a chain that a segment of it, one of the two, belongs to, as the other sees it at a time. Nothing
+    /// where it does not.
+    pub(super) fn surface(&self, which: usize, chain: &Chain, run: &Run, now: f64) -> Option<Surface> {
+        let (turn, origin) = self.place(which, now);
+        let other = 1 - which;
+        let center = (!self.pieces[other].is_line()).then(|| self.center(other, now));
+        Surface::new(chain, run, (&turn, origin), center)
+    }
+
+    /// How far apart points may lie that count as one: those of shapes that are as good as touching.
+    pub(super) fn nearness(&self) -> f64 {
+        2.0 * self.enough
+    }
+
     /// Lines that look away from each other meet as soon as one of them turns.
     fn lines_that_turn(&self) -> Touching {
         let now = self.times[0];
@@ -346,6 +361,11 @@ impl<'a> Course<'a> {
         (normal, point, normal.dot(point - origin))
     }
 
+    /// Whether one of the two is a half-plane.
+    pub(super) fn is_with_line(&self, which: usize) -> bool {
+        self.pieces[which].is_line()
+    }
+
     fn line(&self) -> Option<usize> {
         self.pieces.iter().position(|piece| piece.is_line())
     }
@@ -369,13 +389,15 @@ impl<'a> Course<'a> {
         [self.outline(0, now), self.outline(1, now)]
     }
 
+    /// The centre of a part's bounding circle at a time, relative to A's position.
+    fn center(&self, which: usize, now: f64) -> DVec2 {
+        let (turn, origin) = self.place(which, now);
+        origin + turn.turn(self.pieces[which].shape.center().as_dvec2())
+    }
+
     /// From one part's centre to the other's: any axis to begin with.
     fn towards_b(&self, now: f64) -> DVec2 {
-        let center = |which: usize| {
-            let (turn, origin) = self.place(which, now);
-            origin + turn.turn(self.pieces[which].shape.center().as_dvec2())
-        };
-        (center(1) - center(0)).try_normalize().unwrap_or(DVec2::Y)
+        (self.center(1, now) - self.center(0, now)).try_normalize().unwrap_or(DVec2::Y)
     }
 
     /// Points of the cores moved out to the surfaces.

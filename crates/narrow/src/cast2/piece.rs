@@ -1,7 +1,7 @@
 //! The convex parts of a body, as a cast sees them: where they are in the body, and how far they reach.
 
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Pose2, Shape2};
+use asunder_geometry::{Aabb2, Pose2, Shape2};
 
 /// A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
 const STRETCH: f64 = 1.0 + 4.0 * f32::EPSILON as f64;
@@ -24,6 +24,18 @@ impl<'a> Piece<'a> {
     /// A shape as a whole: a compound by its bounding circle alone.
     pub(super) fn whole(shape: &'a Shape2) -> Self {
         Self::new(shape, shape.center().as_dvec2(), None, 0)
+    }
+
+    /// A segment of a chain.
+    pub(super) fn segment(shape: &'a Shape2, index: u32) -> Self {
+        Self::new(shape, shape.center().as_dvec2(), None, index)
+    }
+
+    /// What is in a box in a chain's axes, by a circle around it. It stands for the chain, and has no core.
+    pub(super) fn boxed(chain: &'a Shape2, bounds: &Aabb2) -> Self {
+        let (min, max) = (bounds.min.as_dvec2(), bounds.max.as_dvec2());
+        let (center, outer) = ((min + max) * 0.5, (max - min).length() * 0.5 * STRETCH);
+        Self { index: 0, shape: chain, local: None, center, outer, arm: 0.0 }
     }
 
     fn new(shape: &'a Shape2, center: DVec2, local: Option<&'a Pose2>, index: u32) -> Self {

@@ -11,6 +11,8 @@
 //! One search serves circles, capsules, segments, rectangles and polygons, rounded or not; a half-plane is one
 //! quotient.
 
+mod ground;
+
 use super::sum;
 use crate::exact::{Site2, holds2};
 use crate::impact2::RayHit2;
@@ -26,8 +28,10 @@ const ROUNDINGS: f64 = 16.0;
 /// The limit may be infinite; NaN counts as no limit, and a negative one as zero.
 ///
 /// Whether it starts inside is exact; then the distance is 0 and the normal is against the ray. Of a compound, the
-/// part that it enters first; one that it starts inside of before any other. Cost: 30 to 80 ns for a shape of few
-/// vertices, the logarithm of the vertices for a polygon of many, the number of parts for a compound; some
+/// part that it enters first; one that it starts inside of before any other. Of a chain, the segment that it crosses
+/// first, from its front if the chain is one-sided, with the normal against the ray. Cost: 30 to 80 ns for a shape of few
+/// vertices, the logarithm of the vertices for a polygon of many, the number of parts for a compound, the segments whose
+/// boxes it meets for a chain; some
 /// microseconds where the origin lies on the outline up to rounding.
 ///
 /// ```
@@ -46,6 +50,9 @@ pub fn cast_ray2(shape: &Shape2, pose: &Pose2, ray: &Ray2, limit: f64) -> Option
     let from_body = ray.origin() - pose.position();
     let beam =
         Beam::new(pose.turn_back(from_body), pose.turn_back(ray.direction().as_dvec2()), sum(from_body))?;
+    if let Shape2::Chain(chain) = shape {
+        return ground::into_chain(chain, (pose, ray), &beam, limit);
+    }
     let Shape2::Compound(compound) = shape else {
         return Asked { shape, pose, part: None, index: 0, ray }.answer(&beam, limit);
     };

@@ -44,10 +44,10 @@ impl Pair2<'_> {
                     return false;
                 }
                 let parts = self.parts(a, b);
-                let asked = Asked { hint: kept.of(parts.indices), ..*asked };
+                let asked = Asked { hint: kept.of(parts.place.indices), ..*asked };
                 if let (hint, Some((overlapping, separation))) = parts.contact(&asked, margin, keep) {
                     touch = Some(touch.unwrap_or(false) || overlapping);
-                    kept.offer(parts.indices, hint, separation);
+                    kept.offer(parts.place.indices, hint, separation);
                 }
                 false
             })

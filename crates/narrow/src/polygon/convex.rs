@@ -15,7 +15,7 @@
 //! best.
 
 use super::half_plane::Line;
-use super::manifold::{Point, Touch};
+use super::manifold::{Point, Touch, over_edge};
 use super::measure::{Asked, Measure, Near, Probe};
 use super::outline::{Outline, Turn};
 use super::sat::{Outcome, doubt, separating_axes};
@@ -24,6 +24,7 @@ use super::tiers::Cores;
 use crate::exact::{self, Site2};
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{at_least, signed};
+use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Core2, Shape2};
 
@@ -181,6 +182,19 @@ impl<'a> Convex<'a> {
         let mut axes = beside(a, b, normal, least - band);
         axes.short = doubt(&self.measure.precision);
         self.measure.close_cores([a, b], asked, &axes, &looked)
+    }
+
+    /// Contact points over an edge of A, or of B, along its outward normal: see [`over_edge`].
+    pub(crate) fn over_edge(&self, of_b: bool, edge: (usize, DVec2), within: f64) -> ArrayVec<Point, 2> {
+        let preference = self.measure.preference;
+        self.with_outlines(|a, b| {
+            over_edge(if of_b { [b, a] } else { [a, b] }, edge, within, preference, of_b)
+        })
+    }
+
+    /// By how much one contact point must be deeper than another to matter, in metres.
+    pub(crate) fn preference(&self) -> f64 {
+        self.measure.preference
     }
 
     /// Whether a shape is a half-plane.

@@ -259,6 +259,30 @@ fn on_edge(
     Some((corners, if is_b { [point, foot] } else { [foot, point] }))
 }
 
+/// What lies over an edge of `outline`, along this outward normal of it and whatever the best axis is, and no further than
+/// `within` metres from it: points of the incident shape's lowest edge.
+pub(crate) fn over_edge(
+    [outline, incident]: [&impl Placed; 2],
+    (edge, normal): (usize, DVec2),
+    within: f64,
+    preference: f64,
+    is_b: bool,
+) -> ArrayVec<Point, 2> {
+    let ends = [outline.point(edge), outline.point(outline.after(edge))];
+    let height = |point: DVec2| normal.dot(point) - normal.dot(ends[0]).max(normal.dot(ends[1]));
+    let mut deep = f64::NEG_INFINITY;
+    if incident.edge_count() > 0 {
+        let second = incident.facing_edge(normal);
+        let vertices = [second, incident.after(second)];
+        let clipped = clip(&ends, vertices.map(|vertex| incident.point(vertex)), [(0, 0); 2]);
+        let heights = clipped.map(|clipped| clipped.map(|(point, _)| height(point)));
+        deep = heights.map_or(f64::INFINITY, |[one, other]| one.min(other) + preference);
+    }
+    let of = if is_b { AxisOf::EdgeB(edge) } else { AxisOf::EdgeA(edge) };
+    let axis = Axis { separation: deep, normal: if is_b { -normal } else { normal }, of };
+    edge_points([outline, incident], edge, &axis, Depths { deep, within }, is_b)
+}
+
 /// Contact points of an edge of `outline` with this outward normal, and the incident shape.
 #[inline]
 fn edge_points(

@@ -46,7 +46,7 @@ impl Circles {
             Shape2::Rect(rect) => (Vec2::ZERO, rect.outer_radius(), rect.inner_radius()),
             Shape2::Circle(circle) => (Vec2::ZERO, circle.radius(), circle.radius()),
             Shape2::Capsule(_) | Shape2::Segment(_) => (shape.center(), shape.outer_radius(), shape.radius()),
-            Shape2::HalfPlane(_) | Shape2::Compound(_) => return None,
+            Shape2::HalfPlane(_) | Shape2::Compound(_) | Shape2::Chain(_) => return None,
         };
         Some(Self { center, outer, inner })
     }

@@ -1,0 +1,162 @@
+//! Straight runs: segments of one line, which rounding bent.
+//!
+//! ```text
+//! from the first vertex of a run, every later one lets through lines that pass it within its rounding: a wedge
+//! the wedges of all vertices between are cut to what they have in common
+//! the run goes on while the next vertex lies in that, and further on than the last
+//! ```
+//! Zhao and Saalfeld, "Linear-time sleeve-fitting polyline simplification algorithms" (1997). A line that was cut into
+//! segments has vertices beside it by as much as f32 rounds their coordinates. Of a segment a thousandth of its coordinates
+//! long, that turns the normal by 0.005 degrees, and of shorter ones by more: contacts must not follow it. Angles can
+//! not tell such bends from others; the rounding can.
+
+use super::Chain;
+use super::segment_count;
+use crate::segment::Segment2;
+use crate::tolerance::STRAIGHT;
+use glam::{DVec2, Vec2};
+
+/// Segments of a chain that lie on one line, up to the rounding of their vertices: for contacts, one segment.
+///
+/// ```
+/// use asunder_geometry::{Chain, glam::Vec2};
+/// let step = [(3.0, 0.0), (2.0, 0.0), (0.0, 0.0), (0.0, 1.0)].map(|(x, y)| Vec2::new(x, y));
+/// let chain = Chain::open(step)?;
+/// let run = chain.run_of(1).ok_or("there are three segments")?;
+/// assert_eq!((run.first(), run.vertices(), run.unevenness()), (0, [0, 2], 0.0));
+/// assert_eq!(chain.chord(&run).map(|chord| chord.ends()), Some([Vec2::new(3.0, 0.0), Vec2::ZERO]));
+/// assert_eq!(chain.run_after(&run).map(|next| next.first()), Some(2));
+/// assert_eq!(chain.run_before(&run), None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// Its place among the runs.
+    place: usize,
+    first: u32,
+    vertices: [u32; 2],
+    unevenness: f64,
+}
+
+impl Run {
+    /// Its first segment, along the chain: the run's name.
+    #[inline]
+    pub const fn first(&self) -> u32 {
+        self.first
+    }
+
+    /// The vertices that it leads from and to.
+    #[inline]
+    pub const fn vertices(&self) -> [u32; 2] {
+        self.vertices
+    }
+
+    /// The furthest that any of its vertices may lie beside the line from its first to its last, in metres. Zero for a
+    /// single segment.
+    #[inline]
+    pub const fn unevenness(&self) -> f64 {
+        self.unevenness
+    }
+}
+
+impl Chain {
+    /// The straight run that a segment belongs to. Nothing beyond the last segment. Cost: the logarithm of the number of
+    /// runs.
+    pub fn run_of(&self, segment: u32) -> Option<Run> {
+        if segment as usize >= self.segment_count() {
+            return None;
+        }
+        let runs = &self.data.runs;
+        let after = runs.partition_point(|&first| first <= segment);
+        // Of a closed chain, the last run may go on at the beginning.
+        self.run_at(if after == 0 { runs.len() - 1 } else { after - 1 })
+    }
+
+    /// The run before it, if the chain does not begin with it.
+    pub fn run_before(&self, run: &Run) -> Option<Run> {
+        match run.place.checked_sub(1) {
+            Some(place) => self.run_at(place),
+            None if self.data.is_closed => self.run_at(self.data.runs.len() - 1),
+            None => None,
+        }
+    }
+
+    /// The run after it, if the chain does not end with it.
+    pub fn run_after(&self, run: &Run) -> Option<Run> {
+        let next = self.run_at(run.place + 1);
+        if self.data.is_closed { next.or_else(|| self.run_at(0)) } else { next }
+    }
+
+    /// The segment from a run's first vertex to its last.
+    pub fn chord(&self, run: &Run) -> Option<Segment2> {
+        let [from, to] = run.vertices.map(|vertex| self.data.vertices.get(vertex as usize).copied());
+        Some(Segment2::between([from?, to?]))
+    }
+
+    fn run_at(&self, place: usize) -> Option<Run> {
+        let (runs, vertices) = (&self.data.runs, &self.data.vertices);
+        let first = *runs.get(place)?;
+        let end = match runs.get(place + 1) {
+            Some(&next) => next,
+            None if self.data.is_closed => *runs.first()?,
+            None => vertices.len() as u32 - 1,
+        };
+        let is_one = first + 1 == end || (end == 0 && first as usize + 1 == vertices.len());
+        let unevenness = match (vertices.get(first as usize), vertices.get(end as usize)) {
+            (Some(from), Some(to)) if !is_one => corridor([*from, *to], (*to - *from).as_dvec2()),
+            _ => 0.0,
+        };
+        Some(Run { place, first, vertices: [first, end], unevenness })
+    }
+}
+
+/// First segments of all runs, ascending.
+pub(super) fn runs(vertices: &[Vec2], is_closed: bool) -> Vec<u32> {
+    let segments = segment_count(vertices.len(), is_closed);
+    // Of a closed chain, a run that leads over its beginning is one: begin where one ends.
+    let start = if is_closed { run_from(vertices, 0, segments) % segments.max(1) } else { 0 };
+    let mut runs = Vec::new();
+    let (mut first, end) = (start, start + segments);
+    while first < end {
+        runs.push((first % segments) as u32);
+        first += run_from(vertices, first, end - first);
+    }
+    runs.sort_unstable();
+    runs
+}
+
+/// How many segments belong to the run that begins at a vertex, at most so many.
+fn run_from(vertices: &[Vec2], start: usize, most: usize) -> usize {
+    let vertex = |i: usize| vertices.get((start + i) % vertices.len()).copied().unwrap_or_default();
+    let from = vertex(0);
+    let mut wedge: Option<[DVec2; 2]> = None;
+    for count in 1..most {
+        let [inner, next] = [vertex(count), vertex(count + 1)];
+        let (along, ahead) = (inner.as_dvec2() - from.as_dvec2(), next.as_dvec2() - from.as_dvec2());
+        let [aside, length] = [corridor([from, inner], along), along.length()];
+        if length > aside {
+            let across = along.perp() * (aside / length);
+            wedge = Some(match wedge {
+                None => [along - across, along + across],
+                Some([right, left]) => [
+                    if right.perp_dot(along - across) > 0.0 { along - across } else { right },
+                    if left.perp_dot(along + across) < 0.0 { along + across } else { left },
+                ],
+            });
+        }
+        let is_within =
+            |[right, left]: [DVec2; 2]| right.perp_dot(ahead) >= 0.0 && left.perp_dot(ahead) <= 0.0;
+        let goes_on = (ahead - along).dot(ahead) > 0.0 && (ahead - along).dot(along) > 0.0;
+        if !goes_on || !wedge.is_none_or(is_within) {
+            return count;
+        }
+    }
+    most
+}
+
+/// How far beside a line through two points a vertex between them may lie: what all coordinates round to.
+fn corridor([one, other]: [Vec2; 2], along: DVec2) -> f64 {
+    let largest = one.abs().max(other.abs()).as_dvec2();
+    let normal = along.perp().abs() / along.length().max(f64::MIN_POSITIVE);
+    STRAIGHT * normal.dot(largest)
+}

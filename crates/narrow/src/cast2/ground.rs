@@ -1,0 +1,121 @@
+//! Casts against chains: segment by segment, those first that circles say are met first.
+//!
+//! Each segment is a shape like any other, so that a miss is as certain as of those. What the ground adds is which sides are
+//! seen, and which normals there are: see `ground2`.
+
+use super::course::{Course, Touching, meeting};
+use super::piece::{Piece, for_pieces};
+use super::stretch::Stretch;
+use super::{at_start, impact};
+use crate::ground2::{Surface, Told};
+use crate::impact2::Impact2;
+use crate::pair2::Pair2;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::{Aabb2, Chain, Run, Shape2};
+
+impl Pair2<'_> {
+    /// The contact with ground that sees the other from the start, if there is one.
+    pub(super) fn touching_ground_at_start(&self) -> Option<Impact2> {
+        if self.shape_a.is_ground() && self.shape_b.is_ground() {
+            return self.overlaps().then(|| self.touching_at_start());
+        }
+        let mut manifolds = Vec::new();
+        if self.contact_on_ground(0.0, &mut manifolds) != Some(true) {
+            return None;
+        }
+        let deepest =
+            manifolds.iter().reduce(|best, next| if next.separation < best.separation { next } else { best });
+        Some(deepest.and_then(at_start).unwrap_or_else(|| self.touching_at_start()))
+    }
+
+    /// The first segment and part that touch within a stretch.
+    pub(super) fn first_touch_of_ground(&self, stretch: &Stretch) -> Option<Impact2> {
+        let mut first = First { stretch, end: 1.0, impact: None };
+        match (self.shape_a, self.shape_b) {
+            (Shape2::Chain(a), Shape2::Chain(b)) => {
+                let whole_b = Piece::whole(self.shape_b);
+                first.of_segments(a, &whole_b, 0, |first, segment| first.with_chain(b, segment, 1));
+            }
+            (Shape2::Chain(a), other) => for_pieces(other, |piece| first.with_chain(a, piece, 0)),
+            (other, Shape2::Chain(b)) => for_pieces(other, |piece| first.with_chain(b, piece, 1)),
+            _ => {}
+        }
+        first.impact
+    }
+}
+
+/// What is met first, as far as it is known.
+struct First<'s> {
+    stretch: &'s Stretch,
+    /// When.
+    end: f64,
+    impact: Option<Impact2>,
+}
+
+impl First<'_> {
+    /// Visits the segments of a chain that may meet a piece before the end.
+    fn of_segments(
+        &mut self,
+        chain: &Chain,
+        other: &Piece,
+        side: usize,
+        mut visit: impl FnMut(&mut Self, &Piece),
+    ) {
+        let (stretch, shape) = (self.stretch, Shape2::Chain(chain.clone()));
+        let first_meeting = |bounds: &Aabb2| {
+            let bounds = Piece::boxed(&shape, bounds);
+            let pieces = if side == 0 { [&bounds, other] } else { [other, &bounds] };
+            meeting(stretch, pieces, 1.0).map_or(f64::INFINITY, |[first, _]| first)
+        };
+        chain.visit_nearest(self.end, first_meeting, |segment| {
+            if let Some(shape) = chain.segment(segment).map(Shape2::Segment) {
+                visit(self, &Piece::segment(&shape, segment));
+            }
+            self.end
+        });
+    }
+
+    /// The first segment of a chain that a piece meets.
+    fn with_chain(&mut self, chain: &Chain, other: &Piece, side: usize) {
+        self.of_segments(chain, other, side, |first, segment| {
+            let pieces = if side == 0 { [segment, other] } else { [other, segment] };
+            let found = Course::new(first.stretch, pieces, first.end).and_then(|course| {
+                let touching = course.first_touch()?;
+                Some((surface_met(chain, segment.index, &course, &touching, side)?, touching))
+            });
+            let Some(((axis, run), touching)) = found else { return };
+            // Of equals, the first counts.
+            if first.impact.is_some() && touching.at >= first.end {
+                return;
+            }
+            first.end = touching.at;
+            let mut impact = impact(first.stretch, &touching, pieces);
+            impact.normal = axis.as_vec2();
+            *(if side == 0 { &mut impact.part_a } else { &mut impact.part_b }) = run.first();
+            first.impact = Some(impact);
+        });
+    }
+}
+
+/// The axis from A to B that the ground has where it is met, and the run there. Nothing where it does not see the
+/// other.
+fn surface_met(
+    chain: &Chain,
+    segment: u32,
+    course: &Course,
+    touching: &Touching,
+    side: usize,
+) -> Option<(DVec2, Run)> {
+    let run = chain.run_of(segment)?;
+    if course.is_with_line(1 - side) {
+        return Some((touching.axis, run));
+    }
+    let surface: Surface = course.surface(side, chain, &run, touching.at)?;
+    let away = if side == 0 { touching.axis } else { -touching.axis };
+    let normal = match surface.tell_at(away, touching.points[side], course.nearness()) {
+        Told::Corner => away,
+        Told::Face | Told::Inner => surface.normal,
+        Told::Beyond(normal) => normal,
+    };
+    Some((if side == 0 { normal } else { -normal }, run))
+}

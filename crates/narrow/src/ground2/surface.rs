@@ -1,0 +1,124 @@
+//! A straight run of a chain as a surface: which normals it has, and which of those that a kernel finds are its own.
+//!
+//! ```text
+//! d = from the ground to the body
+//! along the run's normal:                     its face is touched
+//! past an end, with no neighbour there:       a loose end
+//!              within the neighbour's, too:   the corner is touched, on its outer side        (Voronoi region)
+//!              beyond the neighbour's normal: the neighbour is touched and not this run
+//!                  a sharp corner:            this run adds nothing
+//!                  a blunt one, a hollow:     the run's own normal takes the place of d
+//! ```
+//! So inner vertices of a straight line, and hollows, never give a sideways normal. That the neighbour alone has a sharp
+//! corner's contact matters: what lies below the one face of a step lies deep behind the other, and a body that stands
+//! on it, tilted by nothing, would be pushed off. Where faces meet bluntly neither is deep where the other is shallow,
+//! and segments that are tiny beside a depth need a normal that is not their end's.
+
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::tolerance::{ALONG_GROUND, BEHIND_END, SHARP_CORNER};
+use asunder_geometry::{Chain, Run};
+
+use crate::polygon::outline::Turn;
+
+/// A straight run in the frame of a pair, on the side that a body is on.
+#[derive(Clone, Copy)]
+pub(crate) struct Surface {
+    run: Run,
+    /// Its ends, and the unit vector from the first to the last.
+    ends: [DVec2; 2],
+    along: DVec2,
+    /// Unit normal, on the body's side.
+    pub(crate) normal: DVec2,
+    /// Directions along the runs before and after it, where there are any.
+    neighbours: [Option<DVec2>; 2],
+    is_front: bool,
+    is_one_sided: bool,
+}
+
+/// What a direction from the ground to a body says of the run that it was found on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Told {
+    /// It is the run's normal.
+    Face,
+    /// It is that of a corner, or a loose end.
+    Corner,
+    /// It is neither: the run's own normal is to take its place.
+    Inner,
+    /// It is neither, beyond a sharp corner: the neighbour's normal, which sees to it.
+    Beyond(DVec2),
+}
+
+impl Surface {
+    /// A run of a chain that is turned, with its origin at `origin`, seen by a body whose centre is given in the same frame.
+    /// Nothing where a one-sided chain is not seen from there. What has no centre sees all.
+    pub(crate) fn new(
+        chain: &Chain,
+        run: &Run,
+        (turn, origin): (&Turn, DVec2),
+        center: Option<DVec2>,
+    ) -> Option<Self> {
+        let vertex = |index: u32| chain.vertices().get(index as usize).map(|vertex| vertex.as_dvec2());
+        let straight = |run: &Run| {
+            let [from, to] = run.vertices();
+            turn.turn(vertex(to)? - vertex(from)?).try_normalize()
+        };
+        let [from, to] = run.vertices();
+        let ends = [origin + turn.turn(vertex(from)?), origin + turn.turn(vertex(to)?)];
+        let along = straight(run)?;
+        let front = right_of(along);
+        let is_front = center.is_none_or(|center| front.dot(center - ends[0]) >= 0.0);
+        if chain.is_one_sided() && !is_front {
+            return None;
+        }
+        let neighbours = [chain.run_before(run), chain.run_after(run)];
+        Some(Self {
+            run: *run,
+            ends,
+            along,
+            normal: if is_front { front } else { -front },
+            neighbours: neighbours.map(|run| straight(&run?)),
+            is_front,
+            is_one_sided: chain.is_one_sided(),
+        })
+    }
+
+    /// Which edge of the segment from its first vertex to its last looks along the normal.
+    pub(crate) fn edge(&self) -> usize {
+        usize::from(!self.is_front)
+    }
+
+    /// What a unit direction from the ground to the body is.
+    pub(crate) fn tell(&self, direction: DVec2) -> Told {
+        let (lean, height) = (direction.dot(self.along), direction.dot(self.normal));
+        if lean.abs() <= ALONG_GROUND {
+            return if height > 0.0 { Told::Face } else { Told::Inner };
+        }
+        let end = usize::from(lean > 0.0);
+        let Some(next) = self.neighbours[end] else {
+            let is_seen = !self.is_one_sided || height >= -BEHIND_END;
+            return if is_seen { Told::Corner } else { Told::Beyond(self.normal) };
+        };
+        // Away from the corner.
+        let leaving = if end == 1 { next } else { -next };
+        if direction.dot(leaving) <= ALONG_GROUND && !(self.is_one_sided && height < -ALONG_GROUND) {
+            return Told::Corner;
+        }
+        let normal = if self.is_front { right_of(next) } else { -right_of(next) };
+        let is_convex = leaving.dot(self.normal) < 0.0;
+        if is_convex && normal.dot(self.normal) < SHARP_CORNER { Told::Beyond(normal) } else { Told::Inner }
+    }
+
+    /// The same of a point where the ground is touched: inner vertices of the run are no corners, though it may have
+    /// them. `near` is how far from an end counts as the end.
+    pub(crate) fn tell_at(&self, direction: DVec2, point: DVec2, near: f64) -> Told {
+        let told = self.tell(direction);
+        let end = self.ends[usize::from(direction.dot(self.along) > 0.0)];
+        let is_inner = (point - end).dot(self.along).abs() > near + self.run.unevenness();
+        if is_inner && told != Told::Face { Told::Inner } else { told }
+    }
+}
+
+/// The direction to the right of another.
+fn right_of(along: DVec2) -> DVec2 {
+    -along.perp()
+}

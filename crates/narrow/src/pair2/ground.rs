@@ -1,0 +1,172 @@
+//! Chains: whether and how far segments are from the parts of other bodies. Contacts stand in `contact`.
+//!
+//! Every segment is a shape like any other, and asked about by the same kernels; the least counts, as of compounds. A
+//! tree of boxes along the chain leads to those that are near.
+
+mod contact;
+mod patches;
+
+use super::{Pair2, Part, Parts, Place, for_parts};
+use crate::answer::{Tier, Verdict};
+use crate::feature::Hint;
+use crate::ground2::Zone;
+use crate::least::Least;
+use crate::polygon::measure::{Asked, Near, Probe};
+use crate::precision::rounded_down;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::{Aabb2, Chain, Shape2};
+use core::ops::ControlFlow;
+
+impl Pair2<'_> {
+    /// Whether a shape is ground.
+    #[inline]
+    pub(crate) fn has_ground(&self) -> bool {
+        self.shape_a.is_ground() || self.shape_b.is_ground()
+    }
+
+    pub(super) fn verdict_on_ground(&self) -> Verdict {
+        let mut tier = Tier::Bound;
+        let overlapping = self.any_on_ground(|parts| {
+            let verdict = parts.convex.verdict();
+            tier = tier.max(verdict.tier);
+            verdict.overlapping
+        });
+        Verdict { overlapping, tier }
+    }
+
+    pub(super) fn guess_on_ground(&self) -> bool {
+        self.any_on_ground(|parts| parts.convex.guess())
+    }
+
+    /// Whether the answer is yes for any segment and any part of the other shape, of those whose boxes meet.
+    fn any_on_ground(&self, mut ask: impl FnMut(&Parts) -> bool) -> bool {
+        let near = |zone: &Zone, bounds: &Aabb2| zone.gap(bounds) <= 0.0;
+        let mut among = |side: usize, chain: &Chain, other: Part| {
+            let zone = self.zone(side, &other);
+            let visit = |segment| {
+                let is_met = self.with_segment(side, chain, (segment, other), |parts| ask(&parts));
+                if is_met == Some(true) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            chain.visit_where(|bounds| near(&zone, bounds), visit).is_break()
+        };
+        match (self.shape_a, self.shape_b) {
+            (Shape2::Chain(a), Shape2::Chain(b)) => {
+                let zone = self.zone(0, &Part::whole(self.shape_b, &self.turn_b));
+                let visit = |segment| {
+                    let found = a.segment(segment).map(Shape2::Segment);
+                    let is_met =
+                        found.is_some_and(|shape| among(1, b, Part::segment(segment, &shape, &self.turn_a)));
+                    if is_met { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                };
+                a.visit_where(|bounds| near(&zone, bounds), visit).is_break()
+            }
+            (Shape2::Chain(a), other) => for_parts(other, &self.turn_b, |part| among(0, a, part)),
+            (other, Shape2::Chain(b)) => for_parts(other, &self.turn_a, |part| among(1, b, part)),
+            _ => false,
+        }
+    }
+
+    /// The segment and part with the least separation, or a bound where all are beyond the limit.
+    pub(super) fn nearest_on_ground(&self, limit: f64) -> Result<(Place, Near), f32> {
+        let mut least = Least::within(limit);
+        match (self.shape_a, self.shape_b) {
+            (Shape2::Chain(a), Shape2::Chain(b)) => {
+                let zone = self.zone(0, &Part::whole(self.shape_b, &self.turn_b));
+                let visit = |segment| {
+                    if let Some(shape) = a.segment(segment).map(Shape2::Segment) {
+                        self.nearest_segment(1, b, Part::segment(segment, &shape, &self.turn_a), &mut least);
+                    }
+                    least.reach()
+                };
+                a.visit_nearest(limit, |bounds| zone.gap(bounds), visit);
+            }
+            (Shape2::Chain(a), other) => {
+                for_parts(other, &self.turn_b, |part| self.nearest_segment(0, a, part, &mut least));
+            }
+            (other, Shape2::Chain(b)) => {
+                for_parts(other, &self.turn_a, |part| self.nearest_segment(1, b, part, &mut least));
+            }
+            _ => {}
+        }
+        // What no box was opened for is beyond the limit.
+        least.give_up(rounded_down(limit));
+        let ((place, mut near), error) = least.finish()?;
+        near.error = error;
+        Ok((place, near))
+    }
+
+    /// Offers the segments of a chain that may be nearest to a part. Never breaks off.
+    fn nearest_segment(
+        &self,
+        side: usize,
+        chain: &Chain,
+        other: Part,
+        least: &mut Least<(Place, Near)>,
+    ) -> bool {
+        let zone = self.zone(side, &other);
+        let mut deepest = f64::INFINITY;
+        let limit = least.reach();
+        chain.visit_nearest(
+            limit,
+            |bounds| zone.gap(bounds),
+            |segment| {
+                let asked = Asked { limit: least.reach(), hint: Hint::NONE, points: false };
+                let found = self.with_segment(side, chain, (segment, other), |parts| {
+                    (parts.place, parts.convex.probe(&asked))
+                });
+                match found {
+                    Some((place, Probe::Near(near))) => {
+                        let (separation, error) = (near.separation, near.error);
+                        deepest = deepest.min(f64::from(separation));
+                        least.offer((place, near), separation, error);
+                    }
+                    Some((_, Probe::Beyond(at_least, _))) => least.give_up(at_least),
+                    None => {}
+                }
+                // Of a half-plane, a box tells how deep it is, and the deepest is all that counts.
+                if zone.is_endless() { deepest.min(least.reach()) } else { least.reach() }
+            },
+        );
+        false
+    }
+
+    /// A segment of the chain on one side of the pair, and a part of the other.
+    fn with_segment<R>(
+        &self,
+        side: usize,
+        chain: &Chain,
+        (segment, other): (u32, Part),
+        ask: impl FnOnce(Parts) -> R,
+    ) -> Option<R> {
+        let shape = Shape2::Segment(chain.segment(segment)?);
+        let turn = if side == 0 { &self.turn_a } else { &self.turn_b };
+        Some(ask(self.ordered(side, Part::segment(segment, &shape, turn), other)))
+    }
+
+    /// A part of the ground and one of the other body, A's first.
+    fn ordered<'p>(&self, side: usize, ground: Part<'p>, other: Part<'p>) -> Parts<'p> {
+        if side == 0 { self.parts(ground, other) } else { self.parts(other, ground) }
+    }
+
+    /// Where a part of the body is, in the axes of the chain that is A (side 0) or B.
+    fn zone(&self, side: usize, part: &Part) -> Zone {
+        let (chain, body) =
+            if side == 0 { (&self.turn_a, &self.turn_b) } else { (&self.turn_b, &self.turn_a) };
+        let between = if side == 0 { self.between } else { -self.between };
+        let (turn, shift) = part.placed(body);
+        let summed = between.abs().element_sum() + shift.abs().element_sum();
+        Zone::of(part.shape, turn, between + shift, chain, summed)
+    }
+}
+
+impl<'p> Part<'p> {
+    /// A segment of a chain.
+    fn segment(index: u32, shape: &'p Shape2, turn: &super::Turn) -> Self {
+        Self { index, ..Self::whole(shape, turn) }
+    }
+
+    /// Its centre relative to A's position; nothing for what has none.
+    fn middle(&self, body: DVec2) -> Option<DVec2> {
+        (self.shape.outer_radius() < f32::INFINITY).then(|| body + self.center)
+    }
+}

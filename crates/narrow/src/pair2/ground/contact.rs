@@ -1,0 +1,169 @@
+//! Contacts on chains, without ghost collisions.
+//!
+//! ```text
+//! for each convex part of the body
+//!   for each straight run of the chain of which a segment is near, and which sees the part     (Surface)
+//!     ask the kernels how the part touches the run, as if it were one segment
+//!     what they say is the run's face or a corner of it: their points
+//!     it is a normal that the surface does not have: what of the part lies over the run       (over_edge)
+//!   one manifold for each normal                                                               (patches)
+//! ```
+//! A run in place of its segments is what keeps points and their names as a body slides; the segments themselves are asked
+//! only whether they overlap, exactly, and only where the run, which they lie within rounding of, leaves it open.
+
+use super::super::{Pair2, Part, Parts, for_parts};
+use super::patches::{Patch, Patches};
+use crate::answer::Manifold2;
+use crate::feature::Hint;
+use crate::ground2::{Surface, Told, Zone};
+use crate::polygon::manifold::Point;
+use crate::polygon::measure::{Asked, Near, Probe};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::tolerance::STRAIGHT;
+use asunder_geometry::{Chain, Run, Shape2};
+use core::ops::ControlFlow;
+
+/// One convex part, and the chain that it may stand on.
+struct Standing<'p> {
+    pair: &'p Pair2<'p>,
+    chain: &'p Chain,
+    /// Which of the pair the chain is: 0 is A.
+    side: usize,
+    part: Part<'p>,
+    /// Metres within which points are wanted, and the same as the number that is told may be.
+    margin: f32,
+    limit: f64,
+}
+
+/// What is known of whether a run's segments overlap the part.
+#[derive(Clone, Copy)]
+enum Overlap {
+    Told(bool),
+    /// By less than the segments lie beside the run: each has to be asked.
+    Open,
+}
+
+impl Pair2<'_> {
+    /// Whether a body and ground that sees it overlap, if they are within the margin of each other. Manifolds are added to
+    /// a list.
+    pub(crate) fn contact_on_ground(&self, margin: f32, manifolds: &mut Vec<Manifold2>) -> Option<bool> {
+        let (side, chain, shape, turn) = match (self.shape_a, self.shape_b) {
+            // Ground does not stand on ground.
+            (Shape2::Chain(_), Shape2::Chain(_)) => return None,
+            (Shape2::Chain(chain), shape) => (0, chain, shape, &self.turn_b),
+            (shape, Shape2::Chain(chain)) => (1, chain, shape, &self.turn_a),
+            _ => return None,
+        };
+        let margin = margin.max(0.0);
+        let mut touch: Option<bool> = None;
+        for_parts(shape, turn, |part| {
+            let limit = f64::from(margin.next_up());
+            let standing = Standing { pair: self, chain, side, part, margin, limit };
+            if let Some(overlapping) = standing.contact(manifolds) {
+                touch = Some(touch.unwrap_or(false) || overlapping);
+            }
+            false
+        });
+        touch
+    }
+}
+
+impl Standing<'_> {
+    fn contact(&self, manifolds: &mut Vec<Manifold2>) -> Option<bool> {
+        let zone = self.pair.zone(self.side, &self.part);
+        let mut patches = Patches::new(manifolds, self.side);
+        let mut known: [Option<(Run, Overlap)>; 2] = [None; 2];
+        let mut overlapping = false;
+        let _ = self.chain.visit_where(self.is_near(&zone), |segment| {
+            let Some(run) = self.chain.run_of(segment) else { return ControlFlow::Continue(()) };
+            let seen = known.into_iter().flatten().find(|(other, _)| other.first() == run.first());
+            let overlap = seen.map_or_else(|| self.on_run(&run, &mut patches), |(_, overlap)| overlap);
+            // Of a closed chain the last run may be the first one as well.
+            known = [known[0].or(Some((run, overlap))), Some((run, overlap))];
+            overlapping |= match overlap {
+                Overlap::Told(overlapping) => overlapping,
+                Overlap::Open if overlapping => true,
+                Overlap::Open => {
+                    let verdict = |parts: Parts| parts.convex.verdict().overlapping;
+                    self.pair.with_segment(self.side, self.chain, (segment, self.part), verdict) == Some(true)
+                }
+            };
+            ControlFlow::Continue(())
+        });
+        patches.finish(overlapping).then_some(overlapping)
+    }
+
+    /// Which boxes hold segments whose run may be within the limit.
+    fn is_near<'z>(&self, zone: &'z Zone) -> impl Fn(&asunder_geometry::Aabb2) -> bool + 'z {
+        // By how much segments may lie beside their run.
+        let limit = self.limit;
+        let uneven = 4.0 * STRAIGHT * (zone.reach() + limit);
+        move |bounds| {
+            let reach = if zone.is_endless() {
+                let [low, high] = [bounds.min, bounds.max].map(|corner| corner.as_dvec2().abs());
+                4.0 * STRAIGHT * low.max(high).element_sum()
+            } else {
+                uneven
+            };
+            zone.gap(bounds) <= limit + reach
+        }
+    }
+
+    /// How the part touches a run.
+    fn on_run(&self, run: &Run, patches: &mut Patches) -> Overlap {
+        let pair = self.pair;
+        let [chain_at, body_at] =
+            if self.side == 0 { [DVec2::ZERO, pair.between] } else { [pair.between, DVec2::ZERO] };
+        let turn = if self.side == 0 { &pair.turn_a } else { &pair.turn_b };
+        let center = self.part.middle(body_at);
+        let Some(surface) = Surface::new(self.chain, run, (turn, chain_at), center) else {
+            return Overlap::Told(false);
+        };
+        let Some(chord) = self.chain.chord(run).map(Shape2::Segment) else { return Overlap::Told(false) };
+        let parts = pair.ordered(self.side, Part::segment(run.first(), &chord, turn), self.part);
+        let limit = self.limit + run.unevenness();
+        let Probe::Near(near) = parts.convex.probe(&Asked { limit, hint: Hint::NONE, points: true }) else {
+            return Overlap::Told(false);
+        };
+        let overlap = overlap(&near, run);
+        let Some(touch) = &near.touch else { return overlap };
+        let preference = parts.convex.preference();
+        let patch = |normal: DVec2, points: &[Point]| {
+            Patch::new((normal, points), (&parts.place, self.side), run, &near)
+        };
+        let kernels = || patch(touch.normal, &touch.points);
+        let away = if self.side == 0 { touch.normal } else { -touch.normal };
+        let told = if center.is_none() { Told::Corner } else { surface.tell(away) };
+        let (made, spare) = match told {
+            Told::Corner => (kernels(), None),
+            Told::Beyond(_) => (None, kernels()),
+            Told::Face | Told::Inner => {
+                let edge = (surface.edge(), surface.normal);
+                let points: ArrayVec<Point, 2> = parts.convex.over_edge(self.side == 1, edge, limit);
+                let normal = if self.side == 0 { surface.normal } else { -surface.normal };
+                let over = patch(normal, &points).map(Patch::as_deep_as_its_points);
+                // At a corner that is hardly one, rounding may see nothing over either face.
+                let is_face = told == Told::Face;
+                if is_face { (over.or_else(kernels), None) } else { (over, kernels()) }
+            }
+        };
+        match made.as_ref().and_then(|made| made.within(self.margin)) {
+            Some(patch) => patches.add(patch, preference),
+            None => patches.spare(made.or(spare)),
+        }
+        overlap
+    }
+}
+
+/// Whether a run that is asked about as one segment tells of its own.
+fn overlap(near: &Near, run: &Run) -> Overlap {
+    let clear = f64::from(near.error) + run.unevenness();
+    if run.unevenness() == 0.0 {
+        Overlap::Told(near.verdict.overlapping)
+    } else if f64::from(near.separation) > clear {
+        Overlap::Told(false)
+    } else {
+        Overlap::Open
+    }
+}

@@ -1,0 +1,176 @@
+//! Manifolds on ground: what belongs to one normal is one.
+
+use super::super::Place;
+use crate::answer::{ContactPoint2, Manifold2};
+use crate::feature::{Feature, FeatureId};
+use crate::polygon::manifold::Point;
+use crate::polygon::measure::Near;
+use crate::precision::signed;
+use arrayvec::ArrayVec;
+use asunder_geometry::Run;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::tolerance::ONE_NORMAL;
+
+/// Contact points of one run, or of a corner of it.
+pub(super) struct Patch(Manifold2);
+
+impl Patch {
+    /// Points that a kernel made on the segment from a run's first vertex to its last, by the names of the chain. `normal`
+    /// leads from A to B; `side` is 0 where the chain is A. Nothing without points.
+    pub(super) fn new(
+        (normal, points): (DVec2, &[Point]),
+        (place, side): (&Place, usize),
+        run: &Run,
+        near: &Near,
+    ) -> Option<Self> {
+        if points.is_empty() {
+            return None;
+        }
+        let of_ground = |feature: Feature| match feature {
+            Feature::Vertex(0) => Feature::Vertex(run.vertices()[0]),
+            Feature::Vertex(_) => Feature::Vertex(run.vertices()[1]),
+            // A segment has two edges, back to back.
+            Feature::Edge(_) | Feature::Face(_) => Feature::Edge(run.first()),
+        };
+        let renamed = |id: FeatureId| {
+            if side == 0 {
+                FeatureId::new(of_ground(id.a()), id.b())
+            } else {
+                FeatureId::new(id.a(), of_ground(id.b()))
+            }
+        };
+        let [to_a, to_b] = place.shifts();
+        let point = |point: &Point| ContactPoint2 {
+            separation: point.separation as f32,
+            anchor_a: (point.on_a + to_a).as_vec2(),
+            anchor_b: (point.on_b + to_b).as_vec2(),
+            feature: renamed(point.feature),
+        };
+        let [part_a, part_b] = place.indices;
+        let uneven = (run.unevenness() as f32).next_up();
+        Some(Self(Manifold2 {
+            part_a,
+            part_b,
+            normal: normal.as_vec2(),
+            separation: near.separation,
+            error: if run.unevenness() > 0.0 { (near.error + uneven).next_up() } else { near.error },
+            points: points.iter().map(point).collect(),
+        }))
+    }
+
+    /// The same where the kernel's own separation is along another normal.
+    pub(super) fn as_deep_as_its_points(mut self) -> Self {
+        self.0.separation =
+            self.0.points.iter().fold(f32::INFINITY, |least, point| least.min(point.separation));
+        self
+    }
+
+    /// What of it is within a margin, if anything.
+    pub(super) fn within(&self, margin: f32) -> Option<Self> {
+        let mut manifold = self.0.clone();
+        manifold.points.retain(|point| point.separation <= margin);
+        (!manifold.points.is_empty()).then_some(Self(manifold))
+    }
+}
+
+/// The manifolds of one convex part on ground.
+pub(super) struct Patches<'m> {
+    manifolds: &'m mut Vec<Manifold2>,
+    /// Where the part's begin.
+    first: usize,
+    /// What counts only where nothing else touches, though they overlap.
+    spare: Option<Manifold2>,
+    /// The chain's place among the two bodies.
+    side: usize,
+}
+
+impl<'m> Patches<'m> {
+    /// Manifolds go to the end of a list.
+    pub(super) fn new(manifolds: &'m mut Vec<Manifold2>, side: usize) -> Self {
+        let first = manifolds.len();
+        Self { manifolds, first, spare: None, side }
+    }
+
+    /// Adds points to the manifold of their normal. `preference` is how much deeper is deeper, in metres.
+    pub(super) fn add(&mut self, Patch(next): Patch, preference: f64) {
+        let is_alike =
+            |known: &&mut Manifold2| (known.normal - next.normal).length_squared() <= ONE_NORMAL * ONE_NORMAL;
+        match self.manifolds.iter_mut().skip(self.first).find(is_alike) {
+            None => self.manifolds.push(next),
+            Some(known) => merge(known, &next, self.side, preference as f32),
+        }
+    }
+
+    /// Keeps a patch for the case that no other touches.
+    pub(super) fn spare(&mut self, patch: Option<Patch>) {
+        let Some(Patch(next)) = patch else { return };
+        if self.spare.as_ref().is_none_or(|known| next.separation < known.separation) {
+            self.spare = Some(next);
+        }
+    }
+
+    /// Whether there is a contact. The exact answer decides the signs.
+    pub(super) fn finish(self, overlapping: bool) -> bool {
+        if overlapping && self.manifolds.len() == self.first {
+            self.manifolds.extend(self.spare);
+        }
+        let own = self.manifolds.get_mut(self.first..).unwrap_or_default();
+        if !overlapping {
+            own.iter_mut().for_each(|known| known.separation = signed(f64::from(known.separation), false));
+        } else if let Some(least) =
+            own.iter_mut().min_by(|one, other| one.separation.total_cmp(&other.separation))
+        {
+            least.separation = signed(f64::from(least.separation), true);
+        }
+        overlapping || !own.is_empty()
+    }
+}
+
+/// Two patches of one normal: the two points that lie furthest apart, unless another is deeper. Then that one, and the
+/// one that is furthest from it.
+fn merge(known: &mut Manifold2, next: &Manifold2, side: usize, preference: f32) {
+    let mut points: ArrayVec<ContactPoint2, 4> = ArrayVec::new();
+    for &point in known.points.iter().chain(&next.points) {
+        match points.iter_mut().find(|other| other.feature == point.feature) {
+            Some(same) if point.separation < same.separation => *same = point,
+            Some(_) => {}
+            None => points.push(point),
+        }
+    }
+    if next.separation < known.separation {
+        (known.separation, known.normal) = (next.separation, next.normal);
+    }
+    known.error = known.error.max(next.error);
+    known.part_a = known.part_a.min(next.part_a);
+    known.part_b = known.part_b.min(next.part_b);
+    let across = known.normal.perp();
+    // Relative to the body that stands: the chain's own anchors may be long.
+    let place = |point: &ContactPoint2| across.dot(if side == 0 { point.anchor_b } else { point.anchor_a });
+    points.sort_unstable_by_key(|point| point.feature);
+    known.points = widest(&points, place, preference);
+}
+
+fn widest(
+    points: &[ContactPoint2],
+    place: impl Fn(&ContactPoint2) -> f32,
+    preference: f32,
+) -> ArrayVec<ContactPoint2, 2> {
+    let least = |by: &dyn Fn(&ContactPoint2) -> f32| {
+        points.iter().copied().reduce(|best, next| if by(&next) < by(&best) { next } else { best })
+    };
+    let [left, right, deepest] =
+        [least(&place), least(&|point| -place(point)), least(&|point| point.separation)];
+    let mut kept = ArrayVec::new();
+    if let (Some(left), Some(right), Some(deepest)) = (left, right, deepest) {
+        let is_deeper = deepest.separation < left.separation.min(right.separation) - preference;
+        let one = if is_deeper { deepest } else { left };
+        let from = |point: &ContactPoint2| (place(point) - place(&deepest)).abs();
+        let other = if is_deeper && from(&left) >= from(&right) { left } else { right };
+        kept.push(one);
+        if other.feature != one.feature {
+            kept.push(other);
+        }
+        kept.sort_unstable_by_key(|point: &ContactPoint2| point.feature);
+    }
+    kept
+}
