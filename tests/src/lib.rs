@@ -63,6 +63,8 @@ mod guide {
     struct Queries;
     #[doc = include_str!("../../docs/guide/characters.md")]
     struct Characters;
+    #[doc = include_str!("../../docs/guide/levels.md")]
+    struct Levels;
     #[doc = include_str!("../../docs/guide/units.md")]
     struct Units;
 }
