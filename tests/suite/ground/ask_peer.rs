@@ -7,8 +7,8 @@ use asunder_geometry::{Pose3, Ray3, Shape3};
 use asunder_narrow::{Pair3, Separation3, cast_ray3};
 use asunder_tests::cases::Random;
 use asunder_tests::shapes::{Clay, KINDS3};
-use parry3d::query::{Ray, distance, intersection_test};
-use parry3d::shape::{Shape, TriMesh};
+use parry3d::query::{Ray, RayCast, distance, intersection_test};
+use parry3d::shape::TriMesh;
 
 /// Share of the body's size, and of a metre of ground, within which parry's answers are not held against ours.
 const BAND: f64 = 1e-3;

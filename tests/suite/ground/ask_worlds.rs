@@ -89,7 +89,7 @@ fn every_question_sees_ground_as_a_loop_over_bodies_does() {
                 .unwrap();
             assert!((closest.distance - least).abs() <= 1e-6 * (1.0 + least), "{seed}: {closest:?} {least}");
             let off = (closest.point - closest.from).length();
-            assert!((off - closest.distance).abs() < 1e-5, "{seed}: {closest:?}");
+            assert!(closest.overlapping || (off - closest.distance).abs() < 1e-5, "{seed}: {closest:?}");
             near += usize::from(!closest.overlapping);
 
             let to_point = world.closest(place, 100.0, &all).unwrap();
@@ -116,15 +116,15 @@ fn a_point_of_ground_is_held_by_it() {
     let ground = world.insert(Collider3::new(mesh((vertices, numbers))).fixed());
     let all = Filter3::new();
     let mut found = vec![];
-    world.overlapping_point([0.25, 0.0, 0.3], &all, &mut found);
+    world.overlapping_point([0.25, 0.0, 0.375], &all, &mut found);
     assert_eq!(found, [ground]);
-    world.overlapping_point([0.25, 1e-12, 0.3], &all, &mut found);
+    world.overlapping_point([0.25, 1e-12, 0.375], &all, &mut found);
     assert!(found.is_empty());
     world.boxes_overlapping(&Aabb3::new(Vec3::splat(-0.1), Vec3::splat(0.1)), &all, &mut found);
     assert_eq!(found, [ground]);
-    let near = world.closest([0.25, 1.5, 0.3], 2.0, &all).unwrap();
-    assert_eq!((near.body, near.distance, near.point), (ground, 1.5, DVec3::new(0.25, 0.0, 0.3)));
-    assert!(world.closest([0.25, 1.5, 0.3], 1.0, &all).is_none());
+    let near = world.closest([0.25, 1.5, 0.375], 2.0, &all).unwrap();
+    assert_eq!((near.body, near.distance, near.point), (ground, 1.5, DVec3::new(0.25, 0.0, 0.375)));
+    assert!(world.closest([0.25, 1.5, 0.375], 1.0, &all).is_none());
 }
 
 #[test]
