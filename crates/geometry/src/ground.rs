@@ -1,11 +1,20 @@
 //! Ground made of triangles, whatever keeps them.
 
+pub(crate) mod bend;
+pub(crate) mod slab;
+#[cfg(test)]
+mod tests;
+pub(crate) mod tree;
+
 use crate::aabb::Aabb3;
 use crate::height_field::HeightField;
 use crate::mesh::TriMesh;
 use crate::shape::Shape3;
 use crate::triangle::Triangle3;
 use core::ops::ControlFlow;
+use glam::{DVec3, Vec3};
+use slab::{Slab, gap};
+use tree::{Line, Near};
 
 /// Ground made of numbered triangles: a mesh or a height field.
 ///
@@ -57,6 +66,14 @@ impl Prominent {
     pub const NONE: Self = Self(0);
     /// Every edge and corner, seen from either side.
     pub const ALL: Self = Self(0xFFF);
+
+    pub(crate) const fn bits(self) -> u16 {
+        self.0
+    }
+
+    pub(crate) const fn from_bits(bits: u16) -> Self {
+        Self(bits)
+    }
 
     const fn edge_bit(edge: usize, is_front: bool) -> u16 {
         1 << (edge % 3 + if is_front { 0 } else { 6 })
@@ -195,6 +212,73 @@ impl<'a> Ground<'a> {
         match self {
             Self::Mesh(mesh) => mesh.visit_near(bounds, visitor),
             Self::Field(field) => field.visit_near(bounds, visitor),
+        }
+    }
+
+    /// Hands every triangle whose box a moving box meets to `visitor`, each once and roughly in the order of meeting,
+    /// up to a limit that `visitor` may lower: it returns the new one.
+    ///
+    /// The moving box has its centre at `from` and these half extents, in metres and local axes; zero, for a ray. It
+    /// moves along `direction`, of any length, by `limit` lengths of it. Boxes are widened by more than rounding:
+    /// none is lost. The order is a function of the ground and the question. Nothing is met by what is not finite.
+    ///
+    /// ```
+    /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
+    /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
+    /// let shape = Shape3::from(mesh);
+    /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
+    /// let mut met = vec![];
+    /// ground.visit_along(DVec3::new(0.1, 2.0, 0.1), DVec3::NEG_Y, Vec3::ZERO, 10.0, |triangle| {
+    ///     met.push(triangle);
+    ///     1.5
+    /// });
+    /// assert_eq!(met, [1], "its box is met first, and the other's is beyond the limit");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_along(
+        self,
+        from: DVec3,
+        direction: DVec3,
+        grown: Vec3,
+        limit: f64,
+        visitor: impl FnMut(u32) -> f64,
+    ) {
+        let (Some(line), Some(slab)) = (Line::new(from, direction, grown), Slab::new(from, direction, grown))
+        else {
+            return;
+        };
+        match self {
+            Self::Mesh(mesh) => mesh.tree().visit_in_order(&line, limit, visitor),
+            Self::Field(field) => {
+                field.visit_in_order(&line, |low, high| slab.enters(low, high), limit, visitor);
+            }
+        }
+    }
+
+    /// Hands every triangle whose box is within `limit` metres of this one, in local axes, to `visitor`, each once and
+    /// roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. The order is a
+    /// function of the ground and the question.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+    /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
+    /// let shape = Shape3::from(mesh);
+    /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
+    /// let mut near = vec![];
+    /// ground.visit_nearest(&Aabb3::new(Vec3::splat(-2.0), Vec3::splat(-1.0)), f64::INFINITY, |triangle| {
+    ///     near.push(triangle);
+    ///     f64::INFINITY
+    /// });
+    /// assert_eq!(near, [0, 1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_nearest(self, bounds: &Aabb3, limit: f64, visitor: impl FnMut(u32) -> f64) {
+        let Some(near) = Near::new(bounds) else { return };
+        match self {
+            Self::Mesh(mesh) => mesh.tree().visit_in_order(&near, limit, visitor),
+            Self::Field(field) => {
+                field.visit_in_order(&near, |low, high| Some(gap(bounds, low, high)), limit, visitor);
+            }
         }
     }
 }
