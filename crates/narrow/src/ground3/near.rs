@@ -86,8 +86,10 @@ impl<'a> OnGround<'a> {
         mut visit: impl FnMut(u32, &Shape3) -> bool,
     ) -> bool {
         let flow = self.ground.visit_near(&self.bounds(part, reach), |number| {
-            let stops =
-                self.ground.triangle(number).is_some_and(|triangle| visit(number, &Shape3::Triangle(triangle)));
+            let stops = self
+                .ground
+                .triangle(number)
+                .is_some_and(|triangle| visit(number, &Shape3::Triangle(triangle)));
             if stops { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         flow.is_break()
