@@ -4,6 +4,6 @@
 mod freeing;
 mod plane;
 mod rooms;
-mod stage;
+pub(crate) mod stage;
 mod walking;
 mod walls;

@@ -1,8 +1,12 @@
 //! Ground made of triangles, whatever keeps them.
 
+pub(crate) mod bend;
 pub(crate) mod slab;
+#[cfg(test)]
+mod tests;
+pub(crate) mod tree;
 
-use crate::aabb::{Aabb3, Bounds};
+use crate::aabb::Aabb3;
 use crate::height_field::HeightField;
 use crate::mesh::TriMesh;
 use crate::shape::Shape3;
@@ -10,6 +14,7 @@ use crate::triangle::Triangle3;
 use core::ops::ControlFlow;
 use glam::{DVec3, Vec3};
 use slab::{Slab, gap};
+use tree::{Line, Near};
 
 /// Ground made of numbered triangles: a mesh or a height field.
 ///
@@ -61,6 +66,14 @@ impl Prominent {
     pub const NONE: Self = Self(0);
     /// Every edge and corner, seen from either side.
     pub const ALL: Self = Self(0xFFF);
+
+    pub(crate) const fn bits(self) -> u16 {
+        self.0
+    }
+
+    pub(crate) const fn from_bits(bits: u16) -> Self {
+        Self(bits)
+    }
 
     const fn edge_bit(edge: usize, is_front: bool) -> u16 {
         1 << (edge % 3 + if is_front { 0 } else { 6 })
@@ -230,8 +243,16 @@ impl<'a> Ground<'a> {
         limit: f64,
         visitor: impl FnMut(u32) -> f64,
     ) {
-        let Some(slab) = Slab::new(from, direction, grown) else { return };
-        self.visit_in_order(limit, |low, high| slab.enters(low, high, limit), visitor);
+        let (Some(line), Some(slab)) = (Line::new(from, direction, grown), Slab::new(from, direction, grown))
+        else {
+            return;
+        };
+        match self {
+            Self::Mesh(mesh) => mesh.tree().visit_in_order(&line, limit, visitor),
+            Self::Field(field) => {
+                field.visit_in_order(&line, |low, high| slab.enters(low, high), limit, visitor);
+            }
+        }
     }
 
     /// Hands every triangle whose box is within `limit` metres of this one, in local axes, to `visitor`, each once and
@@ -252,27 +273,11 @@ impl<'a> Ground<'a> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn visit_nearest(self, bounds: &Aabb3, limit: f64, visitor: impl FnMut(u32) -> f64) {
-        if bounds.is_valid() {
-            self.visit_in_order(limit, |low, high| Some(gap(bounds, low, high)), visitor);
-        }
-    }
-
-    fn visit_in_order(
-        self,
-        limit: f64,
-        place: impl Fn([f32; 3], [f32; 3]) -> Option<f64>,
-        mut visitor: impl FnMut(u32) -> f64,
-    ) {
-        let at = |number: u32| {
-            let [a, b, c] = self.triangle(number)?.vertices();
-            Some((place(a.min(b).min(c).to_array(), a.max(b).max(c).to_array())?, number))
-        };
-        let mut order: Vec<(f64, u32)> = (0..self.triangle_count()).filter_map(at).collect();
-        order.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
-        let mut limit = limit;
-        for (place, number) in order {
-            if place <= limit {
-                limit = visitor(number).min(limit);
+        let Some(near) = Near::new(bounds) else { return };
+        match self {
+            Self::Mesh(mesh) => mesh.tree().visit_in_order(&near, limit, visitor),
+            Self::Field(field) => {
+                field.visit_in_order(&near, |low, high| Some(gap(bounds, low, high)), limit, visitor);
             }
         }
     }

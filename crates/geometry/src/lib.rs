@@ -54,7 +54,7 @@ pub use direction::DirectionError;
 pub use extent::ExtentError;
 pub use ground::{Ground, Prominent};
 pub use half_space::{HalfPlane, HalfSpace};
-pub use height_field::HeightField;
+pub use height_field::{HeightField, HeightFieldError};
 pub use hull::{Hull, HullError, HullFault};
 pub use mass::{MassError, MassProperties2, MassProperties3};
 pub use mesh::{DroppedTriangles, MeshError, TriMesh};

@@ -177,6 +177,15 @@ pub const SAME_NORMAL: f64 = 1e-4;
 /// are beside the point, and with a smaller one what touches in an inner edge may seem to touch a rim.
 pub const ON_TRIANGLE: f64 = 1e-7;
 
+/// Sine of the angle up to which two neighbouring triangles of ground count as one plane.
+///
+/// Their edge then gives no normal of its own, and their contact points share a manifold and a name. It is half of
+/// what two normals of one manifold may differ by (1e-4 rad), so that any two triangles of a plane come together, and
+/// above what f32 vertices make of a plane of triangles a thousandth of its size. A larger one takes away edges
+/// that matter; a body that rests on an edge within it has a normal that is off by as much. A smaller one makes
+/// edges of rounding, which cost time.
+pub const FLAT: f64 = 5e-5;
+
 /// The smallest bounding radius a shape may have, in metres.
 pub const MIN_RADIUS: f32 = 1e-6;
 
@@ -200,3 +209,11 @@ pub const MAX_PARTS: usize = 4096;
 
 /// The most vertices a chain may have.
 pub const MAX_CHAIN_VERTICES: usize = 2_000_000;
+/// The most triangles a mesh may have.
+pub const MAX_TRIANGLES: usize = 2_000_000;
+
+/// The most vertices a mesh may have: three for each triangle.
+pub const MAX_MESH_VERTICES: usize = 3 * MAX_TRIANGLES;
+
+/// The most heights on a side of a height field.
+pub const MAX_FIELD_SIDE: usize = 4097;

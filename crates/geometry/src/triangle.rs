@@ -55,12 +55,20 @@ impl Triangle3 {
         if sides[0].cross(sides[1]).length() <= LEAST_HEIGHT * longest {
             return Err(VertexError::Collinear);
         }
-        let mut triangle = Self { vertices: [a, b, c], outer_radius: 0.0 };
-        let center = triangle.center().as_dvec3();
-        let reach = corners.map(|corner| (corner - center).length()).into_iter().fold(0.0, f64::max);
-        triangle.outer_radius = round_up(reach * (1.0 + 8.0 * f64::EPSILON));
+        let triangle = Self::known([a, b, c]);
         check_size(triangle.outer_radius)?;
         Ok(triangle)
+    }
+
+    /// One that [`Triangle3::new`] has not refused.
+    #[inline]
+    pub(crate) fn known(vertices: [Vec3; 3]) -> Self {
+        let mut triangle = Self { vertices, outer_radius: 0.0 };
+        let center = triangle.center().as_dvec3();
+        let squared = |corner: Vec3| (corner.as_dvec3() - center).length_squared();
+        let reach = vertices.map(squared).into_iter().fold(0.0, f64::max).sqrt();
+        triangle.outer_radius = round_up(reach * (1.0 + 8.0 * f64::EPSILON));
+        triangle
     }
 
     /// The three vertices, bit for bit as given.

@@ -10,7 +10,7 @@ use glam::{DVec3, Vec3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slab {
     from: DVec3,
-    per: DVec3,
+    direction: DVec3,
     grown: DVec3,
 }
 
@@ -19,35 +19,37 @@ impl Slab {
     pub(crate) fn new(from: DVec3, direction: DVec3, grown: Vec3) -> Option<Self> {
         let grown = grown.as_dvec3();
         let is_good = from.is_finite() && direction.is_finite() && grown.is_finite();
-        (is_good && grown.min_element() >= 0.0).then(|| Self { from, per: direction.recip(), grown })
+        (is_good && grown.min_element() >= 0.0).then(|| Self { from, direction, grown })
     }
 
-    /// When the moving box first meets this one, in lengths of the direction, not above; nothing where it never does
-    /// up to the limit.
+    /// When the moving box first meets this one, in lengths of the direction, not above; nothing where it never does.
     #[inline(always)]
-    pub(crate) fn enters(&self, low: [f32; 3], high: [f32; 3], limit: f64) -> Option<f64> {
-        let (mut enter, mut leave) = (0.0_f64, limit);
+    pub(crate) fn enters(&self, low: [f32; 3], high: [f32; 3]) -> Option<f64> {
+        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
         for axis in 0..3 {
-            let (from, per, grown) = (self.from[axis], self.per[axis], self.grown[axis]);
+            let (from, along, grown) = (self.from[axis], self.direction[axis], self.grown[axis]);
             let (low, high) = (f64::from(low[axis]), f64::from(high[axis]));
-            let slack = 8.0 * f64::EPSILON * (low.abs() + high.abs() + from.abs() + grown);
+            let slack = LOST * (low.abs() + high.abs() + from.abs() + grown);
             let (low, high) = (low - grown - from - slack, high + grown - from + slack);
-            if per.is_infinite() {
+            if along == 0.0 {
                 // Standing still on this axis: inside all the time, or never.
                 if low > 0.0 || high < 0.0 {
                     return None;
                 }
                 continue;
             }
-            let (first, last) = if per > 0.0 { (low * per, high * per) } else { (high * per, low * per) };
-            let [first, last] =
-                [first - 4.0 * f64::EPSILON * first.abs(), last + 4.0 * f64::EPSILON * last.abs()];
+            let (first, last) =
+                if along > 0.0 { (low / along, high / along) } else { (high / along, low / along) };
+            let (first, last) = (first - LOST * first.abs(), last + LOST * last.abs());
             enter = if first > enter { first } else { enter };
             leave = if last < leave { last } else { leave };
         }
         (enter <= leave).then_some(enter)
     }
 }
+
+/// More than a few roundings in a row can lose.
+const LOST: f64 = 8.0 * f64::EPSILON;
 
 /// The distance between two boxes, in metres, not above.
 #[inline(always)]

@@ -45,6 +45,8 @@ pub enum MassError {
     },
     /// A half-plane or half-space, which has no end.
     Unbounded,
+    /// A mesh, a height field or a chain, which has no inside and never moves.
+    Ground,
 }
 
 impl core::fmt::Display for MassError {
@@ -56,6 +58,7 @@ impl core::fmt::Display for MassError {
             Self::Unbounded => {
                 write!(f, "a shape without an end has no mass: treat its body as one that cannot move")
             }
+            Self::Ground => write!(f, "ground has no mass: treat its body as one that cannot move"),
         }
     }
 }
@@ -115,11 +118,12 @@ impl Shape3 {
     /// ```
     ///
     /// # Errors
-    /// A density that is not finite or not positive, and a half-space.
+    /// A density that is not finite or not positive; a half-space, and ground.
     pub fn mass_properties(&self, density: f32) -> Result<MassProperties3, MassError> {
         let density = check_density(density)?;
         match self {
-            Self::HalfSpace(_) | Self::TriMesh(_) | Self::HeightField(_) => Err(MassError::Unbounded),
+            Self::HalfSpace(_) => Err(MassError::Unbounded),
+            Self::TriMesh(_) | Self::HeightField(_) => Err(MassError::Ground),
             Self::Compound(compound) => {
                 let parts = compound.parts().iter();
                 let parts: Vec<MassProperties3> =

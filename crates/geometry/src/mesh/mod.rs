@@ -1,15 +1,20 @@
 //! Triangle meshes.
 
+mod build;
+mod edges;
 mod error;
 
 pub use error::{DroppedTriangles, MeshError};
 
 use crate::aabb::Aabb3;
 use crate::ground::Prominent;
-use crate::outward::{around3, round_up};
+use crate::ground::tree::Tree;
+use crate::outward::{around3, round_down, round_up};
 use crate::pose3::Pose3;
 use crate::triangle::Triangle3;
+use build::DROPPED;
 use core::ops::ControlFlow;
+use edges::NO_TWIN;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
@@ -18,51 +23,60 @@ use std::sync::Arc;
 /// It is the union of its triangles, without thickness. Bodies that carry it are always fixed. It is solid from both
 /// sides unless it is [`one_sided`](Self::one_sided).
 ///
+/// Vertices at the same place count as one, whatever files say. Triangles without an area and such that are there
+/// already are [dropped](Self::dropped); the others keep the numbers that they were given by, so that materials can
+/// be looked up by them. Two triangles are neighbours where they alone share an edge and wind alike.
+///
+/// # Costs and limits
+/// At most [`MAX_TRIANGLES`](crate::tolerance::MAX_TRIANGLES) triangles and
+/// [`MAX_MESH_VERTICES`](crate::tolerance::MAX_MESH_VERTICES) vertices, within 1e6 m of the shape's origin. A triangle
+/// takes about 75 bytes, and less than 100 where no vertex is shared. What is near is found in a tree.
+///
 /// ```
 /// use asunder_geometry::{TriMesh, glam::Vec3};
 /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], [[0, 2, 1]])?.one_sided();
 /// assert!(mesh.is_one_sided() && mesh.vertices().len() == 3 && mesh.triangles() == [[0, 2, 1]]);
 /// assert_eq!(mesh.dropped().degenerate, 0);
+/// assert!(mesh.contains(Vec3::new(0.25, 0.0, 0.25)) && !mesh.contains(Vec3::new(0.25, 1e-9, 0.25)));
 /// # Ok::<(), asunder_geometry::MeshError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct TriMesh {
     data: Arc<Data>,
     is_one_sided: bool,
 }
 
-#[derive(Debug, PartialEq)]
+#[derive(Debug)]
 struct Data {
     vertices: Vec<Vec3>,
+    /// By the least number of the vertices at a place.
     triangles: Vec<[u32; 3]>,
+    /// For each half-edge, three a triangle, the one on the other side.
+    twins: Vec<u32>,
+    /// The least number of each triangle's plane.
+    patches: Vec<u32>,
+    /// [`Prominent`]'s bits, or [`DROPPED`].
+    marks: Vec<u16>,
+    tree: Tree,
     dropped: DroppedTriangles,
+    low: Vec3,
+    high: Vec3,
     center: Vec3,
     outer_radius: f32,
 }
 
 impl TriMesh {
     /// A mesh from its vertices, in metres, and its triangles, three vertex numbers each, counter-clockwise as seen
-    /// from the front.
+    /// from the front. Cost: half a microsecond a triangle.
     ///
     /// # Errors
-    /// No triangles, or too many; vertices that are not finite or out of range; numbers of no vertex.
+    /// No triangles that have an area, or too many; vertices that are not finite or out of range; numbers of no vertex.
     pub fn new(
         vertices: impl Into<Vec<Vec3>>,
         triangles: impl Into<Vec<[u32; 3]>>,
     ) -> Result<Self, MeshError> {
-        let (vertices, triangles) = (vertices.into(), triangles.into());
-        let (low, high) =
-            vertices.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &vertex| {
-                (low.min(vertex), high.max(vertex))
-            });
-        let center = (low + high) * 0.5;
-        let reach = (high.as_dvec3() - center.as_dvec3()).length();
-        let outer_radius = round_up(reach * (1.0 + 8.0 * f64::EPSILON));
-        let dropped = DroppedTriangles::default();
-        Ok(Self {
-            data: Arc::new(Data { vertices, triangles, dropped, center, outer_radius }),
-            is_one_sided: false,
-        })
+        let data = build::build(vertices.into(), triangles.into())?;
+        Ok(Self { data: Arc::new(data), is_one_sided: false })
     }
 
     /// The same, solid only from the front.
@@ -77,32 +91,69 @@ impl TriMesh {
         self.is_one_sided
     }
 
+    /// An address that two meshes have in common exactly when they share their data; only good while both live. It
+    /// differs from run to run: look up by it, and let no output depend on it.
+    #[cfg(feature = "serde")]
+    #[doc(hidden)]
+    pub fn shared_address(&self) -> usize {
+        Arc::as_ptr(&self.data).addr()
+    }
+
     /// The vertices, in metres, bit for bit as given.
     pub fn vertices(&self) -> &[Vec3] {
         &self.data.vertices
     }
 
-    /// The triangles, by their vertices' numbers.
+    /// The triangles in the order given, also those that were dropped, by their vertices' numbers: of vertices at the
+    /// same place, the least.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.data.triangles
     }
 
-    /// Memory that is held, in bytes.
-    pub fn bytes(&self) -> usize {
-        0
-    }
-
-    /// What was left out.
+    /// How many triangles were left out.
     pub fn dropped(&self) -> DroppedTriangles {
         self.data.dropped
     }
 
+    /// Whether a triangle was left out. Those that were never given were.
+    ///
+    /// ```
+    /// use asunder_geometry::{TriMesh, glam::Vec3};
+    /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], [[0, 1, 0], [0, 2, 1], [0, 1, 2]])?;
+    /// assert_eq!([0, 1, 2, 3].map(|triangle| mesh.is_dropped(triangle)), [true, false, true, true]);
+    /// # Ok::<(), asunder_geometry::MeshError>(())
+    /// ```
+    #[inline]
+    pub fn is_dropped(&self, triangle: u32) -> bool {
+        self.data.marks.get(triangle as usize).is_none_or(|&marks| marks == DROPPED)
+    }
+
+    /// Memory that is held, in bytes, by all that share it.
+    ///
+    /// ```
+    /// use asunder_geometry::{TriMesh, glam::Vec3};
+    /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], [[0, 2, 1]])?;
+    /// assert!(mesh.bytes() > 48);
+    /// # Ok::<(), asunder_geometry::MeshError>(())
+    /// ```
+    pub fn bytes(&self) -> usize {
+        let data = &*self.data;
+        size_of::<Data>()
+            + data.vertices.capacity() * size_of::<Vec3>()
+            + data.triangles.capacity() * size_of::<[u32; 3]>()
+            + (data.twins.capacity() + data.patches.capacity()) * size_of::<u32>()
+            + data.marks.capacity() * size_of::<u16>()
+            + data.tree.bytes()
+    }
+
     /// The centre that the bounding radius is about: the middle of its box.
+    #[inline]
     pub fn center(&self) -> Vec3 {
         self.data.center
     }
 
     /// Bounding radius about [`TriMesh::center`], in metres, rounded up.
+    #[inline]
     pub fn outer_radius(&self) -> f32 {
         self.data.outer_radius
     }
@@ -110,65 +161,91 @@ impl TriMesh {
     /// Whether any triangle holds a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
-        (0..self.triangle_count())
-            .any(|number| self.triangle(number).is_some_and(|triangle| triangle.contains(point)))
+        let holds = |number: u32| match self.triangle(number) {
+            Some(triangle) if triangle.contains(point) => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        self.visit_near(&box_of(point), holds).is_break()
     }
 
-    /// The box around the posed mesh, grown by `margin` metres and rounded outwards.
+    /// A box around the posed mesh, grown by `margin` metres and rounded outwards: around its own box, turned. Cost: of
+    /// eight corners.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
-        around3(self.data.vertices.iter().map(|vertex| vertex.as_dvec3()), pose, f64::from(margin))
+        bounds_of([self.data.low, self.data.high], pose, margin)
     }
 
+    #[inline]
     pub(crate) fn triangle_count(&self) -> u32 {
         self.data.triangles.len() as u32
     }
 
+    #[inline]
     pub(crate) fn corners(&self, triangle: u32) -> [Vec3; 3] {
-        self.vertex_numbers(triangle).map(|vertex| self.data.vertices[vertex as usize])
+        self.vertex_numbers(triangle)
+            .map(|vertex| self.data.vertices.get(vertex as usize).copied().unwrap_or_default())
     }
 
+    #[inline]
     pub(crate) fn triangle(&self, triangle: u32) -> Option<Triangle3> {
-        let [a, b, c] = self.corners(triangle);
-        Triangle3::new(a, b, c).ok()
+        (!self.is_dropped(triangle)).then(|| Triangle3::known(self.corners(triangle)))
     }
 
+    #[inline]
     pub(crate) fn vertex_numbers(&self, triangle: u32) -> [u32; 3] {
-        self.data.triangles[triangle as usize]
+        self.data.triangles.get(triangle as usize).copied().unwrap_or_default()
     }
 
+    #[inline]
     pub(crate) fn neighbor(&self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
-        let ends = |numbers: [u32; 3], edge: usize| [numbers[edge % 3], numbers[(edge + 1) % 3]];
-        let [from, to] = ends(self.vertex_numbers(triangle), edge);
-        let mut found = None;
-        for other in (0..self.triangle_count()).filter(|&other| other != triangle) {
-            for twin in 0..3 {
-                if ends(self.vertex_numbers(other), twin) == [to, from] {
-                    found = Some((other, twin));
-                }
-            }
-        }
-        found
+        let twin = *self.data.twins.get((triangle as usize).checked_mul(3)?.checked_add(edge % 3)?)?;
+        (twin != NO_TWIN).then_some((twin / 3, twin as usize % 3))
     }
 
-    pub(crate) fn prominent(&self, _triangle: u32) -> Prominent {
-        Prominent::ALL
+    #[inline]
+    pub(crate) fn prominent(&self, triangle: u32) -> Prominent {
+        let marks = self.data.marks.get(triangle as usize).copied().unwrap_or(DROPPED);
+        if marks == DROPPED { Prominent::NONE } else { Prominent::from_bits(marks) }
     }
 
+    #[inline]
     pub(crate) fn patch(&self, triangle: u32) -> u32 {
-        triangle
+        self.data.patches.get(triangle as usize).copied().unwrap_or(triangle)
     }
 
+    #[inline]
     pub(crate) fn visit_near(
         &self,
         bounds: &Aabb3,
-        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
+        visitor: impl FnMut(u32) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        for triangle in 0..self.triangle_count() {
-            let [a, b, c] = self.corners(triangle);
-            if Aabb3::new(a.min(b).min(c), a.max(b).max(c)).overlaps(bounds) {
-                visitor(triangle)?;
-            }
-        }
-        ControlFlow::Continue(())
+        self.data.tree.visit_overlapping(bounds, visitor)
     }
+
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.data.tree
+    }
+}
+
+/// Whether they are the same triangles of the same vertices, solid from the same sides.
+impl PartialEq for TriMesh {
+    fn eq(&self, other: &Self) -> bool {
+        let (one, two) = (&*self.data, &*other.data);
+        let is_same = || one.vertices == two.vertices && one.triangles == two.triangles;
+        self.is_one_sided == other.is_one_sided && (Arc::ptr_eq(&self.data, &other.data) || is_same())
+    }
+}
+
+/// The smallest box of f32 that holds a point; none, if it is not finite.
+pub(crate) fn box_of(point: DVec3) -> Aabb3 {
+    let [low, high] = [point.to_array().map(round_down), point.to_array().map(round_up)];
+    Aabb3::new(Vec3::from_array(low), Vec3::from_array(high))
+}
+
+/// The box around a posed box.
+pub(crate) fn bounds_of(corners: [Vec3; 2], pose: &Pose3, margin: f32) -> Aabb3 {
+    let corner = |number: usize| {
+        let [x, y, z] = [number & 1, number >> 1 & 1, number >> 2].map(|side| corners[side]);
+        DVec3::new(f64::from(x.x), f64::from(y.y), f64::from(z.z))
+    };
+    around3((0..8).map(corner), pose, f64::from(margin))
 }

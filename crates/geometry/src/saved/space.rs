@@ -5,7 +5,7 @@ use crate::compound::{Compound3, CompoundError, Part3};
 use crate::cuboid::Cuboid;
 use crate::direction::DirectionError;
 use crate::half_space::HalfSpace;
-use crate::height_field::HeightField;
+use crate::height_field::{HeightField, HeightFieldError};
 use crate::hull::Hull;
 use crate::mesh::{MeshError, TriMesh};
 use crate::motion3::Motion3;
@@ -17,7 +17,7 @@ use crate::shape::Shape3;
 use crate::sphere::Sphere;
 use crate::triangle::Triangle3;
 use crate::vertex::VertexError;
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 stored_as! {
@@ -323,6 +323,7 @@ impl ConvexForm {
 struct MeshForm {
     vertices: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
+    #[serde(default)]
     one_sided: bool,
 }
 
@@ -347,17 +348,38 @@ impl Form for MeshForm {
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "HeightField", deny_unknown_fields)]
-struct FieldForm {}
+struct FieldForm {
+    columns: usize,
+    rows: usize,
+    cell: [f32; 2],
+    heights: Vec<f32>,
+    #[serde(default)]
+    holes: Vec<[usize; 2]>,
+    #[serde(default)]
+    one_sided: bool,
+}
 
 impl Form for FieldForm {
     type Of = HeightField;
-    type Error = MeshError;
+    type Error = HeightFieldError;
 
-    fn of(_: &HeightField) -> Self {
-        Self {}
+    fn of(value: &HeightField) -> Self {
+        let (columns, rows) = (value.columns(), value.rows());
+        let cells = (1..rows).flat_map(|row| (1..columns).map(move |column| [column - 1, row - 1]));
+        Self {
+            columns,
+            rows,
+            cell: value.cell().to_array(),
+            heights: value.heights().to_vec(),
+            holes: cells.filter(|&[column, row]| value.is_hole(column, row)).collect(),
+            one_sided: value.is_one_sided(),
+        }
     }
 
-    fn build(self) -> Result<HeightField, MeshError> {
-        Err(MeshError::NoTriangles)
+    fn build(self) -> Result<HeightField, HeightFieldError> {
+        let whole = HeightField::new(self.columns, self.rows, self.heights, Vec2::from_array(self.cell))?;
+        let holes = self.holes.into_iter().map(|[column, row]| (column, row));
+        let field = if holes.len() > 0 { whole.with_holes(holes)? } else { whole };
+        Ok(if self.one_sided { field.one_sided() } else { field })
     }
 }

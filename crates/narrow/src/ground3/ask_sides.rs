@@ -127,14 +127,36 @@ fn holds(corners: [DVec3; 3], normal: DVec3, point: DVec3, slack: f64) -> bool {
 
 /// Whether no triangle around a point rises into a direction.
 fn is_free(around: &[Around], point: DVec3, away: DVec3) -> bool {
-    around.iter().all(|one| {
-        let near = 16.0 * ON_TRIANGLE * extent(one.corners);
-        one.corners.iter().all(|&corner| {
-            let way = corner - point;
-            let length = way.length();
-            length <= near || way.dot(away) <= SAME_NORMAL * length
-        })
-    })
+    around.iter().all(|one| one.rise(point, away) <= SAME_NORMAL)
+}
+
+impl Around {
+    /// The greatest cosine between a direction and any way that leads from a point of the triangle along it.
+    ///
+    /// Those ways are all in its plane from inside, half of them from an edge, a wedge from a corner. Corners alone
+    /// would not do: of a sliver, those lie along the edge and hardly across.
+    fn rise(&self, point: DVec3, away: DVec3) -> f64 {
+        let [a, b, c] = self.corners;
+        let slack = 4.0 * ON_TRIANGLE * extent(self.corners);
+        let flat = away - self.facing * self.facing.dot(away);
+        let front = normal_of(self.corners);
+        // Edges that hold the point: along, and inwards.
+        let mut held = ArrayVec::<(DVec3, DVec3), 3>::new();
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let (along, inwards) = (to - from, front.cross(to - from));
+            if let (Some(along), Some(inwards)) = (along.try_normalize(), inwards.try_normalize())
+                && inwards.dot(point - from) <= slack
+            {
+                held.push((along, inwards));
+            }
+        }
+        let is_inside = |way: DVec3| held.iter().all(|(_, inwards)| way.dot(*inwards) >= -SAME_NORMAL);
+        if held.iter().all(|(_, inwards)| flat.dot(*inwards) >= 0.0) {
+            return flat.length();
+        }
+        let ends = held.iter().flat_map(|&(along, _)| [along, -along]);
+        ends.filter(|&way| is_inside(way)).map(|way| way.dot(away)).fold(0.0, f64::max)
+    }
 }
 
 /// Where the bounding sphere of ground is, in its own axes, and its radius.

@@ -9,13 +9,18 @@
 //!     no edge or corner stands out near the part, or the part's lowest vertex is well inside:
 //!         the triangle's own normal                                                                   (prism)
 //!     else the kernels of part and triangle: their axis, if the feature's neighbours let it through   (meeting)
-//!         else the triangle's own normal
+//!         else the triangle's own normal, unless a contact with others frees the part from it, too
 //!   points go to the group of their normal                                                            (groups)
 //!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
 //! ```
 //! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature among *all* ground
 //! around it: an edge gives a direction that leans towards neither face, a corner one that leans along none of its
 //! edges. What flat and concave edges would give is refused, and the triangle's own normal stands in.
+//!
+//! That normal may be a bad one: of a box that leans over a cliff, a triangle of the cliff's top whose corner alone lies
+//! in the box is left by the box sideways along the cliff, which its neighbours refuse; straight up would throw the box
+//! onto the cliff. So triangles whose axis was refused wait until all others have been heard: where a move along
+//! one of their normals by its depth leaves such a triangle too, it has nothing to add.
 //!
 //! **The short way.** Where the lowest vertex of the part is over the triangle, in a gap of the cores it is the closest
 //! point, and the normal is the answer. In overlap by h, a direction that leans by the angle a over an edge r away is
@@ -56,6 +61,9 @@ use standing::{Extent, Place, Standing};
 
 /// Triangles whose yes or no waits until all have been seen.
 const MOST_UNCLEAR: usize = 32;
+
+/// Triangles whose axis was refused that wait until all others have been seen.
+const MOST_REFUSED: usize = 32;
 
 /// Whether a body and ground overlap if they are within the margin; their manifolds go where they are wanted. Nothing
 /// where neither is ground; grounds have no contacts with each other.
@@ -99,6 +107,8 @@ struct Known {
     shown_by: Option<u32>,
     /// Triangles that f64 could not tell of: whether none of their points is a contact, how deep, and which.
     unclear: ArrayVec<(bool, f64, u32), MOST_UNCLEAR>,
+    /// Triangles whose axis was refused.
+    refused: ArrayVec<u32, MOST_REFUSED>,
     incident: Option<Incident>,
 }
 
@@ -134,6 +144,7 @@ impl<'a> Asking<'a> {
                 if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
         }
+        seen.add_refused(&mut known);
         seen.conclude(&mut known, is_settled);
         let Known { groups, overlapping, .. } = &mut known;
         if !*overlapping && groups.least() == f64::INFINITY {
@@ -199,6 +210,7 @@ impl Known {
             overlapping: false,
             shown_by: None,
             unclear: ArrayVec::new(),
+            refused: ArrayVec::new(),
             incident: None,
         }
     }
@@ -228,7 +240,7 @@ impl Seen<'_> {
                     if overlapping {
                         known.settle(number);
                     }
-                    if !has_points {
+                    if !has_points && known.refused.try_push(number).is_err() {
                         self.add_by_normal(&prism, known);
                     }
                     return;
@@ -307,6 +319,31 @@ impl Seen<'_> {
             let (.., number) = full.element();
             if self.meeting.overlaps(self.asking.on.ground, number) {
                 known.settle(number);
+            }
+        }
+    }
+
+    /// Adds points of triangles whose axis was refused, by their own normals.
+    fn add_refused(&self, known: &mut Known) {
+        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        let heard: ArrayVec<(DVec3, f64), { groups::MOST_GROUPS }> =
+            known.groups.iter().map(|group| (group.base.normal, group.least())).collect();
+        for number in core::mem::take(&mut known.refused) {
+            let Some(facet) = Facet::seen(ground, number, standing.center) else { continue };
+            let extent = standing.extent(facet.normal, facet.origin());
+            let separation = extent.low - standing.radius;
+            let is_freed = heard.iter().any(|&(normal, least)| {
+                separation < least - standing.slack && {
+                    let top = facet.corners.map(|corner| normal.dot(corner - facet.origin()));
+                    let top = top.into_iter().fold(f64::NEG_INFINITY, f64::max);
+                    let low = standing.extent(normal, facet.origin()).low - standing.radius;
+                    low - top >= least - standing.slack
+                }
+            });
+            if !is_freed {
+                let doubt = self.doubt_over(&facet);
+                let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt };
+                self.add_by_normal(&prism, known);
             }
         }
     }

@@ -17,7 +17,7 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
 /// Most normals of a part at a time. A body that touches more ground than this is kept by the deepest of it.
-const MOST_GROUPS: usize = 16;
+pub(super) const MOST_GROUPS: usize = 16;
 
 /// Most points of a group before only its corners are kept.
 const MOST_POINTS: usize = 24;
@@ -63,8 +63,10 @@ impl Pin {
         FeatureId::new(self.of_body, self.of_ground)
     }
 
+    /// Whether it stands for the same: by name, by place, or since one vertex touches faces of one normal once.
     fn is_same_as(&self, other: &Self, slack: f64) -> bool {
-        (self.of_body == other.of_body && self.of_ground == other.of_ground)
+        let are_faces = matches!((self.of_ground, other.of_ground), (Feature::Face(_), Feature::Face(_)));
+        (self.of_body == other.of_body && (are_faces || self.of_ground == other.of_ground))
             || (self.on_body - other.on_body).length_squared() <= slack * slack
     }
 }
@@ -126,7 +128,8 @@ impl Groups {
 }
 
 impl Group {
-    fn least(&self) -> f64 {
+    /// The least separation of its points.
+    pub(super) fn least(&self) -> f64 {
         self.pins.iter().map(|pin| pin.separation).fold(f64::INFINITY, f64::min)
     }
 

@@ -1,0 +1,157 @@
+//! What is worked out of a height field when it is made.
+//!
+//! A mark is a byte a vertex. From the lowest bit, two each, seen from the front and from the back: the edge along x
+//! that starts at the vertex, the one along z, the diagonal of the cell that starts there, and the vertex itself.
+
+use super::grid::{Cell, Grid};
+use super::walk::{BLOCK, cells_of};
+use super::{Data, HeightFieldError};
+use crate::ground::Prominent;
+use crate::ground::bend::{RIM, Sight, patches, sight};
+use crate::ground::tree::{Sides, Tree};
+use crate::hull::normal::unit;
+use crate::outward::round_up;
+use glam::{DVec3, Vec3};
+
+pub(super) fn build(grid: Grid) -> Result<Data, HeightFieldError> {
+    let kept = || grid.all_cells().filter(|&cell| !grid.is_hole(cell));
+    let Some(around) = kept().map(|cell| sides(&grid, cell)).reduce(union) else {
+        return Err(HeightFieldError::NoGround);
+    };
+    let [a, b, c, d, e, f] = around;
+    let (low, high) = (Vec3::new(a, b, c), Vec3::new(d, e, f));
+    // Of two zeros with different signs, either may be the least: added to zero they are the same.
+    let center = (low + high) * 0.5 + Vec3::ZERO;
+    let reach = |corner: Vec3| (corner.as_dvec3() - center.as_dvec3()).length_squared();
+    let corners = |cell| {
+        let first = 2 * grid.number(cell);
+        [first, first + 1].into_iter().flat_map(|triangle| grid.corners(triangle))
+    };
+    let outer = kept().flat_map(corners).map(reach).fold(0.0, f64::max).sqrt();
+    let neighbor = |triangle, edge| Some(grid.neighbor(triangle, edge)?.0);
+    let normal = |triangle| normal(&grid, triangle);
+    let patches = patches(grid.triangle_count(), |triangle| grid.has(triangle), normal, neighbor);
+    let marks = Marks::of(&grid);
+    let block_sides = |block: u32| {
+        let cells = cells_of(&grid, block).filter(|&cell| !grid.is_hole(cell));
+        cells.map(|cell| sides(&grid, cell)).reduce(union)
+    };
+    let blocks: Vec<Option<Sides>> = (0..BLOCK.count(&grid)).map(block_sides).collect();
+    let full = (0..).zip(&blocks).filter(|(_, sides)| sides.is_some()).map(|(block, _)| block);
+    let blocks = Tree::new(full, |block| blocks[block as usize].unwrap_or(around));
+    let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
+    Ok(Data { marks, patches, blocks, low, high, center, outer_radius, grid })
+}
+
+/// Which edges and corners of a triangle are marked.
+#[inline]
+pub(super) fn prominent(grid: &Grid, marks: &[u8], triangle: u32) -> Prominent {
+    let Some(Cell { column, row }) = grid.cell_of(triangle).filter(|&cell| !grid.is_hole(cell)) else {
+        return Prominent::NONE;
+    };
+    let near = grid.vertex_number(Cell { column, row }) as usize;
+    let far = near + grid.cells[0] as usize + 1;
+    let (edges, corners) = if triangle % 2 == 0 {
+        ([(near, ALONG_Z), (near, DIAGONAL), (near, ALONG_X)], [near, far, near + 1])
+    } else {
+        ([(near, DIAGONAL), (far, ALONG_X), (near + 1, ALONG_Z)], [near + 1, far, far + 1])
+    };
+    let mut prominent = Prominent::NONE;
+    for (side, is_front) in [true, false].into_iter().enumerate() {
+        for i in 0..3 {
+            let (vertex, shift) = edges[i];
+            if marks[vertex] >> (shift + side) & 1 == 1 {
+                prominent = prominent.with_edge(i, is_front);
+            }
+            if marks[corners[i]] >> (VERTEX + side) & 1 == 1 {
+                prominent = prominent.with_corner(i, is_front);
+            }
+        }
+    }
+    prominent
+}
+
+const ALONG_X: usize = 0;
+const ALONG_Z: usize = 2;
+const DIAGONAL: usize = 4;
+const VERTEX: usize = 6;
+
+/// A byte a vertex.
+struct Marks<'a> {
+    grid: &'a Grid,
+    marks: Vec<u8>,
+}
+
+impl<'a> Marks<'a> {
+    fn of(grid: &'a Grid) -> Vec<u8> {
+        let mut marks = Self { grid, marks: vec![0; grid.heights.len()] };
+        let [columns, rows] = grid.cells;
+        for row in 0..=rows {
+            for column in 0..=columns {
+                marks.mark(Cell { column, row });
+            }
+        }
+        marks.marks
+    }
+
+    /// Marks the edges of a vertex, and the vertices that these have.
+    fn mark(&mut self, cell: Cell) {
+        let Cell { column, row } = cell;
+        let near = self.grid.vertex_number(cell) as usize;
+        let far = near + self.grid.cells[0] as usize + 1;
+        let first = |cell: Cell| (!self.grid.is_hole(cell)).then(|| 2 * self.grid.number(cell));
+        let here = first(cell);
+        // Beyond the first row and column, where nothing is, numbers wrap to beyond the last.
+        let above = first(Cell { column, row: row.wrapping_sub(1) });
+        let left = first(Cell { column: column.wrapping_sub(1), row });
+        let second = |first: u32| first + 1;
+        let along_x = self.sight((here, 2), above.map(second));
+        let along_z = self.sight((here, 0), left.map(second));
+        let diagonal = self.sight((here, 1), here.map(second));
+        self.put([near, near + 1], near, ALONG_X, along_x);
+        self.put([near, far], near, ALONG_Z, along_z);
+        self.put([near + 1, far], near, DIAGONAL, diagonal);
+    }
+
+    /// How an edge is seen between a triangle, of which it is a half-edge, and another; of an edge that is not there,
+    /// not at all.
+    fn sight(&self, (one, edge): (Option<u32>, usize), other: Option<u32>) -> Sight {
+        match (one, other) {
+            (None, None) => [false; 2],
+            (Some(one), Some(other)) => {
+                let corners = self.grid.corners(one).map(|corner| corner.as_dvec3());
+                let along = (corners[(edge + 1) % 3] - corners[edge]).normalize();
+                sight([one, other].map(|triangle| normal(self.grid, triangle)), along)
+            }
+            _ => RIM,
+        }
+    }
+
+    fn put(&mut self, ends: [usize; 2], vertex: usize, shift: usize, [front, back]: Sight) {
+        let bits = u8::from(front) | u8::from(back) << 1;
+        if bits != 0 {
+            self.marks[vertex] |= bits << shift;
+            ends.into_iter().for_each(|end| self.marks[end] |= bits << VERTEX);
+        }
+    }
+}
+
+fn normal(grid: &Grid, triangle: u32) -> DVec3 {
+    let [a, b, c] = grid.corners(triangle).map(|corner| corner.as_dvec3());
+    unit((b - a).cross(c - a))
+}
+
+/// The box around a cell.
+fn sides(grid: &Grid, cell: Cell) -> Sides {
+    let heights = grid.heights_of(cell);
+    let low = heights.into_iter().fold(f32::INFINITY, f32::min);
+    let high = heights.into_iter().fold(f32::NEG_INFINITY, f32::max);
+    let Cell { column, row } = cell;
+    let [x, z] =
+        [(0, column), (1, row)].map(|(axis, number)| [grid.line(axis, number), grid.line(axis, number + 1)]);
+    [x[0], low, z[0], x[1], high, z[1]]
+}
+
+fn union(one: Sides, other: Sides) -> Sides {
+    core::array::from_fn(|row| if row < 3 { one[row].min(other[row]) } else { one[row].max(other[row]) })
+}

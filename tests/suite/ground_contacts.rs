@@ -1,0 +1,9 @@
+//! Contacts of bodies on triangle ground: no ghosts while they slide, the normals that edges and corners may give, and
+//! everything else against a loop over all triangles.
+
+mod brute;
+mod curves;
+mod edges;
+mod order;
+mod scenes;
+mod slide;
