@@ -164,7 +164,9 @@ pub(super) fn baked(mesh: &TriMesh, turn: Quat, shift: Vec3) -> TriMesh {
     let basis = Pose3::new(DVec3::ZERO, turn).unwrap();
     let vertices: Vec<Vec3> =
         mesh.vertices().iter().map(|v| (basis.turn(v.as_dvec3())).as_vec3() + shift).collect();
-    TriMesh::new(vertices, mesh.triangles().to_vec()).unwrap()
+    let baked = TriMesh::new(vertices, mesh.triangles().to_vec()).unwrap();
+    assert_eq!(baked.dropped(), Default::default());
+    baked
 }
 
 /// A triangle of a mesh by its number.
