@@ -34,6 +34,7 @@
 //!   parry3d's word
 //! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the
 //!   exact yes or no say
+//! - [`chains`]: polylines to stand on: exact, without ghost collisions, at any angle; in casts, worlds and snapshots, too
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
@@ -74,6 +75,7 @@ mod boxes;
 mod broad;
 mod casts;
 mod casts_plane;
+mod chains;
 mod characters;
 mod debug_lines;
 mod exactness;
