@@ -23,6 +23,8 @@ pub(crate) fn from_surface2(shape: &Shape2, part: u32, point: DVec2) -> f64 {
             .parts()
             .get(part as usize)
             .map_or(f64::INFINITY, |part| from_surface2(part.shape(), 0, part.pose().transform_back(point))),
+        // No attitude lays anything on ground: it is drawn alone.
+        Shape2::Chain(_) => f64::INFINITY,
         _ => (above_core2(shape, point) - f64::from(shape.radius())).abs(),
     }
 }

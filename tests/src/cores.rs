@@ -17,7 +17,7 @@ use crate::exhaustive_distance::{Nearest, exhaustive_distance2, exhaustive_dista
 use crate::exhaustive_sat::{exhaustive_sat2, exhaustive_sat3, gap2, gap3};
 use crate::placed::{Placed2, Placed3};
 use crate::solid::Solid;
-use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
+use asunder_geometry::{Chain, Pose2, Pose3, Shape2, Shape3};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// A convex part of a body in space.
@@ -136,8 +136,16 @@ pub fn pieces2(shape: &Shape2, pose: &Pose2, origin: DVec2) -> Vec<Piece2> {
             });
             placed.collect()
         }
+        Shape2::Chain(chain) => {
+            segments(chain).map(|segment| piece2(&segment, number(pose), moved)).collect()
+        }
         _ => vec![piece2(shape, number(pose), moved)],
     }
+}
+
+/// A chain is the union of these.
+pub fn segments(chain: &Chain) -> impl Iterator<Item = Shape2> {
+    (0..chain.segment_count() as u32).filter_map(|i| chain.segment(i)).map(Shape2::from)
 }
 
 fn piece2(shape: &Shape2, turn: DVec2, moved: DVec2) -> Piece2 {

@@ -4,8 +4,8 @@
 use crate::bodies::{Bodies2, Bodies3};
 use crate::cases::{Case2, Case3, Random};
 use asunder_geometry::{
-    Capsule2, Capsule3, Circle, Compound2, Compound3, Cuboid, HalfPlane, HalfSpace, Hull, Polygon, Pose2,
-    Pose3, Rect, Rotation2, Segment2, Segment3, Shape2, Shape3, Sphere, Triangle3,
+    Capsule2, Capsule3, Chain, Circle, Compound2, Compound3, Cuboid, HalfPlane, HalfSpace, Hull, Polygon,
+    Pose2, Pose3, Rect, Rotation2, Segment2, Segment3, Shape2, Shape3, Sphere, Triangle3,
 };
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
@@ -115,6 +115,41 @@ pub const KINDS2: [Kind<Shape2>; 9] = [
         Compound2::new(parts).unwrap().into()
     }),
     ("half-plane", |clay| HalfPlane::new(clay.normal().truncate()).unwrap().into()),
+];
+
+/// Chains: wild ones, closed ones, and a line cut into pieces of which some are a thousandth of the others.
+pub const CHAINS: [Kind<Shape2>; 3] = [
+    ("chain", |clay| {
+        loop {
+            let count = 2 + clay.random.below(11);
+            let vertices: Vec<Vec2> = (0..count).map(|_| clay.point().truncate()).collect();
+            if let Ok(chain) = Chain::open(vertices) {
+                return if clay.random.below(3) == 0 { chain.one_sided() } else { chain }.into();
+            }
+        }
+    }),
+    ("closed chain", |clay| {
+        loop {
+            let count = 3 + clay.random.below(9);
+            let vertices: Vec<Vec2> = (0..count).map(|_| clay.point().truncate()).collect();
+            if let Ok(chain) = Chain::closed(vertices) {
+                return chain.into();
+            }
+        }
+    }),
+    ("cut line", |clay| {
+        loop {
+            let (from, to) = (clay.point().truncate(), clay.point().truncate());
+            let mut at = 0.0;
+            let mut cut = |i: usize| {
+                at += if i % 3 == 1 { 1e-4 } else { 0.1 };
+                from + (to - from) * at
+            };
+            if let Ok(chain) = Chain::open((0..12).map(&mut cut)) {
+                return chain.into();
+            }
+        }
+    }),
 ];
 
 impl<'a> Clay<'a> {

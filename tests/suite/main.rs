@@ -36,6 +36,7 @@
 //!   exact yes or no say
 //! - [`ground_questions`]: overlaps, distances, rays and casts over meshes and height fields are the least of all
 //!   triangles', one by one; sides; characters on ground
+//! - [`chains`]: polylines to stand on: exact, without ghost collisions, at any angle; in casts, worlds and snapshots, too
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
@@ -76,6 +77,7 @@ mod boxes;
 mod broad;
 mod casts;
 mod casts_plane;
+mod chains;
 mod characters;
 mod debug_lines;
 mod exactness;

@@ -67,9 +67,12 @@ impl<S: Space> World<S> {
         outcome
     }
 
-    /// Gives a body another shape, and forgets what was learnt with the one before.
+    /// Gives a body another shape, and forgets what was learnt with the one before. What becomes ground is fixed, and stays
+    /// so.
     pub(crate) fn reshape_body(&mut self, key: S::Key, shape: S::Shape) -> Result<(), StaleKey> {
-        self.bodies.get_mut(key).ok_or(StaleKey)?.shape = shape;
+        let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
+        body.fixed |= S::is_ground(&shape);
+        body.shape = shape;
         self.note_reshaped(slot_of(key));
         self.mark_dirty(slot_of(key));
         Ok(())

@@ -185,6 +185,7 @@ impl Collider<Volume> {
 
 impl<S: Space> Collider<S> {
     fn with_shape(shape: S::Shape) -> Self {
+        let fixed = S::is_ground(&shape);
         Self {
             shape,
             pose: S::Pose::default(),
@@ -192,7 +193,7 @@ impl<S: Space> Collider<S> {
             owner: None,
             user_data: 0,
             margin: 0.0,
-            fixed: false,
+            fixed,
             sensor: false,
             disabled: false,
             asleep: false,
@@ -200,7 +201,8 @@ impl<S: Space> Collider<S> {
         }
     }
 
-    /// Marks a body of the level: two fixed bodies never pair. It may still be moved by `set_pose`.
+    /// Marks a body of the level: two fixed bodies never pair. It may still be moved by `set_pose`. Ground
+    /// ([`Chain`](crate::Chain)) is fixed without being told.
     #[must_use]
     pub fn fixed(mut self) -> Self {
         self.fixed = true;

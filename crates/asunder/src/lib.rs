@@ -77,13 +77,13 @@ mod world2;
 mod world3;
 
 pub use asunder_geometry::{
-    Aabb2, Aabb3, Basis3, Bounds, Capsule2, Capsule3, CapsuleError, Circle, Compound2, Compound3,
-    CompoundError, Core2, Core3, Cuboid, DecomposeError, DirectionError, DroppedTriangles, ExtentError,
-    Ground, HalfEdge, HalfPlane, HalfSpace, HeightField, HeightFieldError, Hull, HullError, HullFault,
-    MassError, MassProperties2, MassProperties3, MeshError, Motion2, Motion3, Part2, Part3, Polygon,
-    PolygonError, Pose2, Pose3, PoseError, Prominent, RadiusError, Ray2, Ray3, RayError, Rect, Rotation2,
-    Segment2, Segment3, Shape2, Shape3, Sphere, Topology, TriMesh, Triangle3, Turn3, VertexError, decompose,
-    glam, tolerance,
+    Aabb2, Aabb3, Basis3, Bounds, Capsule2, Capsule3, CapsuleError, Chain, ChainError, Circle, Compound2,
+    Compound3, CompoundError, Core2, Core3, Cuboid, DecomposeError, DirectionError, DroppedTriangles,
+    ExtentError, Ground, HalfEdge, HalfPlane, HalfSpace, HeightField, HeightFieldError, Hull, HullError,
+    HullFault, MassError, MassProperties2, MassProperties3, MeshError, Motion2, Motion3, Part2, Part3,
+    Polygon, PolygonError, Pose2, Pose3, PoseError, Prominent, RadiusError, Ray2, Ray3, RayError, Rect,
+    Rotation2, Run, Segment2, Segment3, Shape2, Shape3, Sphere, Topology, TriMesh, Triangle3, Turn3,
+    VertexError, decompose, glam, tolerance,
 };
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, Feature, FeatureId, Impact2, Impact3,

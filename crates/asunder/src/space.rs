@@ -85,6 +85,10 @@ pub trait Space: sealed::Sealed + Sized + 'static {
         motions: [Option<Self::Motion>; 2],
     ) -> Option<(f64, Self::Impact)>;
 
+    /// Whether a shape is ground, which is always fixed.
+    #[doc(hidden)]
+    fn is_ground(shape: &Self::Shape) -> bool;
+
     /// The least separation of manifolds.
     #[doc(hidden)]
     fn least_separation(manifolds: &[Self::Manifold]) -> f32;
@@ -141,6 +145,10 @@ impl Space for Plane {
         let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion2::STILL));
         let pair = Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose);
         pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping).map(|impact| (impact.fraction, impact))
+    }
+
+    fn is_ground(shape: &Shape2) -> bool {
+        shape.is_ground()
     }
 
     fn least_separation(manifolds: &[Manifold2]) -> f32 {
@@ -207,6 +215,10 @@ impl Space for Volume {
         let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion3::STILL));
         let pair = Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose);
         pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping).map(|impact| (impact.fraction, impact))
+    }
+
+    fn is_ground(_: &Shape3) -> bool {
+        false
     }
 
     fn least_separation(manifolds: &[Manifold3]) -> f32 {

@@ -7,6 +7,7 @@
 //! pair of pieces     A's coordinates times B's denominator and the other way round, seen from a point of A
 //! ```
 
+use crate::cores::segments;
 use crate::integers::{common_integers, in_unit, last_exponent};
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 use num_bigint::BigInt;
@@ -79,6 +80,7 @@ pub fn pieces2(a: (&Shape2, &Pose2), b: (&Shape2, &Pose2)) -> [Vec<Piece>; 2] {
             Shape2::Compound(compound) => (compound.parts().iter())
                 .map(|part| piece2(part.shape(), &map.after(&Map::of_pose2(part.pose(), unit)), unit))
                 .collect(),
+            Shape2::Chain(chain) => segments(chain).map(|segment| piece2(&segment, &map, unit)).collect(),
             _ => vec![piece2(shape, &map, unit)],
         }
     })
@@ -233,6 +235,10 @@ fn least_exponent2(shape: &Shape2, pose: &Pose2) -> Option<i32> {
         Shape2::HalfPlane(_) => None,
         Shape2::Compound(compound) => {
             compound.parts().iter().filter_map(|part| least_exponent2(part.shape(), part.pose())).min()
+        }
+        Shape2::Chain(chain) => {
+            let lengths = chain.vertices().iter().flat_map(|v| v.to_array());
+            lengths.filter_map(|length| last_exponent(length.into())).min()
         }
         _ => {
             let core = shape.core();

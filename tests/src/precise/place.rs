@@ -2,6 +2,7 @@
 
 use super::dd::{Dd, Dd3};
 use super::nearest::Cloud;
+use crate::cores::segments;
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 use glam::{DVec2, DVec3};
 
@@ -54,6 +55,9 @@ pub fn pieces2((shape, pose): (&Shape2, &Pose2), origin: DVec2) -> Vec<Piece> {
                 piece2(part.shape(), turn, turned2(pose, Dd3::from(inner.position().extend(0.0))) + moved)
             })
             .collect(),
+        Shape2::Chain(chain) => {
+            segments(chain).map(|segment| piece2(&segment, |v| turned2(pose, v), moved)).collect()
+        }
         _ => vec![piece2(shape, |v| turned2(pose, v), moved)],
     }
 }

@@ -112,7 +112,7 @@ fn is_solid3(shape: &Shape3) -> bool {
 
 fn is_solid2(shape: &Shape2) -> bool {
     match shape {
-        Shape2::HalfPlane(_) | Shape2::Segment(_) => false,
+        Shape2::HalfPlane(_) | Shape2::Segment(_) | Shape2::Chain(_) => false,
         Shape2::Compound(compound) => compound.parts().iter().all(|part| is_solid2(part.shape())),
         Shape2::Circle(_) | Shape2::Capsule(_) | Shape2::Rect(_) | Shape2::Polygon(_) => {
             shape.outer_radius() > 0.0

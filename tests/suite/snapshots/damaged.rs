@@ -71,7 +71,7 @@ fn what_contradicts_itself_is_refused_by_name() {
         assert!(said.contains(says), "{said}, not: {says}");
     };
     let last = |list: &Value| list.as_array().unwrap().len() - 1;
-    refused(&|c| c["format"] = json!(2), "format 2");
+    refused(&|c| c["format"] = json!(1), "format 1");
     refused(&|c| c["extra"] = json!(2), "unknown field");
     refused(&|c| c["free"] = json!([]), "empty slots");
     refused(&|c| c["free"][0] = json!(0), "empty slots");

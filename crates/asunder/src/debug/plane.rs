@@ -83,6 +83,13 @@ fn outline(shape: &Shape2, pose: &Pose2, options: &DebugOptions, line: &mut dyn 
                 outline(part.shape(), part.pose(), options, &mut moved);
             }
         }
+        Shape2::Chain(chain) => {
+            let back = if chain.is_closed() { chain.vertices().first() } else { None };
+            let next = chain.vertices().iter().skip(1).chain(back);
+            for (&from, &to) in chain.vertices().iter().zip(next) {
+                line(pose.transform(from), pose.transform(to));
+            }
+        }
         Shape2::Circle(circle) => {
             let radius = f64::from(circle.radius());
             let center = pose.position();

@@ -80,6 +80,7 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             asleep,
             bullet,
         } = self;
+        let is_ground = S::is_ground(&shape);
         Collider::<S> {
             shape,
             pose: *pose,
@@ -87,7 +88,7 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             owner: *owner,
             user_data: *user_data,
             margin: 0.0,
-            fixed: *fixed,
+            fixed: *fixed || is_ground,
             sensor: *sensor,
             disabled: *disabled,
             asleep: *asleep,

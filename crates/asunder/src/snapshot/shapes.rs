@@ -1,13 +1,15 @@
 //! The shapes of a world, those that several bodies share once.
 //!
-//! A hull, a polygon and a compound keep their data behind a counted pointer, and clones share it. Bodies name such
+//! A hull, a polygon, a compound and ground keep their data behind a counted pointer, and clones share it. Bodies name such
 //! data by its place in a table; any other shape they keep themselves. A compound's parts may share data with other
 //! bodies too.
 
 use super::digest::digest;
 use super::error::SnapshotError;
 use crate::space::{Plane, Space, Volume};
-use asunder_geometry::{Compound2, Compound3, Hull, Polygon, Pose2, Pose3, RadiusError, Shape2, Shape3};
+use asunder_geometry::{
+    Chain, Compound2, Compound3, Hull, Polygon, Pose2, Pose3, RadiusError, Shape2, Shape3,
+};
 use core::fmt::{Debug, Display};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -31,6 +33,10 @@ pub trait Saved:
     #[doc(hidden)]
     type Polytope: Plain;
 
+    /// Ground.
+    #[doc(hidden)]
+    type Ground: Plain;
+
     /// How serde names the shape that is nothing but a radius.
     #[doc(hidden)]
     const BALL: &'static str;
@@ -51,6 +57,14 @@ pub trait Saved:
     #[doc(hidden)]
     fn compound(parts: Vec<(Self::Pose, Self::Shape)>) -> Result<Self::Shape, impl Display>;
 
+    /// Ground, and its address.
+    #[doc(hidden)]
+    fn ground(shape: &Self::Shape) -> Option<(Self::Ground, usize)>;
+
+    /// Ground as a shape.
+    #[doc(hidden)]
+    fn grounded(ground: &Self::Ground) -> Self::Shape;
+
     /// Whether a manifold has points, finite numbers and a unit normal.
     #[doc(hidden)]
     fn is_sound(manifold: &Self::Manifold) -> bool;
@@ -63,6 +77,7 @@ pub(super) enum ShapeRef<Shape> {
     Own(Shape),
     Polytope { index: u32, radius: f32 },
     Compound { index: u32 },
+    Ground { index: u32 },
 }
 
 /// Shared shapes, in the order in which the bodies name them first.
@@ -71,6 +86,7 @@ pub(super) enum ShapeRef<Shape> {
 pub(super) struct Table<S: Saved> {
     polytopes: Vec<S::Polytope>,
     compounds: Vec<Vec<PartForm<S>>>,
+    ground: Vec<S::Ground>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -87,6 +103,7 @@ pub(super) struct Collected<S: Saved> {
     pub(super) table: Table<S>,
     polytopes: Seen,
     compounds: Seen,
+    ground: Seen,
 }
 
 /// Places in a list, by address and by digest.
@@ -113,8 +130,8 @@ impl Seen {
 
 impl<S: Saved> Collected<S> {
     pub(super) fn new() -> Self {
-        let table = Table { polytopes: Vec::new(), compounds: Vec::new() };
-        Self { table, polytopes: Seen::default(), compounds: Seen::default() }
+        let table = Table { polytopes: Vec::new(), compounds: Vec::new(), ground: Vec::new() };
+        Self { table, polytopes: Seen::default(), compounds: Seen::default(), ground: Seen::default() }
     }
 
     /// How a body names its shape.
@@ -124,6 +141,11 @@ impl<S: Saved> Collected<S> {
             let index =
                 known.unwrap_or_else(|| self.polytopes.place(address, &mut self.table.polytopes, polytope));
             return ShapeRef::Polytope { index, radius };
+        }
+        if let Some((ground, address)) = S::ground(shape) {
+            let known = self.ground.by_address.get(&address).copied();
+            let index = known.unwrap_or_else(|| self.ground.place(address, &mut self.table.ground, ground));
+            return ShapeRef::Ground { index };
         }
         let Some((address, parts)) = S::parts(shape) else { return ShapeRef::Own(shape.clone()) };
         if let Some(&index) = self.compounds.by_address.get(&address) {
@@ -139,11 +161,12 @@ impl<S: Saved> Collected<S> {
 pub(super) struct Revived<'a, S: Saved> {
     polytopes: &'a [S::Polytope],
     compounds: Vec<S::Shape>,
+    ground: &'a [S::Ground],
 }
 
 impl<'a, S: Saved> Revived<'a, S> {
     pub(super) fn of(table: &'a Table<S>) -> Result<Self, SnapshotError> {
-        let mut revived = Self { polytopes: &table.polytopes, compounds: Vec::new() };
+        let mut revived = Self { polytopes: &table.polytopes, compounds: Vec::new(), ground: &table.ground };
         for (index, parts) in table.compounds.iter().enumerate() {
             let refused = |reason: String| SnapshotError::Shape { index, reason };
             let part = |part: &PartForm<S>| Ok((part.pose, revived.shape(&part.shape)?));
@@ -165,9 +188,17 @@ impl<'a, S: Saved> Revived<'a, S> {
             ShapeRef::Compound { index } => {
                 self.compounds.get(*index as usize).cloned().ok_or_else(|| missing(*index))
             }
+            ShapeRef::Ground { index } => {
+                self.ground.get(*index as usize).map(S::grounded).ok_or_else(|| missing(*index))
+            }
         }
     }
 }
+
+/// There is none in space.
+#[doc(hidden)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum NoGround {}
 
 fn missing(index: u32) -> String {
     format!("there is no shape {index}")
@@ -175,6 +206,7 @@ fn missing(index: u32) -> String {
 
 impl Saved for Plane {
     type Polytope = Polygon;
+    type Ground = Chain;
 
     const BALL: &'static str = "Circle";
 
@@ -198,6 +230,15 @@ impl Saved for Plane {
         Compound2::new(parts).map(Shape2::from)
     }
 
+    fn ground(shape: &Shape2) -> Option<(Chain, usize)> {
+        let Shape2::Chain(chain) = shape else { return None };
+        Some((chain.clone(), chain.shared_address()))
+    }
+
+    fn grounded(chain: &Chain) -> Shape2 {
+        chain.clone().into()
+    }
+
     fn is_sound(manifold: &Self::Manifold) -> bool {
         let points = manifold.points.iter();
         let are_finite = |point: &asunder_narrow::ContactPoint2| {
@@ -211,6 +252,7 @@ impl Saved for Plane {
 
 impl Saved for Volume {
     type Polytope = Hull;
+    type Ground = NoGround;
 
     const BALL: &'static str = "Sphere";
 
@@ -232,6 +274,14 @@ impl Saved for Volume {
 
     fn compound(parts: Vec<(Pose3, Shape3)>) -> Result<Shape3, impl Display> {
         Compound3::new(parts).map(Shape3::from)
+    }
+
+    fn ground(_: &Shape3) -> Option<(NoGround, usize)> {
+        None
+    }
+
+    fn grounded(ground: &NoGround) -> Shape3 {
+        match *ground {}
     }
 
     fn is_sound(manifold: &Self::Manifold) -> bool {

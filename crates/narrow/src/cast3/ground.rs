@@ -75,9 +75,16 @@ impl Search<'_> {
         let [of_body, of_ground] = on.in_order(0, 1);
         if self.passage.turns[of_ground].is_some() || !low.is_finite() {
             // Seen from ground that turns, a body flies in curves.
-            let _ = on.ground.visit_near(&asunder_geometry::Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY), |number| {
-                if self.look(part, &placed, number) < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            });
+            let _ = on.ground.visit_near(
+                &asunder_geometry::Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY),
+                |number| {
+                    if self.look(part, &placed, number) < 0.0 {
+                        ControlFlow::Break(())
+                    } else {
+                        ControlFlow::Continue(())
+                    }
+                },
+            );
             return;
         }
         if self.passage.turns[of_body].is_some() {

@@ -2,8 +2,8 @@
 
 use asunder_geometry::tolerance::MAX_POSITION;
 use asunder_geometry::{
-    Capsule2, Capsule3, Circle, Compound2, Compound3, Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Segment2,
-    Segment3, Shape2, Shape3, Sphere, TriMesh, Triangle3,
+    Capsule2, Capsule3, Chain, Circle, Compound2, Compound3, Cuboid, Hull, Polygon, Pose2, Pose3, Rect,
+    Segment2, Segment3, Shape2, Shape3, Sphere, TriMesh, Triangle3,
 };
 use asunder_tests::cases::{Case2, Case3};
 use glam::{DVec2, DVec3, Vec2, Vec3};
@@ -118,6 +118,12 @@ impl Scaled for Shape2 {
                 let parts = compound.parts().iter();
                 let parts = parts.map(|part| Some((part.pose().scaled(k)?, part.shape().scaled(k)?)));
                 Compound2::new(parts.collect::<Option<Vec<_>>>()?).ok()?.into()
+            }
+            Self::Chain(chain) => {
+                let vertices = vectors2(chain.vertices(), k)?;
+                let scaled =
+                    if chain.is_closed() { Chain::closed(vertices) } else { Chain::open(vertices) }.ok()?;
+                if chain.is_one_sided() { scaled.one_sided() } else { scaled }.into()
             }
         })
     }

@@ -1,0 +1,247 @@
+//! Arcs, corners, hollows, ends and sides.
+
+use super::{at, chain, noise, sliders, towards, turned};
+use asunder::glam::{DVec2, Vec2};
+use asunder::{Chain, Circle, Feature, Manifold2, Pair2, Pose2, Rect, Shape2};
+use core::ops::ControlFlow;
+
+fn circle(radius: f32) -> Shape2 {
+    Circle::new(radius).unwrap().into()
+}
+
+fn square(half: f32) -> Shape2 {
+    Rect::from_half_extents(Vec2::splat(half)).unwrap().into()
+}
+
+/// Manifolds with normals out of the ground, whichever body comes first.
+fn manifolds(chain: &Chain, body: &Shape2, pose: &Pose2, margin: f32) -> Vec<Manifold2> {
+    let ground = Shape2::from(chain.clone());
+    let found = Pair2::new(&ground, &Pose2::IDENTITY, body, pose).manifolds(margin);
+    let other = Pair2::new(body, pose, &ground, &Pose2::IDENTITY).manifolds(margin);
+    assert_eq!(found.len(), other.len(), "{found:?} {other:?}");
+    for (one, other) in found.iter().zip(&other) {
+        assert!((one.normal + other.normal).length() < 2e-6, "{one:?} {other:?}");
+        assert!(
+            (one.separation - other.separation).abs() <= one.error + other.error + 4e-6,
+            "{one:?} {other:?}"
+        );
+    }
+    found
+}
+
+/// A wall on the left of (0, 0) up to it, and a roof from there to the left: seen from above right.
+fn ledge() -> Chain {
+    chain(&[(0.0, -5.0), (0.0, 0.0), (-2.0, 0.0), (-5.0, 0.0)])
+}
+
+/// A wall that stands on a floor: seen from above left.
+fn nook() -> Chain {
+    chain(&[(0.0, 5.0), (0.0, 2.0), (0.0, 0.0), (-0.5, 0.0), (-5.0, 0.0)]).one_sided()
+}
+
+#[test]
+fn over_a_smooth_arc_normals_stay_among_those_of_the_segments_that_are_near() {
+    for (is_hill, radius) in [(true, 50.0), (false, 50.0), (true, 5.0), (false, 5.0)] {
+        let mut angle = 0.3;
+        let mut points = Vec::new();
+        for i in 0..400 {
+            points.push((towards(angle) * radius).as_vec2());
+            angle += if i % 5 == 3 { 1e-5 } else { 0.004 + 0.003 * noise(i) };
+        }
+        // The front is on the right: outside of an arc that turns left.
+        if !is_hill {
+            points.reverse();
+        }
+        let arc = Chain::open(points.clone()).unwrap();
+        let arc = if radius > 20.0 { arc.one_sided() } else { arc };
+        for (name, body, foot) in &sliders() {
+            for i in 0..120 {
+                let place = towards(0.6 + 0.008 * f64::from(i));
+                let up = if is_hill { place } else { -place };
+                // Bodies wider than a point stand higher over a hollow; deep enough for all.
+                let pose = Pose2::new(place * radius + up * (foot - 0.01), turned(-up.perp())).unwrap();
+                let found = manifolds(&arc, body, &pose, 0.0);
+                assert!(!found.is_empty(), "{name} {i}");
+                let near = body.bounds(&pose, 0.02);
+                let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+                let _ = arc.visit_near(&near, |segment| {
+                    let run = arc.run_of(segment).unwrap();
+                    let [from, to] = arc.chord(&run).unwrap().ends().map(Vec2::as_dvec2);
+                    let normal = -(to - from).normalize().perp();
+                    let lean = up.perp_dot(normal);
+                    (least, most) = (least.min(lean), most.max(lean));
+                    ControlFlow::Continue(())
+                });
+                for manifold in &found {
+                    let lean = up.perp_dot(manifold.normal.as_dvec2());
+                    assert!(manifold.normal.as_dvec2().dot(up) > 0.8, "{name} {i}: {manifold:?}");
+                    assert!(
+                        least - 1e-6 <= lean && lean <= most + 1e-6,
+                        "{name} {i}: {least} {most} {manifold:?}"
+                    );
+                    let depth = -f64::from(manifold.separation);
+                    assert!(
+                        depth <= 0.05,
+                        "{name} {i}: no deeper than it was put, and the arc's sag: {manifold:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_corner_is_met_as_a_corner() {
+    for ground in [ledge(), ledge().one_sided()] {
+        for i in 1..9 {
+            // From the right to straight up, both still the corner's own.
+            let away = towards(core::f64::consts::FRAC_PI_2 * f64::from(i) / 9.0);
+            let pose = Pose2::at(away * 0.45).unwrap();
+            let found = manifolds(&ground, &circle(0.5), &pose, 0.0);
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert!(
+                (found[0].normal.as_dvec2() - away).length() < 1e-6
+                    && (found[0].separation + 0.05).abs() < 1e-6
+            );
+            assert_eq!(found[0].points[0].feature.a(), Feature::Vertex(1));
+            // A face that leans over the corner has its own normal.
+            let leaning = Pose2::new(away * 0.45, turned(away)).unwrap();
+            let found = manifolds(&ground, &square(0.5), &leaning, 0.0);
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert!((found[0].normal.as_dvec2() - away).length() < 1e-6, "{found:?} {away}");
+            assert!(found[0].points.iter().any(|point| point.feature.a() == Feature::Vertex(1)));
+        }
+    }
+}
+
+/// What stands on a ledge and is tilted by nothing, either way, is not pushed off it.
+#[test]
+fn on_a_ledge_nothing_pushes_sideways() {
+    for ground in [ledge(), ledge().one_sided()] {
+        for (name, body, foot) in &sliders() {
+            for tilt in [0.0, 1e-7, -1e-7, 2e-6, -2e-6, 1e-4, -1e-4, 1e-2, -1e-2] {
+                for depth in [1e-6, 1e-3, 1e-2] {
+                    for x in [-0.45, -0.2, -0.05, 0.05, 0.2] {
+                        let pose = Pose2::new([x, foot - depth], turned(towards(tilt))).unwrap();
+                        for manifold in manifolds(&ground, body, &pose, 0.0) {
+                            let normal = manifold.normal.as_dvec2();
+                            // A round body beyond the edge rolls off it.
+                            let is_round = *name == "circle" && x > 0.0;
+                            // A hexagon's own faces rise at 60 degrees.
+                            let is_over =
+                                is_round || normal.perp_dot(DVec2::Y).abs() <= 2.0 * f64::abs(tilt) + 1e-5;
+                            assert!(is_over && normal.y > 0.8, "{name} {tilt} {depth} {x}: {manifold:?}");
+                            assert!(
+                                f64::from(manifold.separation) > -1.5 * depth - 0.02,
+                                "{name} {tilt} {depth} {x}: {manifold:?}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn in_a_nook_there_are_two_normals_and_no_third() {
+    for body in [circle(0.5), square(0.5)] {
+        let pose = at(-0.49, 0.48);
+        let found = manifolds(&nook(), &body, &pose, 0.0);
+        let normals: Vec<Vec2> = found.iter().map(|manifold| manifold.normal).collect();
+        assert_eq!(normals, [Vec2::NEG_X, Vec2::Y], "{found:?}");
+        assert!((found[0].separation + 0.01).abs() < 1e-6 && (found[1].separation + 0.02).abs() < 1e-6);
+        assert_eq!([found[0].part_a, found[1].part_a], [0, 2], "the first segments of both runs");
+        let count = if body == square(0.5) { 2 } else { 1 };
+        assert!(found.iter().all(|manifold| manifold.points.len() == count), "{found:?}");
+    }
+}
+
+#[test]
+fn loose_ends_are_met_from_all_around() {
+    let platform = chain(&[(0.0, 0.0), (-1.0, 0.0), (-3.0, 0.0)]);
+    for i in -8..=8 {
+        let away = towards(core::f64::consts::FRAC_PI_2 * f64::from(i) / 9.0);
+        let pose = Pose2::at(away * 0.45).unwrap();
+        let found = manifolds(&platform, &circle(0.5), &pose, 0.0);
+        assert!(found.len() == 1 && (found[0].normal.as_dvec2() - away).length() < 1e-6, "{found:?}");
+        // A body behind the line is not seen from its front.
+        let found = manifolds(&platform.clone().one_sided(), &circle(0.5), &pose, 0.0);
+        assert_eq!(found.len(), usize::from(i >= 0), "{found:?}");
+    }
+    // A box beside the end, its centre above the line, tilted by nothing either way.
+    for tilt in [0.0, 1e-6, -1e-6, 1e-3, -1e-3] {
+        let pose = Pose2::new([0.499, 0.2], turned(towards(tilt))).unwrap();
+        for platform in [platform.clone(), platform.clone().one_sided()] {
+            let found = manifolds(&platform, &square(0.5), &pose, 0.0);
+            assert!(
+                found.len() == 1 && found[0].normal.x > 0.999 && found[0].separation > -0.01,
+                "{found:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn one_side_lets_through_from_behind_and_two_sides_do_not() {
+    let ground = chain(&[(5.0, 0.0), (1.0, 0.0), (-5.0, 0.0)]);
+    let platform = ground.clone().one_sided();
+    for (name, body, foot) in &sliders() {
+        // On the way up: nothing, until the centre is above.
+        for i in 0..40 {
+            let y = -2.0 * foot + 0.1 * foot * f64::from(i) + 1e-3;
+            let pose = at(0.3, y);
+            let found = manifolds(&platform, body, &pose, 0.0);
+            let expected = usize::from(y > 0.0 && y < *foot);
+            assert_eq!(found.len(), expected, "{name} {y}: {found:?}");
+            assert!(found.iter().all(|manifold| manifold.normal == Vec2::Y), "{name} {y}: {found:?}");
+            // Of two sides, the nearer one; the set of points is the same for both.
+            let found = manifolds(&ground, body, &pose, 0.0);
+            let up = if y > 0.0 { Vec2::Y } else { Vec2::NEG_Y };
+            assert!(found.iter().all(|manifold| manifold.normal == up), "{name} {y}: {found:?}");
+            let overlaps =
+                |chain: &Chain| Pair2::new(&chain.clone().into(), &Pose2::IDENTITY, body, &pose).overlaps();
+            assert_eq!((overlaps(&platform), overlaps(&ground)), (!found.is_empty(), !found.is_empty()));
+        }
+    }
+}
+
+/// Two faces a millimetre apart: what is a centimetre deep in one is behind the other.
+#[test]
+fn a_thin_wall_pushes_back_to_where_a_body_came_from() {
+    let half = 5e-4;
+    let wall = [(half, 3.0), (-half, 3.0), (-half, 1.0), (-half, -3.0), (half, -3.0), (half, 0.5)];
+    let wall = Chain::closed(wall.map(|(x, y)| Vec2::new(x, y))).unwrap().one_sided();
+    for (name, body, _) in &sliders() {
+        let reach = body.support(DVec2::X).unwrap().x;
+        for side in [1.0, -1.0] {
+            for depth in [1e-4, 1e-2, 0.2] {
+                let pose = at(side * (reach + f64::from(half) - depth), 0.3);
+                let found = manifolds(&wall, body, &pose, 0.0);
+                assert_eq!(found.len(), 1, "{name} {side} {depth}: {found:?}");
+                assert!(f64::from(found[0].normal.x) == side, "{name} {side} {depth}: {found:?}");
+                assert!(
+                    (f64::from(found[0].separation) + depth).abs() < 1e-5,
+                    "{name} {side} {depth}: {found:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_plank_on_stairs_has_one_manifold_with_two_points() {
+    // Down to the left; each step a metre deep, from -8 to 0, all of one height where it lies: a row of posts.
+    let mut points = Vec::new();
+    for i in 0..8 {
+        let x = -(i as f32);
+        points.extend([(x, -1.0), (x, 0.0), (x - 0.5, 0.0), (x - 0.5, -1.0)]);
+    }
+    let posts = chain(&points).one_sided();
+    let plank: Shape2 = Rect::from_half_extents(Vec2::new(2.2, 0.1)).unwrap().into();
+    let found = manifolds(&posts, &plank, &at(-4.0, 0.099), 0.0);
+    assert!(found.len() == 1 && found[0].normal == Vec2::Y, "{found:?}");
+    let [one, other] = found[0].points[..] else { panic!("{found:?}") };
+    let width = (one.anchor_b.x - other.anchor_b.x).abs();
+    assert!(width > 4.0, "the outermost of what it lies on: {found:?}");
+}

@@ -1,0 +1,124 @@
+//! Worlds with chains in them.
+
+use super::{at, chain, cut_line, sliders};
+use asunder::glam::{DVec2, Vec2};
+use asunder::{
+    Chain, Circle, Collider2, Compound2, CompoundError, DebugOptions, Event, Filter2, MassError, Pose2, Ray2,
+    Shape2, Snapshot, World2,
+};
+
+/// Ground of some four hundred segments that looks up.
+fn ground() -> Chain {
+    Chain::open(cut_line(DVec2::new(30.0, 0.0), DVec2::new(-30.0, 0.0), 400)).unwrap().one_sided()
+}
+
+#[test]
+fn ground_is_fixed_whatever_is_said() {
+    let mut world = World2::new();
+    let (one, other) = (world.insert(Collider2::new(ground())), world.insert(Collider2::new(ground())));
+    assert!(world.get(one).unwrap().is_fixed());
+    world.update();
+    assert_eq!(world.candidates().len(), 0, "ground never pairs with ground");
+    world.set_shape(other, Circle::new(1.0).unwrap()).unwrap();
+    let ball = world.insert(Collider2::new(Circle::new(1.0).unwrap()));
+    assert!(!world.get(ball).unwrap().is_fixed());
+    world.update();
+    assert!(world.is_touching(one, ball));
+    world.set_shape(ball, ground()).unwrap();
+    assert!(world.get(ball).unwrap().is_fixed());
+    world.update();
+    assert_eq!(world.contacts().len(), 0);
+}
+
+#[test]
+fn a_slide_over_hundreds_of_segments_begins_once_and_ends_once() {
+    for (name, body, foot) in &sliders() {
+        let mut world = World2::new();
+        let ground = world.insert(Collider2::new(ground()));
+        let body = world.insert(Collider2::new(body.clone()).at(at(-29.0, foot - 1e-3)));
+        let mut told = Vec::new();
+        for step in 0..=300 {
+            world.set_pose(body, at(-29.0 + 0.21 * f64::from(step), foot - 1e-3)).unwrap();
+            world.update();
+            told.extend(world.events().iter().map(|event| (step, matches!(event, Event::Began { .. }))));
+            if let Some(contact) = world.contact(ground, body) {
+                assert!(contact.overlapping && contact.manifolds.len() == 1, "{name} {step}");
+            }
+        }
+        let [(0, true), (end, false)] = told[..] else { panic!("{name}: {told:?}") };
+        assert!(end > 270, "{name}: {told:?}");
+    }
+}
+
+#[test]
+fn a_snapshot_keeps_ground_once_and_has_the_same_future() {
+    let mut world = World2::new();
+    let ground = ground();
+    let two_sided = Chain::open(ground.vertices().iter().copied()).unwrap();
+    for (i, shape) in
+        [ground.clone(), ground.clone(), two_sided.clone(), ground.clone()].into_iter().enumerate()
+    {
+        world.insert(Collider2::new(shape).at(at(0.0, -20.0 * i as f64)));
+    }
+    let mut bodies = Vec::new();
+    for (i, (_, shape, foot)) in sliders().into_iter().enumerate() {
+        bodies.push(world.insert(Collider2::new(shape).at(at(3.0 * i as f64 - 6.0, foot - 1e-3))));
+    }
+    world.update();
+    let text = serde_json::to_string(&world.snapshot()).unwrap();
+    assert_eq!(text.matches("\"vertices\":[[").count(), 2 + 1, "two chains and a hexagon: {}", &text[..200]);
+    let snapshot: Snapshot<asunder::Plane> = serde_json::from_str(&text).unwrap();
+    let mut restored = World2::restore(&snapshot).unwrap();
+    for (key, body) in world.iter() {
+        assert_eq!(restored.get(key).unwrap().shape(), body.shape());
+        assert_eq!(restored.get(key).unwrap().is_fixed(), body.is_fixed());
+    }
+    for step in 0..40 {
+        for world in [&mut world, &mut restored] {
+            for (i, &key) in bodies.iter().enumerate() {
+                let now = world.get(key).unwrap().pose().position();
+                world
+                    .set_pose(key, Pose2::at(now + DVec2::new(0.17, 0.01 * (i as f64 - 2.0))).unwrap())
+                    .unwrap();
+            }
+            world.update();
+        }
+        let shown =
+            |world: &World2| format!("{:?} {:?}", world.contacts().collect::<Vec<_>>(), world.events());
+        assert_eq!(shown(&world), shown(&restored), "{step}");
+    }
+}
+
+#[test]
+fn questions_see_chains() {
+    let mut world = World2::new();
+    let ground = world.insert(Collider2::new(ground()).at(at(100.0, 7.0)));
+    let filter = Filter2::new();
+    let down = Ray2::new([104.0, 12.0], Vec2::NEG_Y).unwrap();
+    let hit = world.cast_ray(&down, 100.0, &filter).unwrap();
+    assert!(hit.body == ground && (hit.distance - 5.0).abs() < 1e-6 && hit.normal == Vec2::Y, "{hit:?}");
+    let up = Ray2::new([104.0, 2.0], Vec2::Y).unwrap();
+    assert!(world.cast_ray(&up, 100.0, &filter).is_none(), "from behind");
+    let near = world.closest([90.0, 9.0], 10.0, &filter).unwrap();
+    assert!(near.body == ground && (near.distance - 2.0).abs() < 1e-5, "{near:?}");
+    let ball = Shape2::from(Circle::new(0.5).unwrap());
+    let mut found = Vec::new();
+    for (y, count) in [(7.4, 1), (7.6, 0), (6.6, 1)] {
+        world.overlapping((&ball, &at(95.0, y)), &filter, &mut found);
+        assert_eq!(found.len(), count, "{y}");
+    }
+    let cast = world.cast_shape((&ball, &at(95.0, 10.0)), Vec2::NEG_Y * 5.0, &filter).unwrap();
+    assert!(cast.body == ground && (cast.fraction - 0.5).abs() < 1e-6, "{cast:?}");
+    let mut lines = 0;
+    world.debug_lines(&DebugOptions { shapes: true, ..DebugOptions::default() }, &mut |_, _, _| lines += 1);
+    assert!(lines >= 400, "{lines}");
+}
+
+#[test]
+fn ground_is_no_part_and_has_no_mass() {
+    let ground = Shape2::from(chain(&[(1.0, 0.0), (0.0, 0.0)]));
+    assert_eq!(ground.mass_properties(1.0), Err(MassError::Unbounded));
+    let ball: Shape2 = Circle::new(1.0).unwrap().into();
+    let refused = Compound2::new([(Pose2::IDENTITY, ball), (Pose2::IDENTITY, ground)]);
+    assert_eq!(refused, Err(CompoundError::Ground { index: 1 }));
+}
