@@ -4,7 +4,7 @@ use super::mesh::{Face, faces, parts};
 use super::order::far_to_near;
 use super::{BALL, Canvas, Color, GOLD, MARK, METAL, Pen, RUBBER, SCENERY, STONE, WOOD, varied};
 use asunder::glam::{DVec2, DVec3, Vec3};
-use asunder::{Collider3, Shape3, World3};
+use asunder::{BodyKey3, Collider3, Shape3, World3};
 use std::collections::BTreeMap;
 
 /// Metres between the lines that are drawn on large faces of the scenery.
@@ -53,7 +53,15 @@ pub fn draw(world: &World3) -> String {
             let mut both = solids.iter().filter(|solid| [a, b].contains(&solid.body));
             let is_seen = both.all(|solid| solid.depth_over(place, &view) < SEEN_THROUGH);
             if is_seen {
-                points.entry(turn[a].max(turn[b])).or_default().push(place);
+                // Ground is drawn in pieces: those that hide a point come after the body that stands there.
+                let later = if is_ground(world, contact.a) {
+                    turn[b]
+                } else if is_ground(world, contact.b) {
+                    turn[a]
+                } else {
+                    turn[a].max(turn[b])
+                };
+                points.entry(later).or_default().push(place);
             }
         }
     }
@@ -69,6 +77,10 @@ pub fn draw(world: &World3) -> String {
         }
     }
     canvas.finish(DVec3::new(0.93, 0.95, 0.97), DVec3::new(0.84, 0.87, 0.90))
+}
+
+fn is_ground(world: &World3, key: BodyKey3) -> bool {
+    world.get(key).is_some_and(|body| body.shape().is_ground())
 }
 
 impl View {
