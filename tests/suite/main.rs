@@ -34,6 +34,8 @@
 //!   parry3d's word
 //! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the
 //!   exact yes or no say
+//! - [`ground_contacts`]: bodies slide over triangles without noticing; edges and corners give normals of their Voronoi
+//!   regions alone; yes or no, points and depths against a loop over all triangles
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
@@ -78,6 +80,7 @@ mod characters;
 mod debug_lines;
 mod exactness;
 mod fuzzed;
+mod ground_contacts;
 mod hard;
 mod hints;
 mod hulls;

@@ -51,7 +51,7 @@ use crate::room::Room;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Pose3, Shape3};
-use ball::Nearest;
+use ball::{Nearest, nearest_to};
 use core::ops::ControlFlow;
 use facet::{Facet, is_same};
 use groups::{Group, Groups};
@@ -168,8 +168,10 @@ impl<'a> Asking<'a> {
         to: &mut impl Room,
     ) {
         let on = self.on;
-        let Some(deepest) =
-            group.pins.iter().reduce(|least, next| if next.separation < least.separation { next } else { least })
+        let Some(deepest) = group
+            .pins
+            .iter()
+            .reduce(|least, next| if next.separation < least.separation { next } else { least })
         else {
             return;
         };
@@ -273,8 +275,8 @@ impl Seen<'_> {
             return;
         }
         let is_within = nearest.separation <= self.asking.reach;
-        let has_points = is_within
-            && nearest.add_point((self.standing, facet), ground, doubt, &mut known.groups);
+        let has_points =
+            is_within && nearest.add_point((self.standing, facet), ground, doubt, &mut known.groups);
         if known.overlapping || nearest.separation > doubt {
             return;
         }
@@ -305,9 +307,8 @@ impl Seen<'_> {
                     && prominent.corner(corner, !is_front)
                     && facet.sees_otherwise(ground, corner, standing.center))
         });
-        let stands_out = |edge: usize| {
-            prominent.edge(edge, is_front) || is_corner[edge] || is_corner[(edge + 1) % 3]
-        };
+        let stands_out =
+            |edge: usize| prominent.edge(edge, is_front) || is_corner[edge] || is_corner[(edge + 1) % 3];
         let counts = [0, 1, 2].map(|edge| stands_out(edge) && is_near(edge));
         if counts == [false; 3] {
             return false;
@@ -358,9 +359,9 @@ impl Seen<'_> {
     fn conclude(&self, known: &mut Known, is_settled: bool) {
         let slack = self.standing.slack;
         if !known.overlapping && !(is_settled && known.groups.least() >= -slack) {
-            known.unclear.sort_unstable_by(|a, b| {
-                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2))
-            });
+            known
+                .unclear
+                .sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
             let mut numbers = known.unclear.iter().map(|&(.., number)| number);
             match numbers.find(|&number| self.meeting.overlaps(self.asking.on.ground, number)) {
                 Some(number) => known.settle(number),
@@ -381,7 +382,9 @@ impl Seen<'_> {
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
         let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt };
-        known.groups.add(&prism.base(), prism.lowest());
+        let mut pin = prism.lowest();
+        pin.on_ground = nearest_to(&facet, pin.on_ground).1;
+        known.groups.add(&prism.base(), pin);
     }
 
     /// What a height over a triangle may be off by, in metres.
