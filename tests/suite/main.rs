@@ -37,6 +37,8 @@
 //! - [`ground_questions`]: overlaps, distances, rays and casts over meshes and height fields are the least of all
 //!   triangles', one by one; sides; characters on ground
 //! - [`chains`]: polylines to stand on: exact, without ghost collisions, at any angle; in casts, worlds and snapshots, too
+//! - [`ground_contacts`]: bodies slide over triangles without noticing; edges and corners give normals of their Voronoi
+//!   regions alone; yes or no, points and depths against a loop over all triangles
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
@@ -84,6 +86,7 @@ mod exactness;
 mod fuzzed;
 #[path = "ground/questions.rs"]
 mod ground_questions;
+mod ground_contacts;
 mod hard;
 mod hints;
 mod hulls;

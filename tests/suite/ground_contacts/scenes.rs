@@ -86,8 +86,6 @@ pub(super) fn rest_height(kind: usize) -> f64 {
     [0.25, 0.35, 0.25, 0.33, 0.4, 0.25, 0.3, 0.0][kind]
 }
 
-
-
 /// Heights over a grid of squares, each cut in two; the diagonals turn from square to square.
 pub(super) fn grid(
     [wide, long]: [usize; 2],

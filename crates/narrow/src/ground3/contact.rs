@@ -51,7 +51,7 @@ use crate::room::Room;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Pose3, Shape3};
-use ball::Nearest;
+use ball::{Nearest, nearest_to};
 use core::ops::ControlFlow;
 use facet::{Facet, is_same};
 use groups::{Group, Groups};
@@ -382,7 +382,9 @@ impl Seen<'_> {
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
         let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt };
-        known.groups.add(&prism.base(), prism.lowest());
+        let mut pin = prism.lowest();
+        pin.on_ground = nearest_to(&facet, pin.on_ground).1;
+        known.groups.add(&prism.base(), pin);
     }
 
     /// What a height over a triangle may be off by, in metres.
