@@ -14,6 +14,7 @@
 use super::super::{Pair2, Part, Parts, for_parts};
 use super::patches::{Patch, Patches};
 use crate::answer::Manifold2;
+use crate::counted::count_step;
 use crate::feature::Hint;
 use crate::ground2::{Surface, Told, Zone};
 use crate::polygon::manifold::Point;
@@ -112,6 +113,7 @@ impl Standing<'_> {
 
     /// How the part touches a run.
     fn on_run(&self, run: &Run, patches: &mut Patches) -> Overlap {
+        count_step();
         let pair = self.pair;
         let [chain_at, body_at] =
             if self.side == 0 { [DVec2::ZERO, pair.between] } else { [pair.between, DVec2::ZERO] };
