@@ -144,7 +144,7 @@ impl Standing<'_> {
                 let edge = (surface.edge(), surface.normal);
                 let points: ArrayVec<Point, 2> = parts.convex.over_edge(self.side == 1, edge, limit);
                 let normal = if self.side == 0 { surface.normal } else { -surface.normal };
-                let over = patch(normal, &points).map(Patch::as_deep_as_its_points);
+                let over = patch(normal, &points).map(Patch::deep_by_its_points);
                 // At a corner that is hardly one, rounding may see nothing over either face.
                 let is_face = told == Told::Face;
                 if is_face { (over.or_else(kernels), None) } else { (over, kernels()) }
