@@ -73,6 +73,7 @@ impl<S: Space> World<S> {
         let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
         body.fixed |= S::is_ground(&shape);
         body.shape = shape;
+        self.tags[slot_of(key) as usize] = Tag::of(body);
         self.note_reshaped(slot_of(key));
         self.mark_dirty(slot_of(key));
         Ok(())

@@ -159,6 +159,9 @@ pub struct ContactPoint3 {
 }
 
 /// How two convex shapes in the plane touch: one normal, and one or two points, in order of their feature ids.
+///
+/// Of a chain, the part is the first segment of the straight run that is touched, or the least of those that share the
+/// normal; and the error holds how far its vertices lie beside that.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold2 {

@@ -31,9 +31,9 @@ pub struct Impact2 {
     pub anchor_a: Vec2,
     /// Where they meet, on B: in world axes, relative to B's position at the impact.
     pub anchor_b: Vec2,
-    /// Which part of A, for shapes made of several; else 0.
+    /// Which part of A, for shapes made of several; of a chain, the first segment of the straight run; else 0.
     pub part_a: u32,
-    /// Which part of B, for shapes made of several; else 0.
+    /// Which part of B, for shapes made of several; of a chain, the first segment of the straight run; else 0.
     pub part_b: u32,
 }
 
@@ -59,6 +59,6 @@ pub struct RayHit2 {
     pub normal: Vec2,
     /// Whether the ray starts in the shape, exactly; touching counts. Then the distance is 0.
     pub inside: bool,
-    /// Which part, for a shape made of several; else 0.
+    /// Which part, for a shape made of several, or which segment of a chain; else 0.
     pub part: u32,
 }

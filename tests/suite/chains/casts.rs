@@ -240,3 +240,29 @@ fn a_character_walks_over_a_thousand_segments() {
         }
     }
 }
+
+/// A character jumps up through a one-sided platform, and stands on it when it comes down.
+#[test]
+fn a_character_jumps_through_a_platform_and_lands_on_it() {
+    let mut world = World2::new();
+    world.insert(Collider2::new(chain(&[(5.0, 0.0), (1.0, 0.0), (0.9, 0.0), (-5.0, 0.0)]).one_sided()));
+    for shape in [
+        Shape2::from(Rect::from_half_extents(Vec2::new(0.4, 0.9)).unwrap()),
+        Circle::new(0.9).unwrap().into(),
+    ] {
+        let walk = Walk2::new(&shape, Vec2::Y).unwrap();
+        let (mut pose, mut speed) = (at(0.0, -2.0), 0.28);
+        let mut is_standing = false;
+        for step in 0..120 {
+            let slide = world.move_and_slide((&shape, &pose), Vec2::new(0.01, speed), &walk, &Filter2::new());
+            assert!(slide.is_free && slide.walls.is_empty(), "{step}: {slide:?}");
+            // Once its centre is above, it is out.
+            if pose.position().y < 0.0 {
+                assert!((slide.moved - DVec2::new(0.01, speed.into())).length() < 1e-6, "{step}: {slide:?}");
+            }
+            (pose, is_standing) = (slide.pose, slide.ground.is_some());
+            speed = if is_standing { 0.0 } else { speed - 0.008 };
+        }
+        assert!(is_standing && (pose.position().y - 0.9).abs() < 0.02, "{pose:?}");
+    }
+}

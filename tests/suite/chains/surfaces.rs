@@ -20,7 +20,8 @@ fn manifolds(chain: &Chain, body: &Shape2, pose: &Pose2, margin: f32) -> Vec<Man
     let other = Pair2::new(body, pose, &ground, &Pose2::IDENTITY).manifolds(margin);
     assert_eq!(found.len(), other.len(), "{found:?} {other:?}");
     for (one, other) in found.iter().zip(&other) {
-        assert!((one.normal + other.normal).length() < 2e-6, "{one:?} {other:?}");
+        // Which of two faces is the reference may differ by as much as it may regret: a few 1e-6 of tilt.
+        assert!((one.normal + other.normal).length() < 1e-5, "{one:?} {other:?}");
         assert!(
             (one.separation - other.separation).abs() <= one.error + other.error + 4e-6,
             "{one:?} {other:?}"

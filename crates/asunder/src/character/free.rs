@@ -1,6 +1,7 @@
 //! Out of what overlaps.
 
 use super::{Freed, Linear, Walks};
+use crate::collider::Collider;
 use crate::query::{Filter, Met, bodies_over, boxes_over};
 use crate::space::Space;
 use crate::world::{World, slot_of};
@@ -130,7 +131,40 @@ pub(super) fn near<S: Walks>(
     found
 }
 
-/// Whether the shape overlaps anything; exact.
+/// Whether the shape overlaps anything; exact. One-sided ground that it comes through from behind does not count.
 pub(super) fn is_overlapping<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
-    bodies_over(world, at, filter).visit(|_| ControlFlow::Break(())).is_break()
+    any_over(world, at, filter, |body| !S::is_ground(&body.shape) || is_seen_by(at, body))
+}
+
+/// The same, save for ground.
+pub(super) fn is_overlapping_more_than_ground<S: Walks>(
+    world: &World<S>,
+    at: At<'_, S>,
+    filter: &Filter<'_, S>,
+) -> bool {
+    any_over(world, at, filter, |body| !S::is_ground(&body.shape))
+}
+
+/// Whether the shape is half way through one-sided ground, from behind.
+pub(super) fn comes_through<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
+    any_over(world, at, filter, |body| S::is_ground(&body.shape) && !is_seen_by(at, body))
+}
+
+/// Whether ground that shares a point with the shape has it in front.
+fn is_seen_by<S: Walks>(at: At<'_, S>, ground: &Collider<S>) -> bool {
+    S::gap(at, ground, 0.0).is_some_and(|(gap, _)| gap <= 0.0)
+}
+
+/// Whether any of the bodies that share a point with the shape is such a one.
+fn any_over<S: Walks>(
+    world: &World<S>,
+    at: At<'_, S>,
+    filter: &Filter<'_, S>,
+    is_one: impl Fn(&Collider<S>) -> bool,
+) -> bool {
+    let visit = |Met(key)| match world.bodies.get(key) {
+        Some(body) if is_one(body) => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    bodies_over(world, at, filter).visit(visit).is_break()
 }

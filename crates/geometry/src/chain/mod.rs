@@ -38,7 +38,8 @@ use tree::Tree;
 /// # Sides
 /// A chain has two sides, and pushes what touches it to the side that the centre of its bounding circle
 /// is on. [`one_sided`](Self::one_sided) leaves one, on the *right* of the way from vertex to vertex: contacts, casts and
-/// rays see a segment only from there, and motions pass through from behind. So a closed chain that winds counter-clockwise
+/// rays see a segment only from there, and motions pass through from behind: what comes through is met, and pushed out to the
+/// front, as soon as its centre is there. So a closed chain that winds counter-clockwise
 /// is solid, as a polygon is; and ground drawn from right to left looks up.
 ///
 /// # Costs and limits
@@ -250,7 +251,8 @@ impl Chain {
     /// Visits segments where a bound on what a box holds is at most a limit, boxes of lesser bounds first. The visitor
     /// returns the limit for the rest. Cost: for a nearest point about the logarithm of the number of segments.
     ///
-    /// The bound of a box must be no less than that of one around it. Where it is NaN, the box is visited.
+    /// The bound of a box must hold for all that is in it: no greater than what the visitor would find there. Where it is
+    /// NaN, the box is visited.
     ///
     /// ```
     /// use asunder_geometry::{Chain, glam::Vec2};

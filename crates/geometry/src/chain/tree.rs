@@ -106,7 +106,8 @@ impl Tree {
                 continue;
             }
             for segment in self.leaf(node) {
-                if ends(segment).is_some_and(|ends| !(bound(&around(ends)) > limit)) {
+                let is_beyond = ends(segment).is_none_or(|ends| bound(&around(ends)) > limit);
+                if !is_beyond {
                     limit = visit(segment);
                 }
             }

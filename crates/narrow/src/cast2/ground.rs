@@ -7,6 +7,7 @@ use super::course::{Course, Touching, meeting};
 use super::piece::{Piece, for_pieces};
 use super::stretch::Stretch;
 use super::{at_start, impact};
+use crate::counted::count_step;
 use crate::ground2::{Surface, Told};
 use crate::impact2::Impact2;
 use crate::pair2::Pair2;
@@ -68,6 +69,7 @@ impl First<'_> {
             meeting(stretch, pieces, 1.0).map_or(f64::INFINITY, |[first, _]| first)
         };
         chain.visit_nearest(self.end, first_meeting, |segment| {
+            count_step();
             if let Some(shape) = chain.segment(segment).map(Shape2::Segment) {
                 visit(self, &Piece::segment(&shape, segment));
             }

@@ -6,7 +6,8 @@
 //! past an end, with no neighbour there:       a loose end
 //!              within the neighbour's, too:   the corner is touched, on its outer side        (Voronoi region)
 //!              beyond the neighbour's normal: the neighbour is touched and not this run
-//!                  a sharp corner:            this run adds nothing
+//!                  a sharp corner, or the body is in front of the one and behind the other:
+//!                                             this run adds nothing
 //!                  a blunt one, a hollow:     the run's own normal takes the place of d
 //! ```
 //! So inner vertices of a straight line, and hollows, never give a sideways normal. That the neighbour alone has a sharp
@@ -29,8 +30,8 @@ pub(crate) struct Surface {
     along: DVec2,
     /// Unit normal, on the body's side.
     pub(crate) normal: DVec2,
-    /// Directions along the runs before and after it, where there are any.
-    neighbours: [Option<DVec2>; 2],
+    /// Directions along the runs before and after it, where there are any, and whether the body is in front of those.
+    neighbours: [Option<(DVec2, bool)>; 2],
     is_front: bool,
     is_one_sided: bool,
 }
@@ -66,17 +67,22 @@ impl Surface {
         let ends = [origin + turn.turn(vertex(from)?), origin + turn.turn(vertex(to)?)];
         let along = straight(run)?;
         let front = right_of(along);
-        let is_front = center.is_none_or(|center| front.dot(center - ends[0]) >= 0.0);
+        let is_before =
+            |along: DVec2, end: DVec2| center.is_none_or(|center| right_of(along).dot(center - end) >= 0.0);
+        let is_front = is_before(along, ends[0]);
         if chain.is_one_sided() && !is_front {
             return None;
         }
-        let neighbours = [chain.run_before(run), chain.run_after(run)];
+        let neighbour = |run: Option<Run>, end: DVec2| {
+            let along = straight(&run?)?;
+            Some((along, is_before(along, end)))
+        };
         Some(Self {
             run: *run,
             ends,
             along,
             normal: if is_front { front } else { -front },
-            neighbours: neighbours.map(|run| straight(&run?)),
+            neighbours: [neighbour(chain.run_before(run), ends[0]), neighbour(chain.run_after(run), ends[1])],
             is_front,
             is_one_sided: chain.is_one_sided(),
         })
@@ -94,7 +100,7 @@ impl Surface {
             return if height > 0.0 { Told::Face } else { Told::Inner };
         }
         let end = usize::from(lean > 0.0);
-        let Some(next) = self.neighbours[end] else {
+        let Some((next, is_in_front)) = self.neighbours[end] else {
             let is_seen = !self.is_one_sided || height >= -BEHIND_END;
             return if is_seen { Told::Corner } else { Told::Beyond(self.normal) };
         };
@@ -103,9 +109,15 @@ impl Surface {
         if direction.dot(leaving) <= ALONG_GROUND && !(self.is_one_sided && height < -ALONG_GROUND) {
             return Told::Corner;
         }
-        let normal = if self.is_front { right_of(next) } else { -right_of(next) };
-        let is_convex = leaving.dot(self.normal) < 0.0;
-        if is_convex && normal.dot(self.normal) < SHARP_CORNER { Told::Beyond(normal) } else { Told::Inner }
+        let normal = if is_in_front { right_of(next) } else { -right_of(next) };
+        // In front of the one and behind the other, a body looks at the corner over the one that it is beyond.
+        let is_across = is_in_front != self.is_front && !self.is_one_sided;
+        let is_sharp = leaving.dot(self.normal) < 0.0 && normal.dot(self.normal) < SHARP_CORNER;
+        if is_across || (is_sharp && is_in_front == self.is_front) {
+            Told::Beyond(normal)
+        } else {
+            Told::Inner
+        }
     }
 
     /// The same of a point where the ground is touched: inner vertices of the run are no corners, though it may have

@@ -5,9 +5,12 @@
 
 mod contact;
 mod patches;
+#[cfg(test)]
+mod tests;
 
 use super::{Pair2, Part, Parts, Place, for_parts};
 use crate::answer::{Tier, Verdict};
+use crate::counted::count_step;
 use crate::feature::Hint;
 use crate::ground2::Zone;
 use crate::least::Least;
@@ -138,6 +141,7 @@ impl Pair2<'_> {
         (segment, other): (u32, Part),
         ask: impl FnOnce(Parts) -> R,
     ) -> Option<R> {
+        count_step();
         let shape = Shape2::Segment(chain.segment(segment)?);
         let turn = if side == 0 { &self.turn_a } else { &self.turn_b };
         Some(ask(self.ordered(side, Part::segment(segment, &shape, turn), other)))

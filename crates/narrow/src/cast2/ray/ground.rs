@@ -1,6 +1,7 @@
 //! Rays into chains: by the boxes that they meet, nearest first.
 
 use super::{Asked, Beam};
+use crate::counted::count_step;
 use crate::impact2::RayHit2;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Chain, Pose2, Ray2, Run, Shape2};
@@ -41,6 +42,7 @@ fn crossed(
     beam: &Beam,
     reach: f64,
 ) -> Option<RayHit2> {
+    count_step();
     let front = front(chain, &chain.run_of(segment)?)?;
     let along = front.dot(beam.unit);
     if chain.is_one_sided() && along >= 0.0 {

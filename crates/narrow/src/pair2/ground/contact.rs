@@ -14,6 +14,7 @@
 use super::super::{Pair2, Part, Parts, for_parts};
 use super::patches::{Patch, Patches};
 use crate::answer::Manifold2;
+use crate::counted::count_step;
 use crate::feature::Hint;
 use crate::ground2::{Surface, Told, Zone};
 use crate::polygon::manifold::Point;
@@ -112,6 +113,7 @@ impl Standing<'_> {
 
     /// How the part touches a run.
     fn on_run(&self, run: &Run, patches: &mut Patches) -> Overlap {
+        count_step();
         let pair = self.pair;
         let [chain_at, body_at] =
             if self.side == 0 { [DVec2::ZERO, pair.between] } else { [pair.between, DVec2::ZERO] };
@@ -142,7 +144,7 @@ impl Standing<'_> {
                 let edge = (surface.edge(), surface.normal);
                 let points: ArrayVec<Point, 2> = parts.convex.over_edge(self.side == 1, edge, limit);
                 let normal = if self.side == 0 { surface.normal } else { -surface.normal };
-                let over = patch(normal, &points).map(Patch::as_deep_as_its_points);
+                let over = patch(normal, &points).map(Patch::deep_by_its_points);
                 // At a corner that is hardly one, rounding may see nothing over either face.
                 let is_face = told == Told::Face;
                 if is_face { (over.or_else(kernels), None) } else { (over, kernels()) }

@@ -59,7 +59,7 @@ impl Patch {
     }
 
     /// The same where the kernel's own separation is along another normal.
-    pub(super) fn as_deep_as_its_points(mut self) -> Self {
+    pub(super) fn deep_by_its_points(mut self) -> Self {
         self.0.separation =
             self.0.points.iter().fold(f32::INFINITY, |least, point| least.min(point.separation));
         self

@@ -1,0 +1,64 @@
+//! What is asked about a chain takes steps for what is near, however long the chain is.
+
+use crate::counted::steps_of;
+use crate::{Batch2, Hint, Job2, Pair2, cast_ray2, collide2};
+use asunder_geometry::glam::Vec2;
+use asunder_geometry::{Capsule2, Chain, Circle, HalfPlane, Pose2, Ray2, Rect, Shape2};
+
+/// Hills of half-metre segments around x = 0, as many as asked for.
+fn hills(count: i32) -> Shape2 {
+    let height = |i: i32| [0.0, 0.125, 0.1875, 0.25, 0.125, 0.0625, 0.0, -0.125][i.rem_euclid(8) as usize];
+    let vertices = (-count / 2..=count / 2).rev().map(|i| Vec2::new(i as f32 * 0.5, height(i)));
+    Chain::open(vertices).unwrap().into()
+}
+
+#[test]
+fn a_million_segments_cost_what_a_thousand_do() {
+    let (short, long) = (hills(1_000), hills(1_000_000));
+    let bodies: [Shape2; 4] = [
+        Rect::from_half_extents(Vec2::new(1.0, 0.5)).unwrap().into(),
+        Circle::new(0.5).unwrap().into(),
+        Capsule2::from_half_height(0.5, 0.5).unwrap().into(),
+        Rect::from_half_extents(Vec2::new(0.5, 0.25)).unwrap().rounded(0.25).unwrap().into(),
+    ];
+    for body in &bodies {
+        for height in [0.4, 0.6, 1.5] {
+            let pose = Pose2::at([3.3, height]).unwrap();
+            let count = |ground: &Shape2| {
+                let job = Job2 {
+                    shape_a: ground,
+                    pose_a: &Pose2::IDENTITY,
+                    shape_b: body,
+                    pose_b: &pose,
+                    margin: 0.02,
+                    hint: Hint::NONE,
+                    sensor: false,
+                };
+                let mut batch = Batch2::default();
+                let pair = Pair2::new(ground, &Pose2::IDENTITY, body, &pose);
+                let contact = steps_of(|| collide2(&[job], &mut batch)).1;
+                let overlap = steps_of(|| pair.overlaps()).1;
+                let separation = steps_of(|| pair.separation(f32::INFINITY)).1;
+                let cast = steps_of(|| pair.cast(Vec2::Y * 2.0)).1;
+                [contact, overlap, separation, cast]
+            };
+            let (of_short, of_long) = (count(&short), count(&long));
+            // Which four segments share a box depends on where the chain begins.
+            for (short, long) in of_short.into_iter().zip(of_long) {
+                assert!(long <= short + 8 && long < 200, "{body:?} {height}: {of_short:?} {of_long:?}");
+            }
+        }
+    }
+    let ray = Ray2::new([7.1, 30.0], Vec2::new(0.2, -1.0)).unwrap();
+    let (hit, steps) = steps_of(|| cast_ray2(&long, &Pose2::IDENTITY, &ray, f64::INFINITY));
+    assert!(hit.is_some() && steps < 40, "{steps}");
+    // Of a half-plane below all of it, the depth is that of the lowest vertex, and not of all.
+    let pit: Shape2 = HalfPlane::new(Vec2::Y).unwrap().into();
+    let lowest =
+        Chain::open((0..100_000).map(|i| Vec2::new(i as f32, if i == 77_777 { -2.0 } else { 1.0 }))).unwrap();
+    let lowest = Shape2::from(lowest);
+    let pair = Pair2::new(&pit, &Pose2::IDENTITY, &lowest, &Pose2::IDENTITY);
+    let (found, steps) = steps_of(|| pair.separation(f32::INFINITY));
+    let crate::Separation2::Measured(found) = found else { panic!("without a limit") };
+    assert!(found.separation == -2.0 && steps < 40, "{found:?} {steps}");
+}
