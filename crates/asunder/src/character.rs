@@ -169,6 +169,10 @@ pub(crate) trait Walks: Asked<Point: Linear> {
         body: &crate::collider::Collider<Self>,
         margin: f32,
     ) -> Option<(f64, Self::Point)>;
+    /// Whether a shape overlaps a body that sees it: of one-sided ground, a front.
+    fn blocks(at: (&Self::Shape, &Self::Pose), body: &crate::collider::Collider<Self>) -> bool {
+        Self::overlaps(at, body)
+    }
     /// A ray, if it is one.
     fn ray(origin: Self::Point, direction: Self::Point) -> Option<Self::Ray>;
     /// The unit direction that lies in both planes, given by their normals; nothing where they are parallel, or in

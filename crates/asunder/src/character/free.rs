@@ -1,7 +1,7 @@
 //! Out of what overlaps.
 
 use super::{Freed, Linear, Walks};
-use crate::query::{Filter, Met, bodies_over, boxes_over};
+use crate::query::{Filter, Met, boxes_over};
 use crate::space::Space;
 use crate::world::{World, slot_of};
 use asunder_narrow::ArrayVec;
@@ -130,7 +130,13 @@ pub(super) fn near<S: Walks>(
     found
 }
 
-/// Whether the shape overlaps anything; exact.
+/// Whether the shape overlaps anything that sees it; exact.
 pub(super) fn is_overlapping<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
-    bodies_over(world, at, filter).visit(|_| ControlFlow::Break(())).is_break()
+    let is_blocked = |key| world.bodies.get(key).is_some_and(|body| S::blocks(at, body));
+    let all = boxes_over(world, &S::bounds(at.0, at.1, 0.0), filter);
+    let flow = all.visit(|Met(key)| match is_blocked(key) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    });
+    flow.is_break()
 }

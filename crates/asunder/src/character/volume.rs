@@ -137,6 +137,12 @@ impl Walks for Volume {
         Some((manifold.separation.into(), -manifold.normal.as_dvec3()))
     }
 
+    fn blocks(at: (&Shape3, &Pose3), body: &Collider3) -> bool {
+        let pair = Pair3::new(at.0, at.1, &body.shape, &body.pose);
+        // A way of no length is blocked by what sees the shape.
+        if body.shape.is_ground() { pair.cast(Vec3::ZERO).is_some() } else { pair.overlaps() }
+    }
+
     fn ray(origin: DVec3, direction: DVec3) -> Option<Ray3> {
         Ray3::new(origin, direction.as_vec3()).ok()
     }

@@ -46,36 +46,39 @@ impl Corners {
 
     /// A lower bound on the separation from a triangle, by the axis across it; zero or less where it shows none.
     pub(crate) fn gap(&self, corners: [Vec3; 3]) -> f64 {
-        let [from, to] = self.heights(corners, DVec3::ZERO);
+        let [[from, to], _] = self.heights(corners, DVec3::ZERO);
         from.max(-to)
     }
 
     /// Whether it stays on one side of a triangle while it is moved.
     pub(crate) fn stays_beside(&self, corners: [Vec3; 3], way: DVec3) -> bool {
-        let ([from, to], [end_from, end_to]) =
-            (self.heights(corners, DVec3::ZERO), self.heights(corners, way));
-        from > 0.0 && end_from > 0.0 || to < 0.0 && end_to < 0.0
+        let [[from, to], [low, high]] = self.heights(corners, way);
+        from + low > 0.0 || to + high < 0.0
     }
 
     /// From where to where it reaches along a triangle's normal, seen from what the triangle itself takes up there,
-    /// after some way, and beyond rounding: above zero it is clear of the triangle on the front, and below at the back.
-    fn heights(&self, corners: [Vec3; 3], way: DVec3) -> [f64; 2] {
+    /// and beyond rounding: above zero it is clear of the triangle on the front, and below at the back. And how far
+    /// down and up some way leads.
+    fn heights(&self, corners: [Vec3; 3], way: DVec3) -> [[f64; 2]; 2] {
         let [a, b, c] = corners.map(|corner| corner.as_dvec3());
         let (u, v) = (b - a, c - a);
+        let none = [[f64::NEG_INFINITY, f64::INFINITY], [0.0; 2]];
         // Any axis proves what all corners show along it; so it need not be the normal to the last bit.
-        let Some(normal) = u.cross(v).try_normalize() else { return [f64::NEG_INFINITY, f64::INFINITY] };
+        let Some(normal) = u.cross(v).try_normalize() else { return none };
+        if self.points.is_empty() {
+            return none;
+        }
         let [on_b, on_c] = [u, v].map(|edge| normal.dot(edge));
         let (low, high) = (on_b.min(on_c).min(0.0), on_b.max(on_c).max(0.0));
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
         for &point in &self.points {
-            let height = normal.dot(point - a + way);
-            (from, to) = (from.min(height), to.max(height));
-        }
-        if self.points.is_empty() {
-            return [f64::NEG_INFINITY, f64::INFINITY];
+            let height = normal.dot(point - a);
+            from = if height < from { height } else { from };
+            to = if height > to { height } else { to };
         }
         let lengths = self.lengths + a.abs().element_sum() + way.abs().element_sum();
         let doubt = self.radius + 128.0 * f64::EPSILON * lengths;
-        [from - high - doubt, to - low + doubt]
+        let rise = normal.dot(way);
+        [[from - high - doubt, to - low + doubt], [rise.min(0.0), rise.max(0.0)]]
     }
 }
