@@ -11,7 +11,7 @@ use asunder_narrow::{Pair3, cast_ray3};
 use asunder_tests::cases::Random;
 use core::hint::black_box;
 use parry3d::math::{Pose, Rotation};
-use parry3d::query::{Ray, RayCast, ShapeCastOptions, cast_shapes, distance, intersection_test};
+use parry3d::query::{Ray, ShapeCastOptions, cast_shapes, distance, intersection_test};
 use parry3d::shape::SharedShape;
 use std::error::Error;
 

@@ -133,8 +133,8 @@ pub(super) fn near<S: Walks>(
 /// Whether the shape overlaps anything that sees it; exact.
 pub(super) fn is_overlapping<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
     let is_blocked = |key| world.bodies.get(key).is_some_and(|body| S::blocks(at, body));
-    let all = boxes_over(world, &S::bounds(at.0, at.1, 0.0), filter);
-    let flow = all.visit(|Met(key)| match is_blocked(key) {
+    let bounds = S::bounds(at.0, at.1, 0.0);
+    let flow = boxes_over(world, &bounds, filter).visit(|Met(key)| match is_blocked(key) {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     });
