@@ -1,7 +1,7 @@
 //! Questions about ground of 20,000 and of a million triangles, beside parry3d's `TriMesh`: both sides take turns, block
 //! by block, and what is told is the median of a block's time for one question, with the ratio of both.
 //!
-//! `cargo run --release -p asunder-benches --bin ground_questions`
+//! `cargo run --release -p asunder-benches --bin ground_questions [PART OF A NAME]`
 
 use asunder_benches::clock::{Samples, time};
 use asunder_benches::parry::Shapes;
@@ -60,7 +60,15 @@ fn pose_of(pose: &Pose3) -> Pose {
 }
 
 /// Both sides in turns; `yes` counts how often they said yes.
-fn race(name: &str, places: &[(Pose3, Vec3)], ours: impl Fn(&(Pose3, Vec3)) -> bool, theirs: impl Fn(&(Pose3, Vec3)) -> bool) {
+fn race(
+    name: &str,
+    places: &[(Pose3, Vec3)],
+    ours: impl Fn(&(Pose3, Vec3)) -> bool,
+    theirs: impl Fn(&(Pose3, Vec3)) -> bool,
+) {
+    if std::env::args().nth(1).is_some_and(|only| !name.contains(&only)) {
+        return;
+    }
     let (mut ours_ns, mut theirs_ns) = (Samples::default(), Samples::default());
     let mut yes = [0; 2];
     for block in places.chunks(BLOCK) {
@@ -129,7 +137,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                 &places(&mut random, side, 1.0),
                 |(pose, _)| Pair3::new(&body, pose, &ground, &home).overlaps(),
                 |(pose, _)| {
-                    intersection_test(&pose_of(pose), &*other, &theirs, &*twin).is_ok_and(|found| found.intersecting)
+                    intersection_test(&pose_of(pose), &*other, &theirs, &*twin)
+                        .is_ok_and(|found| found.intersecting)
                 },
             );
             race(

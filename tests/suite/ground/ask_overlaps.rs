@@ -35,9 +35,8 @@ fn for_cases(rounds: usize, mut check: impl FnMut(&mut Random, (&Shape3, &Pose3)
 fn yes_or_no_is_that_of_any_triangle() {
     let (mut yes, mut no) = (0, 0);
     for_cases(60, |_, (body, pose), (ground, at), told| {
-        let slow = triangles(ground)
-            .iter()
-            .any(|(_, triangle)| Pair3::new(body, pose, triangle, at).overlaps());
+        let slow =
+            triangles(ground).iter().any(|(_, triangle)| Pair3::new(body, pose, triangle, at).overlaps());
         assert_eq!(Pair3::new(body, pose, ground, at).overlaps(), slow, "{told}");
         assert_eq!(Pair3::new(ground, at, body, pose).overlaps(), slow, "{told}, the other way round");
         yes += usize::from(slow);
@@ -52,9 +51,8 @@ fn yes_or_no_is_what_exact_arithmetic_says() {
     for seed in 0..400 {
         let mut random = Random::new(7000 + seed);
         // Corners in eighths, so that many touch exactly.
-        let eighths = |random: &mut Random| {
-            Vec3::from_array([0; 3].map(|_| random.below(17) as f32 / 8.0 - 1.0))
-        };
+        let eighths =
+            |random: &mut Random| Vec3::from_array([0; 3].map(|_| random.below(17) as f32 / 8.0 - 1.0));
         let corners: Vec<Vec3> = (0..8).map(|_| eighths(&mut random)).collect();
         let numbers = (0..6).map(|_| [0; 3].map(|_| random.below(8) as u32)).collect::<Vec<_>>();
         let apart = |&[a, b, c]: &[u32; 3]| {
@@ -70,7 +68,8 @@ fn yes_or_no_is_what_exact_arithmetic_says() {
         let away = [0; 3].map(|_| random.below(17) as f64 / 8.0 - 1.0);
         let pose = Pose3::at(DVec3::from_array(away) + DVec3::splat(1e5)).unwrap();
         let at = Pose3::at(DVec3::splat(1e5)).unwrap();
-        let slow = triangles(&ground).iter().any(|(_, triangle)| exact_overlap3((&body, &pose), (triangle, &at)));
+        let slow =
+            triangles(&ground).iter().any(|(_, triangle)| exact_overlap3((&body, &pose), (triangle, &at)));
         assert_eq!(Pair3::new(&body, &pose, &ground, &at).overlaps(), slow, "{seed}");
         yes += usize::from(slow);
         no += usize::from(!slow);
@@ -103,11 +102,17 @@ fn the_separation_is_the_least_of_any_triangle() {
         let limit = (least.abs() * random.between(0.0, 2.0)) as f32;
         match pair.separation(limit) {
             Separation3::Measured(within) => {
-                assert!((f64::from(within.separation) - least).abs() <= f64::from(within.error) + error, "{told}");
+                assert!(
+                    (f64::from(within.separation) - least).abs() <= f64::from(within.error) + error,
+                    "{told}"
+                );
             }
             Separation3::AtLeast(bound) => {
                 bounds += 1;
-                assert!(bound >= limit.next_down() && f64::from(bound) <= least + error, "{told}: {bound} {least}");
+                assert!(
+                    bound >= limit.next_down() && f64::from(bound) <= least + error,
+                    "{told}: {bound} {least}"
+                );
             }
         }
     });

@@ -31,7 +31,8 @@ fn parry_says_the_same_of_bodies_on_ground() {
         let away = f64::from(body.outer_radius()) * random.between(0.0, 2.5);
         let place = beside(&mut random, (&ground, &at), away).as_vec3();
         let pose = Pose3::new(place, random.quaternion()).unwrap();
-        let Separation3::Measured(ours) = Pair3::new(&body, &pose, &ground, &at).separation(f32::INFINITY) else {
+        let Separation3::Measured(ours) = Pair3::new(&body, &pose, &ground, &at).separation(f32::INFINITY)
+        else {
             panic!("no limit");
         };
         let ours = f64::from(ours.separation);
@@ -48,7 +49,10 @@ fn parry_says_the_same_of_bodies_on_ground() {
         let agrees = overlap == (ours <= 0.0) && (gap - ours.max(0.0)).abs() <= band;
         refuted += usize::from(!agrees);
     }
-    assert!(compared > 1000 && yes > 200 && refuted * 100 < compared, "{refuted} of {compared}, {yes} overlap");
+    assert!(
+        compared > 1000 && yes > 200 && refuted * 100 < compared,
+        "{refuted} of {compared}, {yes} overlap"
+    );
 }
 
 #[test]

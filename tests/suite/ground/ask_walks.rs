@@ -32,7 +32,9 @@ fn joined((mut vertices, mut triangles): Soup, (more, others): Soup) -> Soup {
 
 #[test]
 fn no_inner_edge_of_a_floor_trips_who_walks_on_it() {
-    for (count, step) in [([40, 40], [0.5, 0.5]), ([1, 200], [20.0, 0.1]), ([60, 1], [0.35, 20.0]), ([2, 2], [10.0, 10.0])] {
+    for (count, step) in
+        [([40, 40], [0.5, 0.5]), ([1, 200], [20.0, 0.1]), ([60, 1], [0.35, 20.0]), ([2, 2], [10.0, 10.0])]
+    {
         let world = world_of(sheet(count, step, |_, _| 0.0, |_, _| false));
         for shape in SHAPES {
             for (gravity, way) in [0.0, -0.1, -0.02, -0.5].into_iter().zip(WAYS) {

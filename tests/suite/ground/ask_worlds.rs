@@ -41,9 +41,8 @@ fn every_question_sees_ground_as_a_loop_over_bodies_does() {
             let body = KINDS3[random.below(10)].1(&mut Clay::thick(&mut random));
             let place = random.vector() * 5.0;
             let pose = Pose3::new(place, random.quaternion()).unwrap();
-            let pair_of = |other: &asunder::Collider3| {
-                Pair3::new(&body, &pose, other.shape(), other.pose()).overlaps()
-            };
+            let pair_of =
+                |other: &asunder::Collider3| Pair3::new(&body, &pose, other.shape(), other.pose()).overlaps();
             let mut expected: Vec<_> =
                 world.iter().filter(|(_, other)| pair_of(other)).map(|(key, _)| key).collect();
             let mut found = vec![];
@@ -97,8 +96,9 @@ fn every_question_sees_ground_as_a_loop_over_bodies_does() {
             let least = world
                 .iter()
                 .filter_map(|(_, other)| {
-                    let pair = Pair3::new(&Shape3::Sphere(Sphere::POINT), &point, other.shape(), other.pose())
-                        .distance();
+                    let pair =
+                        Pair3::new(&Shape3::Sphere(Sphere::POINT), &point, other.shape(), other.pose())
+                            .distance();
                     pair.map(|closest| f64::from(closest.distance))
                 })
                 .reduce(f64::min)
@@ -130,11 +130,14 @@ fn a_point_of_ground_is_held_by_it() {
 #[test]
 fn two_bodies_are_asked_when_they_touch() {
     let mut world = World3::new();
-    let ground = world.insert(Collider3::new(mesh(sheet([4, 4], [1.0, 1.0], |_, _| 0.0, |_, _| false))).fixed());
+    let ground =
+        world.insert(Collider3::new(mesh(sheet([4, 4], [1.0, 1.0], |_, _| 0.0, |_, _| false))).fixed());
     let start = Pose3::at([0.3, 3.0, 0.2]).unwrap();
     let ball = world.insert(Collider3::new(Sphere::new(0.5).unwrap()).at(start));
     let fall = Motion3::shift([0.0, -5.0, 0.0]).unwrap();
-    for (a, b, first, second) in [(ball, ground, &fall, &Motion3::STILL), (ground, ball, &Motion3::STILL, &fall)] {
+    for (a, b, first, second) in
+        [(ball, ground, &fall, &Motion3::STILL), (ground, ball, &Motion3::STILL, &fall)]
+    {
         let impact = world.impact(a, b, first, second).unwrap().unwrap();
         assert!((impact.fraction - 0.5).abs() < 1e-6 && impact.normal.y.abs() > 1.0 - 1e-6, "{impact:?}");
     }
@@ -218,7 +221,8 @@ fn ground_far_away_is_asked_as_at_home() {
         let [near, far] = [one.cast(moved), other.cast(moved)];
         assert_eq!(near.map(|impact| impact.fraction), far.map(|impact| impact.fraction));
         let ray = |from: &Pose3| Ray3::new(from.position(), moved).unwrap();
-        let (near, far) = (cast_ray3(&ground, &home, &ray(&here), 9.0), cast_ray3(&ground, &away, &ray(&there), 9.0));
+        let (near, far) =
+            (cast_ray3(&ground, &home, &ray(&here), 9.0), cast_ray3(&ground, &away, &ray(&there), 9.0));
         assert_eq!(near, far);
     }
     assert_eq!(triangles(&ground).len(), 32);

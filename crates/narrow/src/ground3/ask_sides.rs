@@ -69,7 +69,8 @@ impl OnGround<'_> {
         let mut best: Option<((bool, f64), &Around)> = None;
         for one in around.iter().filter(|one| one.sees) {
             // The triangle itself, where others are no nearer.
-            let nearness = one.facing.dot(touched.away) + if one.number == touched.triangle { SAME_NORMAL } else { 0.0 };
+            let nearness =
+                one.facing.dot(touched.away) + if one.number == touched.triangle { SAME_NORMAL } else { 0.0 };
             let rank = (is_free(&around, touched.point, one.facing), nearness);
             if best.is_none_or(|(known, _)| rank > known) {
                 best = Some((rank, one));
@@ -79,12 +80,7 @@ impl OnGround<'_> {
     }
 
     /// The triangles that hold a point.
-    fn around(
-        &self,
-        point: DVec3,
-        corners: [DVec3; 3],
-        center: DVec3,
-    ) -> ArrayVec<Around, MOST_AROUND> {
+    fn around(&self, point: DVec3, corners: [DVec3; 3], center: DVec3) -> ArrayVec<Around, MOST_AROUND> {
         let mut around = ArrayVec::new();
         let slack = ON_TRIANGLE * extent(corners);
         let low = (point - DVec3::splat(slack)).as_vec3();

@@ -168,8 +168,10 @@ impl<'a> Asking<'a> {
         to: &mut impl Room,
     ) {
         let on = self.on;
-        let Some(deepest) =
-            group.pins.iter().reduce(|least, next| if next.separation < least.separation { next } else { least })
+        let Some(deepest) = group
+            .pins
+            .iter()
+            .reduce(|least, next| if next.separation < least.separation { next } else { least })
         else {
             return;
         };
@@ -273,8 +275,8 @@ impl Seen<'_> {
             return;
         }
         let is_within = nearest.separation <= self.asking.reach;
-        let has_points = is_within
-            && nearest.add_point((self.standing, facet), ground, doubt, &mut known.groups);
+        let has_points =
+            is_within && nearest.add_point((self.standing, facet), ground, doubt, &mut known.groups);
         if known.overlapping || nearest.separation > doubt {
             return;
         }
@@ -352,9 +354,9 @@ impl Seen<'_> {
     fn conclude(&self, known: &mut Known, is_settled: bool) {
         let slack = self.standing.slack;
         if !known.overlapping && !(is_settled && known.groups.least() >= -slack) {
-            known.unclear.sort_unstable_by(|a, b| {
-                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2))
-            });
+            known
+                .unclear
+                .sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
             let mut numbers = known.unclear.iter().map(|&(.., number)| number);
             match numbers.find(|&number| self.meeting.overlaps(self.asking.on.ground, number)) {
                 Some(number) => known.settle(number),

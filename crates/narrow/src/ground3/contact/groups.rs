@@ -171,7 +171,8 @@ impl Group {
         {
             let at = self.pins[deepest].on_body;
             let distance = |i: usize| (self.pins[i].on_body - at).length_squared();
-            let nearest = (0..kept.len()).reduce(|a, b| if distance(kept[b]) < distance(kept[a]) { b } else { a });
+            let nearest =
+                (0..kept.len()).reduce(|a, b| if distance(kept[b]) < distance(kept[a]) { b } else { a });
             match nearest {
                 Some(nearest) if kept.len() > 3 => kept[nearest] = deepest,
                 _ => kept.push(deepest),

@@ -88,7 +88,8 @@ impl<'a> Meeting<'a> {
     ) -> bool {
         let towards = -place.axes.turn(touch.normal);
         let furthest = facet.furthest(towards);
-        if furthest == Furthest::Face || touch.points.is_empty() || !facet.may_give(ground, furthest, towards) {
+        if furthest == Furthest::Face || touch.points.is_empty() || !facet.may_give(ground, furthest, towards)
+        {
             return false;
         }
         let base = Base { normal: towards, patch: ground.patch(facet.number), weight: 0.0 };

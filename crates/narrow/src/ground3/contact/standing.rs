@@ -121,8 +121,9 @@ impl<'s> Standing<'s> {
         for (octet, number) in self.octets.iter().zip(0_u64..) {
             let [x, y, z] = octet;
             for i in 0..8 {
-                let height =
-                    normal.x * (x[i] - origin.x) + normal.y * (y[i] - origin.y) + normal.z * (z[i] - origin.z);
+                let height = normal.x * (x[i] - origin.x)
+                    + normal.y * (y[i] - origin.y)
+                    + normal.z * (z[i] - origin.z);
                 let (is_lower, is_higher) = (height < low[i], height > high[i]);
                 low[i] = if is_lower { height } else { low[i] };
                 low_at[i] = if is_lower { number } else { low_at[i] };
