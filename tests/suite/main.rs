@@ -36,6 +36,8 @@
 //!   exact yes or no say
 //! - [`ground_questions`]: overlaps, distances, rays and casts over meshes and height fields are the least of all
 //!   triangles', one by one; sides; characters on ground
+//! - [`ground_contacts`]: bodies slide over triangles without noticing; edges and corners give normals of their Voronoi
+//!   regions alone; yes or no, points and depths against a loop over all triangles
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
@@ -80,7 +82,7 @@ mod characters;
 mod debug_lines;
 mod exactness;
 mod fuzzed;
-#[path = "ground/questions.rs"]
+mod ground_contacts;
 mod ground_questions;
 mod hard;
 mod hints;

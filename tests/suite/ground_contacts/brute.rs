@@ -1,1 +1,245 @@
+//! Everything that is told of a contact on ground, against a loop over all triangles.
 
+use super::scenes::{BODIES, Random, body, flat, grid, mesh, sees, stick, triangle};
+use asunder_geometry::glam::{DVec3, Quat, Vec3};
+use asunder_geometry::{Compound3, Cuboid, HalfSpace, Pose3, Shape3, Sphere, TriMesh};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, Separation3, collide3};
+
+/// A point lies on both surfaces up to this share of the sizes: faces count as flat within a few 2.5e-7, places are the
+/// same within 1e-6 of the body, and anchors are f32.
+const ON_SURFACE: f64 = 4e-6;
+
+/// Two normals of one manifold may be so far apart, and its points are told along either.
+const NORMALS: f64 = 2.1e-4;
+
+/// A body near ground.
+struct Scene {
+    shape: Shape3,
+    pose: Pose3,
+    ground: TriMesh,
+    ground_pose: Pose3,
+    margin: f32,
+}
+
+/// What the narrow phase tells.
+struct Told {
+    /// Whether they overlap, if they are in contact.
+    contact: Option<bool>,
+    manifolds: Vec<Manifold3>,
+}
+
+impl Scene {
+    fn told(&self, sensor: bool) -> Told {
+        let ground: Shape3 = self.ground.clone().into();
+        let job = Job3 {
+            shape_a: &self.shape,
+            pose_a: &self.pose,
+            shape_b: &ground,
+            pose_b: &self.ground_pose,
+            margin: self.margin,
+            hint: Hint::NONE,
+            sensor,
+        };
+        let mut batch = Batch3::default();
+        collide3(&[job], &mut batch);
+        let contact = match &batch.answers[0] {
+            Answer::Apart { .. } => None,
+            Answer::Contact { overlapping, .. } => Some(*overlapping),
+        };
+        Told { contact, manifolds: batch.manifolds.clone() }
+    }
+
+    /// The convex parts, each as a shape that is posed as the body is, with their centres in the body's axes.
+    fn parts(&self) -> Vec<(Shape3, DVec3)> {
+        match &self.shape {
+            Shape3::Compound(compound) => compound
+                .parts()
+                .iter()
+                .map(|part| {
+                    let alone = Compound3::new([(*part.pose(), part.shape().clone())]).unwrap();
+                    (alone.into(), part.center())
+                })
+                .collect(),
+            shape => vec![(shape.clone(), shape.center().as_dvec3())],
+        }
+    }
+
+    /// Whether a triangle that sees a part overlaps it; nothing where rounding says which it sees.
+    fn overlaps(&self) -> Option<bool> {
+        let mut is_any = false;
+        for (part, center) in self.parts() {
+            let center = self.ground_pose.transform_back(self.pose.transform(center));
+            for number in 0..self.ground.triangles().len() {
+                let Some(triangle) = triangle(&self.ground, number) else { continue };
+                if self.ground.is_one_sided() && !sees(&triangle, center)? {
+                    continue;
+                }
+                is_any |= Pair3::new(&part, &self.pose, &triangle.into(), &self.ground_pose).overlaps();
+            }
+        }
+        Some(is_any)
+    }
+
+    /// How far a place is from the surface of a part, in metres.
+    fn off_part(&self, part: &Shape3, place: DVec3) -> f64 {
+        off(part, &self.pose, place).abs()
+    }
+
+    fn off_ground(&self, place: DVec3) -> f64 {
+        (0..self.ground.triangles().len())
+            .filter_map(|number| triangle(&self.ground, number))
+            .map(|triangle| off(&triangle.into(), &self.ground_pose, place).abs())
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The signed distance of a place from a convex shape.
+fn off(shape: &Shape3, pose: &Pose3, place: DVec3) -> f64 {
+    let radius = 1e-3;
+    let probe: Shape3 = Sphere::new(radius).unwrap().into();
+    let there = Pose3::at(place).unwrap();
+    match Pair3::new(shape, pose, &probe, &there).separation(f32::INFINITY) {
+        Separation3::Measured(found) => f64::from(found.separation) + f64::from(radius),
+        Separation3::AtLeast(_) => f64::INFINITY,
+    }
+}
+
+fn check(scene: &Scene, what: &str) -> Option<bool> {
+    let told = scene.told(false);
+    let sensor = scene.told(true);
+    assert_eq!(told.contact, sensor.contact, "{what}: a sensor says the same");
+    assert!(sensor.manifolds.is_empty());
+    assert_eq!(told.contact.is_some(), !told.manifolds.is_empty(), "{what}: a contact has points");
+    if let Some(overlaps) = scene.overlaps() {
+        assert_eq!(told.contact.unwrap_or(false), overlaps, "{what}: overlap");
+    }
+    let size = 2.0 * f64::from(scene.shape.outer_radius());
+    let parts = scene.parts();
+    for manifold in &told.manifolds {
+        assert!((manifold.normal.length() - 1.0).abs() < 1e-6, "{what}: {manifold:?}");
+        assert!(manifold.error >= 0.0 && !manifold.points.is_empty() && manifold.part_a < parts.len() as u32);
+        let part = &parts[manifold.part_a as usize].0;
+        let least = manifold.points.iter().map(|p| p.separation).fold(f32::INFINITY, f32::min);
+        assert!((least - manifold.separation).abs() <= manifold.error, "{what}: {manifold:?}");
+        for point in &manifold.points {
+            let on_body = scene.pose.position() + point.anchor_a.as_dvec3();
+            let on_ground = scene.ground_pose.position() + point.anchor_b.as_dvec3();
+            let reach = size + f64::from(point.anchor_b.length());
+            let (body, ground) = (scene.off_part(part, on_body), scene.off_ground(on_ground));
+            assert!(body <= ON_SURFACE * reach, "{what}: {body} off the body: {manifold:?}");
+            assert!(ground <= ON_SURFACE * reach, "{what}: {ground} off the ground: {manifold:?}");
+            let along = manifold.normal.as_dvec3().dot(on_ground - on_body);
+            let between = (on_ground - on_body).length();
+            assert!(
+                (along - f64::from(point.separation)).abs() <= ON_SURFACE * reach + NORMALS * between,
+                "{what}: {along} in {manifold:?}"
+            );
+            assert!(point.separation <= scene.margin + manifold.error + 1e-6 || told.contact == Some(true));
+        }
+        assert!(
+            manifold.points.is_sorted_by(|one, other| one.feature < other.feature),
+            "{what}: {manifold:?}"
+        );
+    }
+    let least = told.manifolds.iter().map(|m| m.separation).fold(f32::INFINITY, f32::min);
+    assert_eq!(least <= 0.0, told.contact == Some(true), "{what}: {least}");
+    told.contact
+}
+
+/// Hills, ridges and spikes; loose triangles; a plane.
+fn ground(random: &mut Random, kind: usize) -> TriMesh {
+    let made = match kind {
+        0 | 1 => {
+            let rough = [0.1, 0.6][kind];
+            let heights: Vec<f32> = (0..81).map(|_| (random.signed() * rough) as f32).collect();
+            mesh(grid([8; 2], 0.5, |x, z| Vec3::Y * heights[z * 9 + x]))
+        }
+        2 => {
+            let mut point = || random.vector().as_vec3() * 1.2;
+            let vertices: Vec<Vec3> = (0..30).map(|_| point()).collect();
+            let triangles = (0..20).map(|_| [0; 3].map(|_| random.below(30) as u32));
+            let is_proper = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+            mesh((vertices, triangles.filter(is_proper).collect()))
+        }
+        3 => flat(2),
+        // Steps of a quarter of a metre.
+        _ => mesh(grid([8; 2], 0.5, |x, z| Vec3::Y * (((x * 5 + z * 3) % 7) as f32 * 0.25))),
+    };
+    if random.below(2) == 0 { made.one_sided() } else { made }
+}
+
+fn scene(random: &mut Random, round: usize) -> Scene {
+    let ground = ground(random, round % 5);
+    let kind = random.below(BODIES + 1);
+    let shape = if kind == BODIES { stick() } else { body(kind) };
+    let corner = ground.vertices()[random.below(ground.vertices().len())].as_dvec3();
+    let place = corner + random.vector() * 0.7;
+    let far = if random.below(3) == 0 { random.vector() * 1e5 } else { DVec3::ZERO };
+    let ground_turn = if random.below(2) == 0 { random.rotation() } else { Quat::IDENTITY };
+    let ground_pose = Pose3::new(far, ground_turn).unwrap();
+    let position = ground_pose.transform(place);
+    let turn = if random.below(4) == 0 { Quat::IDENTITY } else { random.rotation() };
+    let margin = if random.below(2) == 0 { 0.0 } else { 0.05 };
+    Scene { shape, pose: Pose3::new(position, turn).unwrap(), ground, ground_pose, margin }
+}
+
+#[test]
+fn what_is_told_of_bodies_on_any_ground_is_what_a_loop_over_its_triangles_says() {
+    let mut random = Random::new(41);
+    let mut counts = [0; 3];
+    for round in 0..4000 {
+        let scene = scene(&mut random, round);
+        let contact = check(&scene, &format!("round {round}"));
+        counts[contact.map_or(0, |overlapping| 1 + usize::from(overlapping))] += 1;
+    }
+    assert!(counts.iter().all(|&count| count > 100), "apart, near, overlapping: {counts:?}");
+}
+
+#[test]
+fn touching_is_exact() {
+    let mut random = Random::new(43);
+    let mut counts = [0; 2];
+    for round in 0..3000 {
+        let ground = ground(&mut random, if round % 2 == 0 { 4 } else { 3 });
+        let mut eighths = |least: usize, most: usize| (least + random.below(most - least)) as f64 / 8.0;
+        let half = Vec3::new(0.5, eighths(1, 5) as f32, 0.25);
+        let place = DVec3::new(eighths(0, 24) - 1.5, eighths(0, 20), eighths(0, 24) - 1.5);
+        let shape: Shape3 = match round % 3 {
+            0 => Cuboid::from_half_extents(half).unwrap().into(),
+            1 => Cuboid::from_half_extents(half).unwrap().rounded(0.125).unwrap().into(),
+            _ => Sphere::new(half.y).unwrap().into(),
+        };
+        // Now and then a hair off.
+        let place = if round % 7 == 0 { place.with_y(place.y.next_up()) } else { place };
+        let (pose, ground_pose) = (Pose3::at(place).unwrap(), Pose3::IDENTITY);
+        let scene = Scene { shape, pose, ground, ground_pose, margin: 0.0 };
+        if let Some(overlapping) = check(&scene, &format!("round {round}")) {
+            counts[usize::from(overlapping)] += 1;
+        }
+    }
+    assert!(counts[1] > 300, "{counts:?}");
+}
+
+#[test]
+fn half_spaces_and_ground_are_told_of_exactly() {
+    let mut random = Random::new(47);
+    let mut seen = 0;
+    for round in 0..400 {
+        let ground = ground(&mut random, round % 5);
+        let ground_pose = Pose3::new(random.vector(), random.rotation()).unwrap();
+        let pose = Pose3::new(random.vector(), random.rotation()).unwrap();
+        let shape: Shape3 = HalfSpace::new(Vec3::Y).unwrap().into();
+        let scene = Scene { shape, pose, ground, ground_pose, margin: 0.02 };
+        let told = scene.told(false);
+        let Some(overlaps) = scene.overlaps() else { continue };
+        assert_eq!(told.contact.unwrap_or(false), overlaps, "round {round}");
+        for point in told.manifolds.iter().flat_map(|manifold| &manifold.points) {
+            let on_ground = ground_pose.position() + point.anchor_b.as_dvec3();
+            assert!(scene.off_ground(on_ground) < 1e-5);
+            let height = pose.turn(DVec3::Y).dot(on_ground - pose.position());
+            assert!((height - f64::from(point.separation)).abs() < 1e-5);
+            seen += 1;
+        }
+    }
+    assert!(seen > 500, "{seen}");
+}

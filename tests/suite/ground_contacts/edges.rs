@@ -68,7 +68,8 @@ fn a_box_over_a_ridge_may_lean_between_both_roofs_and_no_further() {
     let limit = Vec3::new(1.0, 2.0, 0.0).normalize();
     for step in -20..=20_i32 {
         let tangent = f64::from(step) / 20.0;
-        let pose = Pose3::new(DVec3::new(0.0, 0.32, 0.1), Quat::from_xyzw(0.0, 0.0, tangent as f32, 1.0)).unwrap();
+        let pose =
+            Pose3::new(DVec3::new(0.0, 0.32, 0.1), Quat::from_xyzw(0.0, 0.0, tangent as f32, 1.0)).unwrap();
         for (manifold, normal) in
             manifolds(&cuboid(0.8, 0.3, 0.5), &pose, &roof, 0.05).iter().map(|m| (m, -m.normal))
         {

@@ -86,8 +86,6 @@ pub(super) fn rest_height(kind: usize) -> f64 {
     [0.25, 0.35, 0.25, 0.33, 0.4, 0.25, 0.3, 0.0][kind]
 }
 
-
-
 /// Heights over a grid of squares, each cut in two; the diagonals turn from square to square.
 pub(super) fn grid(
     [wide, long]: [usize; 2],
@@ -164,7 +162,9 @@ pub(super) fn baked(mesh: &TriMesh, turn: Quat, shift: Vec3) -> TriMesh {
     let basis = Pose3::new(DVec3::ZERO, turn).unwrap();
     let vertices: Vec<Vec3> =
         mesh.vertices().iter().map(|v| (basis.turn(v.as_dvec3())).as_vec3() + shift).collect();
-    TriMesh::new(vertices, mesh.triangles().to_vec()).unwrap()
+    let baked = TriMesh::new(vertices, mesh.triangles().to_vec()).unwrap();
+    assert_eq!(baked.dropped(), Default::default());
+    baked
 }
 
 /// A triangle of a mesh by its number.

@@ -30,6 +30,8 @@ struct Slide {
     position: DVec3,
     velocity: DVec3,
     ground_is_b: bool,
+    /// Whether the triangles lie in one plane beyond what f32 makes of them: then they are one patch.
+    is_one_patch: bool,
 }
 
 impl Slide {
@@ -80,11 +82,14 @@ impl Slide {
 }
 
 /// The body's own vertices among the features of a manifold, and what of the ground they touch.
-fn corners(manifold: &Manifold3, ground_is_b: bool) -> Vec<(Feature, Feature)> {
+fn corners(manifold: &Manifold3, slide: &Slide) -> Vec<(Feature, Feature)> {
     let sides = |point: &asunder_narrow::ContactPoint3| {
         let (a, b) = (point.feature.a(), point.feature.b());
-        let (a, b) = if ground_is_b { (a, b) } else { (b, a) };
-        if let (true, Feature::Face(_)) = (std::env::var("PATCHES").is_err(), b) { (a, Feature::Face(0)) } else { (a, b) }
+        let (of_body, of_ground) = if slide.ground_is_b { (a, b) } else { (b, a) };
+        match of_ground {
+            Feature::Face(_) if !slide.is_one_patch => (of_body, Feature::Face(0)),
+            _ => (of_body, of_ground),
+        }
     };
     let mut corners: Vec<_> = manifold.points.iter().map(sides).collect();
     corners.sort_unstable();
@@ -110,7 +115,7 @@ fn slide(mut slide: Slide, steps: usize, what: &str) {
         let expected: Vec<u32> = (0..part_count(&slide.shape) as u32).collect();
         assert_eq!(parts, expected, "{what}, step {step}: one manifold for each part");
         for manifold in &manifolds {
-            let corners = corners(manifold, slide.ground_is_b);
+            let corners = corners(manifold, &slide);
             let known = &mut names[part_of(manifold, slide.ground_is_b) as usize];
             if step > 0 {
                 assert_eq!(known.as_ref(), Some(&corners), "{what}, step {step}: names");
@@ -158,6 +163,8 @@ fn over_flats(place: impl Fn(&mut Random, TriMesh) -> (TriMesh, Pose3, DVec3), s
                     position: start + up * rest - across * 0.4,
                     velocity: across * speed,
                     ground_is_b: random.below(2) == 0,
+                    // Rounded, a triangle of 20 m by 2 cm may lean by 1e-4.
+                    is_one_patch: way != 3 || up == DVec3::Y,
                 };
                 let steps = ((0.9 / (speed * STEP)) as usize).clamp(6, 60);
                 slide(slide_it, steps, &format!("way {way}, body {kind}, round {round}"));

@@ -51,9 +51,9 @@ use crate::room::Room;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Pose3, Shape3};
-use ball::Nearest;
+use ball::{Nearest, nearest_to};
 use core::ops::ControlFlow;
-use facet::Facet;
+use facet::{Facet, is_same};
 use groups::{Group, Groups};
 use meeting::{Meeting, Met};
 use prism::{Incident, Prism};
@@ -289,8 +289,10 @@ impl Seen<'_> {
     /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer.
     fn needs_kernels(&self, prism: &Prism) -> bool {
         let Prism { ground, standing, facet, extent, .. } = *prism;
-        let prominent = ground.prominent(facet.number);
-        if !prominent.any(facet.is_front) {
+        let (prominent, is_front) = (ground.prominent(facet.number), facet.is_front);
+        // Two-sided ground that the part is in may bend the other way, and end there all the same.
+        let is_in = extent.low - standing.radius < -standing.slack && !ground.is_one_sided();
+        if !prominent.any(is_front) && !(is_in && prominent.any(!is_front)) {
             return false;
         }
         let radius = standing.outer_radius + self.asking.reach + prism.doubt;
@@ -299,11 +301,14 @@ impl Seen<'_> {
             let place = ((standing.center - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
             (standing.center - from - along * place).length_squared() <= radius * radius
         };
-        let stands_out = |edge: usize| {
-            prominent.edge(edge, facet.is_front)
-                || prominent.corner(edge, facet.is_front)
-                || prominent.corner((edge + 1) % 3, facet.is_front)
-        };
+        let is_corner = [0, 1, 2].map(|corner| {
+            prominent.corner(corner, is_front)
+                || (is_in
+                    && prominent.corner(corner, !is_front)
+                    && facet.sees_otherwise(ground, corner, standing.center))
+        });
+        let stands_out =
+            |edge: usize| prominent.edge(edge, is_front) || is_corner[edge] || is_corner[(edge + 1) % 3];
         let counts = [0, 1, 2].map(|edge| stands_out(edge) && is_near(edge));
         if counts == [false; 3] {
             return false;
@@ -335,7 +340,7 @@ impl Seen<'_> {
             let extent = standing.extent(facet.normal, facet.origin());
             let separation = extent.low - standing.radius;
             let is_freed = heard.iter().any(|&(normal, least)| {
-                separation < least - standing.slack && {
+                separation < least - standing.slack && !is_same(facet.normal, normal) && {
                     let top = facet.corners.map(|corner| normal.dot(corner - facet.origin()));
                     let top = top.into_iter().fold(f64::NEG_INFINITY, f64::max);
                     let low = standing.extent(normal, facet.origin()).low - standing.radius;
@@ -377,7 +382,9 @@ impl Seen<'_> {
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
         let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt };
-        known.groups.add(&prism.base(), prism.lowest());
+        let mut pin = prism.lowest();
+        pin.on_ground = nearest_to(&facet, pin.on_ground).1;
+        known.groups.add(&prism.base(), pin);
     }
 
     /// What a height over a triangle may be off by, in metres.

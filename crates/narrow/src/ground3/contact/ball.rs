@@ -72,7 +72,7 @@ impl Nearest {
 }
 
 /// The nearest point of a triangle, and what it lies on.
-fn nearest_to(facet: &Facet, point: DVec3) -> (Furthest, DVec3) {
+pub(super) fn nearest_to(facet: &Facet, point: DVec3) -> (Furthest, DVec3) {
     let mut best: Option<(f64, Furthest, DVec3)> = None;
     for edge in 0..3 {
         let (from, along) = facet.edge(edge);

@@ -198,6 +198,31 @@ impl Facet {
         false
     }
 
+    /// Whether a point that is on this side of the triangle is on the other side of one that shares a corner with it.
+    ///
+    /// Then edges that bend towards this side may end the ground for it: a body beside a cliff and lower than its top
+    /// is behind the top, and still in front of the wall.
+    pub(super) fn sees_otherwise(&self, ground: Ground, corner: usize, point: DVec3) -> bool {
+        let is_other = |number: u32| {
+            let [a, b, c] = ground.corners(number).map(|corner| corner.as_dvec3());
+            ((b - a).cross(c - a).dot(point - a) >= 0.0) != self.is_front
+        };
+        for way in [0, 2] {
+            let mut at = (self.number, (corner + way) % 3);
+            for _ in 0..MOST_AROUND {
+                let Some((other, twin)) = ground.neighbor(at.0, at.1) else { break };
+                if other == self.number {
+                    return false;
+                }
+                if is_other(other) {
+                    return true;
+                }
+                at = (other, (twin + 1 + way / 2) % 3);
+            }
+        }
+        false
+    }
+
     /// From a half-edge towards the third corner, square to the edge.
     fn across(&self, edge: usize) -> DVec3 {
         let (from, along) = self.edge(edge);

@@ -63,11 +63,16 @@ impl Pin {
         FeatureId::new(self.of_body, self.of_ground)
     }
 
-    /// Whether it stands for the same: by name, by place, or since one vertex touches faces of one normal once.
+    /// Whether it stands for the same: by name, by place, or since a vertex touches ground of one normal once.
     fn is_same_as(&self, other: &Self, slack: f64) -> bool {
-        let are_faces = matches!((self.of_ground, other.of_ground), (Feature::Face(_), Feature::Face(_)));
-        (self.of_body == other.of_body && (are_faces || self.of_ground == other.of_ground))
+        let is_vertex = matches!(self.of_body, Feature::Vertex(_));
+        (self.of_body == other.of_body && (is_vertex || self.of_ground == other.of_ground))
             || (self.on_body - other.on_body).length_squared() <= slack * slack
+    }
+
+    /// What comes first of points that are as deep: on a face, then by name.
+    fn rank(&self) -> (bool, FeatureId) {
+        (!matches!(self.of_ground, Feature::Face(_)), self.id())
     }
 }
 
@@ -137,7 +142,7 @@ impl Group {
         if let Some(known) = self.pins.iter_mut().find(|known| known.is_same_as(&pin, slack)) {
             let is_deeper = pin.separation < known.separation - slack;
             let is_as_deep = pin.separation <= known.separation + slack;
-            if is_deeper || (is_as_deep && pin.id() < known.id()) {
+            if is_deeper || (is_as_deep && pin.rank() < known.rank()) {
                 *known = pin;
             }
             return;

@@ -1,6 +1,6 @@
 //! A convex part and one triangle by the general kernels, and which of their axes ground lets through.
 
-use super::facet::{Facet, Furthest, edge_number};
+use super::facet::{Facet, Furthest, edge_number, is_same};
 use super::groups::{Base, Groups, Pin};
 use super::standing::Place;
 use crate::exact::Site3;
@@ -88,7 +88,10 @@ impl<'a> Meeting<'a> {
     ) -> bool {
         let towards = -place.axes.turn(touch.normal);
         let furthest = facet.furthest(towards);
-        if furthest == Furthest::Face || touch.points.is_empty() || !facet.may_give(ground, furthest, towards)
+        if furthest == Furthest::Face
+            || is_same(facet.normal, towards)
+            || touch.points.is_empty()
+            || !facet.may_give(ground, furthest, towards)
         {
             return false;
         }
