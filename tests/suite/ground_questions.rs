@@ -1,18 +1,18 @@
 //! Questions about ground made of triangles, against a loop over all of them, one by one.
 //!
-//! - [`ask_overlaps`]: overlaps, separations and distances; the exact judge; nasty triangles
-//! - [`ask_rays`]: rays, through edges and vertices too
-//! - [`ask_casts`]: what moves and turns; sides; normals over inner edges
-//! - [`ask_worlds`]: worlds asked about ground, bullets, bad input
-//! - [`ask_walks`]: characters on ground
-//! - [`ask_peer`]: parry3d's word
+//! - [`overlaps`]: overlaps, separations and distances; the exact judge; nasty triangles
+//! - [`rays`]: rays, through edges and vertices too
+//! - [`casts`]: what moves and turns; sides; normals over inner edges
+//! - [`worlds`]: worlds asked about ground, bullets, bad input
+//! - [`walks`]: characters on ground
+//! - [`peer`]: parry3d's word
 
-mod ask_casts;
-mod ask_overlaps;
-mod ask_peer;
-mod ask_rays;
-mod ask_walks;
-mod ask_worlds;
+mod casts;
+mod overlaps;
+mod peer;
+mod rays;
+mod walks;
+mod worlds;
 
 use asunder_geometry::glam::{DVec3, Vec2, Vec3};
 use asunder_geometry::{Ground, HeightField, Pose3, Shape3, TriMesh};
