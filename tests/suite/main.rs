@@ -84,9 +84,8 @@ mod characters;
 mod debug_lines;
 mod exactness;
 mod fuzzed;
-#[path = "ground/questions.rs"]
-mod ground_questions;
 mod ground_contacts;
+mod ground_questions;
 mod hard;
 mod hints;
 mod hulls;

@@ -33,6 +33,7 @@ pub(crate) use part::{Part, for_parts};
 /// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, crossing edges, or edges side by side |
 /// | anything else of cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | as for cuboids |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
+/// | mesh or height field, anything | the least of its triangles' near the other | the same | a manifold for each normal of a part |
 ///
 /// Radii (of spheres, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off.
 /// Triangles and flat hulls have two faces, back to back.
@@ -98,7 +99,9 @@ impl<'a> Pair3<'a> {
     ///
     /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
     /// [`verdict`](Self::verdict) says which. Cost: fifteen axes for cuboids, all edges for polygons of few; else some
-    /// support searches, each linear in the vertices; for shapes that touch up to rounding some microseconds more.
+    /// support searches, each linear in the vertices; for shapes that touch up to rounding some microseconds more. Of
+    /// ground, which knows no sides here, that for each triangle whose box a part's box meets; of two grounds, for each
+    /// triangle of one that is near the other.
     pub fn overlaps(&self) -> bool {
         self.verdict().overlapping
     }
@@ -160,6 +163,11 @@ impl<'a> Pair3<'a> {
     /// limit, and a negative limit as zero. Two half-spaces have separation -inf unless they look exactly away from
     /// each other. Cost for two hulls: linear in faces, edges and vertices, plus what culling leaves of them, pair by
     /// pair; fifteen axes for cuboids; in a gap a few support searches, for the Euclidean distance.
+    ///
+    /// Of ground it is the least of all triangles', nearest first through the index: logarithmic in them where they are
+    /// apart, linear for a half-space, and of two grounds that for each triangle of one that is near the other. In
+    /// overlap it says how deep the deepest single triangle is, from whichever side is nearer: push out by
+    /// [`manifolds`](Self::manifolds), which know the ground around it.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = limit_of(limit);
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {

@@ -70,7 +70,7 @@ impl Search<'_> {
     fn over(&mut self, part: &Part) {
         let placed = Corners::of(self.on, part);
         let on = self.on;
-        let bounds = on.bounds(part, 0.0);
+        let bounds = placed.bounds(0.0, part);
         let (mut low, mut high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
         let [of_body, of_ground] = on.in_order(0, 1);
         if self.passage.turns[of_ground].is_some() || !low.is_finite() {
@@ -104,7 +104,7 @@ impl Search<'_> {
         let on = self.on;
         let until = self.until();
         let corners = on.ground.corners(number);
-        let is_beside = || self.passage.is_straight() && placed.stays_beside(corners, self.way * until);
+        let is_beside = || self.passage.is_straight() && placed.passes(corners, self.way * until);
         if !on.sees(corners, placed.center) || is_beside() {
             return until;
         }

@@ -76,6 +76,8 @@ enum Meeting {
 /// ([`planarity_error`](asunder_geometry::Hull::planarity_error)). By as much, before it is divided by the cosine,
 /// may a ray have gone into a shape that it is said to miss. A thin shape (segment, triangle, flat hull) is hit by
 /// what passes within rounding. A NaN limit counts as none, and a negative one as zero. Of compounds, the nearest part.
+/// Of ground, the nearest triangle; of equals, the lowest number. No ray slips through between two that share an edge or a
+/// vertex. One-sided triangles are passed through from behind.
 ///
 /// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for
 /// hulls; a few distances for what is rounded and for segments and flat hulls.

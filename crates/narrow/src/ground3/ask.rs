@@ -84,12 +84,13 @@ impl Pair3<'_> {
 
     /// Whether the answer is yes for any part and a triangle near it.
     fn any_on(&self, on: &OnGround, only_seen: bool, mut ask: impl FnMut(&Parts) -> bool) -> bool {
-        let bases = self.bases();
+        let bases = on.in_order(on.body_basis, on.basis);
         on.for_body_parts(0.0, |part| {
             let placed = Corners::of(on, part);
-            let flow = on.ground.visit_near(&on.bounds(part, 0.0), |number| {
+            let flow = on.ground.visit_near(&placed.bounds(0.0, part), |number| {
                 let corners = on.ground.corners(number);
-                let is_meant = placed.gap(corners) <= 0.0 && (!only_seen || on.sees(corners, placed.center));
+                let is_meant =
+                    placed.gap(corners, 0.0) <= 0.0 && (!only_seen || on.sees(corners, placed.center));
                 let is_yes = is_meant
                     && on.ground.triangle(number).is_some_and(|triangle| {
                         let triangle = Shape3::Triangle(triangle);
@@ -140,7 +141,7 @@ impl Pair3<'_> {
         let mut least = Least::within(limit);
         // What no box within reach holds.
         least.give_up(rounded_down(limit));
-        let bases = self.bases();
+        let bases = on.in_order(on.body_basis, on.basis);
         let mut look = |part: &Part| self.look_around(on, &bases, (part, wanted), &mut least);
         if let Some(body) = Ground::of(on.body) {
             body.visit_nearest(&on.bounds_for(0.0), limit, |number| {
@@ -164,8 +165,8 @@ impl Pair3<'_> {
         least: &mut Least<Told>,
     ) -> f64 {
         let placed = Corners::of(on, part);
-        on.ground.visit_nearest(&on.bounds(part, 0.0), least.reach(), |number| {
-            if least.passes_over(placed.gap(on.ground.corners(number))) {
+        on.ground.visit_nearest(&placed.bounds(0.0, part), least.reach(), |number| {
+            if least.passes_over(placed.gap(on.ground.corners(number), least.reach())) {
                 return least.reach();
             }
             if let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) {

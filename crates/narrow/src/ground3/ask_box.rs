@@ -1,13 +1,20 @@
 //! What a few corners prove of a convex part and a triangle, before anything dearer is asked.
+//!
+//! ```text
+//! apart       along the triangle's normal: what stands on a floor is above most of its triangles
+//!             along the way from the part's centre to the triangle's nearest point: all others
+//! passed by   on one side of the triangle's plane from start to end
+//!             along the same way, square to the motion
+//! ```
+//! An axis is any: what all corners of both show along it is proved, however it was found.
 
 use super::near::OnGround;
 use crate::pair3::Part;
 use arrayvec::ArrayVec;
-use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Aabb3, Shape3};
 
-/// Cores of no more vertices are looked at by them, others by their bounding spheres: the triangle's normal parts what
-/// lies beside a floor, and a floor is what most triangles near a body are.
+/// Cores of no more vertices are looked at by them, others by their bounding spheres.
 const FEW: usize = 8;
 
 /// A convex part in the ground's axes: everything within a radius of some points.
@@ -18,6 +25,22 @@ pub(crate) struct Corners {
     pub(crate) center: DVec3,
     /// All lengths that were summed for a place, and the radius.
     lengths: f64,
+    low: DVec3,
+    high: DVec3,
+}
+
+/// What a part and a triangle take up along an axis, in metres from the triangle's first corner.
+struct Along {
+    part: [f64; 2],
+    triangle: [f64; 2],
+}
+
+impl Along {
+    /// By how much the part is beyond the triangle, on either side.
+    fn gap(&self) -> f64 {
+        let (above, below) = (self.part[0] - self.triangle[1], self.triangle[0] - self.part[1]);
+        if above > below { above } else { below }
+    }
 }
 
 impl Corners {
@@ -27,55 +50,129 @@ impl Corners {
         let origin = on.basis.turn_back(on.to_body + shift);
         let center = on.basis.turn_back(on.to_body + part.center);
         let axes = [axes.x, axes.y, axes.z].map(|axis| on.basis.turn_back(axis));
-        let core = part.shape.core();
-        let (mut points, mut radius) = (ArrayVec::new(), f64::from(part.shape.radius()));
-        if core.vertices().len() <= FEW {
-            for vertex in core.vertices() {
-                let [x, y, z] = vertex.as_dvec3().to_array();
-                points.push(axes[0] * x + axes[1] * y + axes[2] * z + origin);
-            }
-        } else {
-            points.push(center);
-            radius = f64::from(part.shape.outer_radius());
-        }
-        let reach = if let Shape3::HalfSpace(_) = part.shape { 0.0 } else { part.shape.outer_radius() };
+        let (shape, radius) = (part.shape, f64::from(part.shape.radius()));
+        let reach = if let Shape3::HalfSpace(_) = shape { 0.0 } else { shape.outer_radius() };
         let lengths = on.to_body.length() + shift.length() + f64::from(reach);
-        let lengths = lengths + part.shape.center().as_dvec3().length() + radius;
-        Self { points, radius, center, lengths }
+        let lengths = lengths + shape.center().as_dvec3().length() + radius;
+        let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut corners = Self { points: ArrayVec::new(), radius, center, lengths, low, high };
+        let mut add = |vertices: &[Vec3]| {
+            for vertex in vertices {
+                let [x, y, z] = vertex.as_dvec3().to_array();
+                let place = axes[0] * x + axes[1] * y + axes[2] * z + origin;
+                (corners.low, corners.high) = (corners.low.min(place), corners.high.max(place));
+                // Of many, none will do.
+                let _ = corners.points.try_push(place);
+            }
+            vertices.len()
+        };
+        // Of what has few, without all that goes with a core.
+        let count = match shape {
+            Shape3::Cuboid(cuboid) => add(&cuboid.vertices()),
+            Shape3::Sphere(_) => add(&[Vec3::ZERO]),
+            Shape3::Capsule(capsule) => add(&capsule.segment().ends()),
+            Shape3::Triangle(triangle) => add(&triangle.vertices()),
+            _ => add(shape.core().vertices()),
+        };
+        if count > FEW {
+            corners.points.clear();
+            corners.points.push(center);
+            corners.radius = f64::from(shape.outer_radius());
+        }
+        corners
     }
 
-    /// A lower bound on the separation from a triangle, by the axis across it; zero or less where it shows none.
-    pub(crate) fn gap(&self, corners: [Vec3; 3]) -> f64 {
-        let [from, to] = self.heights(corners, DVec3::ZERO);
-        from.max(-to)
+    /// The box around it, grown by `reach` metres and rounded outwards. Everything, for a half-space.
+    pub(crate) fn bounds(&self, reach: f64, part: &Part) -> Aabb3 {
+        if self.points.is_empty() {
+            return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
+        }
+        let grow = DVec3::splat(f64::from(part.shape.radius()) + reach + 64.0 * f64::EPSILON * self.lengths);
+        let next = |v: DVec3, up: bool| {
+            v.as_vec3().to_array().map(|value| if up { value.next_up() } else { value.next_down() })
+        };
+        Aabb3::new(next(self.low - grow, false).into(), next(self.high + grow, true).into())
     }
 
-    /// Whether it stays on one side of a triangle while it is moved.
-    pub(crate) fn stays_beside(&self, corners: [Vec3; 3], way: DVec3) -> bool {
-        let ([from, to], [end_from, end_to]) =
-            (self.heights(corners, DVec3::ZERO), self.heights(corners, way));
-        from > 0.0 && end_from > 0.0 || to < 0.0 && end_to < 0.0
-    }
-
-    /// From where to where it reaches along a triangle's normal, seen from what the triangle itself takes up there,
-    /// after some way, and beyond rounding: above zero it is clear of the triangle on the front, and below at the back.
-    fn heights(&self, corners: [Vec3; 3], way: DVec3) -> [f64; 2] {
+    /// A lower bound on the separation from a triangle; zero or less where nothing shows one. What shows more than is
+    /// asked for comes first.
+    pub(crate) fn gap(&self, corners: [Vec3; 3], wanted: f64) -> f64 {
         let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-        let (u, v) = (b - a, c - a);
+        let from_plane = (b - a).cross(c - a).try_normalize().map(|axis| self.along(axis, [a, b, c]).gap());
+        let shown = from_plane.unwrap_or(f64::NEG_INFINITY);
+        if shown > wanted {
+            return shown;
+        }
+        let towards = (nearest(self.center, [a, b, c]) - self.center).try_normalize();
+        towards.map_or(shown, |axis| shown.max(self.along(axis, [a, b, c]).gap()))
+    }
+
+    /// Whether it passes a triangle by while it is moved, for certain.
+    pub(crate) fn passes(&self, corners: [Vec3; 3], way: DVec3) -> bool {
+        let corners = corners.map(|corner| corner.as_dvec3());
+        let [a, b, c] = corners;
         // Any axis proves what all corners show along it; so it need not be the normal to the last bit.
-        let Some(normal) = u.cross(v).try_normalize() else { return [f64::NEG_INFINITY, f64::INFINITY] };
-        let [on_b, on_c] = [u, v].map(|edge| normal.dot(edge));
-        let (low, high) = (on_b.min(on_c).min(0.0), on_b.max(on_c).max(0.0));
+        let Some(normal) = (b - a).cross(c - a).try_normalize() else { return false };
+        let (along, rise) = (self.along(normal, corners), normal.dot(way));
+        let doubt = 16.0 * f64::EPSILON * way.abs().element_sum();
+        let above = along.part[0] - along.triangle[1] + rise.min(0.0) - doubt;
+        let below = along.triangle[0] - along.part[1] - rise.max(0.0) - doubt;
+        if above > 0.0 || below > 0.0 {
+            return true;
+        }
+        let towards = nearest(self.center, corners) - self.center;
+        let aside = towards - way * (towards.dot(way) / way.length_squared());
+        let Some(axis) = aside.try_normalize() else { return false };
+        self.along(axis, corners).gap() > axis.dot(way).abs() + doubt
+    }
+
+    /// What both take up along a unit axis; the part beyond rounding.
+    #[inline]
+    fn along(&self, axis: DVec3, [a, b, c]: [DVec3; 3]) -> Along {
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
         for &point in &self.points {
-            let height = normal.dot(point - a + way);
-            (from, to) = (from.min(height), to.max(height));
+            let height = axis.dot(point - a);
+            from = if height < from { height } else { from };
+            to = if height > to { height } else { to };
         }
         if self.points.is_empty() {
-            return [f64::NEG_INFINITY, f64::INFINITY];
+            (from, to) = (to, from);
         }
-        let lengths = self.lengths + a.abs().element_sum() + way.abs().element_sum();
-        let doubt = self.radius + 128.0 * f64::EPSILON * lengths;
-        [from - high - doubt, to - low + doubt]
+        let [on_b, on_c] = [axis.dot(b - a), axis.dot(c - a)];
+        let doubt = self.radius + 128.0 * f64::EPSILON * (self.lengths + a.abs().element_sum());
+        Along {
+            part: [from - doubt, to + doubt],
+            triangle: [on_b.min(on_c).min(0.0), on_b.max(on_c).max(0.0)],
+        }
     }
+}
+
+/// The point of a triangle that is nearest to another, up to rounding: by its edges' and corners' regions (Ericson,
+/// "Real-Time Collision Detection" (2005), 5.1.5).
+fn nearest(point: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+    let (u, v) = (b - a, c - a);
+    let [d1, d2] = [u, v].map(|edge| edge.dot(point - a));
+    let [d3, d4] = [u, v].map(|edge| edge.dot(point - b));
+    let [d5, d6] = [u, v].map(|edge| edge.dot(point - c));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let (of_a, of_b, of_c) = (d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2);
+    if of_c <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + u * (d1 / (d1 - d3));
+    }
+    if of_b <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + v * (d2 / (d2 - d6));
+    }
+    if of_a <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    let whole = of_a + of_b + of_c;
+    a + (u * of_b + v * of_c) / whole
 }

@@ -3,7 +3,6 @@
 use crate::pair3::{Pair3, Part};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
-use core::ops::ControlFlow;
 
 /// Ground, and a body that may touch it.
 #[derive(Clone, Copy)]
@@ -75,24 +74,6 @@ impl<'a> OnGround<'a> {
             Vec3::new(down(low.x), down(low.y), down(low.z)),
             Vec3::new(up(high.x), up(high.y), up(high.z)),
         )
-    }
-
-    /// Hands every triangle that a convex part may be within `reach` metres of to `visit`, with its number and as a
-    /// shape in the ground's axes, until it says to stop; returns whether it did.
-    pub(crate) fn any_near(
-        &self,
-        part: &Part,
-        reach: f64,
-        mut visit: impl FnMut(u32, &Shape3) -> bool,
-    ) -> bool {
-        let flow = self.ground.visit_near(&self.bounds(part, reach), |number| {
-            let stops = self
-                .ground
-                .triangle(number)
-                .is_some_and(|triangle| visit(number, &Shape3::Triangle(triangle)));
-            if stops { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        flow.is_break()
     }
 }
 

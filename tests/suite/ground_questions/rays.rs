@@ -25,8 +25,11 @@ fn slowly(ground: &Shape3, at: &Pose3, ray: &Ray3, limit: f64) -> Option<RayHit3
 }
 
 fn one_sided(ground: &Shape3) -> Shape3 {
-    let Shape3::TriMesh(mesh) = ground else { unreachable!() };
-    mesh.clone().one_sided().into()
+    match ground.clone() {
+        Shape3::TriMesh(mesh) => mesh.one_sided().into(),
+        Shape3::HeightField(field) => field.one_sided().into(),
+        other => other,
+    }
 }
 
 #[test]

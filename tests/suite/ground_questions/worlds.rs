@@ -13,7 +13,7 @@ use asunder_tests::shapes::{Clay, KINDS3};
 fn world(seed: u128) -> (World3, Random) {
     let mut random = Random::new(seed);
     let mut world = World3::new();
-    for round in 0..4 {
+    for round in 1..5 {
         let (ground, at) = level(&mut random, round);
         // All near each other, also what a level puts far away.
         let at = Pose3::new(random.vector() * 3.0, at.rotation()).unwrap();

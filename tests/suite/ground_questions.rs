@@ -1,21 +1,21 @@
 //! Questions about ground made of triangles, against a loop over all of them, one by one.
 //!
-//! - [`ask_overlaps`]: overlaps, separations and distances; the exact judge; nasty triangles
-//! - [`ask_rays`]: rays, through edges and vertices too
-//! - [`ask_casts`]: what moves and turns; sides; normals over inner edges
-//! - [`ask_worlds`]: worlds asked about ground, bullets, bad input
-//! - [`ask_walks`]: characters on ground
-//! - [`ask_peer`]: parry3d's word
+//! - [`overlaps`]: overlaps, separations and distances; the exact judge; nasty triangles
+//! - [`rays`]: rays, through edges and vertices too
+//! - [`casts`]: what moves and turns; sides; normals over inner edges
+//! - [`worlds`]: worlds asked about ground, bullets, bad input
+//! - [`walks`]: characters on ground
+//! - [`peer`]: parry3d's word
 
-mod ask_casts;
-mod ask_overlaps;
-mod ask_peer;
-mod ask_rays;
-mod ask_walks;
-mod ask_worlds;
+mod casts;
+mod overlaps;
+mod peer;
+mod rays;
+mod walks;
+mod worlds;
 
-use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Ground, Pose3, Shape3, TriMesh};
+use asunder_geometry::glam::{DVec3, Vec2, Vec3};
+use asunder_geometry::{Ground, HeightField, Pose3, Shape3, TriMesh};
 use asunder_tests::cases::Random;
 
 /// Vertices and triangles that a mesh is made from.
@@ -63,6 +63,14 @@ fn bumps(random: &mut Random) -> Soup {
     )
 }
 
+/// The same bumps by their heights, with a hole.
+fn field(random: &mut Random) -> Shape3 {
+    let (columns, rows) = (3 + random.below(7), 3 + random.below(7));
+    let heights: Vec<f32> = (0..columns * rows).map(|_| random.between(-0.4, 0.4) as f32).collect();
+    let field = HeightField::new(columns, rows, heights, Vec2::new(0.8, 0.7)).unwrap();
+    field.with_hole(random.below(columns - 1), random.below(rows - 1)).unwrap().into()
+}
+
 /// Triangles anywhere: of every size, and slivers.
 fn shards(random: &mut Random) -> Soup {
     let (mut vertices, mut triangles) = (vec![], vec![]);
@@ -93,17 +101,18 @@ fn shell(random: &mut Random) -> Soup {
 
 /// One of every kind of ground; every other one turned, and one in five far from the origin.
 pub(crate) fn level(random: &mut Random, round: usize) -> (Shape3, Pose3) {
-    let soup = match round % 3 {
-        0 => bumps(random),
-        1 => shards(random),
-        _ => shell(random),
+    let ground = match round % 6 {
+        0 => mesh(bumps(random)),
+        3 => field(random),
+        1 | 4 => mesh(shards(random)),
+        _ => mesh(shell(random)),
     };
     let far = if round.is_multiple_of(5) { DVec3::new(-3e5, 7e5, 1e4) } else { random.vector() };
     let pose = match round % 2 {
         0 => Pose3::at(far).unwrap(),
         _ => Pose3::new(far, random.quaternion()).unwrap(),
     };
-    (mesh(soup), pose)
+    (ground, pose)
 }
 
 /// Every triangle of ground with its number, as a shape in the same place.

@@ -3,7 +3,7 @@
 use super::{Soup, mesh, sheet};
 use crate::characters::stage::{Hero, capsule, crate_of_a_person};
 use asunder::glam::{DVec3, Quat, Vec3};
-use asunder::{Collider3, Pose3, Shape3, Sphere, World3};
+use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, TriMesh, Walk3, World3};
 
 /// A ball as tall as a person.
 fn ball() -> Shape3 {
@@ -196,6 +196,40 @@ fn walls_of_a_room_are_slid_along_and_never_left() {
                 hero.step(local(way + DVec3::NEG_Y * 0.1));
                 let feet = turned.transform_back(hero.feet());
                 assert!(feet.x.abs() < 2.7 && feet.z.abs() < 2.7 && feet.y.abs() < 0.05, "{frame}: {feet}");
+            }
+        }
+    }
+}
+
+#[test]
+fn one_sided_floors_are_jumped_through_from_below_and_carry_from_above() {
+    let (vertices, numbers) = sheet([12, 12], [0.5, 0.5], |_, _| 0.0, |_, _| false);
+    let both = TriMesh::new(vertices, numbers).unwrap();
+    let one = both.clone().one_sided();
+    for (floor, passes) in [(both, false), (one, true)] {
+        let mut world = World3::new();
+        world.insert(Collider3::new(floor).fixed());
+        for shape in SHAPES {
+            let walk = Walk3::new(&shape(), Vec3::Y).unwrap();
+            let mut pose = Pose3::at([0.1, -2.0, 0.2]).unwrap();
+            let mut step = |way: Vec3| {
+                let slide = world.move_and_slide((&shape(), &pose), way, &walk, &Filter3::new());
+                pose = slide.pose;
+                slide
+            };
+            for _ in 0..25 {
+                step(Vec3::new(0.01, 0.15, 0.0));
+            }
+            for _ in 0..40 {
+                step(Vec3::new(0.01, -0.1, 0.0));
+            }
+            let stands = step(Vec3::NEG_Y * 0.1);
+            assert_eq!(stands.ground.is_some(), passes, "{stands:?}");
+            let height = pose.position().y;
+            if passes {
+                assert!((height - 0.9 - f64::from(walk.skin)).abs() < 1e-3, "{height}");
+            } else {
+                assert!(height < -2.0, "{height}");
             }
         }
     }
