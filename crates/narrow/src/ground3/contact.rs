@@ -43,7 +43,7 @@ mod standing;
 
 use super::OnGround;
 use crate::answer::ContactPoint3;
-use crate::feature::FeatureId;
+use crate::feature::{Feature, FeatureId};
 use crate::pair3::{Pair3, Part, for_parts, reach_of};
 use crate::polyhedron::solid::Solid;
 use crate::precision::{IN_SPACE, Precision, signed};
@@ -206,6 +206,7 @@ impl<'a> Asking<'a> {
 }
 
 impl Known {
+    #[inline(always)]
     fn new(slack: f64) -> Self {
         Self {
             groups: Groups::new(slack),
@@ -223,18 +224,24 @@ impl Seen<'_> {
     fn look_at(&self, number: u32, known: &mut Known) {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
-        let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
+        if self.is_ball {
+            return self.look_at_from_ball(&facet, doubt, known);
+        }
+        let extent = standing.extent(facet.normal, facet.origin());
         let separation = extent.low - standing.radius;
         if separation > self.asking.reach + doubt {
             return;
         }
         let prism =
             Prism { ground, standing, facet: &facet, extent: &extent, reach: self.asking.reach, doubt };
-        if self.is_ball {
-            return self.look_at_from_ball(&prism, known);
-        }
         if self.needs_kernels(&prism) {
+            if standing.is_apart(&facet, self.asking.reach + 2.0 * doubt) {
+                return;
+            }
+            if self.is_explained(&facet, known) {
+                return self.doubt_of(number, (true, separation), known);
+            }
             let ways = (self.asking.margin, self.asking.reach);
             match self.meeting.add_points((ground, &facet), &standing.place, ways, &mut known.groups) {
                 Met::Apart => return,
@@ -268,8 +275,11 @@ impl Seen<'_> {
         prism.add_points(&incident, &mut known.groups)
     }
 
-    fn look_at_from_ball(&self, prism: &Prism, known: &mut Known) {
-        let Prism { ground, facet, doubt, .. } = *prism;
+    fn look_at_from_ball(&self, facet: &Facet, doubt: f64, known: &mut Known) {
+        let ground = self.asking.on.ground;
+        if facet.height(self.standing.center) - self.standing.radius > self.asking.reach + doubt {
+            return;
+        }
         let nearest = Nearest::of(self.standing, facet, doubt);
         if nearest.separation > self.asking.reach + doubt {
             return;
@@ -320,8 +330,32 @@ impl Seen<'_> {
         !(is_inside && (depth <= 0.0 || facet.inside(lowest, |edge| counts[edge]) >= depth))
     }
 
+    /// Whether all that a triangle has to say was said by another around the same corner, or beside the same edge: along
+    /// the normal that it gave, nothing else of this one is within reach.
+    fn is_explained(&self, facet: &Facet, known: &Known) -> bool {
+        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let numbers = ground.vertex_numbers(facet.number);
+        known.groups.holds(|base, feature| {
+            let corner = match feature {
+                Feature::Vertex(vertex) => numbers.iter().position(|&number| number == vertex),
+                Feature::Edge(_) | Feature::Face(_) => None,
+            };
+            let Some(corner) = corner else { return false };
+            let at = facet.corners[corner];
+            let low = standing.extent(base.normal, at).low - standing.radius;
+            let is_below = |other: usize| {
+                let height = base.normal.dot(facet.corners[other % 3] - at);
+                height < 0.0 && low - height > self.asking.reach
+            };
+            is_below(corner + 1) && is_below(corner + 2)
+        })
+    }
+
     /// Keeps a triangle for later, or asks at once where there is no room.
     fn doubt_of(&self, number: u32, (has_points, separation): (bool, f64), known: &mut Known) {
+        if known.overlapping {
+            return;
+        }
         if let Err(full) = known.unclear.try_push((!has_points, separation, number)) {
             let (.., number) = full.element();
             if self.meeting.overlaps(self.asking.on.ground, number) {

@@ -77,6 +77,7 @@ impl Pin {
 }
 
 impl Groups {
+    #[inline(always)]
     pub(super) fn new(slack: f64) -> Self {
         Self { groups: ArrayVec::new(), slack }
     }
@@ -101,17 +102,28 @@ impl Groups {
             group.add(pin, slack);
             return;
         }
-        let group = Group { base: *base, pins: core::iter::once(pin).collect() };
-        if let Err(full) = self.groups.try_push(group) {
+        if self.groups.is_full() {
             let shallowest = self
                 .groups
                 .iter_mut()
                 .reduce(|most, next| if next.least() > most.least() { next } else { most });
-            match shallowest {
-                Some(shallowest) if shallowest.least() > pin.separation => *shallowest = full.element(),
-                _ => {}
+            if let Some(shallowest) = shallowest.filter(|group| group.least() > pin.separation) {
+                shallowest.base = *base;
+                shallowest.pins.clear();
+                shallowest.pins.push(pin);
             }
+            return;
         }
+        // Made empty and filled where it stays: it is large.
+        self.groups.push(Group { base: *base, pins: ArrayVec::new_const() });
+        if let Some(group) = self.groups.last_mut() {
+            group.pins.push(pin);
+        }
+    }
+
+    /// Whether a normal's points have one on a feature of ground.
+    pub(super) fn holds(&self, is_it: impl Fn(&Base, Feature) -> bool) -> bool {
+        self.groups.iter().any(|group| group.pins.iter().any(|pin| is_it(&group.base, pin.of_ground)))
     }
 
     /// Takes away points that are deeper than shapes which share no point can be; those without any left go.

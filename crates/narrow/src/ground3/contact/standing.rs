@@ -1,11 +1,13 @@
 //! A convex part as it stands over ground: its vertices in the ground's axes.
 
+use super::ball::nearest_to;
+use super::facet::Facet;
 use crate::ground3::OnGround;
 use crate::pair3::Part;
 use crate::polyhedron::solid::Solid;
 use crate::precision::IN_SPACE;
 use arrayvec::ArrayVec;
-use asunder_geometry::glam::DVec3;
+use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{FACE_PREFERENCE, MAX_HULL_VERTICES};
 use asunder_geometry::{Basis3, Pose3};
 
@@ -24,6 +26,8 @@ pub(super) struct Standing<'s> {
     pub(super) place: Place,
     /// The core, in the ground's axes.
     pub(super) solid: &'s Solid<'s>,
+    /// The box around the core in the part's own axes.
+    around: [DVec3; 2],
     /// The vertices, eight by eight; what fills up the last eight is the first.
     octets: ArrayVec<[[f64; 8]; 3], { MAX_HULL_VERTICES / 8 }>,
     pub(super) center: DVec3,
@@ -66,10 +70,12 @@ impl Place {
 impl<'s> Standing<'s> {
     pub(super) fn new(part: Part<'s>, place: Place, solid: &'s Solid<'s>) -> Self {
         let mut octets = ArrayVec::new();
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for eight in solid.vertices.chunks(8) {
             let mut octet = [[0.0; 8]; 3];
             for i in 0..8 {
                 let vertex = eight.get(i).unwrap_or(&eight[0]);
+                (low, high) = (low.min(*vertex), high.max(*vertex));
                 let [x, y, z] = place.point(vertex.as_dvec3()).to_array();
                 (octet[0][i], octet[1][i], octet[2][i]) = (x, y, z);
             }
@@ -86,6 +92,7 @@ impl<'s> Standing<'s> {
             part,
             place,
             solid,
+            around: [low, high].map(|corner| corner.as_dvec3()),
             octets,
             center: place.point(center),
             radius: f64::from(part.shape.radius()),
@@ -101,6 +108,23 @@ impl<'s> Standing<'s> {
     #[inline]
     pub(super) fn doubt(&self, ground: DVec3) -> f64 {
         IN_SPACE[1] * (f64::EPSILON / 2.0) * (self.lengths + ground.abs().element_sum())
+    }
+
+    /// Whether an axis that costs little shows that a triangle is further away than so many metres: one of the part's
+    /// own, or the one from the triangle's nearest point to the part's centre.
+    pub(super) fn is_apart(&self, facet: &Facet, beyond: f64) -> bool {
+        let own = facet.corners.map(|corner| self.place.axes.turn_back(corner - self.place.origin));
+        let [low, high] = self.around;
+        let above = own[0].min(own[1]).min(own[2]) - high;
+        let below = low - own[0].max(own[1]).max(own[2]);
+        if above.max(below).max_element() > beyond + self.radius {
+            return true;
+        }
+        let near = nearest_to(facet, self.center - facet.normal * facet.height(self.center)).1;
+        let Some(towards) = (self.center - near).try_normalize() else { return false };
+        let top = facet.corners.map(|corner| towards.dot(corner - near));
+        let low = self.extent(towards, near).low - top[0].max(top[1]).max(top[2]);
+        low > beyond + self.radius
     }
 
     /// A vertex of the core.
