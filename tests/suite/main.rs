@@ -35,6 +35,7 @@
 //!   parry3d's word
 //! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the
 //!   exact yes or no say
+//! - [`ground_worlds`]: ground is fixed; slides begin and end once; snapshots hold it once; its edges are drawn
 //! - [`ground_questions`]: overlaps, distances, rays and casts over meshes and height fields are the least of all
 //!   triangles', one by one; sides; characters on ground
 //! - [`chains`]: polylines to stand on: exact, without ghost collisions, at any angle; in casts, worlds and snapshots, too
@@ -86,8 +87,9 @@ mod debug_lines;
 mod exactness;
 mod fuzzed;
 mod ground_contacts;
-mod ground_questions;
 mod ground_geometry;
+mod ground_questions;
+mod ground_worlds;
 mod hard;
 mod hints;
 mod hulls;

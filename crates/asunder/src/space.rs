@@ -217,8 +217,8 @@ impl Space for Volume {
         pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping).map(|impact| (impact.fraction, impact))
     }
 
-    fn is_ground(_: &Shape3) -> bool {
-        false
+    fn is_ground(shape: &Shape3) -> bool {
+        shape.is_ground()
     }
 
     fn least_separation(manifolds: &[Manifold3]) -> f32 {

@@ -4,7 +4,7 @@ use super::{DebugLine, DebugOptions, HALVINGS};
 use crate::space::Volume;
 use crate::world::World;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{HalfSpace, Pose3, Shape3};
+use asunder_geometry::{Ground, HalfSpace, Pose3, Shape3};
 
 impl World<Volume> {
     /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it
@@ -96,12 +96,27 @@ fn outline(shape: &Shape3, pose: &Pose3, options: &DebugOptions, line: &mut dyn 
                 outline(part.shape(), part.pose(), options, &mut moved);
             }
         }
+        Shape3::TriMesh(mesh) => edges(Ground::Mesh(mesh), pose, line),
+        Shape3::HeightField(field) => edges(Ground::Field(field), pose, line),
         // A hull may be a point or a segment, too.
         _ => match *shape.core().vertices() {
             [center] => ball(pose, pose.transform(center), f64::from(shape.radius()), line),
             [from, to] => rod([from, to].map(|end| pose.transform(end)), f64::from(shape.radius()), line),
             _ => polyhedron(shape, pose, line),
         },
+    }
+}
+
+/// Every edge of ground, once.
+fn edges(ground: Ground<'_>, pose: &Pose3, line: &mut dyn FnMut(DVec3, DVec3)) {
+    let triangles = (0..ground.triangle_count()).filter(|&number| ground.triangle(number).is_some());
+    for triangle in triangles {
+        let corners = ground.corners(triangle).map(|corner| pose.transform(corner));
+        for edge in 0..3 {
+            if ground.neighbor(triangle, edge).is_none_or(|(other, _)| triangle < other) {
+                line(corners[edge], corners[(edge + 1) % 3]);
+            }
+        }
     }
 }
 

@@ -8,7 +8,8 @@ use super::digest::digest;
 use super::error::SnapshotError;
 use crate::space::{Plane, Space, Volume};
 use asunder_geometry::{
-    Chain, Compound2, Compound3, Hull, Polygon, Pose2, Pose3, RadiusError, Shape2, Shape3,
+    Chain, Compound2, Compound3, HeightField, Hull, Polygon, Pose2, Pose3, RadiusError, Shape2, Shape3,
+    TriMesh,
 };
 use core::fmt::{Debug, Display};
 use serde::de::DeserializeOwned;
@@ -195,10 +196,18 @@ impl<'a, S: Saved> Revived<'a, S> {
     }
 }
 
-/// There is none in space.
+/// Ground in space.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum NoGround {}
+pub enum SpaceGround {
+    Mesh(TriMesh),
+    Field(HeightField),
+}
+
+/// The address of data that may be shared by ground of one side and of two: aligned, so that its last bit is free.
+const fn with_side(address: usize, is_one_sided: bool) -> usize {
+    address | is_one_sided as usize
+}
 
 fn missing(index: u32) -> String {
     format!("there is no shape {index}")
@@ -232,7 +241,7 @@ impl Saved for Plane {
 
     fn ground(shape: &Shape2) -> Option<(Chain, usize)> {
         let Shape2::Chain(chain) = shape else { return None };
-        Some((chain.clone(), chain.shared_address()))
+        Some((chain.clone(), with_side(chain.shared_address(), chain.is_one_sided())))
     }
 
     fn grounded(chain: &Chain) -> Shape2 {
@@ -252,7 +261,7 @@ impl Saved for Plane {
 
 impl Saved for Volume {
     type Polytope = Hull;
-    type Ground = NoGround;
+    type Ground = SpaceGround;
 
     const BALL: &'static str = "Sphere";
 
@@ -276,12 +285,23 @@ impl Saved for Volume {
         Compound3::new(parts).map(Shape3::from)
     }
 
-    fn ground(_: &Shape3) -> Option<(NoGround, usize)> {
-        None
+    fn ground(shape: &Shape3) -> Option<(SpaceGround, usize)> {
+        Some(match shape {
+            Shape3::TriMesh(mesh) => {
+                (SpaceGround::Mesh(mesh.clone()), with_side(mesh.shared_address(), mesh.is_one_sided()))
+            }
+            Shape3::HeightField(field) => {
+                (SpaceGround::Field(field.clone()), with_side(field.shared_address(), field.is_one_sided()))
+            }
+            _ => return None,
+        })
     }
 
-    fn grounded(ground: &NoGround) -> Shape3 {
-        match *ground {}
+    fn grounded(ground: &SpaceGround) -> Shape3 {
+        match ground {
+            SpaceGround::Mesh(mesh) => mesh.clone().into(),
+            SpaceGround::Field(field) => field.clone().into(),
+        }
     }
 
     fn is_sound(manifold: &Self::Manifold) -> bool {
