@@ -1,7 +1,7 @@
 //! Contacts on triangle ground, beside parry3d's: nanoseconds a pair, one body after the other.
 //!
 //! ```text
-//! cargo run --release -p asunder-benches --bin ground
+//! cargo run --release -p asunder-benches --bin ground [flat|bumps|rough] [cuboid|sphere|...]
 //! ```
 //! A body of about a metre rests 1 mm deep on a plane, and on bumps, in triangles of half a metre. parry3d keeps its
 //! manifolds and its workspace from call to call, the same pair every time, as an engine at rest would.
@@ -86,6 +86,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut shapes = parry::Shapes::default();
         let their_mesh = shapes.convert(&mesh).ok_or("parry3d refuses the mesh")?;
         for (body, shape) in bodies()? {
+            if !std::env::args().skip(1).all(|only| name == only || body == only) {
+                continue;
+            }
             let poses = resting(&shape, &mesh, 200);
             let jobs: Vec<Job3> = poses.iter().map(|pose| job(&shape, pose, &mesh)).collect();
             let theirs = shapes.convert(&shape).ok_or("parry3d refuses the body")?;

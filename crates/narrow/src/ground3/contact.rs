@@ -53,11 +53,11 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Pose3, Shape3};
 use ball::{Nearest, nearest_to};
 use core::ops::ControlFlow;
-use facet::{Facet, is_same};
+use facet::{Facet, edge_number, is_same};
 use groups::{Group, Groups};
 use meeting::{Meeting, Met};
 use prism::{Incident, Prism};
-use standing::{Extent, Place, Standing};
+use standing::{Extent, Octets, Place, Standing};
 
 /// Triangles whose yes or no waits until all have been seen.
 const MOST_UNCLEAR: usize = 32;
@@ -110,6 +110,17 @@ struct Known {
     /// Triangles whose axis was refused.
     refused: ArrayVec<u32, MOST_REFUSED>,
     incident: Option<Incident>,
+    plane: Option<Plane>,
+}
+
+/// A triangle, and how a part stands over its plane.
+#[derive(Clone, Copy)]
+struct Plane {
+    patch: u32,
+    facet: Facet,
+    extent: Extent,
+    /// What heights may be off by, in metres.
+    doubt: f64,
 }
 
 /// A part among the triangles.
@@ -130,7 +141,8 @@ impl<'a> Asking<'a> {
         let bounds = self.on.bounds(&part, self.reach);
         let core = part.shape.core();
         let solid = Solid::new(&core, place.axes, place.origin, f64::from(part.shape.radius()));
-        let standing = Standing::new(part, place, &solid);
+        let mut octets = Octets::new_const();
+        let standing = Standing::new(part, place, &solid, &mut octets);
         let meeting = Meeting::new(self.on, part, self.poses);
         let is_ball = matches!(part.shape, Shape3::Sphere(_));
         let seen = Seen { asking: self, standing: &standing, meeting, bounds, is_ball };
@@ -215,6 +227,7 @@ impl Known {
             unclear: ArrayVec::new(),
             refused: ArrayVec::new(),
             incident: None,
+            plane: None,
         }
     }
 }
@@ -223,12 +236,11 @@ impl Seen<'_> {
     /// Looks at one triangle.
     fn look_at(&self, number: u32, known: &mut Known) {
         let (ground, standing) = (self.asking.on.ground, self.standing);
-        let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
-        let doubt = self.doubt_over(&facet);
         if self.is_ball {
-            return self.look_at_from_ball(&facet, doubt, known);
+            return self.look_at_from_ball(number, known);
         }
-        let extent = standing.extent(facet.normal, facet.origin());
+        let Some(plane) = self.plane_of(number, known) else { return };
+        let Plane { facet, extent, doubt, .. } = plane;
         let separation = extent.low - standing.radius;
         if separation > self.asking.reach + doubt {
             return;
@@ -266,6 +278,21 @@ impl Seen<'_> {
         self.doubt_of(number, (has_points, separation), known);
     }
 
+    /// A triangle and how the part stands over its plane, which most often is that of the one before.
+    fn plane_of(&self, number: u32, known: &mut Known) -> Option<Plane> {
+        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let patch = ground.patch(number);
+        if let Some(plane) = known.plane.as_ref().filter(|plane| plane.patch == patch)
+            && let Some(facet) = plane.facet.next(ground, number, 0.25 * plane.doubt)
+        {
+            return Some(Plane { facet, ..*plane });
+        }
+        let facet = Facet::seen(ground, number, standing.center)?;
+        let extent = standing.extent(facet.normal, facet.origin());
+        let doubt = 2.0 * self.doubt_over(&facet);
+        Some(*known.plane.insert(Plane { patch, facet, extent, doubt }))
+    }
+
     fn add_by_normal(&self, prism: &Prism, known: &mut Known) -> bool {
         let normal = prism.facet.normal;
         let incident = match known.incident {
@@ -275,8 +302,10 @@ impl Seen<'_> {
         prism.add_points(&incident, &mut known.groups)
     }
 
-    fn look_at_from_ball(&self, facet: &Facet, doubt: f64, known: &mut Known) {
+    fn look_at_from_ball(&self, number: u32, known: &mut Known) {
         let ground = self.asking.on.ground;
+        let Some(facet) = &Facet::seen(ground, number, self.standing.center) else { return };
+        let doubt = self.doubt_over(facet);
         if facet.height(self.standing.center) - self.standing.radius > self.asking.reach + doubt {
             return;
         }
@@ -336,18 +365,21 @@ impl Seen<'_> {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let numbers = ground.vertex_numbers(facet.number);
         known.groups.holds(|base, feature| {
-            let corner = match feature {
-                Feature::Vertex(vertex) => numbers.iter().position(|&number| number == vertex),
-                Feature::Edge(_) | Feature::Face(_) => None,
+            // One corner, or both ends of an edge.
+            let (first, count) = match feature {
+                Feature::Vertex(vertex) => (numbers.iter().position(|&number| number == vertex), 1),
+                Feature::Edge(edge) => {
+                    ((0..3).find(|&own| edge_number(ground, facet.number, own) == edge), 2)
+                }
+                Feature::Face(_) => return false,
             };
-            let Some(corner) = corner else { return false };
-            let at = facet.corners[corner];
+            let Some(first) = first else { return false };
+            let at = facet.corners[first];
             let low = standing.extent(base.normal, at).low - standing.radius;
-            let is_below = |other: usize| {
-                let height = base.normal.dot(facet.corners[other % 3] - at);
+            (count..3).all(|next| {
+                let height = base.normal.dot(facet.corners[(first + next) % 3] - at);
                 height < 0.0 && low - height > self.asking.reach
-            };
-            is_below(corner + 1) && is_below(corner + 2)
+            })
         })
     }
 

@@ -66,7 +66,7 @@ impl Nearest {
             of_body: Feature::Vertex(0),
             of_ground,
         };
-        groups.add(&Base { normal, patch, weight: if is_face { facet.area } else { 0.0 } }, pin);
+        groups.add(&Base { normal, patch, weight: if is_face { facet.area() } else { 0.0 } }, pin);
         true
     }
 }

@@ -24,8 +24,6 @@ pub(super) struct Facet {
     pub(super) is_front: bool,
     /// Sine of the angle by which the normal may be off.
     pub(super) tilt: f64,
-    /// Twice the area, in square metres.
-    pub(super) area: f64,
 }
 
 /// What of a triangle touches, as told by a direction: what of it reaches furthest there.
@@ -66,7 +64,20 @@ impl Facet {
             return None;
         }
         let normal = if is_front { front } else { -front };
-        Some(Self { number, corners, normal, origin, is_front, tilt, area })
+        Some(Self { number, corners, normal, origin, is_front, tilt })
+    }
+
+    /// Another triangle of the same flat patch, if it lies in this one's plane up to so many metres.
+    pub(super) fn next(&self, ground: Ground, number: u32, slack: f64) -> Option<Self> {
+        let corners = ground.corners(number).map(|corner| corner.as_dvec3());
+        let is_on = corners.iter().all(|&corner| self.height(corner).abs() <= slack);
+        is_on.then_some(Self { number, corners, ..*self })
+    }
+
+    /// Twice the area, in square metres.
+    pub(super) fn area(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        (b - a).cross(c - a).length()
     }
 
     /// How far a point is above the plane, in metres.

@@ -60,14 +60,13 @@ impl Incident {
 impl Prism<'_> {
     /// Adds contact points by the triangle's own normal; whether there are any.
     pub(super) fn add_points(&self, incident: &Incident, groups: &mut Groups) -> bool {
-        let base = self.base();
-        let mut is_any = self.add_corners(incident, &base, groups);
+        let mut is_any = self.add_corners(incident, groups);
         if let Some(outwards) = incident.outwards
             && self.standing.solid.vertices.len() > 1
         {
             for edge in 0..3 {
                 if !self.facet.goes_on(self.ground, edge) {
-                    is_any |= self.add_side(incident.face, outwards, edge, (&base, groups));
+                    is_any |= self.add_side(incident.face, outwards, edge, groups);
                 }
             }
         }
@@ -75,8 +74,8 @@ impl Prism<'_> {
     }
 
     pub(super) fn base(&self) -> Base {
-        let Facet { number, normal, area, .. } = *self.facet;
-        Base { normal, patch: self.ground.patch(number), weight: area }
+        let Facet { number, normal, .. } = *self.facet;
+        Base { normal, patch: self.ground.patch(number), weight: self.facet.area() }
     }
 
     /// The lowest point of the part over the triangle's plane, wherever that is.
@@ -92,7 +91,7 @@ impl Prism<'_> {
         Pin { on_body, on_ground, separation, doubt: self.doubt, of_body, of_ground }
     }
 
-    fn add_corners(&self, incident: &Incident, base: &Base, groups: &mut Groups) -> bool {
+    fn add_corners(&self, incident: &Incident, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let (mut is_any, mut has_lowest) = (false, false);
         let deep = self.extent.low + standing.slack;
@@ -109,7 +108,7 @@ impl Prism<'_> {
                 return;
             };
             if separation <= self.reach && facet.is_over(at, standing.slack) {
-                groups.add(base, self.pin(at, separation, Feature::Vertex(vertex as u32)));
+                groups.add(&self.base(), self.pin(at, separation, Feature::Vertex(vertex as u32)));
                 is_any = true;
             }
         };
@@ -124,13 +123,7 @@ impl Prism<'_> {
     }
 
     /// Adds the ends of what the part's face covers of a side of the triangle, as seen along the normal.
-    fn add_side(
-        &self,
-        face: usize,
-        outwards: DVec3,
-        edge: usize,
-        (base, groups): (&Base, &mut Groups),
-    ) -> bool {
+    fn add_side(&self, face: usize, outwards: DVec3, edge: usize, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let facing = outwards.dot(facet.normal);
         if facing > -STEEP {
@@ -161,7 +154,7 @@ impl Prism<'_> {
             };
             let on_body = on_ground + facet.normal * separation;
             let doubt = self.doubt / -facing;
-            groups.add(base, Pin { on_body, on_ground, separation, doubt, of_body, of_ground });
+            groups.add(&self.base(), Pin { on_body, on_ground, separation, doubt, of_body, of_ground });
             is_any = true;
         }
         is_any

@@ -20,6 +20,9 @@ pub(super) struct Place {
     summed: f64,
 }
 
+/// Vertices eight by eight: large, and filled where they stay.
+pub(super) type Octets = ArrayVec<[[f64; 8]; 3], { MAX_HULL_VERTICES / 8 }>;
+
 /// A part that has vertices.
 pub(super) struct Standing<'s> {
     pub(super) part: Part<'s>,
@@ -29,7 +32,7 @@ pub(super) struct Standing<'s> {
     /// The box around the core in the part's own axes.
     around: [DVec3; 2],
     /// The vertices, eight by eight; what fills up the last eight is the first.
-    octets: ArrayVec<[[f64; 8]; 3], { MAX_HULL_VERTICES / 8 }>,
+    octets: &'s Octets,
     pub(super) center: DVec3,
     pub(super) radius: f64,
     pub(super) outer_radius: f64,
@@ -68,8 +71,7 @@ impl Place {
 }
 
 impl<'s> Standing<'s> {
-    pub(super) fn new(part: Part<'s>, place: Place, solid: &'s Solid<'s>) -> Self {
-        let mut octets = ArrayVec::new();
+    pub(super) fn new(part: Part<'s>, place: Place, solid: &'s Solid<'s>, octets: &'s mut Octets) -> Self {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for eight in solid.vertices.chunks(8) {
             let mut octet = [[0.0; 8]; 3];
@@ -117,14 +119,15 @@ impl<'s> Standing<'s> {
         let [low, high] = self.around;
         let above = own[0].min(own[1]).min(own[2]) - high;
         let below = low - own[0].max(own[1]).max(own[2]);
-        if above.max(below).max_element() > beyond + self.radius {
+        let beyond_core = beyond + self.radius;
+        if above.max(below).max_element() > beyond_core || is_apart_across(&own, [low, high], beyond_core) {
             return true;
         }
         let near = nearest_to(facet, self.center - facet.normal * facet.height(self.center)).1;
         let Some(towards) = (self.center - near).try_normalize() else { return false };
         let top = facet.corners.map(|corner| towards.dot(corner - near));
         let low = self.extent(towards, near).low - top[0].max(top[1]).max(top[2]);
-        low > beyond + self.radius
+        low > beyond_core
     }
 
     /// A vertex of the core.
@@ -177,4 +180,30 @@ impl<'s> Standing<'s> {
             highest: vertex(high_at[up], up),
         }
     }
+}
+
+/// Whether an axis across an edge of the triangle and one of a box shows that they are further apart than so many
+/// metres; all in the box's axes.
+///
+/// Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with a margin.
+fn is_apart_across(corners: &[DVec3; 3], [low, high]: [DVec3; 2], beyond: f64) -> bool {
+    let (middle, half) = ((low + high) * 0.5, (high - low) * 0.5);
+    let corners = corners.map(|corner| corner - middle);
+    for (edge, third) in [(0, 2), (1, 0), (2, 1)] {
+        let along = corners[(edge + 1) % 3] - corners[edge];
+        let axes = [
+            DVec3::new(0.0, -along.z, along.y),
+            DVec3::new(along.z, 0.0, -along.x),
+            DVec3::new(-along.y, along.x, 0.0),
+        ];
+        for axis in axes {
+            let (one, other) = (axis.dot(corners[edge]), axis.dot(corners[third]));
+            let nearest = if one.min(other) > 0.0 { one.min(other) } else { -one.max(other) };
+            let gap = nearest - half.dot(axis.abs());
+            if gap > 0.0 && gap * gap > beyond * beyond * axis.length_squared() {
+                return true;
+            }
+        }
+    }
+    false
 }
