@@ -173,6 +173,10 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     fn blocks(at: (&Self::Shape, &Self::Pose), body: &crate::collider::Collider<Self>) -> bool {
         Self::overlaps(at, body)
     }
+    /// Whether a body is solid from one side only.
+    fn has_one_side(_: &crate::collider::Collider<Self>) -> bool {
+        false
+    }
     /// A ray, if it is one.
     fn ray(origin: Self::Point, direction: Self::Point) -> Option<Self::Ray>;
     /// The unit direction that lies in both planes, given by their normals; nothing where they are parallel, or in

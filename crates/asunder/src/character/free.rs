@@ -1,6 +1,7 @@
 //! Out of what overlaps.
 
 use super::{Freed, Linear, Walks};
+use crate::collider::Collider;
 use crate::query::{Filter, Met, boxes_over};
 use crate::space::Space;
 use crate::world::{World, slot_of};
@@ -132,11 +133,25 @@ pub(super) fn near<S: Walks>(
 
 /// Whether the shape overlaps anything that sees it; exact.
 pub(super) fn is_overlapping<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
-    let is_blocked = |key| world.bodies.get(key).is_some_and(|body| S::blocks(at, body));
+    is_any(world, at, filter, |body| S::blocks(at, body))
+}
+
+/// The same after a way that casts have led: what has one side may have been passed from behind, and sees it only now.
+pub(super) fn has_entered<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
+    is_any(world, at, filter, |body| !S::has_one_side(body) && S::blocks(at, body))
+}
+
+fn is_any<S: Walks>(
+    world: &World<S>,
+    at: At<'_, S>,
+    filter: &Filter<'_, S>,
+    ask: impl Fn(&Collider<S>) -> bool,
+) -> bool {
     let bounds = S::bounds(at.0, at.1, 0.0);
-    let flow = boxes_over(world, &bounds, filter).visit(|Met(key)| match is_blocked(key) {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    });
+    let flow =
+        boxes_over(world, &bounds, filter).visit(|Met(key)| match world.bodies.get(key).is_some_and(&ask) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
     flow.is_break()
 }

@@ -1,7 +1,7 @@
 //! Going along what is met.
 
 use super::clip::along;
-use super::free::{free, is_overlapping, near, push};
+use super::free::{free, has_entered, is_overlapping, near, push};
 use super::gait::Gait;
 use super::{Freed, Linear, Obstacle, Slide, Walk, Walks};
 use crate::query::{Asked, Filter, bodies_along};
@@ -97,7 +97,7 @@ pub(crate) fn move_and_slide<S: Walks>(
         if slid.is_free {
             mover.slide(within_reach(S::wide(displacement)), &mut slid);
             // A cast certifies the path, and a pose rounds it: what passes an edge by less than that may touch it.
-            if is_overlapping(world, (shape, &mover.pose), &mover.filter) {
+            if has_entered(world, (shape, &mover.pose), &mover.filter) {
                 mover.pose = free;
                 slid.blocked = true;
             }
