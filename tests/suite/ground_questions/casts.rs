@@ -220,7 +220,7 @@ fn inner_edges_give_no_normals_of_their_own() {
         let spot = Vec3::new(
             random.between(-1.0, 1.0) as f32,
             0.0,
-            random.between(-60.0, 60.0) as f32 * thin as f32,
+            random.between(-60.0, 60.0) as f32 * thin,
         );
         let spin = random.quaternion();
         // How far it reaches down, from its position.

@@ -91,7 +91,7 @@ fn no_ray_slips_through_between_triangles() {
 
 #[test]
 fn a_ray_down_a_grid_of_any_size_lands_on_every_edge_and_vertex() {
-    let ground = mesh(sheet([12, 12], [0.1, 0.3], |x, z| (x * 0.37 - z * 0.11) as f32, |_, _| false));
+    let ground = mesh(sheet([12, 12], [0.1, 0.3], |x, z| x * 0.37 - z * 0.11, |_, _| false));
     let at =
         Pose3::new([1e4, -3.0, 2e3], asunder_geometry::glam::Quat::from_xyzw(0.1, 0.2, -0.3, 0.9)).unwrap();
     let Shape3::TriMesh(inner) = &ground else { unreachable!() };
