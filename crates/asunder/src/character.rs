@@ -169,6 +169,8 @@ pub(crate) trait Walks: Asked<Point: Linear> {
         body: &crate::collider::Collider<Self>,
         margin: f32,
     ) -> Option<(f64, Self::Point)>;
+    /// Whether a body is solid from one side only.
+    fn has_one_side(body: &crate::collider::Collider<Self>) -> bool;
     /// A ray, if it is one.
     fn ray(origin: Self::Point, direction: Self::Point) -> Option<Self::Ray>;
     /// The unit direction that lies in both planes, given by their normals; nothing where they are parallel, or in

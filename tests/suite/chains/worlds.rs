@@ -117,7 +117,7 @@ fn questions_see_chains() {
 #[test]
 fn ground_is_no_part_and_has_no_mass() {
     let ground = Shape2::from(chain(&[(1.0, 0.0), (0.0, 0.0)]));
-    assert_eq!(ground.mass_properties(1.0), Err(MassError::Unbounded));
+    assert_eq!(ground.mass_properties(1.0), Err(MassError::Ground));
     let ball: Shape2 = Circle::new(1.0).unwrap().into();
     let refused = Compound2::new([(Pose2::IDENTITY, ball), (Pose2::IDENTITY, ground)]);
     assert_eq!(refused, Err(CompoundError::Ground { index: 1 }));

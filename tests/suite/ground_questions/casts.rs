@@ -217,11 +217,8 @@ fn inner_edges_give_no_normals_of_their_own() {
         let at = Pose3::new(random.vector() * 100.0, rotation).unwrap();
         let up = at.turn(DVec3::Y);
         let body = KINDS3[random.below(10)].1(&mut Clay::thick(&mut random));
-        let spot = Vec3::new(
-            random.between(-1.0, 1.0) as f32,
-            0.0,
-            random.between(-60.0, 60.0) as f32 * thin as f32,
-        );
+        let spot =
+            Vec3::new(random.between(-1.0, 1.0) as f32, 0.0, random.between(-60.0, 60.0) as f32 * thin);
         let spin = random.quaternion();
         // How far it reaches down, from its position.
         let standing = Pose3::new(DVec3::ZERO, spin).unwrap();

@@ -91,7 +91,7 @@ fn no_ray_slips_through_between_triangles() {
 
 #[test]
 fn a_ray_down_a_grid_of_any_size_lands_on_every_edge_and_vertex() {
-    let ground = mesh(sheet([12, 12], [0.1, 0.3], |x, z| (x * 0.37 - z * 0.11) as f32, |_, _| false));
+    let ground = mesh(sheet([12, 12], [0.1, 0.3], |x, z| x * 0.37 - z * 0.11, |_, _| false));
     let at =
         Pose3::new([1e4, -3.0, 2e3], asunder_geometry::glam::Quat::from_xyzw(0.1, 0.2, -0.3, 0.9)).unwrap();
     let Shape3::TriMesh(inner) = &ground else { unreachable!() };
@@ -162,4 +162,22 @@ fn rays_without_measure_bring_no_number_that_is_none() {
             }
         }
     }
+}
+
+#[test]
+fn of_triangles_met_at_once_the_lowest_number_is_told() {
+    let ground = mesh(sheet([12, 12], [0.5, 0.5], |_, _| 0.0, |_, _| false));
+    let mut shared = 0;
+    for i in 0..=24 {
+        for j in 0..=24 {
+            let from = DVec3::new(f64::from(i) * 0.25 - 3.0, 2.0, f64::from(j) * 0.25 - 3.0);
+            for aside in [Vec3::ZERO, Vec3::X * 0.25, Vec3::new(-0.5, 0.0, 0.25)] {
+                let ray = Ray3::new(from, Vec3::NEG_Y * 2.0 + aside).unwrap();
+                let found = cast_ray3(&ground, &Pose3::IDENTITY, &ray, f64::INFINITY);
+                assert_eq!(found, slowly(&ground, &Pose3::IDENTITY, &ray, f64::INFINITY), "{from} {aside}");
+                shared += usize::from(found.is_some());
+            }
+        }
+    }
+    assert!(shared > 1500, "{shared}");
 }

@@ -2,7 +2,7 @@
 
 use super::{Freed, Linear, Walks};
 use crate::collider::Collider;
-use crate::query::{Filter, Met, bodies_over, boxes_over};
+use crate::query::{Filter, Met, boxes_over};
 use crate::space::Space;
 use crate::world::{World, slot_of};
 use asunder_narrow::ArrayVec;
@@ -131,40 +131,36 @@ pub(super) fn near<S: Walks>(
     found
 }
 
-/// Whether the shape overlaps anything; exact. One-sided ground that it comes through from behind does not count.
+/// Whether the shape overlaps anything that sees it; exact.
 pub(super) fn is_overlapping<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
-    any_over(world, at, filter, |body| !S::is_ground(&body.shape) || is_seen_by(at, body))
+    is_any(world, at, filter, |body| blocks(at, body))
 }
 
-/// The same, save for ground.
-pub(super) fn is_overlapping_more_than_ground<S: Walks>(
+/// The same after a way that casts have led: what has one side may have been passed from behind, and sees it only now.
+pub(super) fn has_entered<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
+    is_any(world, at, filter, |body| !S::has_one_side(body) && blocks(at, body))
+}
+
+/// Whether a shape overlaps a body that sees it: of one-sided ground, a front.
+fn blocks<S: Walks>(at: At<'_, S>, body: &Collider<S>) -> bool {
+    if S::is_ground(&body.shape) {
+        S::gap(at, body, 0.0).is_some_and(|(gap, _)| gap <= 0.0)
+    } else {
+        S::overlaps(at, body)
+    }
+}
+
+fn is_any<S: Walks>(
     world: &World<S>,
     at: At<'_, S>,
     filter: &Filter<'_, S>,
+    ask: impl Fn(&Collider<S>) -> bool,
 ) -> bool {
-    any_over(world, at, filter, |body| !S::is_ground(&body.shape))
-}
-
-/// Whether the shape is half way through one-sided ground, from behind.
-pub(super) fn comes_through<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
-    any_over(world, at, filter, |body| S::is_ground(&body.shape) && !is_seen_by(at, body))
-}
-
-/// Whether ground that shares a point with the shape has it in front.
-fn is_seen_by<S: Walks>(at: At<'_, S>, ground: &Collider<S>) -> bool {
-    S::gap(at, ground, 0.0).is_some_and(|(gap, _)| gap <= 0.0)
-}
-
-/// Whether any of the bodies that share a point with the shape is such a one.
-fn any_over<S: Walks>(
-    world: &World<S>,
-    at: At<'_, S>,
-    filter: &Filter<'_, S>,
-    is_one: impl Fn(&Collider<S>) -> bool,
-) -> bool {
-    let visit = |Met(key)| match world.bodies.get(key) {
-        Some(body) if is_one(body) => ControlFlow::Break(()),
-        _ => ControlFlow::Continue(()),
-    };
-    bodies_over(world, at, filter).visit(visit).is_break()
+    let bounds = S::bounds(at.0, at.1, 0.0);
+    let flow =
+        boxes_over(world, &bounds, filter).visit(|Met(key)| match world.bodies.get(key).is_some_and(&ask) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
+    flow.is_break()
 }

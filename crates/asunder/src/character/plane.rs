@@ -136,6 +136,10 @@ impl Walks for Plane {
         Some((manifold.separation.into(), -manifold.normal.as_dvec2()))
     }
 
+    fn has_one_side(body: &Collider2) -> bool {
+        matches!(&body.shape, Shape2::Chain(chain) if chain.is_one_sided())
+    }
+
     fn ray(origin: DVec2, direction: DVec2) -> Option<Ray2> {
         Ray2::new(origin, direction.as_vec2()).ok()
     }

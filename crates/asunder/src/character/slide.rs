@@ -1,7 +1,7 @@
 //! Going along what is met.
 
 use super::clip::along;
-use super::free::{comes_through, free, is_overlapping, is_overlapping_more_than_ground, near, push};
+use super::free::{free, has_entered, is_overlapping, near, push};
 use super::gait::Gait;
 use super::{Freed, Linear, Obstacle, Slide, Walk, Walks};
 use crate::query::{Asked, Filter, bodies_along};
@@ -95,12 +95,9 @@ pub(crate) fn move_and_slide<S: Walks>(
     if S::size(shape).is_finite() {
         let free = mover.keep_away(&mut slid);
         if slid.is_free {
-            // What has come through from behind is freed next time: it is not to hang half way.
-            let is_through = comes_through(world, (shape, &mover.pose), &mover.filter);
             mover.slide(within_reach(S::wide(displacement)), &mut slid);
             // A cast certifies the path, and a pose rounds it: what passes an edge by less than that may touch it.
-            let overlaps = if is_through { is_overlapping_more_than_ground } else { is_overlapping };
-            if overlaps(world, (shape, &mover.pose), &mover.filter) {
+            if has_entered(world, (shape, &mover.pose), &mover.filter) {
                 mover.pose = free;
                 slid.blocked = true;
             }

@@ -10,7 +10,7 @@ use crate::space::Volume;
 use crate::world::World;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::STANDSTILL;
-use asunder_geometry::{DirectionError, HalfSpace, Pose3, Ray3, Shape3};
+use asunder_geometry::{DirectionError, Ground, HalfSpace, Pose3, Ray3, Shape3};
 use asunder_narrow::Pair3;
 
 impl Linear for DVec3 {
@@ -135,6 +135,10 @@ impl Walks for Volume {
     fn gap(at: (&Shape3, &Pose3), body: &Collider3, margin: f32) -> Option<(f64, DVec3)> {
         let manifold = Pair3::new(at.0, at.1, &body.shape, &body.pose).manifold(margin)?;
         Some((manifold.separation.into(), -manifold.normal.as_dvec3()))
+    }
+
+    fn has_one_side(body: &Collider3) -> bool {
+        Ground::of(&body.shape).is_some_and(Ground::is_one_sided)
     }
 
     fn ray(origin: DVec3, direction: DVec3) -> Option<Ray3> {

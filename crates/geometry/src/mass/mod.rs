@@ -86,7 +86,8 @@ impl Shape2 {
     pub fn mass_properties(&self, density: f32) -> Result<MassProperties2, MassError> {
         let density = check_density(density)?;
         match self {
-            Self::HalfPlane(_) | Self::Chain(_) => Err(MassError::Unbounded),
+            Self::HalfPlane(_) => Err(MassError::Unbounded),
+            Self::Chain(_) => Err(MassError::Ground),
             Self::Rect(rect) => Ok(plane::of_rect(rect, density)),
             Self::Compound(compound) => {
                 let parts = compound.parts().iter();
