@@ -1,21 +1,32 @@
 //! Plays a scene and says what it cost: `cargo run --release --example play -- --help`.
 //!
-//! The engine answers what touches; the game around it, here, gives bodies mass and lets contacts push them apart.
-//! The default scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Scene files are described
-//! in `asunder_scenes::level`.
+//! The engine answers what touches; the game around it (`asunder_examples::game`) gives bodies mass and lets contacts
+//! push them apart. The default scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Named
+//! scenes are described in `asunder_scenes::stages`, scene files in `asunder_scenes::level`, recordings in
+//! `asunder_examples::recording`.
 
 mod heap;
 
-use asunder::{Collider, Collider2, Collider3, Layers, Plane, Space, Volume};
-use asunder_examples::game::{Game, MARGIN};
+use asunder_examples::game::Game;
+use asunder_examples::opened::{AnyGame, SEED, scene};
+use asunder_examples::physics::Physics;
+use asunder_examples::recording::{Head, read_head};
+use asunder_examples::replay::{Recorder, replay};
+use asunder_examples::report::Times;
 use asunder_examples::{picture, report};
-use asunder_scenes::level::{Level, Level2, Level3, LevelLayers};
+use asunder_scenes::stages::{Scene, Stage};
 use clap::Parser;
 use std::error::Error;
+use std::fs::File;
+use std::io::{BufReader, BufWriter};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-const SEED: u64 = 20_260;
+/// What the default scene is called.
+const HEAP: &str = "heap";
+const HEAP_SIZE: u32 = 2000;
+/// The most bodies that a named scene is asked for.
+const MAX_SIZE: u32 = 2_000_000;
 
 /// Steps a scene with the asunder collision engine, then prints what each stage cost and what touches.
 #[derive(Parser)]
@@ -24,22 +35,41 @@ struct Options {
     /// How many steps of 1/60 s to play
     #[arg(long, value_name = "N", default_value_t = 300)]
     steps: u32,
-    /// How many bodies the default scene drops, up to 100,000
-    #[arg(long, value_name = "N", default_value_t = 2000, conflicts_with = "scene",
-          value_parser = clap::value_parser!(u32).range(0..=100_000))]
-    bodies: u32,
-    /// A scene file to play instead, in 2D or 3D
-    #[arg(long, value_name = "FILE.json")]
-    scene: Option<PathBuf>,
+    /// How many bodies a named scene has, up to 2,000,000: its usual number at first
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_SIZE)))]
+    bodies: Option<u32>,
+    /// The scene: a name that --list knows, or a scene file, in 2D or 3D
+    #[arg(long, value_name = "NAME|FILE.json", default_value = HEAP)]
+    scene: String,
+    /// Names the scenes, and their usual numbers of bodies
+    #[arg(long)]
+    list: bool,
     /// Where to put a picture of the last frame
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Where to write the poses of each step
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// Plays a recording: its scene, its poses, no solver
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "bodies", "record"])]
+    replay: Option<PathBuf>,
+    /// Prints one line of JSON in place of the summary
+    #[arg(long)]
+    json: bool,
 }
 
 fn main() -> ExitCode {
     // Wrong options end here, with a message and exit code 2.
     let options = Options::parse();
-    match play(&options) {
+    let outcome = match &options.replay {
+        _ if options.list => {
+            list();
+            Ok(())
+        }
+        Some(file) => play_again(file, &options),
+        None => play(&options),
+    };
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("play: {error}");
@@ -48,77 +78,121 @@ fn main() -> ExitCode {
     }
 }
 
+fn list() {
+    println!("{HEAP:<18} {HEAP_SIZE:>9}  crates, rocks, prisms, balls, capsules and hammers fall on a floor");
+    for stage in Stage::ALL {
+        println!("{:<18} {:>9}  {}", stage.name(), stage.usual_size(), stage.about());
+    }
+}
+
+/// The scene of a name, and its size.
+fn open(name: &str, size: Option<u32>) -> Result<(Scene, u64), Box<dyn Error>> {
+    if name == HEAP {
+        let size = size.unwrap_or(HEAP_SIZE);
+        return Ok((Scene::Volume(heap::heap(size as usize, SEED)?.into()), u64::from(size)));
+    }
+    let usual = Stage::by_name(name).map_or(0, |stage| stage.usual_size() as u64);
+    Ok((scene(name, size.map(|size| size as usize))?, size.map_or(usual, u64::from)))
+}
+
 fn play(options: &Options) -> Result<(), Box<dyn Error>> {
-    let level = match &options.scene {
-        Some(file) => read_level(file)?,
-        None => Level::Volume(heap::heap(options.bodies as usize, SEED)?),
+    if Path::new(&options.scene).extension().is_some() && options.bodies.is_some() {
+        return Err("a scene file says itself how many bodies there are: leave out --bodies".into());
+    }
+    let (scene, size) = open(&options.scene, options.bodies)?;
+    let head = |dimension, bodies: usize| Head {
+        dimension,
+        size,
+        bodies: bodies as u32,
+        name: options.scene.clone(),
     };
-    let picture = match level {
-        Level::Plane(level) => {
-            let mut game = plane_game(&level)?;
-            report::run(&mut game, &level.name, options.steps);
+    let picture = match (&scene, AnyGame::of(&scene)?) {
+        (Scene::Plane(scene), AnyGame::Plane(mut game)) => {
+            let times = step(&mut game, options, &head(2, scene.level.bodies.len()))?;
+            tell(&game, &scene.level.name, &times, (options, &scene.room));
             options.svg.as_ref().map(|_| picture::plane::draw(&game.world))
         }
-        Level::Volume(level) => {
-            let mut game = volume_game(&level)?;
-            report::run(&mut game, &level.name, options.steps);
+        (Scene::Volume(scene), AnyGame::Volume(mut game)) => {
+            let times = step(&mut game, options, &head(3, scene.level.bodies.len()))?;
+            tell(&game, &scene.level.name, &times, (options, &scene.room));
             options.svg.as_ref().map(|_| picture::volume::draw(&game.world))
         }
+        _ => None,
     };
-    if let (Some(file), Some(picture)) = (&options.svg, picture) {
-        picture::save(file, &picture)?;
-    }
-    Ok(())
+    save(options, picture)
 }
 
-fn read_level(file: &Path) -> Result<Level, Box<dyn Error>> {
-    let json = std::fs::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
-    Ok(Level::from_json(json).map_err(|error| format!("{}: {error}", file.display()))?)
+fn step<S: Physics>(game: &mut Game<S>, options: &Options, head: &Head) -> Result<Times, Box<dyn Error>> {
+    let Some(file) = &options.record else {
+        return report::timed(game, options.steps, |_| Ok(()));
+    };
+    let at = |error: &dyn Error| format!("{}: {error}", file.display());
+    let to = BufWriter::new(File::create(file).map_err(|error| at(&error))?);
+    let mut recorder = Recorder::new(to, head, game).map_err(|error| at(&error))?;
+    let times =
+        report::timed(game, options.steps, |game| recorder.record(game)).map_err(|error| at(&error))?;
+    recorder.finish().map_err(|error| at(&error))?;
+    if !options.json {
+        println!("recording      {}", file.display());
+    }
+    Ok(times)
 }
 
-fn plane_game(level: &Level2) -> Result<Game<Plane>, Box<dyn Error>> {
-    let mut game = Game::new(level.gravity);
-    for (number, body) in level.bodies.iter().enumerate() {
-        let collider = Collider2::new(body.shape.clone()).at(body.pose).margin(margin(body.sensor))?;
-        let collider = with_flags(collider, body.fixed, body.sensor, body.layers).user_data(body.user_data);
-        game.add(collider, &body.shape, &body.pose, body.linear_velocity, body.angular_velocity)
-            .map_err(|error| format!("bodies[{number}].shape: {error}"))?;
+fn tell<S: Physics>(
+    game: &Game<S>,
+    name: &str,
+    times: &Times,
+    (options, room): (&Options, &(S::Vector, S::Vector)),
+) {
+    if options.json {
+        println!("{}", report::json(name, times, game.world.stats()));
+    } else {
+        report::print(game, name, times, game.outside(room));
     }
-    Ok(game)
 }
 
-fn volume_game(level: &Level3) -> Result<Game<Volume>, Box<dyn Error>> {
-    let mut game = Game::new(level.gravity);
-    for (number, body) in level.bodies.iter().enumerate() {
-        let collider = Collider3::new(body.shape.clone()).at(body.pose).margin(margin(body.sensor))?;
-        let collider = with_flags(collider, body.fixed, body.sensor, body.layers).user_data(body.user_data);
-        game.add(collider, &body.shape, &body.pose, body.linear_velocity, body.angular_velocity)
-            .map_err(|error| format!("bodies[{number}].shape: {error}"))?;
+fn play_again(file: &Path, options: &Options) -> Result<(), Box<dyn Error>> {
+    let at = |error: &dyn Error| format!("{}: {error}", file.display());
+    let mut from = BufReader::new(File::open(file).map_err(|error| at(&error))?);
+    let head = read_head(&mut from).map_err(|error| at(&error))?;
+    let is_named = head.name == HEAP || Stage::by_name(&head.name).is_some();
+    let size = u32::try_from(head.size).ok().filter(|&size| size <= MAX_SIZE);
+    if is_named && size.is_none() {
+        return Err(format!("{}: a scene of {} bodies: at most {MAX_SIZE}", file.display(), head.size).into());
     }
-    Ok(game)
-}
-
-/// Sensors have none: their events say exactly when something is inside.
-fn margin(is_sensor: bool) -> f32 {
-    if is_sensor { 0.0 } else { MARGIN }
-}
-
-fn with_flags<S: Space>(
-    mut collider: Collider<S>,
-    fixed: bool,
-    sensor: bool,
-    layers: Option<LevelLayers>,
-) -> Collider<S> {
-    if fixed {
-        collider = collider.fixed();
-    }
-    if sensor {
-        collider = collider.sensor();
-    }
-    match layers {
-        Some(LevelLayers { member_of, collides_with }) => {
-            collider.layers(Layers { member_of, collides_with })
+    let size = size.filter(|_| is_named);
+    let (scene, _) =
+        open(&head.name, size).map_err(|error| format!("{}: its scene: {error}", file.display()))?;
+    let told = |times: &Times, stats| {
+        if options.json {
+            println!("{}", report::json(&head.name, times, stats));
         }
-        None => collider,
+    };
+    let picture = match (AnyGame::of(&scene)?, head.dimension) {
+        (AnyGame::Plane(mut game), 2) => {
+            let times = replay(&mut game, &mut from, &head, options.steps).map_err(|error| at(&*error))?;
+            told(&times, game.world.stats());
+            if !options.json {
+                report::print_replay(&game.world, &head.name, &times);
+            }
+            options.svg.as_ref().map(|_| picture::plane::draw(&game.world))
+        }
+        (AnyGame::Volume(mut game), 3) => {
+            let times = replay(&mut game, &mut from, &head, options.steps).map_err(|error| at(&*error))?;
+            told(&times, game.world.stats());
+            if !options.json {
+                report::print_replay(&game.world, &head.name, &times);
+            }
+            options.svg.as_ref().map(|_| picture::volume::draw(&game.world))
+        }
+        _ => return Err(format!("{}: its scene has another dimension than it says", file.display()).into()),
+    };
+    save(options, picture)
+}
+
+fn save(options: &Options, picture: Option<String>) -> Result<(), Box<dyn Error>> {
+    match (&options.svg, picture) {
+        (Some(file), Some(picture)) => picture::save(file, &picture),
+        _ => Ok(()),
     }
 }

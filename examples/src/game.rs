@@ -1,9 +1,14 @@
 //! The game: a world, and bodies with mass and speed that its contacts push apart.
 
-use crate::physics::{Physics, TouchId};
-use crate::response::{Motion, Pushes, respond};
+mod tally;
+
+use crate::flight::{Flight, Flights};
+use crate::islands::Islands;
+use crate::physics::{Physics, Touch};
+use crate::response::{Forces, Motion, Response};
 use asunder::slotmap::SecondaryMap;
 use asunder::{Collider, Event, World};
+use asunder_scenes::stages::Feel;
 
 /// How close bodies come before they get a contact, each. A contact that exists before it is needed lets the response
 /// stop a body at the surface instead of inside it.
@@ -12,18 +17,44 @@ pub const MARGIN: f32 = 0.02;
 /// A body this far from where it started, in metres, has left the level.
 const LEFT: f64 = 1000.0;
 
+/// Bodies nearer than this, in metres, are of one island, and wake each other.
+const JOINED: f64 = 0.005;
+
+/// After so many seconds a scene is taken to have settled.
+const SETTLED: f64 = 2.0;
+
 /// The world and the bodies in it, in their own order.
+///
+/// A body has a number, by the order in which it was added; it keeps it when it leaves the level.
 pub struct Game<S: Physics> {
     /// What finds the contacts.
     pub world: World<S>,
     /// What has happened so far.
     pub counts: Counts,
+    /// What bodies are like where they touch.
+    pub feel: Feel,
+    /// Whether bodies that are at rest fall asleep.
+    pub sleeps: bool,
     gravity: S::Vector,
     bodies: Vec<Body<S>>,
     motions: Vec<Motion<S>>,
-    numbers: SecondaryMap<S::Key, usize>,
-    last_pushes: Vec<(TouchId<S::Key>, Pushes<S>)>,
+    numbers: SecondaryMap<S::Key, u32>,
+    /// Numbers of those that pushes move, ascending.
+    awake: Vec<u32>,
+    /// Numbers of those that go their own way, in the order in which they were told to, and their ways.
+    driven: Vec<u32>,
+    paths: Vec<Path<S>>,
+    islands: Islands,
+    flights: Flights<S>,
+    touches: Vec<Touch<S>>,
+    response: Response<S>,
+    steps: u32,
+    /// Of the last step, and so about of the next.
+    seconds: f64,
 }
+
+/// Where a driven body is, frame by frame.
+type Path<S> = Box<dyn Fn(u32) -> <S as asunder::Space>::Pose + Send>;
 
 /// What has happened since the start.
 #[derive(Clone, Copy, Default)]
@@ -36,8 +67,12 @@ pub struct Counts {
     pub sensed: usize,
     /// Bodies that have left the level.
     pub left: usize,
-    /// Of any step, in metres.
+    /// Overlap of any step, in metres.
     pub deepest: f64,
+    /// Overlap of any step after the first two seconds, in metres.
+    pub deepest_settled: f64,
+    /// The same as a share of the smaller body's size: the edge of the cube, or of the square, of its mass.
+    pub deepest_share: f64,
 }
 
 /// A shape that moves and has no mass: without an inside, without an end, or too thin for its mass to be told from
@@ -53,15 +88,48 @@ impl std::fmt::Display for NoMass {
     }
 }
 
-struct Body<S: Physics> {
-    key: S::Key,
-    center: S::Vector,
+/// Where all bodies are at one time, to be compared with where they are later.
+pub struct Places<S: Physics>(Vec<(S::Vector, S::Turn)>);
+
+pub(crate) struct Body<S: Physics> {
+    pub(crate) key: S::Key,
+    pub(crate) center: S::Vector,
+    pub(crate) turn: S::Turn,
     local_center: S::Vector,
     start: S::Vector,
-    turn: S::Turn,
+    inverse_mass: f64,
     inverse_inertia: S::Inertia,
-    is_here: bool,
+    /// Of its furthest point from the centre of mass, about, in metres.
+    pub(crate) reach: f64,
+    /// The edge of the cube, or of the square, of its mass; infinite without one.
+    size: f64,
+    pub(crate) is_bullet: bool,
     is_sensor: bool,
+    state: State,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    /// Moved by nothing.
+    Fixed,
+    /// Moved along a path.
+    Driven,
+    Awake,
+    Asleep,
+    /// Out of the level.
+    Left,
+}
+
+impl<S: Physics> Body<S> {
+    /// The pose with the centre of mass at a place.
+    pub(crate) fn pose_at(&self, center: S::Vector, turn: S::Turn) -> Option<S::Pose> {
+        S::pose(center - S::turned(turn, self.local_center), turn)
+    }
+
+    /// The square of a bound on the speed of its points.
+    fn speed_squared(&self, motion: &Motion<S>) -> f64 {
+        S::dot(motion.velocity, motion.velocity) + S::spin_square(motion.spin) * self.reach * self.reach
+    }
 }
 
 impl<S: Physics> Game<S> {
@@ -70,15 +138,25 @@ impl<S: Physics> Game<S> {
         Self {
             world: World::new(),
             counts: Counts::default(),
+            feel: Feel::default(),
+            sleeps: true,
             gravity,
             bodies: Vec::new(),
             motions: Vec::new(),
             numbers: SecondaryMap::new(),
-            last_pushes: Vec::new(),
+            awake: Vec::new(),
+            driven: Vec::new(),
+            paths: Vec::new(),
+            islands: Islands::NONE,
+            flights: Flights::NONE,
+            touches: Vec::new(),
+            response: Response::NONE,
+            steps: 0,
+            seconds: 1.0 / 60.0,
         }
     }
 
-    /// Adds a body.
+    /// Adds a body, with speeds in m/s and rad/s, and returns its number.
     ///
     /// # Errors
     /// A shape that has no mass to speak of.
@@ -89,108 +167,252 @@ impl<S: Physics> Game<S> {
         pose: &S::Pose,
         velocity: S::Vector,
         spin: S::Spin,
-    ) -> Result<(), NoMass> {
-        let (position, turn) = S::place(pose);
-        let is_fixed = collider.is_fixed();
+    ) -> Result<usize, NoMass> {
         // Scenery needs none, and may be without an end.
-        let mass = if is_fixed { None } else { Some(S::mass(shape).ok_or(NoMass)?) };
+        let mass = if collider.is_fixed() { None } else { Some(S::mass(shape).ok_or(NoMass)?) };
+        let (position, turn) = S::place(pose);
         let local_center = mass.as_ref().map_or(S::Vector::default(), |mass| mass.center);
         let center = position + S::turned(turn, local_center);
-        let is_sensor = collider.is_sensor();
+        let (number, is_sensor) = (self.bodies.len() as u32, collider.is_sensor());
+        let (is_bullet, state) =
+            (collider.is_bullet(), if mass.is_some() { State::Awake } else { State::Fixed });
         let key = S::insert(&mut self.world, collider);
-        self.numbers.insert(key, self.bodies.len());
-        let inverse_inertia = mass.as_ref().map_or(S::IMMOVABLE, |mass| mass.inverse_inertia);
+        self.numbers.insert(key, number);
+        self.islands.add_body();
+        let mut motion = Motion::new(velocity, spin);
+        motion.offset = center - position;
+        match &mass {
+            Some(_) => self.awake.push(number),
+            None => motion.rest(),
+        }
+        self.motions.push(motion);
         self.bodies.push(Body {
             key,
             center,
+            turn,
             local_center,
             start: center,
-            turn,
-            inverse_inertia,
-            is_here: true,
+            inverse_mass: mass.as_ref().map_or(0.0, |mass| 1.0 / mass.mass),
+            size: mass.as_ref().map_or(f64::INFINITY, |mass| mass.size),
+            inverse_inertia: mass.map_or(S::IMMOVABLE, |mass| mass.inverse_inertia),
+            reach: S::reach(shape),
+            is_bullet,
             is_sensor,
+            state,
         });
-        let inverse_mass = mass.map_or(0.0, |mass| 1.0 / mass.mass);
-        self.motions.push(Motion::new(velocity, spin, inverse_mass));
-        Ok(())
+        Ok(number as usize)
+    }
+
+    /// Drives a body from now on: after so many steps it is where the path says, whatever is in its way. It pushes
+    /// and carries others with the speed that follows. No such body is no fault.
+    pub fn drive(&mut self, number: usize, path: impl Fn(u32) -> S::Pose + Send + 'static) {
+        let Some(body) = self.bodies.get_mut(number) else { return };
+        body.center = body.center - self.motions[number].offset;
+        (body.local_center, body.state) = (S::Vector::default(), State::Driven);
+        self.motions[number] = Motion::new(S::Vector::default(), S::Spin::default());
+        self.awake.retain(|&other| other as usize != number);
+        self.driven.push(number as u32);
+        self.paths.push(Box::new(path));
     }
 
     /// One step: the contacts of the last update push, bodies move, and the world finds the next contacts.
     pub fn step(&mut self, seconds: f64) {
-        for (body, motion) in self.bodies.iter().zip(&mut self.motions) {
-            motion.start_step(S::turned_inertia(&body.inverse_inertia, body.turn));
+        self.seconds = seconds;
+        self.steps += 1;
+        for &number in &self.awake {
+            let (body, motion) = (&self.bodies[number as usize], &mut self.motions[number as usize]);
+            motion.inverse_mass = body.inverse_mass;
+            motion.inverse_inertia = S::turned_inertia(&body.inverse_inertia, body.turn);
+            (motion.moved, motion.turned) = (S::Vector::default(), S::Spin::default());
         }
-        let touches = S::touches(&self.world);
-        let arms = |number: usize, anchor: S::Vector| {
-            let body = &self.bodies[number];
-            anchor - S::turned(body.turn, body.local_center)
-        };
-        let numbered = touches.iter().filter_map(|touch| {
-            let (&a, &b) = (self.numbers.get(touch.id.a)?, self.numbers.get(touch.id.b)?);
-            Some((touch, (a, arms(a, touch.anchor_a)), (b, arms(b, touch.anchor_b))))
-        });
-        self.last_pushes = respond(numbered, &mut self.motions, &self.last_pushes, self.gravity, seconds);
+        let targets = self.aim();
+        let forces = Forces { gravity: self.gravity, feel: self.feel, seconds };
+        let moving: [&[u32]; 2] = [&self.awake, &self.driven];
+        self.response.respond(&self.touches, &mut self.motions, moving, &forces);
         self.move_bodies();
+        for (&number, pose) in self.driven.iter().zip(targets) {
+            let body = &mut self.bodies[number as usize];
+            (body.center, body.turn) = S::place(&pose);
+            S::set_pose(&mut self.world, body.key, pose);
+        }
+        if self.sleeps {
+            self.send_to_sleep();
+        }
         self.update();
+    }
+
+    /// Gives driven bodies the speeds that lead them to their next places.
+    fn aim(&mut self) -> Vec<S::Pose> {
+        let rate = 1.0 / self.seconds;
+        let mut targets = Vec::with_capacity(self.paths.len());
+        for (&number, path) in self.driven.iter().zip(&self.paths) {
+            let (body, motion) = (&self.bodies[number as usize], &mut self.motions[number as usize]);
+            let pose = path(self.steps);
+            let (position, turn) = S::place(&pose);
+            motion.velocity = (position - body.center) * rate;
+            motion.spin = S::spin_between(body.turn, turn) * rate;
+            (motion.moved, motion.turned) = (S::Vector::default(), S::Spin::default());
+            targets.push(pose);
+        }
+        targets
+    }
+
+    fn move_bodies(&mut self) {
+        let Self { bodies, motions, awake, world, counts, flights, .. } = self;
+        awake.retain(|&number| {
+            let (body, motion) = (&mut bodies[number as usize], &mut motions[number as usize]);
+            let (moved, turned) = flights.limit(body, number, motion.moved, motion.turned);
+            let (center, turn) = (body.center + moved, S::turned_by(body.turn, turned));
+            let travelled = center - body.start;
+            match body.pose_at(center, turn) {
+                Some(pose) if S::dot(travelled, travelled) < LEFT * LEFT => {
+                    (body.center, body.turn) = (center, turn);
+                    motion.offset = S::turned(turn, body.local_center);
+                    S::set_pose(world, body.key, pose);
+                    true
+                }
+                _ => {
+                    S::remove(world, body.key);
+                    body.state = State::Left;
+                    motion.rest();
+                    counts.left += 1;
+                    false
+                }
+            }
+        });
+    }
+
+    fn send_to_sleep(&mut self) {
+        let Self { bodies, motions, islands, awake, .. } = self;
+        for &number in &*awake {
+            let speed = bodies[number as usize].speed_squared(&motions[number as usize]);
+            islands.note(number, speed, self.seconds);
+        }
+        for touch in self.touches.iter().filter(|touch| touch.separation < JOINED) {
+            let [a, b] = touch.bodies;
+            match touch.bodies.map(|number| bodies[number as usize].state) {
+                [State::Awake, State::Awake] => islands.join(a, b),
+                [State::Driven, State::Awake] if is_moving(&motions[a as usize]) => islands.disturb(b),
+                [State::Awake, State::Driven] if is_moving(&motions[b as usize]) => islands.disturb(a),
+                _ => {}
+            }
+        }
+        let world = &mut self.world;
+        islands.send_to_sleep(awake, |number| {
+            let body = &mut bodies[number as usize];
+            body.state = State::Asleep;
+            motions[number as usize].rest();
+            S::sleep(world, body.key);
+        });
     }
 
     /// Brings the world's contacts up to date and counts what they say.
     pub fn update(&mut self) {
+        self.look_ahead();
         self.world.update();
+        self.note_hits();
         for event in S::events(&self.world) {
             match event {
                 Event::Began { .. } => self.counts.began += 1,
                 Event::Ended { .. } => self.counts.ended += 1,
             }
             let (a, b) = event.bodies();
-            let is_sensor = |key| self.numbers.get(key).is_some_and(|&number| self.bodies[number].is_sensor);
+            let is_sensor =
+                |key| self.numbers.get(key).is_some_and(|&number| self.bodies[number as usize].is_sensor);
             self.counts.sensed += usize::from(is_sensor(a) || is_sensor(b));
         }
-        self.counts.deepest = self.counts.deepest.max(self.deepest_now());
-    }
-
-    /// The deepest overlap of any contact point of the last update, in metres.
-    pub fn deepest_now(&self) -> f64 {
-        S::touches(&self.world).iter().map(|touch| -touch.separation).fold(0.0, f64::max)
-    }
-
-    /// The greatest speed of any body, in m/s: near zero once the scene is at rest.
-    pub fn fastest_now(&self) -> f64 {
-        let bodies = self.bodies.iter().zip(&self.motions).filter(|(body, _)| body.is_here);
-        bodies.map(|(_, motion)| S::dot(motion.velocity, motion.velocity)).fold(0.0, f64::max).sqrt()
-    }
-
-    /// A number that differs wherever the poses of two runs do (FNV-1a over their bits).
-    pub fn digest(&self) -> u64 {
-        let mut digest = 0xcbf2_9ce4_8422_2325_u64;
-        for pose in self.bodies.iter().filter_map(|body| S::pose_of(&self.world, body.key)) {
-            for byte in S::pose_bits(&pose).into_iter().flat_map(u64::to_le_bytes) {
-                digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            }
+        self.gather();
+        // Whoever woke has contacts that nobody asked for before.
+        if self.wake() {
+            self.gather();
         }
-        digest
+        self.note_depths();
     }
 
-    fn move_bodies(&mut self) {
-        for (body, motion) in self.bodies.iter_mut().zip(&mut self.motions) {
-            if motion.inverse_mass == 0.0 || !body.is_here {
+    /// Tells the world of whatever will move so far that contacts must be there before it arrives.
+    fn look_ahead(&mut self) {
+        self.flights.clear();
+        for &number in &self.awake {
+            let (body, motion) = (&self.bodies[number as usize], &self.motions[number as usize]);
+            let travel = body.speed_squared(motion).sqrt() * self.seconds;
+            if travel < f64::from(MARGIN) + 0.05 * body.reach {
                 continue;
             }
-            body.center += motion.moved;
-            body.turn = S::turned_by(body.turn, motion.turned);
-            let travelled = body.center - body.start;
-            let pose = S::pose(body.center - S::turned(body.turn, body.local_center), body.turn);
-            match pose {
-                Some(pose) if S::dot(travelled, travelled) < LEFT * LEFT => {
-                    S::set_pose(&mut self.world, body.key, pose);
-                }
-                _ => {
-                    S::remove(&mut self.world, body.key);
-                    body.is_here = false;
-                    motion.inverse_mass = 0.0;
-                    self.counts.left += 1;
-                }
+            let (moved, turned) = (motion.velocity * self.seconds, motion.spin * self.seconds);
+            let Some(pose) = body.pose_at(body.center + moved, S::turned_by(body.turn, turned)) else {
+                continue;
+            };
+            S::look_ahead(&mut self.world, body.key, &pose);
+            if body.is_bullet && travel > 0.5 * body.reach {
+                self.flights.push(Flight { number, moved, turned, share: 1.0, is_held: false });
             }
         }
     }
+
+    /// A bullet stops where it will hit something; the contact that is there by then does the rest.
+    fn note_hits(&mut self) {
+        for (bullet, other, share) in S::hits(&self.world) {
+            if let Some(&number) = self.numbers.get(bullet) {
+                // What it touches already is that contact's business.
+                let is_contact = S::is_near(&self.world, bullet, other);
+                self.flights.note(number, share, is_contact);
+            }
+        }
+    }
+
+    /// Collects the contact points that matter: of bodies that move.
+    fn gather(&mut self) {
+        self.touches.clear();
+        let (numbers, bodies, motions) = (&self.numbers, &self.bodies, &self.motions);
+        let wanted = |a, b, speculative| {
+            let pair = [*numbers.get(a)?, *numbers.get(b)?];
+            let [a, b] = pair.map(|number| &bodies[number as usize]);
+            let states = [a.state, b.state];
+            let is_driven =
+                |side: usize| states[side] == State::Driven && is_moving(&motions[pair[side] as usize]);
+            let is_wanted = match states {
+                [State::Awake, _] | [_, State::Awake] => true,
+                [_, State::Asleep] => is_driven(0),
+                [State::Asleep, _] => is_driven(1),
+                _ => false,
+            };
+            // Of bullets the world says more: what they hit, and when.
+            let is_flying = speculative && (a.is_bullet || b.is_bullet);
+            (is_wanted && !is_flying).then_some(pair)
+        };
+        S::touches(&self.world, wanted, &mut self.touches);
+    }
+
+    /// Wakes the islands that something touches which moves.
+    fn wake(&mut self) -> bool {
+        let Self { bodies, islands, .. } = self;
+        for touch in self.touches.iter().filter(|touch| touch.separation < JOINED) {
+            let [a, b] = touch.bodies;
+            match touch.bodies.map(|number| bodies[number as usize].state) {
+                [State::Awake | State::Driven, State::Asleep] => islands.rouse(b),
+                [State::Asleep, State::Awake | State::Driven] => islands.rouse(a),
+                _ => {}
+            }
+        }
+        islands.wake(&mut self.awake, |number| bodies[number as usize].state = State::Awake)
+    }
+
+    fn note_depths(&mut self) {
+        let (mut deepest, mut share) = (0.0_f64, 0.0_f64);
+        for touch in &self.touches {
+            let [a, b] = touch.bodies.map(|number| self.bodies[number as usize].size);
+            deepest = deepest.max(-touch.separation);
+            share = share.max(-touch.separation / a.min(b));
+        }
+        let counts = &mut self.counts;
+        counts.deepest = counts.deepest.max(deepest);
+        if f64::from(self.steps) * self.seconds > SETTLED {
+            counts.deepest_settled = counts.deepest_settled.max(deepest);
+            counts.deepest_share = counts.deepest_share.max(share);
+        }
+    }
+}
+
+fn is_moving<S: Physics>(motion: &Motion<S>) -> bool {
+    motion.velocity != S::Vector::default() || motion.spin != S::Spin::default()
 }

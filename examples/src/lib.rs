@@ -19,10 +19,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod flight;
 pub mod game;
+mod islands;
+pub mod opened;
 pub mod physics;
 pub mod picture;
 mod plane;
+pub mod recording;
+pub mod replay;
 pub mod report;
 mod response;
 pub mod things;

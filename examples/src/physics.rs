@@ -3,6 +3,7 @@
 use asunder::slotmap::Key;
 use asunder::{Collider, Event, Space, World};
 use core::ops::{Add, AddAssign, Mul, Sub, SubAssign};
+use std::io::{Read, Write};
 
 /// Vectors, and what bodies spin by: a number in the plane, a vector in space.
 pub trait Linear:
@@ -44,21 +45,31 @@ pub trait Physics: Space {
 
     /// The inner product.
     fn dot(a: Self::Vector, b: Self::Vector) -> f64;
+    /// The speed of a spin, squared.
+    fn spin_square(spin: Self::Spin) -> f64;
+    /// Whether a point lies in the box between two corners.
+    fn is_within(point: Self::Vector, room: &(Self::Vector, Self::Vector)) -> bool;
     /// The spin that a push at the end of an arm gives.
     fn torque(arm: Self::Vector, push: Self::Vector) -> Self::Spin;
     /// The velocity that a spin gives the end of an arm.
     fn sweep(spin: Self::Spin, arm: Self::Vector) -> Self::Vector;
     /// The spin that a torque gives.
     fn respond(inertia: &Self::Inertia, torque: Self::Spin) -> Self::Spin;
+    /// Twice the energy of a spin. What nothing turns has none.
+    fn spin_energy(inertia: &Self::Inertia, spin: Self::Spin) -> f64;
     /// The inverse inertia of a turned body, in world axes.
     fn turned_inertia(inertia: &Self::Inertia, turn: Self::Turn) -> Self::Inertia;
     /// A rotation, turned on by a small one.
     fn turned_by(turn: Self::Turn, spin: Self::Spin) -> Self::Turn;
+    /// What turns one rotation to another that is near.
+    fn spin_between(from: Self::Turn, to: Self::Turn) -> Self::Spin;
     /// A vector of the body in world axes.
     fn turned(turn: Self::Turn, local: Self::Vector) -> Self::Vector;
 
     /// Nothing where the shape is too thin for its mass to be told from zero.
     fn mass(shape: &Self::Shape) -> Option<Mass<Self>>;
+    /// How far a shape reaches from its own centre, in metres.
+    fn reach(shape: &Self::Shape) -> f64;
     /// The place of a body's own origin, and its rotation.
     fn place(pose: &Self::Pose) -> (Self::Vector, Self::Turn);
     /// Nothing where the numbers are no pose: the body has left every level that there can be.
@@ -70,20 +81,47 @@ pub trait Physics: Space {
     fn remove(world: &mut World<Self>, key: Self::Key);
     /// Moves a body.
     fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose);
+    /// Says where a body will be when the next step is done.
+    fn look_ahead(world: &mut World<Self>, key: Self::Key, to: &Self::Pose);
+    /// Notes that a body is at rest.
+    fn sleep(world: &mut World<Self>, key: Self::Key);
     /// Where a body is.
     fn pose_of(world: &World<Self>, key: Self::Key) -> Option<Self::Pose>;
     /// What the last update reported.
     fn events(world: &World<Self>) -> &[Event<Self::Key>];
-    /// Every point of every contact, in the world's order.
-    fn touches(world: &World<Self>) -> Vec<Touch<Self>>;
+    /// What solid things bullets run into: the bullet, the other, and the share of the motion until then.
+    fn hits(world: &World<Self>) -> impl Iterator<Item = (Self::Key, Self::Key, f64)>;
+    /// Whether two bodies have a contact by where they are, and not only by where they are going.
+    fn is_near(world: &World<Self>, a: Self::Key, b: Self::Key) -> bool;
+    /// Appends every point of the contacts that are wanted, in the world's order. Asked with both bodies, and whether
+    /// the contact is only what motions may bring; the answer is the bodies' numbers.
+    fn touches(
+        world: &World<Self>,
+        wanted: impl FnMut(Self::Key, Self::Key, bool) -> Option<[u32; 2]>,
+        touches: &mut Vec<Touch<Self>>,
+    );
+    /// How many contacts there are by where bodies are, and how many of them share a point.
+    fn count_contacts(world: &World<Self>) -> (u32, u32);
+    /// Writes a pose, bit for bit.
+    ///
+    /// # Errors
+    /// Those of what it is written to.
+    fn write_pose(pose: &Self::Pose, to: &mut impl Write) -> Result<(), std::io::Error>;
+    /// Reads a pose; nothing where the numbers are none.
+    ///
+    /// # Errors
+    /// Those of what it is read from.
+    fn read_pose(from: &mut impl Read) -> Result<Option<Self::Pose>, std::io::Error>;
     /// Numbers that differ wherever two poses do.
-    fn pose_bits(pose: &Self::Pose) -> Vec<u64>;
+    fn pose_bits(pose: &Self::Pose) -> impl Iterator<Item = u64>;
 }
 
 /// Mass at unit density, and how it is spread.
 pub struct Mass<S: Physics> {
     /// In kilograms.
     pub mass: f64,
+    /// The edge of the cube, or of the square, of that mass, in metres.
+    pub size: f64,
     /// The centre of mass, in the body's axes.
     pub center: S::Vector,
     /// About the centre of mass.
@@ -94,6 +132,8 @@ pub struct Mass<S: Physics> {
 pub struct Touch<S: Physics> {
     /// What stays the same of it.
     pub id: TouchId<S::Key>,
+    /// The numbers of both bodies in the game.
+    pub bodies: [u32; 2],
     /// From the first body to the second.
     pub normal: S::Vector,
     /// In metres; negative in overlap.
@@ -105,12 +145,10 @@ pub struct Touch<S: Physics> {
 }
 
 /// What stays the same of a contact point from frame to frame.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TouchId<K: Key> {
-    /// The first body.
-    pub a: K,
-    /// The second body.
-    pub b: K,
+    /// Both bodies, in the world's order.
+    pub keys: (K, K),
     /// Which parts of both.
     pub parts: (u32, u32),
     /// The bits of its feature id.

@@ -1,8 +1,10 @@
 //! The game in the plane.
 
 use crate::physics::{Mass, Physics, Touch, TouchId};
+use crate::recording::read;
 use asunder::glam::DVec2;
-use asunder::{BodyKey2, Collider2, Event2, Plane, Pose2, Rotation2, Shape2, World2};
+use asunder::{BodyKey2, Collider2, Event2, Motion2, Plane, Pose2, Rotation2, Shape2, World2};
+use std::io::{Read, Write};
 
 impl Physics for Plane {
     type Vector = DVec2;
@@ -14,6 +16,14 @@ impl Physics for Plane {
 
     fn dot(a: DVec2, b: DVec2) -> f64 {
         a.dot(b)
+    }
+
+    fn spin_square(spin: f64) -> f64 {
+        spin * spin
+    }
+
+    fn is_within(point: DVec2, (low, high): &(DVec2, DVec2)) -> bool {
+        point.cmpge(*low).all() && point.cmple(*high).all()
     }
 
     fn torque(arm: DVec2, push: DVec2) -> f64 {
@@ -28,12 +38,20 @@ impl Physics for Plane {
         inertia * torque
     }
 
+    fn spin_energy(inertia: &f64, spin: f64) -> f64 {
+        if *inertia > 0.0 { spin * spin / *inertia } else { 0.0 }
+    }
+
     fn turned_inertia(inertia: &f64, _turn: DVec2) -> f64 {
         *inertia
     }
 
     fn turned_by(turn: DVec2, spin: f64) -> DVec2 {
         (turn + turn.perp() * spin).normalize()
+    }
+
+    fn spin_between(from: DVec2, to: DVec2) -> f64 {
+        libm::atan2(from.perp_dot(to), from.dot(to))
     }
 
     fn turned(turn: DVec2, local: DVec2) -> DVec2 {
@@ -44,7 +62,16 @@ impl Physics for Plane {
         let matter = shape.mass_properties(1.0).ok()?;
         let inverse_inertia = 1.0 / matter.inertia;
         let is_sound = (inverse_inertia + 1.0 / matter.mass).is_finite();
-        is_sound.then_some(Mass { mass: matter.mass, center: matter.center, inverse_inertia })
+        is_sound.then_some(Mass {
+            mass: matter.mass,
+            size: matter.mass.sqrt(),
+            center: matter.center,
+            inverse_inertia,
+        })
+    }
+
+    fn reach(shape: &Shape2) -> f64 {
+        f64::from(shape.outer_radius())
     }
 
     fn place(pose: &Pose2) -> (DVec2, DVec2) {
@@ -69,6 +96,17 @@ impl Physics for Plane {
         let _ = world.set_pose(key, pose);
     }
 
+    fn look_ahead(world: &mut World2, key: BodyKey2, to: &Pose2) {
+        let Some(from) = Self::pose_of(world, key) else { return };
+        if let Ok(motion) = Motion2::new(to.position() - from.position(), to.rotation()) {
+            let _ = world.set_motion(key, motion);
+        }
+    }
+
+    fn sleep(world: &mut World2, key: BodyKey2) {
+        let _ = world.sleep(key);
+    }
+
     fn pose_of(world: &World2, key: BodyKey2) -> Option<Pose2> {
         world.get(key).map(|body| *body.pose())
     }
@@ -77,17 +115,30 @@ impl Physics for Plane {
         world.events()
     }
 
-    fn touches(world: &World2) -> Vec<Touch<Self>> {
-        let mut touches = Vec::new();
+    fn hits(world: &World2) -> impl Iterator<Item = (BodyKey2, BodyKey2, f64)> {
+        let solid = world.impacts().iter().filter(|hit| !hit.sensor);
+        solid.map(|hit| (hit.bullet, hit.other, hit.impact.fraction))
+    }
+
+    fn is_near(world: &World2, a: BodyKey2, b: BodyKey2) -> bool {
+        world.contact(a, b).is_some_and(|contact| !contact.speculative)
+    }
+
+    fn touches(
+        world: &World2,
+        mut wanted: impl FnMut(BodyKey2, BodyKey2, bool) -> Option<[u32; 2]>,
+        touches: &mut Vec<Touch<Self>>,
+    ) {
         for contact in world.contacts() {
+            let Some(bodies) = wanted(contact.a, contact.b, contact.speculative) else { continue };
             for manifold in contact.manifolds {
                 touches.extend(manifold.points.iter().map(|point| Touch {
                     id: TouchId {
-                        a: contact.a,
-                        b: contact.b,
+                        keys: (contact.a, contact.b),
                         parts: (manifold.part_a, manifold.part_b),
                         feature: point.feature.to_bits(),
                     },
+                    bodies,
                     normal: manifold.normal.as_dvec2(),
                     separation: f64::from(point.separation),
                     anchor_a: point.anchor_a.as_dvec2(),
@@ -95,11 +146,38 @@ impl Physics for Plane {
                 }));
             }
         }
-        touches
     }
 
-    fn pose_bits(pose: &Pose2) -> Vec<u64> {
+    fn count_contacts(world: &World2) -> (u32, u32) {
+        let near = world.contacts().filter(|contact| !contact.speculative);
+        near.fold((0, 0), |(near, touching), contact| (near + 1, touching + u32::from(contact.overlapping)))
+    }
+
+    fn write_pose(pose: &Pose2, to: &mut impl Write) -> Result<(), std::io::Error> {
+        for coordinate in pose.position().to_array() {
+            to.write_all(&coordinate.to_le_bytes())?;
+        }
+        for number in [pose.rotation().cos(), pose.rotation().sin()] {
+            to.write_all(&number.to_le_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn read_pose(from: &mut impl Read) -> Result<Option<Pose2>, std::io::Error> {
+        let mut position = [0.0; 2];
+        for coordinate in &mut position {
+            *coordinate = f64::from_le_bytes(read(from)?);
+        }
+        let mut rotation = [0.0; 2];
+        for number in &mut rotation {
+            *number = f32::from_le_bytes(read(from)?);
+        }
+        let Ok(rotation) = Rotation2::new(rotation[0], rotation[1]) else { return Ok(None) };
+        Ok(Pose2::new(position, rotation).ok())
+    }
+
+    fn pose_bits(pose: &Pose2) -> impl Iterator<Item = u64> {
         let rotation = [pose.rotation().cos(), pose.rotation().sin()].map(f64::from);
-        pose.position().to_array().into_iter().chain(rotation).map(f64::to_bits).collect()
+        pose.position().to_array().into_iter().chain(rotation).map(f64::to_bits)
     }
 }

@@ -1,88 +1,192 @@
-//! What a run cost and found, in words.
+//! What a run cost and found, in words or as one line of JSON.
 
 use crate::game::Game;
 use crate::physics::Physics;
-use asunder::Stats;
+use asunder::{Stats, World};
+use core::convert::Infallible;
+use core::fmt::Write;
 use core::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Instant;
 
 /// One step, in seconds.
-const STEP: f64 = 1.0 / 60.0;
+pub const STEP: f64 = 1.0 / 60.0;
 
 /// Times summed over the steps of a run.
-#[derive(Default)]
-struct Times {
-    stages: [Duration; 5],
-    worst_update: Duration,
-    all: Duration,
+#[derive(Clone, Copy, Default)]
+pub struct Times {
+    /// So many steps.
+    pub steps: u32,
+    /// The stages of an update, in the order of [`stages`].
+    pub stages: [Duration; STAGES],
+    /// The longest update.
+    pub worst_update: Duration,
+    /// All that a step took, the solver included.
+    pub all: Duration,
+}
+
+/// How many stages are told apart.
+pub const STAGES: usize = 6;
+
+/// The stages of the last update: their names and times.
+pub fn stages(stats: &Stats) -> [(&'static str, Duration); STAGES] {
+    let Stats { refit, sweep, collide, merge, impacts, report, .. } = *stats;
+    [
+        ("refit", refit),
+        ("sweep", sweep),
+        ("collide", collide),
+        ("merge", merge),
+        ("impacts", impacts),
+        ("report", report),
+    ]
 }
 
 impl Times {
-    /// Adds what a step takes.
-    fn measure<S: Physics>(&mut self, game: &mut Game<S>, step: impl FnOnce(&mut Game<S>)) {
+    /// Adds what a step takes that leaves the world updated.
+    pub fn measure<T>(&mut self, game: &mut T, stats: fn(&T) -> &Stats, step: impl FnOnce(&mut T)) {
         let start = Instant::now();
         step(game);
         self.all += start.elapsed();
-        let stats = game.world.stats();
+        self.steps += 1;
+        let stats = stats(game);
         for (sum, (_, stage)) in self.stages.iter_mut().zip(stages(stats)) {
             *sum += stage;
         }
         self.worst_update = self.worst_update.max(stats.total());
     }
+
+    /// Milliseconds a step.
+    pub fn mean(&self, sum: Duration) -> f64 {
+        sum.as_secs_f64() * 1e3 / f64::from(self.steps.max(1))
+    }
+
+    /// The time of all updates.
+    pub fn updates(&self) -> Duration {
+        self.stages.iter().sum()
+    }
 }
 
-fn stages(stats: &Stats) -> [(&'static str, Duration); 5] {
-    let Stats { refit, sweep, collide, merge, report, .. } = *stats;
-    [("refit", refit), ("sweep", sweep), ("collide", collide), ("merge", merge), ("report", report)]
-}
-
-/// Plays so many steps of 1/60 s behind a progress bar, then prints what they cost and what touches.
-pub fn run<S: Physics>(game: &mut Game<S>, name: &str, steps: u32) {
-    let bar = ProgressBar::new(u64::from(steps));
+/// A bar that shows how far a run is.
+pub fn bar(steps: u64) -> ProgressBar {
+    let bar = ProgressBar::new(steps);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left  {msg}") {
         bar.set_style(style);
     }
+    bar
+}
+
+/// Plays so many steps of 1/60 s behind a progress bar, and tells of each; returns what they cost.
+///
+/// # Errors
+/// What the telling says.
+pub fn timed<S: Physics, E>(
+    game: &mut Game<S>,
+    steps: u32,
+    mut tell: impl FnMut(&Game<S>) -> Result<(), E>,
+) -> Result<Times, E> {
+    let bar = bar(u64::from(steps));
     let mut times = Times::default();
     game.update();
     for _ in 0..steps {
-        times.measure(game, |game| game.step(STEP));
+        times.measure(game, |game| game.world.stats(), |game| game.step(STEP));
+        tell(game)?;
         bar.set_message(format!("{} contacts", game.world.stats().contacts));
         bar.inc(1);
     }
     bar.finish_and_clear();
-    print(game, name, steps, &times);
+    Ok(times)
 }
 
-/// Prints what a run cost and what touches at its end.
-fn print<S: Physics>(game: &Game<S>, name: &str, steps: u32, times: &Times) {
+/// Plays so many steps of 1/60 s behind a progress bar, then prints what they cost and what touches.
+pub fn run<S: Physics>(game: &mut Game<S>, name: &str, steps: u32) {
+    let Ok(times) = timed(game, steps, |_| Ok::<(), Infallible>(()));
+    print(game, name, &times, game.counts.left);
+}
+
+/// Candidates that are no contact, as a share of all candidates: what the broad phase let through for nothing.
+pub fn false_pairs(stats: &Stats) -> f64 {
+    let wasted = stats.candidates.saturating_sub(stats.contacts);
+    wasted as f64 / stats.candidates.max(1) as f64
+}
+
+/// Prints what a run cost and what touches at its end; how many bodies are outside the scene's room besides.
+pub fn print<S: Physics>(game: &Game<S>, name: &str, times: &Times, outside: usize) {
     let (stats, counts) = (game.world.stats(), game.counts);
-    let mean = |sum: Duration| sum.as_secs_f64() * 1e3 / f64::from(steps.max(1));
+    print_times(name, times, stats, "response");
+    let (awake, asleep) = game.awake_and_asleep();
+    println!(
+        "bodies         {} ({awake} awake, {asleep} asleep, {} left the level)",
+        stats.bodies, counts.left
+    );
+    if outside > counts.left {
+        println!("outside        {} of the scene's room", outside - counts.left);
+    }
+    print_pairs(stats);
+    println!(
+        "deepest        {:.2} mm (at any step: {:.2} mm; after two seconds: {:.2} mm, {:.2} % of size)",
+        game.deepest_now() * 1e3,
+        counts.deepest * 1e3,
+        counts.deepest_settled * 1e3,
+        counts.deepest_share * 1e2,
+    );
+    println!("fastest        {:.2} m/s, all together {:.3e} J", game.fastest_now(), game.energy());
+    println!("events         {} began, {} ended, {} of sensors", counts.began, counts.ended, counts.sensed);
+    println!("digest         {:016x} (equal runs print equal digests)", game.digest());
+    print_overflow(stats);
+}
+
+/// Prints what a run cost that only set poses, and what touches at its end.
+pub fn print_replay<S: Physics>(world: &World<S>, name: &str, times: &Times) {
+    print_times(name, times, world.stats(), "set poses");
+    println!("bodies         {}", world.stats().bodies);
+    print_pairs(world.stats());
+    print_overflow(world.stats());
+}
+
+fn print_times(name: &str, times: &Times, stats: &Stats, rest: &str) {
     let name = if name.is_empty() { "unnamed" } else { name };
-    println!("scene          {name}: {steps} steps in {:.2} s", times.all.as_secs_f64());
+    println!("scene          {name}: {} steps in {:.2} s", times.steps, times.all.as_secs_f64());
     println!("stage          mean ms    last ms");
     for ((stage, last), sum) in stages(stats).into_iter().zip(times.stages) {
-        println!("  {stage:<10} {:>9.3}  {:>9.3}", mean(sum), last.as_secs_f64() * 1e3);
+        println!("  {stage:<10} {:>9.3}  {:>9.3}", times.mean(sum), last.as_secs_f64() * 1e3);
     }
-    let update: Duration = times.stages.iter().sum();
-    println!("  {:<10} {:>9.3}  {:>9.3}", "update", mean(update), stats.total().as_secs_f64() * 1e3);
+    let update = times.updates();
+    println!("  {:<10} {:>9.3}  {:>9.3}", "update", times.mean(update), stats.total().as_secs_f64() * 1e3);
     println!("  {:<10} {:>9.3}", "worst", times.worst_update.as_secs_f64() * 1e3);
-    println!("  {:<10} {:>9.3}", "response", mean(times.all.saturating_sub(update)));
-    println!("bodies         {} ({} left the level)", stats.bodies, counts.left);
-    println!("candidates     {} pairs", stats.candidates);
+    println!("  {rest:<10} {:>9.3}", times.mean(times.all.saturating_sub(update)));
+}
+
+fn print_pairs(stats: &Stats) {
+    println!(
+        "candidates     {} pairs ({:.1} % of them no contact)",
+        stats.candidates,
+        false_pairs(stats) * 1e2
+    );
     println!(
         "contacts       {} ({} touching, {} manifolds)",
         stats.contacts, stats.touching, stats.manifolds
     );
-    println!(
-        "deepest        {:.2} mm (at any step: {:.2} mm)",
-        game.deepest_now() * 1e3,
-        counts.deepest * 1e3
-    );
-    println!("fastest        {:.2} m/s", game.fastest_now());
-    println!("events         {} began, {} ended, {} of sensors", counts.began, counts.ended, counts.sensed);
-    println!("digest         {:016x} (equal runs print equal digests)", game.digest());
+}
+
+fn print_overflow(stats: &Stats) {
     if stats.overflow {
         println!("the last update made more pairs than the world allows: its contacts are out of date");
     }
+}
+
+/// One line of JSON: times in milliseconds a step, and counts of the last step.
+pub fn json(name: &str, times: &Times, stats: &Stats) -> String {
+    let mut line = String::from("{");
+    // Writing to a string cannot fail; a name is escaped as JSON does.
+    let _ = write!(line, "\"scene\":{},\"steps\":{}", serde_json::Value::from(name), times.steps);
+    for ((stage, _), sum) in stages(stats).into_iter().zip(times.stages) {
+        let _ = write!(line, ",\"{stage}_ms\":{:.4}", times.mean(sum));
+    }
+    let (update, all) = (times.updates(), times.all);
+    let _ = write!(line, ",\"update_ms\":{:.4},\"step_ms\":{:.4}", times.mean(update), times.mean(all));
+    let _ = write!(line, ",\"worst_update_ms\":{:.4}", times.worst_update.as_secs_f64() * 1e3);
+    let Stats { bodies, candidates, contacts, touching, .. } = *stats;
+    let _ = write!(line, ",\"bodies\":{bodies},\"candidates\":{candidates}");
+    let _ = write!(line, ",\"contacts\":{contacts},\"touching\":{touching}}}");
+    line
 }

@@ -1,22 +1,23 @@
 //! Push-apart response: contacts in, velocities and displacements out.
 //!
-//! Sequential impulses in short substeps with soft contacts (Catto, "Solver2D", 2024): a step is cut into
-//! [`SUBSTEPS`]; each one pushes every contact point once with a spring that removes overlap, moves the bodies, and
-//! pushes once more without the spring, so that removing overlap leaves no speed behind. Contacts are those of one
-//! update; between substeps their separations are carried along by what the bodies moved.
+//! Sequential impulses in short substeps with soft contacts (Catto, "Solver2D", 2024; "soft step" there, and the
+//! solver of Box2D 3): a step is cut into [`SUBSTEPS`]; each one pushes every contact point once with a spring that
+//! removes overlap, moves the bodies, and pushes once more without the spring, so that removing overlap leaves no
+//! speed behind. Contacts are those of one update; between substeps their separations are carried along by what the
+//! bodies moved. At the end, what came fast enough is given the share of its speed that bounces back.
 
 use crate::physics::{Physics, Touch, TouchId};
+use asunder_scenes::stages::Feel;
 use core::f64::consts::TAU;
 
 const SUBSTEPS: usize = 4;
-const FRICTION: f64 = 0.8;
 /// Of the contact springs: a fraction of the substeps' own rate, well damped, so that nothing rings.
 const SPRING_HERTZ: f64 = 30.0;
 const SPRING_DAMPING: f64 = 10.0;
 /// The fastest that overlap is removed, in m/s: a body that starts deep inside another is not shot out.
 const PUSH_SPEED: f64 = 3.0;
-/// Per second: what air and rolling resistance take of a spin.
-const SPIN_DAMPING: f64 = 1.5;
+/// What comes slower than this, in m/s, does not bounce, or nothing would ever come to rest.
+const BOUNCE_SPEED: f64 = 1.0;
 
 /// What the response knows and changes of a body.
 pub(crate) struct Motion<S: Physics> {
@@ -24,20 +25,23 @@ pub(crate) struct Motion<S: Physics> {
     pub(crate) spin: S::Spin,
     /// Zero for what no contact moves.
     pub(crate) inverse_mass: f64,
+    pub(crate) inverse_inertia: S::Inertia,
+    /// From the body's position to its centre of mass, in world axes.
+    pub(crate) offset: S::Vector,
     /// During this step.
     pub(crate) moved: S::Vector,
     /// During this step.
     pub(crate) turned: S::Spin,
-    inverse_inertia: S::Inertia,
 }
 
 /// What a contact point has pushed so far, kept from step to step as the first guess of the next.
-pub(crate) struct Pushes<S: Physics> {
+struct Pushes<S: Physics> {
     apart: f64,
     aside: S::Vector,
 }
 
 struct Point<S: Physics> {
+    id: TouchId<S::Key>,
     a: usize,
     b: usize,
     arm_a: S::Vector,
@@ -46,6 +50,9 @@ struct Point<S: Physics> {
     separation: f64,
     mass: f64,
     pushes: Pushes<S>,
+    /// How fast both came together before the step, in m/s, and the hardest push of any substep.
+    speed_before: f64,
+    hardest: f64,
 }
 
 /// A spring's coefficients over one substep.
@@ -56,15 +63,38 @@ struct Spring {
     push_share: f64,
 }
 
+/// The contact points of this step and the last, in the world's order of pairs.
+pub(crate) struct Response<S: Physics> {
+    points: Vec<Point<S>>,
+    last: Vec<Point<S>>,
+}
+
+/// What acts on all bodies.
+pub(crate) struct Forces<S: Physics> {
+    pub(crate) gravity: S::Vector,
+    pub(crate) feel: Feel,
+    pub(crate) seconds: f64,
+}
+
 impl<S: Physics> Motion<S> {
-    pub(crate) fn new(velocity: S::Vector, spin: S::Spin, inverse_mass: f64) -> Self {
-        let (moved, turned) = (S::Vector::default(), S::Spin::default());
-        Self { velocity, spin, inverse_mass, moved, turned, inverse_inertia: S::IMMOVABLE }
+    pub(crate) fn new(velocity: S::Vector, spin: S::Spin) -> Self {
+        let (nowhere, still) = (S::Vector::default(), S::Spin::default());
+        Self {
+            velocity,
+            spin,
+            inverse_mass: 0.0,
+            inverse_inertia: S::IMMOVABLE,
+            offset: nowhere,
+            moved: nowhere,
+            turned: still,
+        }
     }
 
-    pub(crate) fn start_step(&mut self, inverse_inertia: S::Inertia) {
-        self.inverse_inertia = inverse_inertia;
-        (self.moved, self.turned) = (S::Vector::default(), S::Spin::default());
+    /// Holds the body where it is, whatever pushes it.
+    pub(crate) fn rest(&mut self) {
+        let offset = self.offset;
+        *self = Self::new(S::Vector::default(), S::Spin::default());
+        self.offset = offset;
     }
 
     fn push(&mut self, arm: S::Vector, push: S::Vector) {
@@ -83,57 +113,62 @@ impl<S: Physics> Motion<S> {
     }
 }
 
-/// Moves bodies for one step under gravity and the given contact points, each with its two bodies' numbers and the
-/// arms from their centres of mass. Returns the points' pushes, sorted, as the next step's first guess.
-pub(crate) fn respond<'a, S: Physics>(
-    touches: impl Iterator<Item = (&'a Touch<S>, (usize, S::Vector), (usize, S::Vector))>,
-    motions: &mut [Motion<S>],
-    last: &[(TouchId<S::Key>, Pushes<S>)],
-    gravity: S::Vector,
-    seconds: f64,
-) -> Vec<(TouchId<S::Key>, Pushes<S>)> {
-    let (mut ids, mut points) = (Vec::new(), Vec::new());
-    for (touch, (a, arm_a), (b, arm_b)) in touches {
-        ids.push(touch.id);
-        let yielding = motions[a].yielding(arm_a, touch.normal) + motions[b].yielding(arm_b, touch.normal);
-        let mass = if yielding > 0.0 { 1.0 / yielding } else { 0.0 };
-        let pushes = first_guess(last, &touch.id, touch.normal);
-        let (normal, separation) = (touch.normal, touch.separation);
-        points.push(Point { a, b, arm_a, arm_b, normal, separation, mass, pushes });
-    }
-    let substep = seconds / SUBSTEPS as f64;
-    let spring = Spring::new(substep);
-    let spin_kept = 1.0 / (1.0 + substep * SPIN_DAMPING);
-    for _ in 0..SUBSTEPS {
-        for motion in motions.iter_mut().filter(|motion| motion.inverse_mass > 0.0) {
-            motion.velocity += gravity * substep;
-            motion.spin = motion.spin * spin_kept;
-        }
-        points.iter().for_each(|point| point.repeat(motions));
-        points.iter_mut().for_each(|point| point.push(motions, substep, Some(&spring)));
-        for motion in motions.iter_mut() {
-            motion.moved += motion.velocity * substep;
-            motion.turned += motion.spin * substep;
-        }
-        points.iter_mut().for_each(|point| point.push(motions, substep, None));
-    }
-    let mut pushes: Vec<_> = ids.into_iter().zip(points.into_iter().map(|point| point.pushes)).collect();
-    pushes.sort_by_key(|(id, _)| *id);
-    pushes
-}
+impl<S: Physics> Response<S> {
+    pub(crate) const NONE: Self = Self { points: Vec::new(), last: Vec::new() };
 
-/// A point that was there last step pushes as it did then; sideways only as far as the new normal agrees.
-fn first_guess<S: Physics>(
-    last: &[(TouchId<S::Key>, Pushes<S>)],
-    id: &TouchId<S::Key>,
-    normal: S::Vector,
-) -> Pushes<S> {
-    match last.binary_search_by_key(id, |(id, _)| *id) {
-        Ok(index) => {
-            let Pushes { apart, aside } = last[index].1;
-            Pushes { apart, aside: aside - normal * S::dot(aside, normal) }
+    /// Moves bodies for one step under gravity and contact points. `free` are the numbers of those that pushes move,
+    /// `driven` of those that go their own way.
+    pub(crate) fn respond(
+        &mut self,
+        touches: &[Touch<S>],
+        motions: &mut [Motion<S>],
+        [free, driven]: [&[u32]; 2],
+        forces: &Forces<S>,
+    ) {
+        self.prepare(touches, motions);
+        let substep = forces.seconds / SUBSTEPS as f64;
+        let (spring, friction) = (Spring::new(substep), forces.feel.friction);
+        let spin_kept = 1.0 / (1.0 + substep * forces.feel.spin_damping);
+        let points = &mut self.points;
+        for _ in 0..SUBSTEPS {
+            for &body in free {
+                let motion = &mut motions[body as usize];
+                motion.velocity += forces.gravity * substep;
+                motion.spin = motion.spin * spin_kept;
+            }
+            points.iter().for_each(|point| point.repeat(motions));
+            points.iter_mut().for_each(|point| point.push(motions, substep, Some(&spring), friction));
+            for &body in free.iter().chain(driven) {
+                let motion = &mut motions[body as usize];
+                motion.moved += motion.velocity * substep;
+                motion.turned += motion.spin * substep;
+            }
+            points.iter_mut().for_each(|point| point.push(motions, substep, None, friction));
         }
-        Err(_) => Pushes { apart: 0.0, aside: S::Vector::default() },
+        if forces.feel.restitution > 0.0 {
+            points.iter_mut().for_each(|point| point.bounce(motions, forces.feel.restitution));
+        }
+    }
+
+    /// Both lists are in the world's order of pairs, so what each pair pushed last is found by walking along.
+    fn prepare(&mut self, touches: &[Touch<S>], motions: &[Motion<S>]) {
+        core::mem::swap(&mut self.points, &mut self.last);
+        self.points.clear();
+        let mut start = 0;
+        for touch in touches {
+            let (a, b) = (touch.bodies[0] as usize, touch.bodies[1] as usize);
+            while self.last.get(start).is_some_and(|last| last.id.keys < touch.id.keys) {
+                start += 1;
+            }
+            let of_pair = self.last[start..].iter().take_while(|last| last.id.keys == touch.id.keys);
+            let mut point = Point::new(touch, [&motions[a], &motions[b]]);
+            if let Some(last) = of_pair.into_iter().find(|last| last.id == touch.id) {
+                // It pushes as it did; sideways only as far as the new normal agrees.
+                let Pushes { apart, aside } = last.pushes;
+                point.pushes = Pushes { apart, aside: aside - point.normal * S::dot(aside, point.normal) };
+            }
+            self.points.push(point);
+        }
     }
 }
 
@@ -147,6 +182,25 @@ impl Spring {
 }
 
 impl<S: Physics> Point<S> {
+    fn new(touch: &Touch<S>, [a, b]: [&Motion<S>; 2]) -> Self {
+        let (arm_a, arm_b, normal) = (touch.anchor_a - a.offset, touch.anchor_b - b.offset, touch.normal);
+        let yielding = a.yielding(arm_a, normal) + b.yielding(arm_b, normal);
+        let mass = if yielding > 0.0 { 1.0 / yielding } else { 0.0 };
+        Self {
+            id: touch.id,
+            a: touch.bodies[0] as usize,
+            b: touch.bodies[1] as usize,
+            arm_a,
+            arm_b,
+            normal,
+            separation: touch.separation,
+            mass,
+            pushes: Pushes { apart: 0.0, aside: S::Vector::default() },
+            speed_before: S::dot(b.velocity_at(arm_b) - a.velocity_at(arm_a), normal),
+            hardest: 0.0,
+        }
+    }
+
     fn repeat(&self, motions: &mut [Motion<S>]) {
         self.apply(motions, self.normal * self.pushes.apart + self.pushes.aside);
     }
@@ -156,9 +210,9 @@ impl<S: Physics> Point<S> {
         motions[self.b].push(self.arm_b, push);
     }
 
-    fn push(&mut self, motions: &mut [Motion<S>], substep: f64, spring: Option<&Spring>) {
+    fn push(&mut self, motions: &mut [Motion<S>], substep: f64, spring: Option<&Spring>, friction: f64) {
         self.push_apart(motions, substep, spring);
-        self.push_aside(motions);
+        self.push_aside(motions, friction);
     }
 
     fn push_apart(&mut self, motions: &mut [Motion<S>], substep: f64, spring: Option<&Spring>) {
@@ -175,13 +229,22 @@ impl<S: Physics> Point<S> {
             }
             None => -self.mass * speed,
         };
-        let apart = (self.pushes.apart + push).max(0.0);
+        self.set_apart(motions, self.pushes.apart + push);
+    }
+
+    fn set_apart(&mut self, motions: &mut [Motion<S>], wanted: f64) {
+        let apart = wanted.max(0.0);
         self.apply(motions, self.normal * (apart - self.pushes.apart));
         self.pushes.apart = apart;
+        self.hardest = self.hardest.max(apart);
     }
 
     /// Friction: stops sliding, with at most a share of what pushes apart.
-    fn push_aside(&mut self, motions: &mut [Motion<S>]) {
+    fn push_aside(&mut self, motions: &mut [Motion<S>], friction: f64) {
+        let most = friction * self.pushes.apart;
+        if most == 0.0 && self.pushes.aside == S::Vector::default() {
+            return;
+        }
         let (a, b) = (&motions[self.a], &motions[self.b]);
         let velocity = b.velocity_at(self.arm_b) - a.velocity_at(self.arm_a);
         let slide = velocity - self.normal * S::dot(velocity, self.normal);
@@ -194,11 +257,22 @@ impl<S: Physics> Point<S> {
                 aside -= direction * (speed / yielding);
             }
         }
-        let (most, size) = (FRICTION * self.pushes.apart, S::dot(aside, aside).sqrt());
+        let size = S::dot(aside, aside).sqrt();
         if size > most {
             aside = aside * (most / size);
         }
         self.apply(motions, aside - self.pushes.aside);
         self.pushes.aside = aside;
+    }
+
+    /// Gives back a share of the speed that both came with, where they did meet.
+    fn bounce(&mut self, motions: &mut [Motion<S>], restitution: f64) {
+        if self.speed_before > -BOUNCE_SPEED || self.hardest == 0.0 {
+            return;
+        }
+        let (a, b) = (&motions[self.a], &motions[self.b]);
+        let speed = S::dot(b.velocity_at(self.arm_b) - a.velocity_at(self.arm_a), self.normal);
+        let push = -self.mass * (speed + restitution * self.speed_before);
+        self.set_apart(motions, self.pushes.apart + push);
     }
 }

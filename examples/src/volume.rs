@@ -1,8 +1,10 @@
 //! The game in space.
 
 use crate::physics::{Mass, Physics, Touch, TouchId};
-use asunder::glam::{DMat3, DQuat, DVec3};
-use asunder::{BodyKey3, Collider3, Event3, Pose3, Shape3, Volume, World3};
+use crate::recording::read;
+use asunder::glam::{DMat3, DQuat, DVec3, Quat};
+use asunder::{BodyKey3, Collider3, Event3, Motion3, Pose3, Shape3, Volume, World3};
+use std::io::{Read, Write};
 
 impl Physics for Volume {
     type Vector = DVec3;
@@ -13,6 +15,14 @@ impl Physics for Volume {
 
     fn dot(a: DVec3, b: DVec3) -> f64 {
         a.dot(b)
+    }
+
+    fn spin_square(spin: DVec3) -> f64 {
+        spin.dot(spin)
+    }
+
+    fn is_within(point: DVec3, (low, high): &(DVec3, DVec3)) -> bool {
+        point.cmpge(*low).all() && point.cmple(*high).all()
     }
 
     fn torque(arm: DVec3, push: DVec3) -> DVec3 {
@@ -27,6 +37,10 @@ impl Physics for Volume {
         *inertia * torque
     }
 
+    fn spin_energy(inertia: &DMat3, spin: DVec3) -> f64 {
+        if inertia.determinant() > 0.0 { spin.dot(inertia.inverse() * spin) } else { 0.0 }
+    }
+
     fn turned_inertia(inertia: &DMat3, turn: DQuat) -> DMat3 {
         let rotation = DMat3::from_quat(turn);
         rotation * *inertia * rotation.transpose()
@@ -37,6 +51,14 @@ impl Physics for Volume {
         (turn + DQuat::from_xyzw(half.x, half.y, half.z, 0.0) * turn).normalize()
     }
 
+    fn spin_between(from: DQuat, to: DQuat) -> DVec3 {
+        let by = to * from.conjugate();
+        // The shorter way round. Over a step it is small: an angle and its sine are nearly the same.
+        let (half, w) = if by.w < 0.0 { (-by.xyz(), -by.w) } else { (by.xyz(), by.w) };
+        let sine = half.length();
+        if sine > 0.0 { half * (2.0 * libm::atan2(sine, w) / sine) } else { DVec3::ZERO }
+    }
+
     fn turned(turn: DQuat, local: DVec3) -> DVec3 {
         turn * local
     }
@@ -45,7 +67,16 @@ impl Physics for Volume {
         let matter = shape.mass_properties(1.0).ok()?;
         let inverse_inertia = matter.inertia.inverse();
         let is_sound = inverse_inertia.is_finite() && (1.0 / matter.mass).is_finite();
-        is_sound.then_some(Mass { mass: matter.mass, center: matter.center, inverse_inertia })
+        is_sound.then_some(Mass {
+            mass: matter.mass,
+            size: libm::cbrt(matter.mass),
+            center: matter.center,
+            inverse_inertia,
+        })
+    }
+
+    fn reach(shape: &Shape3) -> f64 {
+        f64::from(shape.outer_radius())
     }
 
     fn place(pose: &Pose3) -> (DVec3, DQuat) {
@@ -69,6 +100,17 @@ impl Physics for Volume {
         let _ = world.set_pose(key, pose);
     }
 
+    fn look_ahead(world: &mut World3, key: BodyKey3, to: &Pose3) {
+        let Some(from) = Self::pose_of(world, key) else { return };
+        if let Ok(motion) = Motion3::new(to.position() - from.position(), to.rotation()) {
+            let _ = world.set_motion(key, motion);
+        }
+    }
+
+    fn sleep(world: &mut World3, key: BodyKey3) {
+        let _ = world.sleep(key);
+    }
+
     fn pose_of(world: &World3, key: BodyKey3) -> Option<Pose3> {
         world.get(key).map(|body| *body.pose())
     }
@@ -77,17 +119,30 @@ impl Physics for Volume {
         world.events()
     }
 
-    fn touches(world: &World3) -> Vec<Touch<Self>> {
-        let mut touches = Vec::new();
+    fn hits(world: &World3) -> impl Iterator<Item = (BodyKey3, BodyKey3, f64)> {
+        let solid = world.impacts().iter().filter(|hit| !hit.sensor);
+        solid.map(|hit| (hit.bullet, hit.other, hit.impact.fraction))
+    }
+
+    fn is_near(world: &World3, a: BodyKey3, b: BodyKey3) -> bool {
+        world.contact(a, b).is_some_and(|contact| !contact.speculative)
+    }
+
+    fn touches(
+        world: &World3,
+        mut wanted: impl FnMut(BodyKey3, BodyKey3, bool) -> Option<[u32; 2]>,
+        touches: &mut Vec<Touch<Self>>,
+    ) {
         for contact in world.contacts() {
+            let Some(bodies) = wanted(contact.a, contact.b, contact.speculative) else { continue };
             for manifold in contact.manifolds {
                 touches.extend(manifold.points.iter().map(|point| Touch {
                     id: TouchId {
-                        a: contact.a,
-                        b: contact.b,
+                        keys: (contact.a, contact.b),
                         parts: (manifold.part_a, manifold.part_b),
                         feature: point.feature.to_bits(),
                     },
+                    bodies,
                     normal: manifold.normal.as_dvec3(),
                     separation: f64::from(point.separation),
                     anchor_a: point.anchor_a.as_dvec3(),
@@ -95,11 +150,37 @@ impl Physics for Volume {
                 }));
             }
         }
-        touches
     }
 
-    fn pose_bits(pose: &Pose3) -> Vec<u64> {
+    fn count_contacts(world: &World3) -> (u32, u32) {
+        let near = world.contacts().filter(|contact| !contact.speculative);
+        near.fold((0, 0), |(near, touching), contact| (near + 1, touching + u32::from(contact.overlapping)))
+    }
+
+    fn write_pose(pose: &Pose3, to: &mut impl Write) -> Result<(), std::io::Error> {
+        for coordinate in pose.position().to_array() {
+            to.write_all(&coordinate.to_le_bytes())?;
+        }
+        for number in pose.rotation().to_array() {
+            to.write_all(&number.to_le_bytes())?;
+        }
+        Ok(())
+    }
+
+    fn read_pose(from: &mut impl Read) -> Result<Option<Pose3>, std::io::Error> {
+        let mut position = [0.0; 3];
+        for coordinate in &mut position {
+            *coordinate = f64::from_le_bytes(read(from)?);
+        }
+        let mut rotation = [0.0; 4];
+        for number in &mut rotation {
+            *number = f32::from_le_bytes(read(from)?);
+        }
+        Ok(Pose3::new(position, Quat::from_array(rotation)).ok())
+    }
+
+    fn pose_bits(pose: &Pose3) -> impl Iterator<Item = u64> {
         let rotation = pose.rotation().to_array().map(f64::from);
-        pose.position().to_array().into_iter().chain(rotation).map(f64::to_bits).collect()
+        pose.position().to_array().into_iter().chain(rotation).map(f64::to_bits)
     }
 }

@@ -7,6 +7,7 @@
 //! - [`hard`]: pairs on which collision tests go wrong, family by family.
 //! - [`level`]: scene files.
 //! - [`pairs`]: posed pairs of shapes for a narrow phase.
+//! - [`stages`]: scenes with masses, speeds and things that are driven, for a solver to play.
 //! - [`terrain`]: hills of triangles.
 //! - [`worlds`]: bodies with simple motion for a whole frame.
 #![deny(missing_docs)]
@@ -16,6 +17,7 @@ pub mod hard;
 pub mod level;
 pub mod pairs;
 pub mod random;
+pub mod stages;
 pub mod terrain;
 mod turn;
 pub mod worlds;

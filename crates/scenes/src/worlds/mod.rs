@@ -17,7 +17,7 @@
 
 mod city;
 mod crowd;
-mod motion;
+pub(crate) mod motion;
 mod piles;
 mod plane;
 
@@ -184,6 +184,11 @@ impl Replay3 {
     /// Which bodies move, ascending: the same in all frames.
     pub fn movers(&self) -> &[u32] {
         &self.movers
+    }
+
+    /// How they move, in the same order.
+    pub(crate) fn motions(&self) -> &[Motion3] {
+        &self.motions
     }
 
     fn fixed(&mut self, shape: Shape3, motion: Motion3) {

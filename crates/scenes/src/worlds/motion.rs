@@ -13,7 +13,7 @@ const STEP: f64 = 1.0 / 60.0;
 /// A root that flies straight on in a room and turns back at its walls; a part that hangs at an offset from the root,
 /// swings about it, and spins.
 #[derive(Clone, Debug)]
-pub(super) struct Motion3 {
+pub(crate) struct Motion3 {
     pub(super) root: DVec3,
     /// Metres a second.
     pub(super) velocity: DVec3,
@@ -62,7 +62,7 @@ impl Motion3 {
         self
     }
 
-    pub(super) fn at(&self, frame: u32) -> (DVec3, Turn) {
+    pub(crate) fn at(&self, frame: u32) -> (DVec3, Turn) {
         let time = f64::from(frame) * STEP;
         let flown = self.root + self.velocity * time;
         let root = DVec3::new(

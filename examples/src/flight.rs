@@ -1,0 +1,78 @@
+//! Bullets: bodies so fast that they would be beyond a wall before anybody asked whether they touch it.
+//!
+//! Before an update the world is told where a fast body is about to be (`set_motion`). Of a bullet it answers with
+//! what is hit, and when. In the step that follows the bullet goes no further than that; it arrives with all its speed
+//! and within everybody's margin, so the next update has an ordinary contact, which stops or bounces it. What is left
+//! of the step in which it arrives is lost, as in Box2D's continuous collision (Catto, "Continuous Collision", Game
+//! Developers Conference 2013).
+
+use crate::game::Body;
+use crate::physics::Physics;
+
+/// A bullet that is turned aside flies blind for the rest of a step: so far at most, as a share of its reach.
+const BLIND: f64 = 0.25;
+
+/// What a bullet is expected to do in the next step.
+pub(crate) struct Flight<S: Physics> {
+    pub(crate) number: u32,
+    pub(crate) moved: S::Vector,
+    pub(crate) turned: S::Spin,
+    /// How much of it may be done.
+    pub(crate) share: f64,
+    /// Whether a contact that is there already bends it.
+    pub(crate) is_held: bool,
+}
+
+/// The flights of the next step, by the bullets' numbers, ascending.
+pub(crate) struct Flights<S: Physics>(Vec<Flight<S>>);
+
+impl<S: Physics> Flights<S> {
+    pub(crate) const NONE: Self = Self(Vec::new());
+
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    pub(crate) fn push(&mut self, flight: Flight<S>) {
+        self.0.push(flight);
+    }
+
+    /// A bullet hits something after a share of its flight.
+    pub(crate) fn note(&mut self, number: u32, share: f64, is_contact: bool) {
+        if let Ok(index) = self.0.binary_search_by_key(&number, |flight| flight.number) {
+            let flight = &mut self.0[index];
+            match is_contact {
+                true => flight.is_held = true,
+                false => flight.share = flight.share.min(share),
+            }
+        }
+    }
+
+    /// How much of what the response says a body does.
+    pub(crate) fn limit(
+        &self,
+        body: &Body<S>,
+        number: u32,
+        moved: S::Vector,
+        turned: S::Spin,
+    ) -> (S::Vector, S::Spin) {
+        if !body.is_bullet {
+            return (moved, turned);
+        }
+        let Ok(index) = self.0.binary_search_by_key(&number, |flight| flight.number) else {
+            return (moved, turned);
+        };
+        let flight = &self.0[index];
+        let aside = moved - flight.moved;
+        let blind = BLIND * body.reach;
+        if S::dot(aside, aside) > blind * blind || flight.is_held {
+            let (way, most) = (S::dot(moved, moved).sqrt(), blind.min(blind * flight.share.max(BLIND)));
+            return (if way > most { moved * (most / way) } else { moved }, turned);
+        }
+        if flight.share < 1.0 {
+            (flight.moved * flight.share, flight.turned * flight.share)
+        } else {
+            (moved, turned)
+        }
+    }
+}

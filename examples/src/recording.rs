@@ -1,0 +1,321 @@
+//! Recordings: where every body was at each step, so that collision alone can be played again.
+//!
+//! A recording is of one scene, and holds nothing of it but its name and size: whoever plays it builds the scene and
+//! sets poses. All numbers are little-endian, and floats are as they were, bit for bit.
+//!
+//! | part | content |
+//! |---|---|
+//! | head | [`MAGIC`], 8 bytes; [`VERSION`], u32; dimension, u32; size of the scene, u64; bodies, u32; bytes of the name, u32; the name, UTF-8: of a stage, or of a scene file |
+//! | a step | bodies that moved, u32, and as many: number, u32, then the pose; bodies that left, u32, and as many numbers, u32; contacts within margins, u32; contacts that share a point, u32 |
+//! | a pose | position, f64 a coordinate; rotation, f32 a number: cosine and sine in the plane, x, y, z, w in space |
+//!
+//! Steps follow one another to the end of the file. Body numbers are those of the scene. What does not move takes no
+//! room.
+
+use crate::physics::Physics;
+use asunder::Space;
+use std::io::{ErrorKind, Read, Write};
+
+/// How a recording begins.
+pub const MAGIC: [u8; 8] = *b"asunder\n";
+
+/// Of the format on this page.
+pub const VERSION: u32 = 1;
+
+/// The longest name of a scene, in bytes.
+const MAX_NAME: u32 = 4096;
+
+/// What a recording says of its scene.
+///
+/// ```
+/// use asunder::{Pose3, Volume};
+/// use asunder_examples::recording::{Head, RecordError, Step, read_head, read_step, write_head, write_step};
+/// let head = Head { dimension: 3, size: 20, bodies: 21, name: "stack".to_owned() };
+/// let step = Step::<Volume> { moved: vec![(4, Pose3::at([1.0, 2.0, 3.0])?)], left: vec![7], contacts: 3, touching: 2 };
+/// let mut file = Vec::new();
+/// write_head(&mut file, &head)?;
+/// write_step(&mut file, &step)?;
+///
+/// let mut bytes = &file[..];
+/// assert_eq!(read_head(&mut bytes)?, head);
+/// assert_eq!(read_step::<Volume>(&mut bytes, &head)?, Some(step));
+/// assert_eq!(read_step::<Volume>(&mut bytes, &head)?, None, "the end");
+/// assert!(matches!(read_head(&mut &file[..9]), Err(RecordError::CutShort)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Head {
+    /// 2 or 3.
+    pub dimension: u32,
+    /// What the scene was built with.
+    pub size: u64,
+    /// How many bodies it has, scenery included.
+    pub bodies: u32,
+    /// The name of a stage, or the path of a scene file.
+    pub name: String,
+}
+
+/// What happened in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step<S: Space> {
+    /// Bodies that moved, by number, and where they are now.
+    pub moved: Vec<(u32, S::Pose)>,
+    /// Bodies that left the level.
+    pub left: Vec<u32>,
+    /// Contacts within margins after it: those by where bodies are, not by where they go.
+    pub contacts: u32,
+    /// Contacts that share a point.
+    pub touching: u32,
+}
+
+/// What is wrong with a recording.
+#[derive(Debug)]
+pub enum RecordError {
+    /// The file system's own words.
+    Io(std::io::Error),
+    /// It does not begin as a recording does.
+    NoRecording,
+    /// It is of another version of the format.
+    Version {
+        /// What it says.
+        found: u32,
+    },
+    /// It ends within its head or a step.
+    CutShort,
+    /// The head makes no sense.
+    Head {
+        /// Which part.
+        part: &'static str,
+    },
+    /// A body's number is beyond the scene's bodies.
+    Body {
+        /// What it says.
+        found: u32,
+    },
+    /// More bodies are listed in a step than the scene has.
+    TooMany {
+        /// What it says.
+        found: u32,
+    },
+    /// A pose's numbers are no pose.
+    Pose {
+        /// The body.
+        body: u32,
+    },
+}
+
+impl std::fmt::Display for RecordError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Io(error) => write!(f, "{error}"),
+            Self::NoRecording => write!(f, "this is no recording: it does not begin with \"asunder\""),
+            Self::Version { found } => {
+                write!(f, "the recording has format {found}, this program reads {VERSION}: record it again")
+            }
+            Self::CutShort => write!(f, "the recording is cut short: it ends within its head or a step"),
+            Self::Head { part } => write!(f, "the recording's head makes no sense: {part}"),
+            Self::Body { found } => {
+                write!(f, "the recording names body {found}, which the scene does not have")
+            }
+            Self::TooMany { found } => write!(f, "a step lists {found} bodies, more than the scene has"),
+            Self::Pose { body } => {
+                write!(f, "the pose of body {body} is none: a number is not finite or too large")
+            }
+        }
+    }
+}
+
+impl std::error::Error for RecordError {}
+
+impl From<std::io::Error> for RecordError {
+    fn from(error: std::io::Error) -> Self {
+        if error.kind() == ErrorKind::UnexpectedEof { Self::CutShort } else { Self::Io(error) }
+    }
+}
+
+/// Writes the head of a recording.
+///
+/// # Errors
+/// Those of the file system; a name that is too long.
+pub fn write_head(to: &mut impl Write, head: &Head) -> Result<(), RecordError> {
+    let name = head.name.as_bytes();
+    let length = u32::try_from(name.len()).unwrap_or(u32::MAX);
+    if length > MAX_NAME {
+        return Err(RecordError::Head { part: "its name is too long" });
+    }
+    to.write_all(&MAGIC)?;
+    to.write_all(&VERSION.to_le_bytes())?;
+    to.write_all(&head.dimension.to_le_bytes())?;
+    to.write_all(&head.size.to_le_bytes())?;
+    to.write_all(&head.bodies.to_le_bytes())?;
+    to.write_all(&length.to_le_bytes())?;
+    Ok(to.write_all(name)?)
+}
+
+/// Writes a step.
+///
+/// # Errors
+/// Those of the file system.
+pub fn write_step<S: Physics>(to: &mut impl Write, step: &Step<S>) -> Result<(), RecordError> {
+    to.write_all(&(step.moved.len() as u32).to_le_bytes())?;
+    for (body, pose) in &step.moved {
+        to.write_all(&body.to_le_bytes())?;
+        S::write_pose(pose, to)?;
+    }
+    to.write_all(&(step.left.len() as u32).to_le_bytes())?;
+    for number in step.left.iter().chain([&step.contacts, &step.touching]) {
+        to.write_all(&number.to_le_bytes())?;
+    }
+    Ok(())
+}
+
+/// Reads the head of a recording.
+///
+/// # Errors
+/// What is no recording, is of another version, or is cut short; a dimension that is neither 2 nor 3, a name that is
+/// too long or no text.
+pub fn read_head(from: &mut impl Read) -> Result<Head, RecordError> {
+    let magic: [u8; 8] = read(from)?;
+    if magic != MAGIC {
+        return Err(RecordError::NoRecording);
+    }
+    let version = read_u32(from)?;
+    if version != VERSION {
+        return Err(RecordError::Version { found: version });
+    }
+    let dimension = read_u32(from)?;
+    if !(2..=3).contains(&dimension) {
+        return Err(RecordError::Head { part: "its dimension is neither 2 nor 3" });
+    }
+    let size = u64::from_le_bytes(read(from)?);
+    let bodies = read_u32(from)?;
+    let length = read_u32(from)?;
+    if length > MAX_NAME {
+        return Err(RecordError::Head { part: "its name is too long" });
+    }
+    let mut name = vec![0; length as usize];
+    from.read_exact(&mut name)?;
+    let name = String::from_utf8(name).map_err(|_| RecordError::Head { part: "its name is no text" })?;
+    Ok(Head { dimension, size, bodies, name })
+}
+
+/// Reads a step; nothing where the recording ends. Memory grows with what is read, whatever the file says.
+///
+/// # Errors
+/// A step that is cut short; bodies that the scene does not have; poses that are none.
+pub fn read_step<S: Physics>(from: &mut impl Read, head: &Head) -> Result<Option<Step<S>>, RecordError> {
+    let mut first = [0; 1];
+    loop {
+        match from.read(&mut first) {
+            Ok(0) => return Ok(None),
+            Ok(_) => break,
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    let [second, third, fourth] = read(from)?;
+    let count = check_count(u32::from_le_bytes([first[0], second, third, fourth]), head)?;
+    let mut moved = Vec::new();
+    for _ in 0..count {
+        let body = read_body(from, head)?;
+        let pose = S::read_pose(from)?.ok_or(RecordError::Pose { body })?;
+        moved.push((body, pose));
+    }
+    let count = check_count(read_u32(from)?, head)?;
+    let left = (0..count).map(|_| read_body(from, head)).collect::<Result<_, _>>()?;
+    Ok(Some(Step { moved, left, contacts: read_u32(from)?, touching: read_u32(from)? }))
+}
+
+fn check_count(found: u32, head: &Head) -> Result<u32, RecordError> {
+    if found <= head.bodies { Ok(found) } else { Err(RecordError::TooMany { found }) }
+}
+
+fn read_body(from: &mut impl Read, head: &Head) -> Result<u32, RecordError> {
+    let found = read_u32(from)?;
+    if found < head.bodies { Ok(found) } else { Err(RecordError::Body { found }) }
+}
+
+fn read_u32(from: &mut impl Read) -> Result<u32, RecordError> {
+    Ok(u32::from_le_bytes(read(from)?))
+}
+
+/// So many bytes.
+pub(crate) fn read<const N: usize>(from: &mut impl Read) -> Result<[u8; N], std::io::Error> {
+    let mut bytes = [0; N];
+    from.read_exact(&mut bytes)?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asunder::{Plane, Pose2};
+
+    fn sample() -> (Head, Vec<u8>) {
+        let head = Head { dimension: 2, size: 5, bodies: 6, name: "letters".to_owned() };
+        let step = Step::<Plane> {
+            moved: vec![(1, Pose2::IDENTITY), (5, Pose2::at([-2.0, 0.25]).unwrap())],
+            left: vec![3],
+            contacts: 9,
+            touching: 8,
+        };
+        let mut bytes = Vec::new();
+        write_head(&mut bytes, &head).unwrap();
+        write_step(&mut bytes, &step).unwrap();
+        (head, bytes)
+    }
+
+    fn play(mut bytes: &[u8]) -> Result<usize, RecordError> {
+        let head = read_head(&mut bytes)?;
+        let mut steps = 0;
+        while read_step::<Plane>(&mut bytes, &head)?.is_some() {
+            steps += 1;
+        }
+        Ok(steps)
+    }
+
+    #[test]
+    fn a_recording_cut_anywhere_is_refused_or_shorter() {
+        let (head, bytes) = sample();
+        let head_length = 32 + head.name.len();
+        for length in 0..bytes.len() {
+            match play(&bytes[..length]) {
+                Ok(steps) => assert!(length == head_length && steps == 0, "cut at {length}"),
+                Err(error) => assert!(matches!(error, RecordError::CutShort), "cut at {length}: {error}"),
+            }
+        }
+        assert!(matches!(play(&bytes), Ok(1)));
+    }
+
+    #[test]
+    fn a_recording_with_any_byte_changed_never_panics() {
+        let (_, bytes) = sample();
+        for at in 0..bytes.len() {
+            for value in [0, 1, 0x7f, 0x80, 0xff] {
+                let mut other = bytes.clone();
+                other[at] = value;
+                // Whatever it is, it is an answer or an error that says something.
+                let told = play(&other).map_or_else(|error| error.to_string().len(), |_| 1);
+                assert!(told > 0);
+            }
+        }
+    }
+
+    #[test]
+    fn faults_of_a_recording_are_told_apart() {
+        let (head, bytes) = sample();
+        let changed = |at: usize, value: &[u8]| {
+            let mut other = bytes.clone();
+            other[at..at + value.len()].copy_from_slice(value);
+            play(&other).unwrap_err()
+        };
+        let step = 32 + head.name.len();
+        assert!(matches!(changed(0, b"A"), RecordError::NoRecording));
+        assert!(matches!(changed(8, &[2]), RecordError::Version { found: 2 }));
+        assert!(matches!(changed(12, &[4]), RecordError::Head { .. }));
+        assert!(matches!(changed(step, &[7]), RecordError::TooMany { found: 7 }));
+        assert!(matches!(changed(step + 4, &[6]), RecordError::Body { found: 6 }));
+        let nan = f64::NAN.to_le_bytes();
+        assert!(matches!(changed(step + 8, &nan), RecordError::Pose { body: 1 }));
+    }
+}

@@ -1,0 +1,110 @@
+//! Recording a game, and playing a recording: poses are set as they were, and nothing is solved.
+
+use crate::game::Game;
+use crate::physics::Physics;
+use crate::recording::{Head, RecordError, Step, read_step, write_head, write_step};
+use crate::report::{Times, bar};
+use std::error::Error;
+use std::io::{Read, Write};
+
+/// Writes down what a game does, step by step.
+pub struct Recorder<S: Physics, W: Write> {
+    to: W,
+    /// Of each body, as of the last step; nothing for one that has left.
+    last: Vec<Option<S::Pose>>,
+}
+
+impl<S: Physics, W: Write> Recorder<S, W> {
+    /// Begins a recording with the game's bodies as they are.
+    ///
+    /// # Errors
+    /// As [`write_head`].
+    pub fn new(mut to: W, head: &Head, game: &Game<S>) -> Result<Self, RecordError> {
+        write_head(&mut to, head)?;
+        Ok(Self { to, last: (0..game.len()).map(|number| pose(game, number)).collect() })
+    }
+
+    /// Writes the step that the game has just done.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn record(&mut self, game: &Game<S>) -> Result<(), RecordError> {
+        let (mut moved, mut left) = (Vec::new(), Vec::new());
+        for (number, last) in self.last.iter_mut().enumerate() {
+            let now = pose(game, number);
+            match (&*last, now) {
+                (Some(before), Some(now)) if !S::pose_bits(before).eq(S::pose_bits(&now)) => {
+                    moved.push((number as u32, now));
+                }
+                (Some(_), None) => left.push(number as u32),
+                _ => {}
+            }
+            *last = now;
+        }
+        let (contacts, touching) = S::count_contacts(&game.world);
+        write_step(&mut self.to, &Step::<S> { moved, left, contacts, touching })
+    }
+
+    /// Ends the recording.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn finish(mut self) -> Result<(), RecordError> {
+        Ok(self.to.flush()?)
+    }
+}
+
+fn pose<S: Physics>(game: &Game<S>, number: usize) -> Option<S::Pose> {
+    game.key(number).and_then(|key| S::pose_of(&game.world, key))
+}
+
+/// Plays at most so many steps of a recording, and returns what they cost. The game is that of the recording's scene,
+/// and only its world is used. Reading is not timed.
+///
+/// # Errors
+/// What is wrong with the recording. Another number of bodies than it says, and contacts other than it says: then the
+/// scene, the engine or the file is not what it was.
+pub fn replay<S: Physics>(
+    game: &mut Game<S>,
+    from: &mut impl Read,
+    head: &Head,
+    steps: u32,
+) -> Result<Times, Box<dyn Error>> {
+    if game.len() != head.bodies as usize {
+        let (here, there) = (game.len(), head.bodies);
+        return Err(format!("the scene has {here} bodies, and the recording is of one with {there}").into());
+    }
+    let mut times = Times::default();
+    let shown = bar(u64::from(steps));
+    game.world.update();
+    let mut number = 0;
+    while number < steps {
+        let Some(step) = read_step::<S>(from, head)? else { break };
+        number += 1;
+        let set = |game: &mut Game<S>| {
+            for &(body, pose) in &step.moved {
+                if let Some(key) = game.key(body as usize) {
+                    S::set_pose(&mut game.world, key, pose);
+                }
+            }
+            for &body in &step.left {
+                if let Some(key) = game.key(body as usize) {
+                    S::remove(&mut game.world, key);
+                }
+            }
+            game.world.update();
+        };
+        times.measure(game, |game| game.world.stats(), set);
+        let found = S::count_contacts(&game.world);
+        if found != (step.contacts, step.touching) {
+            return Err(format!(
+                "step {number}: {} contacts, {} touching; the recording has {} and {}",
+                found.0, found.1, step.contacts, step.touching
+            )
+            .into());
+        }
+        shown.inc(1);
+    }
+    shown.finish_and_clear();
+    Ok(times)
+}
