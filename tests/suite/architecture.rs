@@ -146,8 +146,8 @@ fn paths_in_the_architecture_page_exist() {
 #[test]
 fn the_readme_shows_the_hello_example_and_names_paths_that_exist() {
     let page = std::fs::read_to_string(root().join("README.md")).unwrap();
-    let hello = std::fs::read_to_string(root().join("examples/hello.rs")).unwrap();
-    assert!(page.contains(&format!("```rust\n{hello}```")), "README's code is not examples/hello.rs");
+    let hello = std::fs::read_to_string(root().join("examples/hello_3d.rs")).unwrap();
+    assert!(page.contains(&format!("```rust\n{hello}```")), "README's code is not examples/hello_3d.rs");
     let links = page.split("](").skip(1).filter_map(|rest| rest.split(')').next());
     let local: Vec<&str> = links.filter(|link| !link.contains("://")).collect();
     assert!(local.len() >= 4, "README links to pages and a picture: {local:?}");
