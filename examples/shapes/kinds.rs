@@ -2,8 +2,8 @@
 
 use asunder::glam::{Vec2, Vec3};
 use asunder::{
-    Capsule2, Capsule3, Circle, Compound2, Compound3, Cuboid, HalfPlane, HalfSpace, Hull, Polygon, Pose2,
-    Pose3, Rect, Segment2, Segment3, Shape2, Shape3, Sphere, Triangle3,
+    Capsule2, Capsule3, Circle, Compound2, Compound3, Cuboid, HalfPlane, HalfSpace, HeightField, Hull,
+    Polygon, Pose2, Pose3, Rect, Segment2, Segment3, Shape2, Shape3, Sphere, TriMesh, Triangle3,
 };
 use std::error::Error;
 
@@ -63,6 +63,36 @@ pub(crate) fn gem(size: f32) -> Result<Hull, Box<dyn Error>> {
 /// A triangle that lies flat, with one edge along z.
 pub(crate) fn triangle() -> Result<Triangle3, Box<dyn Error>> {
     Ok(Triangle3::new(Vec3::new(0.42, 0.0, 0.46), Vec3::new(0.42, 0.0, -0.46), Vec3::new(-0.52, 0.0, 0.0))?)
+}
+
+/// A landing, three steps and a floor.
+pub(crate) fn stairs() -> Result<TriMesh, Box<dyn Error>> {
+    let profile = [
+        (-0.65, 0.15),
+        (-0.2, 0.15),
+        (-0.2, 0.0),
+        (0.0, 0.0),
+        (0.0, -0.15),
+        (0.2, -0.15),
+        (0.2, -0.3),
+        (0.65, -0.3),
+    ];
+    let across = [-0.4, -0.2, 0.0, 0.2, 0.4];
+    let vertices: Vec<Vec3> = profile.iter().flat_map(|&(x, y)| across.map(|z| Vec3::new(x, y, z))).collect();
+    let square = |first: u32| [[0, 1, 5], [5, 1, 6]].map(|corners| corners.map(|vertex| vertex + first));
+    let squares = (0..7).flat_map(|step| (0..4).map(move |place| 5 * step + place));
+    Ok(TriMesh::new(vertices, squares.flat_map(square).collect::<Vec<_>>())?)
+}
+
+/// Two hills, and a hole between them.
+pub(crate) fn hills() -> Result<HeightField, Box<dyn Error>> {
+    let height = |place: usize| {
+        let (x, z) = ((place % 8) as f64, (place / 8) as f64);
+        let hill = |at: [f64; 2]| libm::exp(-0.4 * ((x - at[0]) * (x - at[0]) + (z - at[1]) * (z - at[1])));
+        (0.32 * hill([2.0, 2.0]) + 0.16 * hill([5.0, 4.0])) as f32
+    };
+    let heights: Vec<f32> = (0..56).map(height).collect();
+    Ok(HeightField::new(8, 7, heights, Vec2::new(0.17, 0.15))?.with_holes([(5, 1)])?)
 }
 
 /// Two posts on a beam: not convex, so it may touch at several places with several normals.

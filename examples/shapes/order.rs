@@ -1,7 +1,7 @@
 //! The convex parts of bodies, and which of them hide which.
 
 use asunder::glam::DVec3;
-use asunder::{Pair3, Pose2, Pose3, Separation3, Shape2, Shape3};
+use asunder::{Ground, Pair3, Pose2, Pose3, Separation3, Shape2, Shape3};
 
 /// A convex part of a body, in the world.
 pub(crate) struct Body<'a, S, P> {
@@ -57,4 +57,17 @@ pub(crate) fn parts2<'a>(shape: &'a Shape2, pose: &Pose2, is_b: bool) -> Vec<Bod
         Some(Body { shape: part.shape(), pose, is_b })
     });
     parts.collect()
+}
+
+/// The triangles of ground; none, of anything else.
+pub(crate) fn triangles(shape: &Shape3) -> Vec<Shape3> {
+    let Some(ground) = Ground::of(shape) else { return vec![] };
+    (0..ground.triangle_count()).filter_map(|number| Some(ground.triangle(number)?.into())).collect()
+}
+
+/// Triangles by their middles, those furthest from the viewer first: neighbours in ground are of about one size.
+pub(crate) fn far_to_near_triangles(mut triangles: Vec<Shape3>, toward_viewer: DVec3) -> Vec<Shape3> {
+    let near = |triangle: &Shape3| triangle.center().as_dvec3().dot(toward_viewer);
+    triangles.sort_by(|one, other| near(one).total_cmp(&near(other)));
+    triangles
 }

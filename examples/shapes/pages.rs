@@ -3,8 +3,8 @@
 use crate::camera::{Camera, joined};
 use crate::canvas::{Anchor, Canvas, Paint};
 use crate::flat::Flat;
-use crate::kinds::{arch2, arch3, gem, pentagon, triangle};
-use crate::order::{far_to_near, parts2, parts3};
+use crate::kinds::{arch2, arch3, gem, hills, pentagon, stairs, triangle};
+use crate::order::{Body, far_to_near, far_to_near_triangles, parts2, parts3, triangles};
 use crate::solid::Solid;
 use crate::tint::{CARD, COOL, INK, Tint, WARM};
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
@@ -59,6 +59,8 @@ fn solid_pages() -> Result<Vec<Page<Shape3>>, Box<dyn Error>> {
             )],
         ),
         page("compound3", vec![("Compound3", arch3()?.into())]),
+        page("tri_mesh", vec![("TriMesh", stairs()?.into())]),
+        page("height_field", vec![("HeightField", hills()?.into())]),
     ])
 }
 
@@ -92,7 +94,13 @@ fn draw_solids(page: &Page<Shape3>) -> String {
     let mut canvas = cards(page);
     for (i, (_, shape)) in page.shapes.iter().enumerate() {
         let (tint, camera) = (tint(i), Camera::above().scaled(SCALE));
-        let parts = far_to_near(parts3(shape, &Pose3::IDENTITY, false), camera.toward_viewer());
+        let triangles = far_to_near_triangles(triangles(shape), camera.toward_viewer());
+        let of_triangle = |shape| Body { shape, pose: Pose3::IDENTITY, is_b: false };
+        let parts = if triangles.is_empty() {
+            far_to_near(parts3(shape, &Pose3::IDENTITY, false), camera.toward_viewer())
+        } else {
+            triangles.iter().map(of_triangle).collect()
+        };
         let camera = camera.fitted(ROOM, middle(i), |camera| {
             joined(parts.iter().map(|part| Solid::new(part.shape, &part.pose, tint, camera).frame()))
         });

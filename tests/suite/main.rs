@@ -12,6 +12,7 @@
 //! - [`fuzzed`]: the fuzz targets' bodies, on tens of thousands of seeded strings
 //! - [`saved`]: what is stored of poses, shapes, rays and hints comes back in every bit, or is refused by what the
 //!   constructors say
+//! - [`ground_geometry`]: meshes and height fields come back in every bit, and take what they are said to
 //! - [`mass`]: mass, centre and inertia of every shape, against exact fractions, textbooks, sampling and
 //!   inclusion-exclusion
 //!
@@ -81,6 +82,7 @@ mod debug_lines;
 mod exactness;
 mod fuzzed;
 mod ground_contacts;
+mod ground_geometry;
 mod hard;
 mod hints;
 mod hulls;

@@ -19,7 +19,7 @@ impl Slab {
     pub(crate) fn new(from: DVec3, direction: DVec3, grown: Vec3) -> Option<Self> {
         let grown = grown.as_dvec3();
         let is_good = from.is_finite() && direction.is_finite() && grown.is_finite();
-        (is_good && grown.min_element() >= 0.0).then(|| Self { from, direction, grown })
+        (is_good && grown.min_element() >= 0.0).then_some(Self { from, direction, grown })
     }
 
     /// When the moving box first meets this one, in lengths of the direction, not above; nothing where it never does.

@@ -12,30 +12,30 @@ use crate::shape::Shape3;
 use meshes::{Named, all};
 use plain::Plain;
 
-pub(super) fn mesh_of(given: &Named) -> TriMesh {
+fn mesh_of(given: &Named) -> TriMesh {
     TriMesh::new(given.vertices.clone(), given.triangles.clone())
         .unwrap_or_else(|e| panic!("{}: {e}", given.name))
 }
 
 /// A generator with a short period and no ambition.
-pub(super) struct Dice(u64);
+struct Dice(u64);
 
 impl Dice {
-    pub(super) fn new(seed: u64) -> Self {
+    fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
-    pub(super) fn below(&mut self, count: u32) -> u32 {
+    fn below(&mut self, count: u32) -> u32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 33) % u64::from(count)) as u32
     }
 
     /// From 0 to 1.
-    pub(super) fn share(&mut self) -> f32 {
+    fn share(&mut self) -> f32 {
         self.below(1 << 24) as f32 / (1 << 24) as f32
     }
 
-    pub(super) fn between(&mut self, low: f32, high: f32) -> f32 {
+    fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.share()
     }
 }

@@ -51,7 +51,7 @@ pub(super) fn prominent(grid: &Grid, marks: &[u8], triangle: u32) -> Prominent {
     };
     let near = grid.vertex_number(Cell { column, row }) as usize;
     let far = near + grid.cells[0] as usize + 1;
-    let (edges, corners) = if triangle % 2 == 0 {
+    let (edges, corners) = if triangle.is_multiple_of(2) {
         ([(near, ALONG_Z), (near, DIAGONAL), (near, ALONG_X)], [near, far, near + 1])
     } else {
         ([(near, DIAGONAL), (far, ALONG_X), (near + 1, ALONG_Z)], [near + 1, far, far + 1])

@@ -175,7 +175,7 @@ impl Grid {
         let Some(cell) = self.cell_of(triangle) else { return [0; 3] };
         let near = self.vertex_number(cell);
         let far = near + self.cells[0] + 1;
-        if triangle % 2 == 0 { [near, far, near + 1] } else { [near + 1, far, far + 1] }
+        if triangle.is_multiple_of(2) { [near, far, near + 1] } else { [near + 1, far, far + 1] }
     }
 
     #[inline]
@@ -185,7 +185,7 @@ impl Grid {
         let [x, next_x] = [cell.column, cell.column + 1].map(|column| self.line(0, column));
         let [z, next_z] = [cell.row, cell.row + 1].map(|row| self.line(1, row));
         let (left, right) = (Vec3::new(x, c, next_z), Vec3::new(next_x, b, z));
-        if triangle % 2 == 0 {
+        if triangle.is_multiple_of(2) {
             [Vec3::new(x, a, z), left, right]
         } else {
             [right, left, Vec3::new(next_x, d, next_z)]

@@ -20,6 +20,8 @@ use std::sync::Arc;
 
 /// Ground with one height above each point of a grid, y up. Clones share the data.
 ///
+#[doc = include_str!("../../doc/height_field.svg")]
+///
 /// The vertex of column `c` and row `r` is at (c * cell.x, height, r * cell.y), rounded to f32: the first at the
 /// origin. A cell has four of them and two triangles, whose common edge runs from (c + 1, r) to (c, r + 1) in all
 /// cells: one rule, so that what is drawn can follow it. Fronts look up. Cells may be holes.

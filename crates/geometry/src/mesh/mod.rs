@@ -20,6 +20,8 @@ use std::sync::Arc;
 
 /// Triangles that make up a level, given by vertices in metres. Clones share the data.
 ///
+#[doc = include_str!("../../doc/tri_mesh.svg")]
+///
 /// It is the union of its triangles, without thickness. Bodies that carry it are always fixed. It is solid from both
 /// sides unless it is [`one_sided`](Self::one_sided).
 ///

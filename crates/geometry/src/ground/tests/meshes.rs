@@ -67,7 +67,7 @@ fn scaled(mut mesh: Named, scale: Vec3, shift: Vec3) -> Named {
 pub(super) fn soup(name: &str, cells: u32) -> Named {
     let grid = grid(name, cells, |column, row| if column * row % 3 == 0 { 0.0 } else { 0.5 });
     let corners = grid.triangles.iter().flatten().enumerate();
-    let sign = |place: usize| if place % 2 == 0 { 0.0 } else { -0.0 };
+    let sign = |place: usize| if place.is_multiple_of(2) { 0.0 } else { -0.0 };
     let vertices: Vec<Vec3> = corners
         .map(|(place, &vertex)| {
             let at = grid.vertices[vertex as usize];

@@ -68,8 +68,8 @@ impl Tree {
         while waiting > 0 {
             waiting -= 1;
             let (place, slot) = stack[waiting];
-            // A limit below zero, or none at all, ends here.
-            if !(place <= limit) {
+            // A limit below zero ends here.
+            if place > limit {
                 continue;
             }
             if slot & IS_BOX != 0 {
