@@ -27,6 +27,13 @@
 //! at least r sin a + h cos a deep, and so no better than the normal's h as long as r >= h tan(a / 2); up to a right
 //! angle, as long as r >= h. Only beyond that the kernels are asked.
 //!
+//! **What else saves time.** AMD EPYC, Zen 4, 2026-11-22, a box of a metre on triangles of half a metre, on a busy machine:
+//! 1. triangles of one flat patch share plane, heights and incident face: 6.2 us to 4.2 on a plane, with 3;
+//! 2. before the kernels, axes that cost little: the part's own, across two edges, and from the nearest point to the
+//!    centre; and a triangle whose only corner or edge in reach has spoken through a neighbour is passed over: 23 us to
+//!    12.5 on bumps. What is left there is kernels, 1.3 us each;
+//! 3. what is large (points by groups, vertices) is filled where it stays: moved, it was a tenth of the time.
+//!
 //! **Yes or no** is exact, as everywhere: of all triangles that see the part. What is not settled by rounding bounds is
 //! asked last, the likeliest first, and no further than the first yes.
 //!
@@ -331,7 +338,7 @@ impl Seen<'_> {
         let (prominent, is_front) = (ground.prominent(facet.number), facet.is_front);
         // Two-sided ground that the part is in may bend the other way, and end there all the same.
         let is_in = extent.low - standing.radius < -standing.slack && !ground.is_one_sided();
-        if !prominent.any(is_front) && !(is_in && prominent.any(!is_front)) {
+        if !(prominent.any(is_front) || is_in && prominent.any(!is_front)) {
             return false;
         }
         let radius = standing.outer_radius + self.asking.reach + prism.doubt;
@@ -424,7 +431,7 @@ impl Seen<'_> {
     /// Settles what was left open, and that overlap and points go together.
     fn conclude(&self, known: &mut Known, is_settled: bool) {
         let slack = self.standing.slack;
-        if !known.overlapping && !(is_settled && known.groups.least() >= -slack) {
+        if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
             known
                 .unclear
                 .sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));

@@ -46,7 +46,7 @@ impl Nearest {
             Furthest::Edge(edge) => ground.prominent(facet.number).edge(edge, facet.is_front),
             Furthest::Corner(corner) => ground.prominent(facet.number).corner(corner, facet.is_front),
         };
-        if !is_face && !(is_prominent && facet.may_give(ground, self.feature, self.towards)) {
+        if !(is_face || is_prominent && facet.may_give(ground, self.feature, self.towards)) {
             return false;
         }
         let patch = ground.patch(facet.number);

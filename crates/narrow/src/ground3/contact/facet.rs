@@ -54,8 +54,7 @@ impl Facet {
         let area = cross.length();
         // Two roundings a side and a product, and as many again for the unit length.
         let tilt = 8.0 * f64::EPSILON * (squares[one] + squares[other]) / area;
-        // A NaN too is refused.
-        if !(tilt < SAME_NORMAL) {
+        if tilt.is_nan() || tilt >= SAME_NORMAL {
             return None;
         }
         let (front, origin) = (cross / area, corners[other]);

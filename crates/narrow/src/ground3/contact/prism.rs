@@ -153,7 +153,7 @@ impl Prism<'_> {
                 }
             };
             let on_body = on_ground + facet.normal * separation;
-            let doubt = self.doubt / -facing;
+            let doubt = (self.doubt + standing.planarity) / -facing;
             groups.add(&self.base(), Pin { on_body, on_ground, separation, doubt, of_body, of_ground });
             is_any = true;
         }

@@ -9,7 +9,7 @@ use crate::precision::IN_SPACE;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{FACE_PREFERENCE, MAX_HULL_VERTICES};
-use asunder_geometry::{Basis3, Pose3};
+use asunder_geometry::{Basis3, Pose3, Shape3};
 
 /// Where a part is and how it is turned, in the ground's axes.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +36,8 @@ pub(super) struct Standing<'s> {
     pub(super) center: DVec3,
     pub(super) radius: f64,
     pub(super) outer_radius: f64,
+    /// How far the faces of a hull are from planes, in metres.
+    pub(super) planarity: f64,
     /// Places that differ by no more are the same, in metres.
     pub(super) slack: f64,
     /// Lengths that enter a coordinate, in metres.
@@ -75,11 +77,11 @@ impl<'s> Standing<'s> {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for eight in solid.vertices.chunks(8) {
             let mut octet = [[0.0; 8]; 3];
-            for i in 0..8 {
+            let [xs, ys, zs] = &mut octet;
+            for (i, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
                 let vertex = eight.get(i).unwrap_or(&eight[0]);
                 (low, high) = (low.min(*vertex), high.max(*vertex));
-                let [x, y, z] = place.point(vertex.as_dvec3()).to_array();
-                (octet[0][i], octet[1][i], octet[2][i]) = (x, y, z);
+                [*x, *y, *z] = place.point(vertex.as_dvec3()).to_array();
             }
             let _ = octets.try_push(octet);
         }
@@ -99,6 +101,10 @@ impl<'s> Standing<'s> {
             center: place.point(center),
             radius: f64::from(part.shape.radius()),
             outer_radius,
+            planarity: match part.shape {
+                Shape3::Hull(hull) => hull.planarity_error().into(),
+                _ => 0.0,
+            },
             slack: 0.0,
             lengths,
         };
