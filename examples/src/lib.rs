@@ -31,4 +31,5 @@ pub mod replay;
 pub mod report;
 mod response;
 pub mod things;
+pub mod trials;
 mod volume;

@@ -1,7 +1,7 @@
 //! What can be asked of a game.
 
 use super::{Game, Places, State};
-use crate::physics::Physics;
+use crate::physics::{Physics, Touch};
 
 impl<S: Physics> Game<S> {
     /// How many bodies were added.
@@ -64,6 +64,16 @@ impl<S: Physics> Game<S> {
         let mut touches = Vec::new();
         S::touches(&self.world, |_, _, _| Some([0, 0]), &mut touches);
         touches.iter().map(|touch| -touch.separation).fold(0.0, f64::max)
+    }
+
+    /// The deepest overlap of any contact with a body that is awake, as a share of the smaller body's size: the edge of
+    /// the cube, or of the square, of its mass.
+    pub fn deepest_share(&self) -> f64 {
+        let share = |touch: &Touch<S>| {
+            let [a, b] = touch.bodies.map(|number| self.bodies[number as usize].size);
+            -touch.separation / a.min(b)
+        };
+        self.touches.iter().map(share).fold(0.0, f64::max)
     }
 
     /// The greatest speed of any body, in m/s: near zero once the scene is at rest.

@@ -39,7 +39,7 @@ pub(super) fn small_pyramids(size: usize) -> (usize, usize, usize) {
 
 pub(super) fn pyramid(size: usize) -> Scene3 {
     let base = base_of(size);
-    let mut scene = on_a_floor(0.5 * PITCH * base as f64 + 10.0, 10.0);
+    let mut scene = on_a_floor(0.5 * PITCH * base as f64 + 2.0, 5.0);
     let shape = unit();
     for (x, y) in pyramid_places(base) {
         scene.free(shape.clone(), DVec3::new(x, y, 0.0), Turn::IDENTITY);
@@ -63,7 +63,7 @@ pub(super) fn many_pyramids(size: usize) -> Scene3 {
 }
 
 pub(super) fn stack(size: usize) -> Scene3 {
-    let mut scene = on_a_floor(10.0, 10.0);
+    let mut scene = on_a_floor(5.0, 5.0);
     for i in 0..size.max(1) {
         scene.free(unit(), DVec3::new(0.0, i as f64 + 0.5, 0.0), Turn::IDENTITY);
     }
@@ -81,7 +81,7 @@ pub(super) fn card_house(size: usize) -> Scene3 {
     while (storeys + 1) * (3 * storeys + 4) / 2 <= size {
         storeys += 1;
     }
-    let mut scene = on_a_floor(10.0, 10.0);
+    let mut scene = on_a_floor(0.6 * storeys as f64 + 1.0, 2.0);
     let card = cuboid(CARD);
     let (thick, high) = (f64::from(CARD.x), f64::from(CARD.y));
     let (sin, cos) = libm::sincos(LEAN);

@@ -1,0 +1,145 @@
+//! What the contacts must be good enough for: things that stand, a bullet, and runs that are the same.
+//!
+//! Each trial plays a scene and returns a figure with its limit; `targets` prints them, and short versions run in
+//! `cargo test`.
+
+use crate::game::{Game, MARGIN};
+use crate::opened::{SEED, volume};
+use crate::physics::Physics;
+use crate::report::STEP;
+use asunder::glam::{DVec3, Vec3};
+use asunder::{Collider3, Cuboid, Plane, Pose3, Shape3, Sphere, Volume};
+use asunder_scenes::stages::{Scene, Stage};
+use std::error::Error;
+
+/// Seconds that a scene is given to settle: weight goes through a pile of a hundred boxes at a finite speed.
+const SETTLE: f64 = 5.0;
+
+/// A figure that must stay within a limit.
+///
+/// ```
+/// use asunder_examples::trials::Figure;
+/// let figure = Figure { what: "bodies lost", is: 0.0, most: 0.0 };
+/// assert!(figure.is_met() && !Figure { is: f64::NAN, ..figure }.is_met());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figure {
+    /// What was measured.
+    pub what: &'static str,
+    /// What it is.
+    pub is: f64,
+    /// What it may be at most.
+    pub most: f64,
+}
+
+impl Figure {
+    /// Whether the limit is kept. No number keeps none.
+    pub fn is_met(&self) -> bool {
+        self.is <= self.most
+    }
+}
+
+/// Lets a scene stand: how far any body strays after it has settled, and the deepest overlap from then on, as shares
+/// of a body's size. Nothing sleeps, so that whatever creeps is seen to creep. The ball of the brick wall is left out.
+///
+/// # Errors
+/// A stage in the plane.
+pub fn stand(stage: Stage, size: usize, seconds: f64) -> Result<[Figure; 2], Box<dyn Error>> {
+    let Scene::Volume(mut scene) = stage.build(size, SEED) else { return Err("a stage in the plane".into()) };
+    for ball in core::mem::take(&mut scene.bullets) {
+        scene.level.bodies.remove(ball as usize);
+    }
+    let mut game = volume(&scene)?;
+    game.sleeps = false;
+    game.update();
+    let settle = SETTLE.min(0.5 * seconds);
+    play(&mut game, settle, |_| ());
+    let places = game.places();
+    let (mut strayed, mut deepest) = (0.0_f64, 0.0_f64);
+    play(&mut game, seconds - settle, |game| {
+        strayed = strayed.max(game.strayed(&places));
+        deepest = deepest.max(game.deepest_share());
+    });
+    Ok([
+        Figure { what: "furthest from where it settled, of size", is: strayed, most: 0.01 },
+        Figure { what: "deepest overlap, of size", is: deepest, most: 0.01 },
+    ])
+}
+
+/// Shoots a ball of 10 cm radius at a wall of 1 cm, from many distances and angles: how many pass it.
+///
+/// # Errors
+/// None, with the shapes it is played with.
+pub fn shoot(speed: f64, shots: usize) -> Result<Figure, Box<dyn Error>> {
+    let wall = Shape3::from(Cuboid::from_half_extents(Vec3::new(5.0, 5.0, 0.005))?);
+    let ball = Shape3::from(Sphere::new(0.1)?);
+    let mut passed = 0.0;
+    for shot in 0..shots {
+        let mut game = Game::<Volume>::new(DVec3::NEG_Y * 9.81);
+        let here = Pose3::IDENTITY;
+        game.add(Collider3::new(wall.clone()).fixed(), &wall, &here, DVec3::ZERO, DVec3::ZERO)?;
+        let share = shot as f64 / shots as f64;
+        let start = DVec3::new(0.0, 0.0, 1.0 + 10.0 * share);
+        let pose = Pose3::at(start)?;
+        let collider = Collider3::new(ball.clone()).at(pose).bullet().margin(MARGIN)?;
+        // Up to 40 degrees off, all of them towards the wall.
+        let aim = DVec3::new(0.8 * (share * 7.0 - (share * 7.0).floor() - 0.5), 0.0, -1.0).normalize();
+        let number = game.add(collider, &ball, &pose, aim * speed, DVec3::ZERO)?;
+        game.update();
+        play(&mut game, 0.25, |_| ());
+        let is_through = game.center(number).is_none_or(|center| center.z < 0.0);
+        passed += f64::from(u8::from(is_through));
+    }
+    Ok(Figure { what: "balls that passed", is: passed, most: 0.0 })
+}
+
+/// Plays a stage for some seconds: how many bodies are lost.
+///
+/// # Errors
+/// None, with the stages there are.
+pub fn keep(stage: Stage, size: usize, seconds: f64) -> Result<Figure, Box<dyn Error>> {
+    let lost = match stage.build(size, SEED) {
+        Scene::Plane(scene) => {
+            let mut game = crate::opened::plane(&scene)?;
+            game.update();
+            play(&mut game, seconds, |_| ());
+            game.outside(&scene.room)
+        }
+        Scene::Volume(scene) => {
+            let mut game = volume(&scene)?;
+            game.update();
+            play(&mut game, seconds, |_| ());
+            game.outside(&scene.room)
+        }
+    };
+    Ok(Figure { what: "bodies lost", is: lost as f64, most: 0.0 })
+}
+
+/// The digest of all poses after some steps.
+///
+/// # Errors
+/// None, with the stages there are.
+pub fn digest(stage: Stage, size: usize, steps: u32) -> Result<u64, Box<dyn Error>> {
+    let seconds = f64::from(steps) * STEP;
+    Ok(match stage.build(size, SEED) {
+        Scene::Plane(scene) => {
+            let mut game: Game<Plane> = crate::opened::plane(&scene)?;
+            game.update();
+            play(&mut game, seconds, |_| ());
+            game.digest()
+        }
+        Scene::Volume(scene) => {
+            let mut game = volume(&scene)?;
+            game.update();
+            play(&mut game, seconds, |_| ());
+            game.digest()
+        }
+    })
+}
+
+fn play<S: Physics>(game: &mut Game<S>, seconds: f64, mut tell: impl FnMut(&Game<S>)) {
+    for _ in 0..(seconds / STEP).round() as u32 {
+        game.step(STEP);
+        tell(game);
+    }
+}
