@@ -29,10 +29,10 @@
 //! angle, as long as r >= h. Only beyond that the kernels are asked.
 //!
 //! **What else saves time.** AMD EPYC, Zen 4, 2026-11-22, a box of a metre on triangles of half a metre, on a busy machine:
-//! 1. triangles of one flat patch share plane, heights and incident face: 6.2 us to 4.2 on a plane, with 3;
+//! 1. triangles of one flat patch share plane, heights and incident face: 6.2 us to 4.0 on a plane, with 3;
 //! 2. before the kernels, axes that cost little: the part's own, across two edges, and from the nearest point to the
 //!    centre; and a triangle whose only corner or edge in reach has spoken through a neighbour is passed over: 23 us to
-//!    12.5 on bumps. What is left there is kernels, 1.3 us each;
+//!    10.5 on bumps. What is left there is mostly kernels, 1.3 us each;
 //! 3. what is large (points by groups, vertices) is filled where it stays: moved, it was a tenth of the time.
 //!
 //! **Yes or no** is exact, as everywhere: of all triangles that see the part. What is not settled by rounding bounds is
