@@ -8,6 +8,7 @@
 //!     a ball: the nearest point of the triangle; its feature's neighbours say whether it counts       (ball)
 //!     no edge or corner stands out near the part, or the part's lowest vertex is well inside:
 //!         the triangle's own normal                                                                   (prism)
+//!     a corner or edge of it stands well inside the part's face: that face's normal, if it is let through   (against)
 //!     else the kernels of part and triangle: their axis, if the feature's neighbours let it through   (meeting)
 //!         else the triangle's own normal, unless a contact with others frees the part from it, too
 //!   points go to the group of their normal                                                            (groups)
@@ -28,10 +29,10 @@
 //! angle, as long as r >= h. Only beyond that the kernels are asked.
 //!
 //! **What else saves time.** AMD EPYC, Zen 4, 2026-11-22, a box of a metre on triangles of half a metre, on a busy machine:
-//! 1. triangles of one flat patch share plane, heights and incident face: 6.2 us to 4.2 on a plane, with 3;
+//! 1. triangles of one flat patch share plane, heights and incident face: 6.2 us to 4.0 on a plane, with 3;
 //! 2. before the kernels, axes that cost little: the part's own, across two edges, and from the nearest point to the
 //!    centre; and a triangle whose only corner or edge in reach has spoken through a neighbour is passed over: 23 us to
-//!    12.5 on bumps. What is left there is kernels, 1.3 us each;
+//!    10.5 on bumps. What is left there is mostly kernels, 1.3 us each;
 //! 3. what is large (points by groups, vertices) is filled where it stays: moved, it was a tenth of the time.
 //!
 //! **Yes or no** is exact, as everywhere: of all triangles that see the part. What is not settled by rounding bounds is
@@ -40,27 +41,30 @@
 //! **Half-spaces** have one normal and no end: every triangle is looked at, and the lowest corners count. Cost: linear
 //! in the ground.
 
+mod against;
 mod ball;
 mod facet;
 mod groups;
 mod meeting;
+mod outstanding;
 mod plane;
 mod prism;
 mod standing;
 
 use super::OnGround;
 use crate::answer::ContactPoint3;
-use crate::feature::{Feature, FeatureId};
+use crate::feature::FeatureId;
 use crate::pair3::{Pair3, Part, for_parts, reach_of};
 use crate::polyhedron::solid::Solid;
 use crate::precision::{IN_SPACE, Precision, signed};
 use crate::room::Room;
+use against::Against;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Pose3, Shape3};
 use ball::{Nearest, nearest_to};
 use core::ops::ControlFlow;
-use facet::{Facet, edge_number, is_same};
+use facet::{Facet, is_same};
 use groups::{Group, Groups};
 use meeting::{Meeting, Met};
 use prism::{Incident, Prism};
@@ -261,6 +265,17 @@ impl Seen<'_> {
             if self.is_explained(&facet, known) {
                 return self.doubt_of(number, (true, separation), known);
             }
+            match prism.add_against(&self.incident_to(facet.normal, known), &mut known.groups) {
+                Against::Apart => return,
+                Against::Refused => {
+                    self.refuse(&prism, known);
+                    return self.doubt_of(number, (false, separation), known);
+                }
+                Against::Added(_, true) => return known.settle(number),
+                Against::Added(separation, _) if separation > doubt + standing.planarity => return,
+                Against::Added(separation, _) => return self.doubt_of(number, (true, separation), known),
+                Against::Unknown => {}
+            }
             let ways = (self.asking.margin, self.asking.reach);
             match self.meeting.add_points((ground, &facet), &standing.place, ways, &mut known.groups) {
                 Met::Apart => return,
@@ -268,8 +283,8 @@ impl Seen<'_> {
                     if overlapping {
                         known.settle(number);
                     }
-                    if !has_points && known.refused.try_push(number).is_err() {
-                        self.add_by_normal(&prism, known);
+                    if !has_points {
+                        self.refuse(&prism, known);
                     }
                     return;
                 }
@@ -300,12 +315,23 @@ impl Seen<'_> {
         Some(*known.plane.insert(Plane { patch, facet, extent, doubt }))
     }
 
-    fn add_by_normal(&self, prism: &Prism, known: &mut Known) -> bool {
-        let normal = prism.facet.normal;
-        let incident = match known.incident {
+    /// The face that the part turns to a normal.
+    fn incident_to(&self, normal: DVec3, known: &mut Known) -> Incident {
+        match known.incident {
             Some(incident) if incident.is_for(normal) => incident,
             _ => *known.incident.insert(Incident::of(self.standing, normal)),
-        };
+        }
+    }
+
+    /// Keeps a triangle whose axis was refused until all others have been heard.
+    fn refuse(&self, prism: &Prism, known: &mut Known) {
+        if known.refused.try_push(prism.facet.number).is_err() {
+            self.add_by_normal(prism, known);
+        }
+    }
+
+    fn add_by_normal(&self, prism: &Prism, known: &mut Known) -> bool {
+        let incident = self.incident_to(prism.facet.normal, known);
         prism.add_points(&incident, &mut known.groups)
     }
 
@@ -330,64 +356,6 @@ impl Seen<'_> {
             return known.settle(facet.number);
         }
         self.doubt_of(facet.number, (has_points, nearest.separation), known);
-    }
-
-    /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer.
-    fn needs_kernels(&self, prism: &Prism) -> bool {
-        let Prism { ground, standing, facet, extent, .. } = *prism;
-        let (prominent, is_front) = (ground.prominent(facet.number), facet.is_front);
-        // Two-sided ground that the part is in may bend the other way, and end there all the same.
-        let is_in = extent.low - standing.radius < -standing.slack && !ground.is_one_sided();
-        if !(prominent.any(is_front) || is_in && prominent.any(!is_front)) {
-            return false;
-        }
-        let radius = standing.outer_radius + self.asking.reach + prism.doubt;
-        let is_near = |edge: usize| {
-            let (from, along) = facet.edge(edge);
-            let place = ((standing.center - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            (standing.center - from - along * place).length_squared() <= radius * radius
-        };
-        let is_corner = [0, 1, 2].map(|corner| {
-            prominent.corner(corner, is_front)
-                || (is_in
-                    && prominent.corner(corner, !is_front)
-                    && facet.sees_otherwise(ground, corner, standing.center))
-        });
-        let stands_out =
-            |edge: usize| prominent.edge(edge, is_front) || is_corner[edge] || is_corner[(edge + 1) % 3];
-        let counts = [0, 1, 2].map(|edge| stands_out(edge) && is_near(edge));
-        if counts == [false; 3] {
-            return false;
-        }
-        // The short way.
-        let depth = -extent.low;
-        let lowest = standing.point(extent.lowest);
-        let is_inside = facet.is_over(lowest, standing.slack);
-        !(is_inside && (depth <= 0.0 || facet.inside(lowest, |edge| counts[edge]) >= depth))
-    }
-
-    /// Whether all that a triangle has to say was said by another around the same corner, or beside the same edge: along
-    /// the normal that it gave, nothing else of this one is within reach.
-    fn is_explained(&self, facet: &Facet, known: &Known) -> bool {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
-        let numbers = ground.vertex_numbers(facet.number);
-        known.groups.holds(|base, feature| {
-            // One corner, or both ends of an edge.
-            let (first, count) = match feature {
-                Feature::Vertex(vertex) => (numbers.iter().position(|&number| number == vertex), 1),
-                Feature::Edge(edge) => {
-                    ((0..3).find(|&own| edge_number(ground, facet.number, own) == edge), 2)
-                }
-                Feature::Face(_) => return false,
-            };
-            let Some(first) = first else { return false };
-            let at = facet.corners[first];
-            let low = standing.extent(base.normal, at).low - standing.radius;
-            (count..3).all(|next| {
-                let height = base.normal.dot(facet.corners[(first + next) % 3] - at);
-                height < 0.0 && low - height > self.asking.reach
-            })
-        })
     }
 
     /// Keeps a triangle for later, or asks at once where there is no room.
@@ -472,23 +440,5 @@ impl Known {
     fn settle(&mut self, number: u32) {
         self.overlapping = true;
         self.shown_by.get_or_insert(number);
-    }
-}
-
-impl Prism<'_> {
-    /// Whether the part certainly shares a point with the triangle: a vertex of the core that is nearer to the
-    /// triangle's inside than the radius, or one on either side whose segment crosses the inside.
-    fn does_cross(&self) -> bool {
-        let Self { standing, facet, extent: &Extent { low, lowest, high, highest }, doubt, .. } = *self;
-        let from = standing.point(lowest);
-        let is_inside = |point: DVec3| facet.inside(point, |_| true) > 2.0 * doubt;
-        if low >= 0.0 {
-            return low < standing.radius - doubt && is_inside(from);
-        }
-        if low >= -doubt || high <= doubt {
-            return false;
-        }
-        let share = low / (low - high);
-        is_inside(from + (standing.point(highest) - from) * share)
     }
 }

@@ -22,15 +22,15 @@ use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
 
 /// Cosine up to which a body's face looks away from the ground so much that it has no inside as seen along the normal.
-const STEEP: f64 = 1e-3;
+pub(super) const STEEP: f64 = 1e-3;
 
 /// The face of a part that looks against a normal; kept, since neighbours most often have one normal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Incident {
     normal: DVec3,
-    face: usize,
+    pub(super) face: usize,
     /// The direction out of the face in which the surface lies beyond the core, if any is across it.
-    outwards: Option<DVec3>,
+    pub(super) outwards: Option<DVec3>,
 }
 
 /// What of a part stands over a triangle.
@@ -83,6 +83,22 @@ impl Prism<'_> {
         let vertex = self.extent.lowest;
         let at = self.standing.point(vertex) - self.facet.normal * self.standing.radius;
         self.pin(at, self.extent.low - self.standing.radius, Feature::Vertex(vertex as u32))
+    }
+
+    /// Whether the part certainly shares a point with the triangle: a vertex of the core that is nearer to the
+    /// triangle's inside than the radius, or one on either side whose segment crosses the inside.
+    pub(super) fn does_cross(&self) -> bool {
+        let Self { standing, facet, extent: &Extent { low, lowest, high, highest }, doubt, .. } = *self;
+        let from = standing.point(lowest);
+        let is_inside = |point: DVec3| facet.inside(point, |_| true) > 2.0 * doubt;
+        if low >= 0.0 {
+            return low < standing.radius - doubt && is_inside(from);
+        }
+        if low >= -doubt || high <= doubt {
+            return false;
+        }
+        let share = low / (low - high);
+        is_inside(from + (standing.point(highest) - from) * share)
     }
 
     fn pin(&self, on_body: DVec3, separation: f64, of_body: Feature) -> Pin {

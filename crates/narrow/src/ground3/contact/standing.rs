@@ -136,6 +136,13 @@ impl<'s> Standing<'s> {
         low > beyond_core
     }
 
+    /// Whether the box around the core holds a point that far inside, in metres.
+    pub(super) fn is_in_box(&self, point: DVec3, inside: f64) -> bool {
+        let own = self.place.axes.turn_back(point - self.place.origin);
+        let [low, high] = self.around;
+        (own - low).min(high - own).min_element() > inside
+    }
+
     /// A vertex of the core.
     #[inline]
     pub(super) fn point(&self, vertex: usize) -> DVec3 {

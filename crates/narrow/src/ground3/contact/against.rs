@@ -1,0 +1,160 @@
+//! A corner or an edge of ground that stands out against the face that a part turns to it: the short way seen from the
+//! other side.
+//!
+//! ```text
+//! of the triangle, what reaches furthest against the normal of the part's face                      (Facet::furthest)
+//! as seen along that normal, it lies within the face, and further inside than it is deep: the face's normal is the axis
+//! else the kernels are asked
+//! ```
+//! In a gap of the cores that is the closest point. In overlap no axis that leans by less than a right angle over a side
+//! of the face is better, as above for the triangle. Most of what stands out of ground under a box lies under the middle
+//! of its face.
+
+use super::facet::{Furthest, edge_number};
+use super::groups::{Base, Groups, Pin};
+use super::prism::{Incident, Prism, STEEP};
+use crate::feature::Feature;
+use asunder_geometry::Shape3;
+use asunder_geometry::glam::DVec3;
+
+/// What a part's face says of a triangle.
+pub(super) enum Against {
+    /// The triangle is further from it than is wanted.
+    Apart,
+    /// Its normal is not the answer, or may not be.
+    Unknown,
+    /// It is, and ground around the triangle's feature does not let it through.
+    Refused,
+    /// It is; how deep, and whether the part certainly shares a point with the triangle.
+    Added(f64, bool),
+}
+
+/// A stretch of a triangle's edge over a face, or its corner: two shares of its length, each with the half-edge of the
+/// face that ends it there; and how far its middle is inside the face, in metres.
+struct Stretch {
+    ends: [(f64, Option<usize>); 2],
+    inside: f64,
+}
+
+impl Prism<'_> {
+    /// Adds contact points along the normal of the part's face, where that is the answer.
+    pub(super) fn add_against(&self, incident: &Incident, groups: &mut Groups) -> Against {
+        let (standing, facet) = (self.standing, self.facet);
+        let (false, Some(outwards)) = (standing.solid.is_slender(), incident.outwards) else {
+            return Against::Unknown;
+        };
+        let furthest = facet.furthest(-outwards);
+        let (from, along) = match furthest {
+            Furthest::Edge(edge) => facet.edge(edge),
+            Furthest::Corner(corner) => (facet.corners[corner], DVec3::ZERO),
+            Furthest::Face => return Against::Unknown,
+        };
+        let first = standing.solid.topology.face_vertices(incident.face).next().unwrap_or(0);
+        let over = standing.point(first) + outwards * standing.radius;
+        let separation = |share: f64| outwards.dot(from + along * share - over);
+        let least = separation(0.0).min(separation(1.0));
+        let doubt = self.doubt + standing.planarity;
+        if least > self.reach + 2.0 * doubt {
+            return Against::Apart;
+        }
+        if outwards.dot(facet.normal) > -STEEP {
+            return Against::Unknown;
+        }
+        let Some(stretch) = self.stretch(incident.face, outwards, (from, along)) else {
+            return Against::Unknown;
+        };
+        let depth = -(least + standing.radius);
+        if stretch.inside < depth.max(0.0) {
+            return Against::Unknown;
+        }
+        if !facet.may_give(self.ground, furthest, -outwards) {
+            return Against::Refused;
+        }
+        let base = Base { normal: -outwards, patch: self.ground.patch(facet.number), weight: 0.0 };
+        for (share, by) in stretch.ends {
+            let (on_ground, separation) = (from + along * share, separation(share));
+            if separation <= self.reach {
+                let (of_body, of_ground) = self.names(incident.face, furthest, (share, by));
+                let on_body = on_ground - outwards * separation;
+                groups.add(&base, Pin { on_body, on_ground, separation, doubt, of_body, of_ground });
+            }
+        }
+        let [(begin, _), (end, _)] = stretch.ends;
+        let middle = from + along * (0.5 * (begin + end));
+        Against::Added(least, self.certainly_holds(middle, outwards.dot(middle - over), stretch.inside))
+    }
+
+    /// Whether a point of ground, which is so far from the part's face, is certainly in the part. Faces of hulls are
+    /// derived, and prove nothing.
+    fn certainly_holds(&self, point: DVec3, separation: f64, inside: f64) -> bool {
+        let standing = self.standing;
+        if !matches!(standing.part.shape, Shape3::Cuboid(_)) {
+            return false;
+        }
+        let height = separation + standing.radius;
+        (height >= 0.0 && separation < -self.doubt && inside > self.doubt)
+            || standing.is_in_box(point, self.doubt)
+    }
+
+    fn names(
+        &self,
+        face: usize,
+        furthest: Furthest,
+        (share, by): (f64, Option<usize>),
+    ) -> (Feature, Feature) {
+        let numbers = self.ground.vertex_numbers(self.facet.number);
+        let of_face = Feature::Face(face as u32);
+        match (furthest, by) {
+            (Furthest::Edge(edge), Some(half_edge)) => {
+                let own = self.standing.solid.topology.edge_of(half_edge) as u32;
+                let number = edge_number(self.ground, self.facet.number, edge);
+                (Feature::Edge(own), Feature::Edge(number))
+            }
+            (Furthest::Edge(edge), None) => {
+                let corner = if share > 0.5 { edge + 1 } else { edge };
+                (of_face, Feature::Vertex(numbers[corner % 3]))
+            }
+            (Furthest::Corner(corner), _) => (of_face, Feature::Vertex(numbers[corner % 3])),
+            (Furthest::Face, _) => (of_face, Feature::Face(self.ground.patch(self.facet.number))),
+        }
+    }
+
+    /// What of an edge or a corner lies over the part's face, as seen along the face's normal.
+    ///
+    /// Cyrus and Beck, "Generalized two- and three-dimensional clipping" (1978).
+    fn stretch(&self, face: usize, outwards: DVec3, (from, along): (DVec3, DVec3)) -> Option<Stretch> {
+        let (standing, topology) = (self.standing, self.standing.solid.topology);
+        let sides = || {
+            topology.face_half_edges(face).map(|half_edge| {
+                let (start, stop) = topology.ends(half_edge);
+                let (start, stop) = (standing.point(start), standing.point(stop));
+                // A face goes counter-clockwise as seen from outside.
+                (half_edge, start, outwards.cross(stop - start))
+            })
+        };
+        let (mut enters, mut leaves) = ((0.0, None), (1.0, None));
+        for (half_edge, start, into) in sides() {
+            let (inside, change) = (into.dot(from - start), into.dot(along));
+            let share = -inside / change;
+            if change == 0.0 && inside < 0.0 {
+                return None;
+            }
+            if change > 0.0 && share > enters.0 {
+                enters = (share, Some(half_edge));
+            }
+            if change < 0.0 && share < leaves.0 {
+                leaves = (share, Some(half_edge));
+            }
+        }
+        if enters.0 > leaves.0 {
+            return None;
+        }
+        let middle = from + along * (0.5 * (enters.0 + leaves.0));
+        let mut least = f64::INFINITY;
+        for (_, start, into) in sides() {
+            let inside = into.dot(middle - start) / into.length();
+            least = if inside < least { inside } else { least };
+        }
+        Some(Stretch { ends: [enters, leaves], inside: least })
+    }
+}

@@ -1,0 +1,66 @@
+//! Which triangles have an edge or a corner that stands out near the part, and has not been heard of yet.
+
+use super::facet::{Facet, edge_number};
+use super::prism::Prism;
+use super::{Known, Seen};
+use crate::feature::Feature;
+
+impl Seen<'_> {
+    /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer.
+    pub(super) fn needs_kernels(&self, prism: &Prism) -> bool {
+        let Prism { ground, standing, facet, extent, .. } = *prism;
+        let (prominent, is_front) = (ground.prominent(facet.number), facet.is_front);
+        // Two-sided ground that the part is in may bend the other way, and end there all the same.
+        let is_in = extent.low - standing.radius < -standing.slack && !ground.is_one_sided();
+        if !(prominent.any(is_front) || is_in && prominent.any(!is_front)) {
+            return false;
+        }
+        let radius = standing.outer_radius + self.asking.reach + prism.doubt;
+        let is_near = |edge: usize| {
+            let (from, along) = facet.edge(edge);
+            let place = ((standing.center - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            (standing.center - from - along * place).length_squared() <= radius * radius
+        };
+        let is_corner = [0, 1, 2].map(|corner| {
+            prominent.corner(corner, is_front)
+                || (is_in
+                    && prominent.corner(corner, !is_front)
+                    && facet.sees_otherwise(ground, corner, standing.center))
+        });
+        let stands_out =
+            |edge: usize| prominent.edge(edge, is_front) || is_corner[edge] || is_corner[(edge + 1) % 3];
+        let counts = [0, 1, 2].map(|edge| stands_out(edge) && is_near(edge));
+        if counts == [false; 3] {
+            return false;
+        }
+        // The short way.
+        let depth = -extent.low;
+        let lowest = standing.point(extent.lowest);
+        let is_inside = facet.is_over(lowest, standing.slack);
+        !(is_inside && (depth <= 0.0 || facet.inside(lowest, |edge| counts[edge]) >= depth))
+    }
+
+    /// Whether all that a triangle has to say was said by another around the same corner, or beside the same edge: along
+    /// the normal that it gave, nothing else of this one is within reach.
+    pub(super) fn is_explained(&self, facet: &Facet, known: &Known) -> bool {
+        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let numbers = ground.vertex_numbers(facet.number);
+        known.groups.holds(|base, feature| {
+            // One corner, or both ends of an edge.
+            let (first, count) = match feature {
+                Feature::Vertex(vertex) => (numbers.iter().position(|&number| number == vertex), 1),
+                Feature::Edge(edge) => {
+                    ((0..3).find(|&own| edge_number(ground, facet.number, own) == edge), 2)
+                }
+                Feature::Face(_) => return false,
+            };
+            let Some(first) = first else { return false };
+            let at = facet.corners[first];
+            let low = standing.extent(base.normal, at).low - standing.radius;
+            (count..3).all(|next| {
+                let height = base.normal.dot(facet.corners[(first + next) % 3] - at);
+                height < 0.0 && low - height > self.asking.reach
+            })
+        })
+    }
+}
