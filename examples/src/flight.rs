@@ -19,6 +19,8 @@ pub(crate) struct Flight<S: Physics> {
     pub(crate) turned: S::Spin,
     /// How much of it may be done.
     pub(crate) share: f64,
+    /// How far what is hit goes on by itself in the rest of the step: the bullet goes along.
+    pub(crate) carried: S::Vector,
     /// Whether a contact that is there already bends it.
     pub(crate) is_held: bool,
 }
@@ -37,13 +39,14 @@ impl<S: Physics> Flights<S> {
         self.0.push(flight);
     }
 
-    /// A bullet hits something after a share of its flight.
-    pub(crate) fn note(&mut self, number: u32, share: f64, is_contact: bool) {
+    /// A bullet hits something after a share of its flight, which itself moves so far in a step.
+    pub(crate) fn note(&mut self, number: u32, (share, along): (f64, S::Vector), is_contact: bool) {
         if let Ok(index) = self.0.binary_search_by_key(&number, |flight| flight.number) {
             let flight = &mut self.0[index];
-            match is_contact {
-                true => flight.is_held = true,
-                false => flight.share = flight.share.min(share),
+            if is_contact {
+                flight.is_held = true;
+            } else if share < flight.share {
+                (flight.share, flight.carried) = (share, along * (1.0 - share));
             }
         }
     }
@@ -70,9 +73,8 @@ impl<S: Physics> Flights<S> {
             return (if way > most { moved * (most / way) } else { moved }, turned);
         }
         if flight.share < 1.0 {
-            (flight.moved * flight.share, flight.turned * flight.share)
-        } else {
-            (moved, turned)
+            return (flight.moved * flight.share + flight.carried, flight.turned * flight.share);
         }
+        (moved, turned)
     }
 }

@@ -336,10 +336,12 @@ impl<S: Physics> Game<S> {
     /// Tells the world of whatever will move so far that contacts must be there before it arrives.
     fn look_ahead(&mut self) {
         self.flights.clear();
+        // What a bullet hits is known to where both are going.
+        let everybody = self.awake.iter().any(|&number| self.bodies[number as usize].is_bullet);
         for &number in &self.awake {
             let (body, motion) = (&self.bodies[number as usize], &self.motions[number as usize]);
             let travel = body.speed_squared(motion).sqrt() * self.seconds;
-            if travel < f64::from(MARGIN) + 0.05 * body.reach {
+            if travel < f64::from(MARGIN) + 0.05 * body.reach && !(everybody && travel > 0.0) {
                 continue;
             }
             let (moved, turned) = (motion.velocity * self.seconds, motion.spin * self.seconds);
@@ -348,7 +350,14 @@ impl<S: Physics> Game<S> {
             };
             S::look_ahead(&mut self.world, body.key, &pose);
             if body.is_bullet && travel > 0.5 * body.reach {
-                self.flights.push(Flight { number, moved, turned, share: 1.0, is_held: false });
+                self.flights.push(Flight {
+                    number,
+                    moved,
+                    turned,
+                    share: 1.0,
+                    carried: S::Vector::default(),
+                    is_held: false,
+                });
             }
         }
     }
@@ -356,11 +365,20 @@ impl<S: Physics> Game<S> {
     /// A bullet stops where it will hit something; the contact that is there by then does the rest.
     fn note_hits(&mut self) {
         for (bullet, other, share) in S::hits(&self.world) {
-            if let Some(&number) = self.numbers.get(bullet) {
-                // What it touches already is that contact's business.
-                let is_contact = S::is_near(&self.world, bullet, other);
-                self.flights.note(number, share, is_contact);
-            }
+            let (Some(&number), Some(&met)) = (self.numbers.get(bullet), self.numbers.get(other)) else {
+                continue;
+            };
+            // What it touches already is that contact's business.
+            let is_contact = S::is_near(&self.world, bullet, other);
+            let other = &self.bodies[met as usize];
+            // Two bullets both stop where they meet.
+            let goes_on = !other.is_bullet || other.state == State::Driven;
+            let along = if goes_on {
+                self.motions[met as usize].velocity * self.seconds
+            } else {
+                S::Vector::default()
+            };
+            self.flights.note(number, (share, along), is_contact);
         }
     }
 

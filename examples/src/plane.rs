@@ -14,10 +14,12 @@ impl Physics for Plane {
     type Inertia = f64;
     const IMMOVABLE: f64 = 0.0;
 
+    #[inline]
     fn dot(a: DVec2, b: DVec2) -> f64 {
         a.dot(b)
     }
 
+    #[inline]
     fn spin_square(spin: f64) -> f64 {
         spin * spin
     }
@@ -26,14 +28,17 @@ impl Physics for Plane {
         point.cmpge(*low).all() && point.cmple(*high).all()
     }
 
+    #[inline]
     fn torque(arm: DVec2, push: DVec2) -> f64 {
         arm.perp_dot(push)
     }
 
+    #[inline]
     fn sweep(spin: f64, arm: DVec2) -> DVec2 {
         arm.perp() * spin
     }
 
+    #[inline]
     fn respond(inertia: &f64, torque: f64) -> f64 {
         inertia * torque
     }
@@ -54,6 +59,7 @@ impl Physics for Plane {
         libm::atan2(from.perp_dot(to), from.dot(to))
     }
 
+    #[inline]
     fn turned(turn: DVec2, local: DVec2) -> DVec2 {
         turn.rotate(local)
     }

@@ -101,16 +101,19 @@ impl<S: Physics> Motion<S> {
         self.offset = offset;
     }
 
+    #[inline]
     fn push(&mut self, arm: S::Vector, push: S::Vector) {
         self.velocity += push * self.inverse_mass;
         self.spin += S::respond(&self.inverse_inertia, S::torque(arm, push));
     }
 
+    #[inline]
     fn velocity_at(&self, arm: S::Vector) -> S::Vector {
         self.velocity + S::sweep(self.spin, arm)
     }
 
     /// How much speed along a direction a unit push along it gives the end of an arm.
+    #[inline]
     fn yielding(&self, arm: S::Vector, direction: S::Vector) -> f64 {
         let spin = S::respond(&self.inverse_inertia, S::torque(arm, direction));
         self.inverse_mass + S::dot(direction, S::sweep(spin, arm))
@@ -209,6 +212,7 @@ impl<S: Physics> Point<S> {
         self.apply(motions, self.normal * self.pushes.apart + self.pushes.aside);
     }
 
+    #[inline]
     fn apply(&self, motions: &mut [Motion<S>], push: S::Vector) {
         motions[self.a].push(self.arm_a, push * -1.0);
         motions[self.b].push(self.arm_b, push);
@@ -236,6 +240,7 @@ impl<S: Physics> Point<S> {
         self.set_apart(motions, self.pushes.apart + push);
     }
 
+    #[inline]
     fn set_apart(&mut self, motions: &mut [Motion<S>], wanted: f64) {
         let apart = wanted.max(0.0);
         self.apply(motions, self.normal * (apart - self.pushes.apart));

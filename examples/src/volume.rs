@@ -13,10 +13,12 @@ impl Physics for Volume {
     type Inertia = DMat3;
     const IMMOVABLE: DMat3 = DMat3::ZERO;
 
+    #[inline]
     fn dot(a: DVec3, b: DVec3) -> f64 {
         a.dot(b)
     }
 
+    #[inline]
     fn spin_square(spin: DVec3) -> f64 {
         spin.dot(spin)
     }
@@ -25,14 +27,17 @@ impl Physics for Volume {
         point.cmpge(*low).all() && point.cmple(*high).all()
     }
 
+    #[inline]
     fn torque(arm: DVec3, push: DVec3) -> DVec3 {
         arm.cross(push)
     }
 
+    #[inline]
     fn sweep(spin: DVec3, arm: DVec3) -> DVec3 {
         spin.cross(arm)
     }
 
+    #[inline]
     fn respond(inertia: &DMat3, torque: DVec3) -> DVec3 {
         *inertia * torque
     }
@@ -59,6 +64,7 @@ impl Physics for Volume {
         if sine > 0.0 { half * (2.0 * libm::atan2(sine, w) / sine) } else { DVec3::ZERO }
     }
 
+    #[inline]
     fn turned(turn: DQuat, local: DVec3) -> DVec3 {
         turn * local
     }

@@ -5,10 +5,14 @@ use super::order::far_to_near;
 use super::{BALL, Canvas, Color, GOLD, MARK, METAL, Pen, RUBBER, SCENERY, STONE, WOOD, varied};
 use asunder::glam::{DVec2, DVec3, Vec3};
 use asunder::{BodyKey3, Collider3, Shape3, World3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Metres between the lines that are drawn on large faces of the scenery.
 const TILE: f64 = 1.0;
+/// Scenery that hides more than this share of the bodies that move is drawn as a shadow: the walls of a pit.
+const HIDES: f64 = 0.04;
+/// How many pairs of a piece of scenery and a body are looked at for that.
+const LOOKS: usize = 20_000_000;
 /// A contact point is shown if no more than this much of its own two bodies, in metres, lies in front of it.
 const SEEN_THROUGH: f64 = 0.01;
 
@@ -68,9 +72,10 @@ pub fn draw(world: &World3) -> String {
     // What has no end is drawn as far as the rest goes.
     let bounded =
         solids.iter().zip(&outlines).filter(|(solid, _)| solid.part.shape().outer_radius().is_finite());
+    let shadows = shadows(&solids, &view);
     let mut canvas = Canvas::around(bounded.flat_map(|(_, outline)| outline.iter().copied()));
     for (i, &number) in order.iter().enumerate() {
-        solids[number].draw(&mut canvas, &view, solids[number].body);
+        solids[number].draw(&mut canvas, &view, shadows.contains(&number));
         for &place in points.get(&i).into_iter().flatten() {
             let radius = (0.035 * canvas.pixels).clamp(0.8, 3.0);
             canvas.dot(view.project(place), radius, Pen::fill(MARK));
@@ -81,6 +86,22 @@ pub fn draw(world: &World3) -> String {
 
 fn is_ground(world: &World3, key: BodyKey3) -> bool {
     world.get(key).is_some_and(|body| body.shape().is_ground())
+}
+
+/// Numbers of the solids that are scenery and hide too much.
+fn shadows(solids: &[Solid], view: &View) -> BTreeSet<usize> {
+    let is_scenery = |solid: &&Solid| solid.part.is_fixed();
+    let movers: Vec<DVec3> =
+        solids.iter().filter(|solid| !is_scenery(solid)).map(|solid| solid.part.pose().position()).collect();
+    let scenery = solids.iter().enumerate().filter(|(_, solid)| is_scenery(solid));
+    if scenery.clone().count().saturating_mul(movers.len()) > LOOKS {
+        return BTreeSet::new();
+    }
+    let hides_much = |solid: &Solid| {
+        let hidden = movers.iter().filter(|&&mover| solid.depth_over(mover, view) > 0.0).count();
+        hidden as f64 > HIDES * movers.len() as f64
+    };
+    scenery.filter(|(_, solid)| hides_much(solid)).map(|(number, _)| number).collect()
 }
 
 impl View {
@@ -131,8 +152,8 @@ impl Solid {
         (leave - enter).max(0.0)
     }
 
-    fn draw(&self, canvas: &mut Canvas, view: &View, number: usize) {
-        let color = self.color(number);
+    fn draw(&self, canvas: &mut Canvas, view: &View, is_shadow: bool) {
+        let color = self.color(self.body);
         if let Some(ends) = self.rod() {
             return self.draw_rod(canvas, view, ends, color);
         }
@@ -144,8 +165,11 @@ impl Solid {
             if self.part.is_sensor() {
                 pen = pen.faint(0.4);
             }
+            if is_shadow {
+                pen = pen.faint(0.12);
+            }
             canvas.polygon(&corners, pen);
-            if self.part.is_sensor() {
+            if self.part.is_sensor() || is_shadow {
                 continue;
             }
             if self.part.is_fixed() {

@@ -46,7 +46,7 @@ pub(super) fn junkyard(size: usize, seed: u64) -> Scene3 {
     walls(&mut scene, yard);
     let wall = cuboid(DVec3::new(WALL, 0.5 * high, yard.z - 0.05).as_vec3());
     let from = DVec3::new(-yard.x - WALL + 0.5, 0.5 * high, 0.0);
-    scene.driven(wall, Path3::pushing(from, DVec3::X * half, 12.0));
+    scene.driven(wall, Path3::pushing(from, DVec3::X * half, 2.4 * half));
     lattice(&mut scene, size, [side, side], |scene, cell| {
         let stray = random.within(DVec3::splat(-0.05), DVec3::splat(0.05));
         let shape = shapes[random.below(shapes.len())].clone();

@@ -69,7 +69,7 @@ pub(super) fn junkyard(size: usize, seed: u64) -> Scene2 {
     let mut scene = pit(DVec2::new(1.5 * half, 0.5 * high));
     let wall = rect(DVec2::new(WALL, 0.5 * high).as_vec2());
     let from = DVec2::new(-1.5 * half - WALL + 0.5, 0.5 * high);
-    scene.driven(wall, Path2::pushing(from, DVec2::X * half, 12.0));
+    scene.driven(wall, Path2::pushing(from, DVec2::X * half, 2.4 * half));
     let pentagons: Vec<Shape2> = (0..8).map(|i| pentagon(0.35 + 0.02 * f64::from(i))).collect();
     grid(size, side, |cell| {
         let stray = DVec2::new(random.range(-0.02, 0.02), random.range(-0.02, 0.02));
