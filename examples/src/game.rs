@@ -211,7 +211,7 @@ impl<S: Physics> Game<S> {
     /// and carries others with the speed that follows. No such body is no fault.
     pub fn drive(&mut self, number: usize, path: impl Fn(u32) -> S::Pose + Send + 'static) {
         let Some(body) = self.bodies.get_mut(number) else { return };
-        body.center = body.center - self.motions[number].offset;
+        body.center -= self.motions[number].offset;
         (body.local_center, body.state) = (S::Vector::default(), State::Driven);
         self.motions[number] = Motion::new(S::Vector::default(), S::Spin::default());
         self.awake.retain(|&other| other as usize != number);

@@ -1,0 +1,126 @@
+//! What the stepper does with bodies: bounces, carries, sends to sleep and wakes, and is played again.
+
+use asunder::glam::{DVec3, Vec3};
+use asunder::{Collider3, Cuboid, Pose3, Shape3, Sphere, Volume};
+use asunder_examples::game::{Game, MARGIN};
+use asunder_examples::opened::{AnyGame, scene};
+use asunder_examples::recording::{Head, read_head};
+use asunder_examples::replay::{Recorder, replay};
+use asunder_examples::report::STEP;
+
+fn cuboid(half: Vec3) -> Shape3 {
+    Cuboid::from_half_extents(half).unwrap().into()
+}
+
+/// A floor with its top at zero.
+fn floored() -> Game<Volume> {
+    let mut game = Game::new(DVec3::NEG_Y * 9.81);
+    add(&mut game, &cuboid(Vec3::new(50.0, 1.0, 50.0)), DVec3::NEG_Y, true);
+    game
+}
+
+fn add(game: &mut Game<Volume>, shape: &Shape3, place: DVec3, fixed: bool) -> usize {
+    let pose = Pose3::at(place).unwrap();
+    let collider = Collider3::new(shape.clone()).at(pose).margin(MARGIN).unwrap();
+    let collider = if fixed { collider.fixed() } else { collider };
+    game.add(collider, shape, &pose, DVec3::ZERO, DVec3::ZERO).unwrap()
+}
+
+fn steps(game: &mut Game<Volume>, count: u32) {
+    (0..count).for_each(|_| game.step(STEP));
+}
+
+#[test]
+fn a_ball_rises_as_high_as_its_restitution_says() {
+    for restitution in [0.0, 0.5, 0.8] {
+        let mut game = floored();
+        game.feel.restitution = restitution;
+        let ball = add(&mut game, &Sphere::new(0.25).unwrap().into(), DVec3::Y * 2.25, false);
+        game.update();
+        // It takes 0.64 s down; the top of the first bounce is sought in the second after that.
+        steps(&mut game, 39);
+        let mut top: f64 = 0.0;
+        for _ in 0..60 {
+            game.step(STEP);
+            top = top.max(game.center(ball).unwrap().y - 0.25);
+        }
+        // The speed is a share e of what it was, the height e squared. Steps of 1/60 s at 6 m/s are 10 cm long.
+        let expected = 2.0 * restitution * restitution;
+        assert!((top - expected).abs() < 0.1, "{restitution}: {top} m, not {expected}");
+    }
+}
+
+#[test]
+fn a_driven_floor_carries_what_stands_on_it() {
+    let mut game = floored();
+    let belt = add(&mut game, &cuboid(Vec3::new(5.0, 0.5, 5.0)), DVec3::Y * 0.5, true);
+    let speed = 0.6;
+    let at = move |frame: u32| Pose3::at([speed * f64::from(frame) * STEP, 0.5, 0.0]).unwrap();
+    game.drive(belt, at);
+    let cube = add(&mut game, &cuboid(Vec3::splat(0.5)), DVec3::Y * 1.5, false);
+    game.update();
+    steps(&mut game, 120);
+    let moved = game.center(cube).unwrap();
+    // All but the time in which friction of 0.8 brings it up to speed: 0.6 / (0.8 * 9.81) s, at half the speed.
+    assert!((moved.x - 2.0 * speed).abs() < 0.05 * speed, "{moved}");
+    assert!((moved.y - 1.5).abs() < 0.005, "{moved}");
+    assert_eq!(game.awake_and_asleep(), (1, 0), "what is carried does not sleep");
+}
+
+#[test]
+fn what_rests_sleeps_and_moves_nothing_until_it_is_hit() {
+    let mut game = floored();
+    let cube = cuboid(Vec3::splat(0.5));
+    for i in 0..3 {
+        add(&mut game, &cube, DVec3::Y * (f64::from(i) + 0.5), false);
+    }
+    let far = add(&mut game, &cube, DVec3::new(20.0, 0.5, 0.0), false);
+    game.update();
+    steps(&mut game, 180);
+    assert_eq!(game.awake_and_asleep(), (0, 4));
+    let digest = game.digest();
+    steps(&mut game, 10);
+    assert_eq!((game.digest(), game.world.stats().moved), (digest, 0), "the engine carries all of it on");
+
+    let ball = add(&mut game, &Sphere::new(0.4).unwrap().into(), DVec3::new(0.0, 5.0, 0.2), false);
+    game.update();
+    assert_eq!(game.awake_and_asleep(), (1, 4), "it is still in the air");
+    steps(&mut game, 45);
+    assert_eq!(game.awake_and_asleep(), (4, 1), "the stack wakes as a whole, and nobody else");
+    game.set_velocity(far, DVec3::X * 3.0);
+    assert_eq!(game.awake_and_asleep(), (5, 0));
+    steps(&mut game, 30);
+    assert!(game.center(far).unwrap().x > 20.3 && game.center(ball).is_some());
+}
+
+#[test]
+fn a_recording_plays_again_with_the_same_contacts_and_tells_of_others() {
+    let open = || match AnyGame::of(&scene("junkyard", Some(60)).unwrap()).unwrap() {
+        AnyGame::Volume(game) => game,
+        AnyGame::Plane(_) => unreachable!(),
+    };
+    let mut game = open();
+    let head = Head { dimension: 3, size: 60, bodies: game.len() as u32, name: "junkyard".to_owned() };
+    let mut file = Vec::new();
+    let mut recorder = Recorder::new(&mut file, &head, &game).unwrap();
+    game.update();
+    for _ in 0..90 {
+        game.step(STEP);
+        recorder.record(&game).unwrap();
+    }
+    recorder.finish().unwrap();
+    assert!(game.world.stats().touching > 20, "it says something");
+
+    let play = |mut bytes: &[u8]| {
+        let mut game = open();
+        let head = read_head(&mut bytes).unwrap();
+        replay(&mut game, &mut bytes, &head, u32::MAX).map(|times| (times.steps, game.digest()))
+    };
+    let (played, digest) = play(&file).unwrap();
+    assert_eq!((played, digest), (90, game.digest()));
+
+    // The last numbers of the file are the contacts of the last step.
+    let last = file.len() - 1;
+    file[last] ^= 1;
+    assert!(play(&file).is_err_and(|error| error.to_string().starts_with("step 90: ")));
+}
