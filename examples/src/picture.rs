@@ -1,6 +1,6 @@
 //! Pictures of a world, as SVG.
 
-mod mesh;
+pub mod mesh;
 mod order;
 pub mod plane;
 pub mod volume;

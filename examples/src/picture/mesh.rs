@@ -13,13 +13,24 @@ const FAR: f64 = 30.0;
 const TURN: usize = 16;
 
 /// A face in the world.
-pub(super) struct Face {
-    pub(super) normal: DVec3,
-    pub(super) corners: Vec<DVec3>,
+pub struct Face {
+    /// Outwards, of length 1.
+    pub normal: DVec3,
+    /// Counter-clockwise, seen from outside.
+    pub corners: Vec<DVec3>,
 }
 
 /// The convex parts of a body, each as a body of its own. Of ground, its triangles.
-pub(super) fn parts(body: &Collider3) -> Vec<Collider3> {
+///
+/// ```
+/// use asunder::{Collider3, Sphere};
+/// use asunder_examples::picture::mesh::{faces, parts};
+/// let ball = Collider3::new(Sphere::new(1.0)?);
+/// let faces: Vec<_> = parts(&ball).iter().flat_map(faces).collect();
+/// assert!(faces.iter().all(|face| face.corners.iter().all(|corner| (corner.length() - 1.0).abs() < 1e-6)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn parts(body: &Collider3) -> Vec<Collider3> {
     if let Some(ground) = Ground::of(body.shape()) {
         let triangles = (0..ground.triangle_count()).filter_map(|number| ground.triangle(number));
         return triangles.map(|triangle| Collider3::new(triangle).at(*body.pose()).fixed()).collect();
@@ -37,7 +48,7 @@ pub(super) fn parts(body: &Collider3) -> Vec<Collider3> {
 }
 
 /// The faces of a convex body.
-pub(super) fn faces(body: &Collider3) -> Vec<Face> {
+pub fn faces(body: &Collider3) -> Vec<Face> {
     let (pose, basis) = (body.pose(), body.pose().basis());
     let faces_of = |shape: &Shape3| -> Vec<Face> {
         let core = shape.core();
@@ -81,7 +92,15 @@ fn surface(shape: &Shape3) -> Vec<Vec3> {
 }
 
 /// The outlines of a body's convex parts in the world, counter-clockwise.
-pub(super) fn outlines(body: &Collider2) -> Vec<Vec<DVec2>> {
+///
+/// ```
+/// use asunder::{Circle, Collider2};
+/// use asunder_examples::picture::mesh::outlines;
+/// let outlines = outlines(&Collider2::new(Circle::new(1.0)?));
+/// assert!(outlines[0].iter().all(|corner| (corner.length() - 1.0).abs() < 1e-6));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn outlines(body: &Collider2) -> Vec<Vec<DVec2>> {
     let place = |local: DVec2| body.pose().transform(local);
     let Shape2::Compound(compound) = body.shape() else {
         return vec![outline(body.shape()).into_iter().map(place).collect()];

@@ -1,0 +1,294 @@
+//! What stands on the screen: bodies as triangles, and lines over them.
+
+use crate::batch::{Batch, Lines};
+use crate::form::Form;
+use crate::paint::Paint;
+use crate::sight::Sight;
+use crate::toggles::{Layer, Toggles};
+use crate::view::View;
+use asunder::glam::DVec3;
+use asunder::{Collider, DebugLine, DebugOptions, Tier};
+use asunder_examples::game::Game;
+use macroquad::camera::set_camera;
+use std::collections::BTreeMap;
+
+/// No more bodies than this are drawn: those that are nearest.
+const MOST: usize = 40_000;
+/// Rays from the eye along each side of the scene that ask what hides it.
+const RAYS: usize = 5;
+/// Scenery that so many of them meet is left out.
+const HIDES: usize = 3;
+
+/// The look of a game.
+pub(crate) struct Stand<S: Sight> {
+    forms: Vec<Form>,
+    /// By shape, for those that many bodies may have.
+    known: BTreeMap<[u64; 3], u32>,
+    /// By the body's number.
+    form_of: Vec<Option<u32>>,
+    /// Whether a body goes its own way; by number.
+    driven: Vec<bool>,
+    bounds: (DVec3, DVec3),
+    /// Of the bodies that move, about, in metres.
+    size: f64,
+    solid: Batch,
+    glass: Batch,
+    thin: Lines,
+    over: Lines,
+    /// Scenery that is left out, ascending.
+    hidden: Vec<S::Key>,
+    tiers: Tiers,
+    left_out: usize,
+}
+
+/// By what the contacts of a step were settled.
+#[derive(Default)]
+struct Tiers {
+    /// Of which step.
+    step: Option<u32>,
+    /// The highest of each body's contacts; by number.
+    of_body: Vec<Option<Tier>>,
+    marks: Vec<(DVec3, Tier)>,
+    counts: [usize; 3],
+}
+
+impl<S: Sight> Stand<S> {
+    pub(crate) fn new(game: &Game<S>, moved: Vec<usize>) -> Self {
+        let mut driven = vec![false; game.len()];
+        moved.into_iter().filter_map(|number| driven.get_mut(number).map(|is| *is = true)).count();
+        let mut stand = Self {
+            forms: Vec::new(),
+            known: BTreeMap::new(),
+            form_of: vec![None; game.len()],
+            driven,
+            bounds: (DVec3::ZERO, DVec3::ZERO),
+            size: 1.0,
+            solid: Batch::default(),
+            glass: Batch::default(),
+            thin: Lines::default(),
+            over: Lines::default(),
+            hidden: Vec::new(),
+            tiers: Tiers::default(),
+            left_out: 0,
+        };
+        stand.measure(game);
+        stand
+    }
+
+    /// The box around what moves; around all that has an end, where nothing does.
+    fn measure(&mut self, game: &Game<S>) {
+        let ends = |moving: bool| {
+            let (mut low, mut high, mut sizes, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0.0, 0.0);
+            for (key, body) in S::bodies(&game.world) {
+                let is_driven = game.number(key).is_some_and(|number| self.is_scenery(number));
+                let (center, radius) = S::ball(body);
+                if radius.is_finite() && (!moving || !body.is_fixed() || is_driven) {
+                    let reach = if S::FLAT { DVec3::new(radius, radius, 0.0) } else { DVec3::splat(radius) };
+                    (low, high) = (low.min(center - reach), high.max(center + reach));
+                    if !is_driven {
+                        (sizes, count) = (sizes + radius, count + 1.0);
+                    }
+                }
+            }
+            low.cmple(high).all().then_some(((low, high), sizes / f64::max(count, 1.0)))
+        };
+        if let Some((bounds, size)) = ends(true).or_else(|| ends(false)) {
+            self.bounds = bounds;
+            self.size = if size > 0.0 { size } else { bounds.0.distance(bounds.1) * 0.05 };
+        }
+    }
+
+    pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
+        self.bounds
+    }
+
+    /// Scenery that is not drawn.
+    pub(crate) fn hidden(&self) -> &[S::Key] {
+        &self.hidden
+    }
+
+    /// Whether a body goes its own way.
+    pub(crate) fn is_scenery(&self, number: usize) -> bool {
+        self.driven.get(number).is_some_and(|&is| is)
+    }
+
+    /// What there is to say besides the counts.
+    pub(crate) fn note(&self) -> Option<String> {
+        let [bound, double, exact] = self.tiers.counts;
+        match (self.left_out, self.tiers.step) {
+            (0, None) => None,
+            (0, Some(_)) => {
+                Some(format!("contacts settled by the bound {bound}, doubles {double}, exactly {exact}"))
+            }
+            (left_out, _) => Some(format!("{left_out} bodies not drawn: further away")),
+        }
+    }
+
+    /// Draws the bodies, then the lines over them.
+    pub(crate) fn draw(&mut self, game: &Game<S>, view: &View, toggles: &Toggles) {
+        self.solid.clear();
+        self.glass.clear();
+        self.thin.clear();
+        self.over.clear();
+        if !toggles.shows(Layer::Tiers) {
+            self.tiers = Tiers::default();
+        } else if self.tiers.step != Some(game.steps()) {
+            self.tiers = Tiers::of(game);
+        }
+        self.cut_away(game, view, toggles.shows(Layer::Cut));
+        self.add_bodies(game, view, toggles);
+        self.add_lines(game, view, toggles);
+        set_camera(&view.lens(!S::FLAT));
+        self.solid.draw();
+        self.glass.draw();
+        self.thin.draw();
+        set_camera(&view.lens(false));
+        self.over.draw();
+    }
+
+    /// Notes scenery that stands between the eye and where the bodies are.
+    fn cut_away(&mut self, game: &Game<S>, view: &View, is_on: bool) {
+        self.hidden.clear();
+        if S::FLAT || !is_on {
+            return;
+        }
+        let (low, high) = self.bounds;
+        let large = 0.08 * low.distance(high);
+        let (mut counts, mut found) = (BTreeMap::<S::Key, usize>::new(), Vec::new());
+        for i in 0..RAYS * RAYS * RAYS {
+            let share = |i: usize| 0.1 + 0.8 * (i % RAYS) as f64 / (RAYS - 1) as f64;
+            let to = low + (high - low) * DVec3::new(share(i), share(i / RAYS), share(i / RAYS / RAYS));
+            S::between(&game.world, view.eye(), to, &mut found);
+            found.iter().for_each(|&key| *counts.entry(key).or_default() += 1);
+        }
+        for (key, count) in counts {
+            let radius = S::get(&game.world, key).map_or(0.0, |body| S::ball(body).1);
+            if count >= HIDES && radius > large {
+                self.hidden.push(key);
+            }
+        }
+    }
+
+    fn add_bodies(&mut self, game: &Game<S>, view: &View, toggles: &Toggles) {
+        if !toggles.shows(Layer::Fill) {
+            return;
+        }
+        let eye = view.eye();
+        let mut seen: Vec<(f64, S::Key, &Collider<S>)> = Vec::new();
+        for (key, body) in S::bodies(&game.world).filter(|(_, body)| body.is_enabled()) {
+            let (center, radius) = S::ball(body);
+            if view.sees(center, radius) && self.hidden.binary_search(&key).is_err() {
+                let distance = if S::FLAT { view.target.distance(center) } else { eye.distance(center) };
+                seen.push((distance - radius, key, body));
+            }
+        }
+        self.left_out = seen.len().saturating_sub(MOST);
+        if self.left_out > 0 {
+            seen.select_nth_unstable_by(MOST, |a, b| a.0.total_cmp(&b.0));
+            seen.truncate(MOST);
+        }
+        // In the plane scenery lies below all else.
+        for is_fixed in [true, false] {
+            for &(_, key, body) in seen.iter().filter(|seen| seen.2.is_fixed() == is_fixed) {
+                let Some(number) = game.number(key) else { continue };
+                let paint = self.paint(number, body, toggles);
+                let form = self.form(number, body);
+                let Some(form) = self.forms.get(form as usize) else { continue };
+                let batch = if body.is_sensor() { &mut self.glass } else { &mut self.solid };
+                batch.add(form, &S::frame(body, view.target), view, paint);
+            }
+        }
+    }
+
+    fn form(&mut self, number: usize, body: &Collider<S>) -> u32 {
+        if let Some(form) = self.form_of.get(number).copied().flatten() {
+            return form;
+        }
+        let endless = self.bounds.0.distance(self.bounds.1).max(10.0 * self.size);
+        let next = self.forms.len() as u32;
+        let form = match S::likeness(body) {
+            Some(likeness) => *self.known.entry(likeness).or_insert(next),
+            None => next,
+        };
+        if form == next {
+            self.forms.push(S::form(body, endless));
+        }
+        if let Some(of_body) = self.form_of.get_mut(number) {
+            *of_body = Some(form);
+        }
+        form
+    }
+
+    fn paint(&self, number: usize, body: &Collider<S>, toggles: &Toggles) -> Paint {
+        let paint = match (body.is_sensor(), body.is_fixed()) {
+            (true, _) => return Paint::SENSOR,
+            _ if self.is_scenery(number) && body.is_fixed() => Paint::DRIVEN,
+            (_, true) => Paint::SCENERY,
+            _ if toggles.shows(Layer::Tiers) => {
+                let tier = self.tiers.of_body.get(number).copied().flatten();
+                tier.map_or(Paint::PALE, Paint::of_tier)
+            }
+            _ => S::paint(body).varied(number),
+        };
+        if body.is_asleep() && toggles.shows(Layer::Sleep) { paint.asleep() } else { paint }
+    }
+
+    fn add_lines(&mut self, game: &Game<S>, view: &View, toggles: &Toggles) {
+        let is_filled = toggles.shows(Layer::Fill);
+        let options = DebugOptions {
+            shapes: !is_filled || S::FLAT,
+            boxes: toggles.shows(Layer::Boxes),
+            contacts: toggles.shows(Layer::Contacts) && !toggles.shows(Layer::Tiers),
+            normals: toggles.shows(Layer::Normals),
+            length: (self.size * 0.8) as f32,
+            endless: self.bounds.0.distance(self.bounds.1) as f32,
+        };
+        let Self { thin, over, .. } = self;
+        S::lines(&game.world, &options, &mut |from, to, what| {
+            if !view.sees((from + to) * 0.5, 0.5 * from.distance(to)) {
+                return;
+            }
+            match what {
+                DebugLine::Contact | DebugLine::Normal => over.add(view, [from, to], what.colour()),
+                DebugLine::Box => thin.add(view, [from, to], what.colour()),
+                _ if is_filled => thin.add(view, [from, to], Paint::INK.faint(0.55).bytes(1.0)),
+                _ => thin.add(view, [from, to], what.colour()),
+            }
+        });
+        if toggles.shows(Layer::Pairs) {
+            for (a, b) in S::pairs(&game.world) {
+                let ends = [a, b].map(|key| S::get(&game.world, key).map(S::ball));
+                let [Some((from, _)), Some((to, _))] = ends else { continue };
+                if from.is_finite() && to.is_finite() && view.sees((from + to) * 0.5, 0.5 * from.distance(to))
+                {
+                    over.add(view, [from, to], Paint::PAIR.bytes(1.0));
+                }
+            }
+        }
+        let [right, up, _] = view.axes();
+        let arms = [right + up, right - up].map(|arm| arm * (self.size * 0.12));
+        for &(place, tier) in self.tiers.marks.iter().filter(|(place, _)| view.sees(*place, self.size)) {
+            for arm in arms {
+                self.over.add(view, [place - arm, place + arm], Paint::of_tier(tier).bytes(0.75));
+            }
+        }
+    }
+}
+
+impl Tiers {
+    fn of<S: Sight>(game: &Game<S>) -> Self {
+        let mut tiers = Self { step: Some(game.steps()), of_body: vec![None; game.len()], ..Self::default() };
+        S::tiers(&game.world, |keys, tier, places| {
+            for number in keys.into_iter().filter_map(|key| game.number(key)) {
+                if let Some(highest) = tiers.of_body.get_mut(number) {
+                    *highest = (*highest).max(Some(tier));
+                }
+            }
+            if let Some(count) = tiers.counts.get_mut(tier as usize) {
+                *count += 1;
+            }
+            tiers.marks.extend(places.map(|place| (place, tier)));
+        });
+        tiers
+    }
+}
