@@ -1,6 +1,7 @@
 //! Contacts of bodies on triangle ground: no ghosts while they slide, the normals that edges and corners may give, and
 //! everything else against a loop over all triangles.
 
+mod beyond;
 mod brute;
 mod curves;
 mod edges;

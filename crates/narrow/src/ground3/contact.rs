@@ -63,6 +63,7 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Pose3, Shape3};
 use ball::{Nearest, nearest_to};
+use core::cell::Cell;
 use core::ops::ControlFlow;
 use facet::{Facet, is_same};
 use groups::{Group, Groups};
@@ -256,8 +257,15 @@ impl Seen<'_> {
         if separation > self.asking.reach + doubt {
             return;
         }
-        let prism =
-            Prism { ground, standing, facet: &facet, extent: &extent, reach: self.asking.reach, doubt };
+        let prism = Prism {
+            ground,
+            standing,
+            facet: &facet,
+            extent: &extent,
+            reach: self.asking.reach,
+            doubt,
+            gate: None,
+        };
         if self.needs_kernels(&prism) {
             if standing.is_apart(&facet, self.asking.reach + 2.0 * doubt) {
                 return;
@@ -290,7 +298,7 @@ impl Seen<'_> {
                 }
             }
         }
-        let has_points = self.add_by_normal(&prism, known);
+        let has_points = self.add_where_met(&prism, separation, known);
         if known.overlapping || separation > doubt {
             return;
         }
@@ -305,7 +313,7 @@ impl Seen<'_> {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let patch = ground.patch(number);
         if let Some(plane) = known.plane.as_ref().filter(|plane| plane.patch == patch)
-            && let Some(facet) = plane.facet.next(ground, number, 0.25 * plane.doubt)
+            && let Some(facet) = plane.facet.next(ground, number, 0.25 * plane.doubt, standing.center)
         {
             return Some(Plane { facet, ..*plane });
         }
@@ -328,6 +336,22 @@ impl Seen<'_> {
         if known.refused.try_push(prism.facet.number).is_err() {
             self.add_by_normal(prism, known);
         }
+    }
+
+    /// Adds points by a triangle's own normal. Where it is seen from behind, deep ones only if part and triangle meet:
+    /// what lies over a bend may be behind the plane of a triangle, and nowhere near the triangle itself.
+    fn add_where_met(&self, prism: &Prism, separation: f64, known: &mut Known) -> bool {
+        let least = -(self.standing.slack + prism.doubt);
+        if prism.facet.is_front || separation >= least {
+            return self.add_by_normal(prism, known);
+        }
+        let is_left_out = Cell::new(false);
+        let has_points = self.add_by_normal(&Prism { gate: Some((least, &is_left_out)), ..*prism }, known);
+        let is_met = || prism.does_cross() || self.meeting.overlaps(prism.ground, prism.facet.number);
+        if is_left_out.get() && is_met() {
+            return self.add_by_normal(prism, known);
+        }
+        has_points
     }
 
     fn add_by_normal(&self, prism: &Prism, known: &mut Known) -> bool {
@@ -390,7 +414,8 @@ impl Seen<'_> {
             });
             if !is_freed {
                 let doubt = self.doubt_over(&facet);
-                let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt };
+                let prism =
+                    Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
                 self.add_by_normal(&prism, known);
             }
         }
@@ -422,7 +447,7 @@ impl Seen<'_> {
         let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
-        let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt };
+        let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
         let mut pin = prism.lowest();
         pin.on_ground = nearest_to(&facet, pin.on_ground).1;
         known.groups.add(&prism.base(), pin);

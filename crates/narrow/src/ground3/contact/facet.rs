@@ -3,6 +3,7 @@
 //! Which normals an edge or a corner may give is its Voronoi region: the directions in which it is the nearest of all
 //! ground around it. Directions of ground are taken without a side, so that the same holds from in front and behind.
 
+use super::ball::nearest_to;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::SAME_NORMAL;
@@ -57,20 +58,80 @@ impl Facet {
         if tilt.is_nan() || tilt >= SAME_NORMAL {
             return None;
         }
-        let (front, origin) = (cross / area, corners[other]);
-        let is_front = front.dot(center - origin) >= 0.0;
-        if !is_front && ground.is_one_sided() {
-            return None;
+        let mut facet =
+            Self { number, corners, normal: cross / area, origin: corners[other], is_front: true, tilt };
+        if !facet.has_in_front(ground, center) {
+            if ground.is_one_sided() {
+                return None;
+            }
+            (facet.normal, facet.is_front) = (-facet.normal, false);
         }
-        let normal = if is_front { front } else { -front };
-        Some(Self { number, corners, normal, origin, is_front, tilt })
+        Some(facet)
     }
 
-    /// Another triangle of the same flat patch, if it lies in this one's plane up to so many metres.
-    pub(super) fn next(&self, ground: Ground, number: u32, slack: f64) -> Option<Self> {
+    /// Another triangle of the same flat patch, if it lies in this one's plane up to so many metres and has a point on
+    /// the same side.
+    pub(super) fn next(&self, ground: Ground, number: u32, slack: f64, center: DVec3) -> Option<Self> {
         let corners = ground.corners(number).map(|corner| corner.as_dvec3());
         let is_on = corners.iter().all(|&corner| self.height(corner).abs() <= slack);
-        is_on.then_some(Self { number, corners, ..*self })
+        let next = Self { number, corners, ..*self };
+        (is_on && (ground.is_one_sided() || next.has_in_front(ground, center))).then_some(next)
+    }
+
+    /// Whether a point is on the side of the normal: of one-sided ground, of the plane. Of other ground, of the surface
+    /// around the nearest point of the triangle, so that a plank over a ridge is above the slope behind it, whose
+    /// plane it is under.
+    ///
+    /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005), with sines for
+    /// angles.
+    fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
+        let is_above = self.height(point) >= 0.0;
+        if ground.is_one_sided() {
+            return is_above;
+        }
+        let (feature, at) = nearest_to(self, point);
+        let around = match feature {
+            Furthest::Face => return is_above,
+            Furthest::Edge(edge) => match ground.neighbor(self.number, edge) {
+                Some((other, _)) => self.front() + unit_normal(ground, other),
+                None => return is_above,
+            },
+            Furthest::Corner(corner) => self.normals_around(ground, corner),
+        };
+        let (around, away) = (if self.is_front { around } else { -around }, point - at);
+        let lean = around.dot(away);
+        let is_clear =
+            lean * lean > SAME_NORMAL * SAME_NORMAL * around.length_squared() * away.length_squared();
+        if is_clear { lean > 0.0 } else { is_above }
+    }
+
+    fn front(&self) -> DVec3 {
+        if self.is_front { self.normal } else { -self.normal }
+    }
+
+    /// The sum of the fronts' normals around a corner, each by the sine of its angle there.
+    fn normals_around(&self, ground: Ground, corner: usize) -> DVec3 {
+        let mut sum = at_corner(ground, self.number, corner);
+        for way in [0, 2] {
+            let mut at = (self.number, (corner + way) % 3);
+            for _ in 0..MOST_AROUND {
+                let Some((other, twin)) = ground.neighbor(at.0, at.1) else { break };
+                if other == self.number {
+                    return sum;
+                }
+                // Where the corner is in the other triangle: the end of the twin, or its start.
+                let there = if way == 0 { (twin + 1) % 3 } else { twin };
+                sum += at_corner(ground, other, there);
+                at = (other, if way == 0 { there } else { (there + 2) % 3 });
+            }
+        }
+        sum
+    }
+
+    /// Whether the rim of ground may give a direction. That of two-sided ground gives any; that of one-sided ground
+    /// none that leads further behind it than aside.
+    fn may_rim_give(&self, ground: Ground, towards: DVec3) -> bool {
+        !ground.is_one_sided() || towards.dot(self.normal) >= -core::f64::consts::FRAC_1_SQRT_2
     }
 
     /// Twice the area, in square metres.
@@ -165,7 +226,7 @@ impl Facet {
                 }
                 match ground.neighbor(self.number, edge) {
                     Some((other, twin)) => leans_off(across(ground, other, twin), towards),
-                    None => towards.dot(self.normal) >= -SAME_NORMAL,
+                    None => self.may_rim_give(ground, towards),
                 }
             }
             Furthest::Corner(corner) => self.may_corner_give(ground, corner, towards),
@@ -197,7 +258,7 @@ impl Facet {
         let mut at = (self.number, before);
         for _ in 0..MOST_AROUND {
             let Some((other, twin)) = ground.neighbor(at.0, at.1) else {
-                return towards.dot(self.normal) >= -SAME_NORMAL;
+                return self.may_rim_give(ground, towards);
             };
             // The twin leaves the corner; the edge before it leads there.
             at = (other, (twin + 2) % 3);
@@ -257,6 +318,19 @@ pub(super) fn edge_number(ground: Ground, triangle: u32, edge: usize) -> u32 {
     let number = |triangle: u32, edge: usize| triangle.wrapping_mul(3).wrapping_add(edge as u32);
     let own = number(triangle, edge);
     ground.neighbor(triangle, edge).map_or(own, |(other, twin)| own.min(number(other, twin)))
+}
+
+/// The unit normal of a triangle's front; zero where it has none.
+fn unit_normal(ground: Ground, triangle: u32) -> DVec3 {
+    let [a, b, c] = ground.corners(triangle).map(|corner| corner.as_dvec3());
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
+/// The normal of a triangle's front, as long as the sine of its angle at a corner.
+fn at_corner(ground: Ground, triangle: u32, corner: usize) -> DVec3 {
+    let corners = ground.corners(triangle).map(|corner| corner.as_dvec3());
+    let [at, next, before] = [0, 1, 2].map(|i| corners[(corner + i) % 3]);
+    (next - at).normalize_or_zero().cross((before - at).normalize_or_zero())
 }
 
 /// Whether a direction of any length is along a unit normal, up to the tolerance.

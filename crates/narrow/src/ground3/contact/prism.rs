@@ -18,8 +18,9 @@ use super::groups::{Base, Groups, Pin};
 use super::standing::{Extent, Standing};
 use crate::feature::Feature;
 use crate::polyhedron::manifold::opposed_face;
-use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Ground, Shape3};
+use core::cell::Cell;
 
 /// Cosine up to which a body's face looks away from the ground so much that it has no inside as seen along the normal.
 pub(super) const STEEP: f64 = 1e-3;
@@ -43,6 +44,8 @@ pub(super) struct Prism<'p> {
     pub(super) reach: f64,
     /// What a separation may be off by, in metres.
     pub(super) doubt: f64,
+    /// Points deeper than this are left out, and that is told, unless the part certainly holds what is over them.
+    pub(super) gate: Option<(f64, &'p Cell<bool>)>,
 }
 
 impl Incident {
@@ -124,8 +127,8 @@ impl Prism<'_> {
                 return;
             };
             if separation <= self.reach && facet.is_over(at, standing.slack) {
-                groups.add(&self.base(), self.pin(at, separation, Feature::Vertex(vertex as u32)));
-                is_any = true;
+                let pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
+                is_any |= self.add_pin(pin, groups);
             }
         };
         for vertex in standing.solid.topology.face_vertices(incident.face) {
@@ -170,10 +173,23 @@ impl Prism<'_> {
             };
             let on_body = on_ground + facet.normal * separation;
             let doubt = (self.doubt + standing.planarity) / -facing;
-            groups.add(&self.base(), Pin { on_body, on_ground, separation, doubt, of_body, of_ground });
-            is_any = true;
+            is_any |= self.add_pin(Pin { on_body, on_ground, separation, doubt, of_body, of_ground }, groups);
         }
         is_any
+    }
+
+    /// Adds a point that the gate lets through; whether it did.
+    fn add_pin(&self, pin: Pin, groups: &mut Groups) -> bool {
+        if let Some((least, is_left_out)) = self.gate
+            && pin.separation < least
+            && !(matches!(self.standing.part.shape, Shape3::Cuboid(_))
+                && self.standing.is_in_box(pin.on_ground, self.doubt))
+        {
+            is_left_out.set(true);
+            return false;
+        }
+        groups.add(&self.base(), pin);
+        true
     }
 
     /// The stretch of a side that lies over the part's face: two shares of its length, each with the half-edge of the
