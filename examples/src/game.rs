@@ -417,7 +417,7 @@ impl<S: Physics> Game<S> {
 
     fn note_depths(&mut self) {
         let deepest = self.touches.iter().map(|touch| -touch.separation).fold(0.0, f64::max);
-        let share = self.deepest_share();
+        let share = self.share_of(&self.touches);
         let counts = &mut self.counts;
         counts.deepest = counts.deepest.max(deepest);
         if f64::from(self.steps) * self.seconds > SETTLED {
