@@ -35,9 +35,6 @@ pub struct Game<S: Physics> {
     pub feel: Feel,
     /// Whether bodies that are at rest fall asleep.
     pub sleeps: bool,
-    /// How many short steps a step is cut into, 8 at first: what stacks bear grows with the square of it, cost with
-    /// itself.
-    pub substeps: u32,
     gravity: S::Vector,
     bodies: Vec<Body<S>>,
     motions: Vec<Motion<S>>,
@@ -143,7 +140,6 @@ impl<S: Physics> Game<S> {
             counts: Counts::default(),
             feel: Feel::default(),
             sleeps: true,
-            substeps: 8,
             gravity,
             bodies: Vec::new(),
             motions: Vec::new(),
@@ -230,7 +226,7 @@ impl<S: Physics> Game<S> {
             (motion.moved, motion.turned) = (S::Vector::default(), S::Spin::default());
         }
         let targets = self.aim();
-        let forces = Forces { gravity: self.gravity, feel: self.feel, seconds, substeps: self.substeps };
+        let forces = Forces { gravity: self.gravity, feel: self.feel, seconds };
         let moving: [&[u32]; 2] = [&self.awake, &self.driven];
         self.response.respond(&self.touches, &mut self.motions, moving, &forces);
         self.move_bodies();
@@ -421,7 +417,7 @@ impl<S: Physics> Game<S> {
 
     fn note_depths(&mut self) {
         let deepest = self.touches.iter().map(|touch| -touch.separation).fold(0.0, f64::max);
-        let share = self.deepest_share();
+        let share = self.share_of(&self.touches);
         let counts = &mut self.counts;
         counts.deepest = counts.deepest.max(deepest);
         if f64::from(self.steps) * self.seconds > SETTLED {

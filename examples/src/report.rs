@@ -97,6 +97,13 @@ pub fn timed<S: Physics, E>(
     Ok(times)
 }
 
+/// Plays some steps untimed, then so many more; returns what the latter cost.
+pub fn timed_after<S: Physics>(game: &mut Game<S>, after: u32, steps: u32) -> Times {
+    let Ok(_) = timed(game, after, |_| Ok::<(), Infallible>(()));
+    let Ok(times) = timed(game, steps, |_| Ok::<(), Infallible>(()));
+    times
+}
+
 /// Plays so many steps of 1/60 s behind a progress bar, then prints what they cost and what touches.
 pub fn run<S: Physics>(game: &mut Game<S>, name: &str, steps: u32) {
     let Ok(times) = timed(game, steps, |_| Ok::<(), Infallible>(()));

@@ -66,14 +66,21 @@ impl<S: Physics> Game<S> {
         touches.iter().map(|touch| -touch.separation).fold(0.0, f64::max)
     }
 
-    /// The deepest overlap of any contact with a body that is awake, as a share of the smaller body's size: the edge of
+    /// The deepest overlap of any contact point of the last update, as a share of the smaller body's size: the edge of
     /// the cube, or of the square, of its mass.
     pub fn deepest_share(&self) -> f64 {
+        let mut touches = Vec::new();
+        let pair = |a, b| Some([*self.numbers.get(a)?, *self.numbers.get(b)?]);
+        S::touches(&self.world, |a, b, _| pair(a, b), &mut touches);
+        self.share_of(&touches)
+    }
+
+    pub(super) fn share_of(&self, touches: &[Touch<S>]) -> f64 {
         let share = |touch: &Touch<S>| {
             let [a, b] = touch.bodies.map(|number| self.bodies[number as usize].size);
             -touch.separation / a.min(b)
         };
-        self.touches.iter().map(share).fold(0.0, f64::max)
+        touches.iter().map(share).fold(0.0, f64::max)
     }
 
     /// The greatest speed of any body, in m/s: near zero once the scene is at rest.

@@ -22,6 +22,11 @@ pub(super) fn base_of(size: usize) -> usize {
     base
 }
 
+/// What a pyramid takes to stand still.
+pub(super) fn substeps_of(base: usize) -> u32 {
+    if base > 40 { 12 } else { 8 }
+}
+
 /// Middles of a pyramid's boxes of 1 m.
 pub(super) fn pyramid_places(base: usize) -> impl Iterator<Item = (f64, f64)> {
     (0..base).flat_map(move |row| {
@@ -40,6 +45,7 @@ pub(super) fn small_pyramids(size: usize) -> (usize, usize, usize) {
 pub(super) fn pyramid(size: usize) -> Scene3 {
     let base = base_of(size);
     let mut scene = on_a_floor(0.5 * PITCH * base as f64 + 2.0, 5.0);
+    scene.feel.substeps = substeps_of(base);
     let shape = unit();
     for (x, y) in pyramid_places(base) {
         scene.free(shape.clone(), DVec3::new(x, y, 0.0), Turn::IDENTITY);
@@ -64,6 +70,8 @@ pub(super) fn many_pyramids(size: usize) -> Scene3 {
 
 pub(super) fn stack(size: usize) -> Scene3 {
     let mut scene = on_a_floor(5.0, 5.0);
+    // With fewer the tower sways, a centimetre at its top.
+    scene.feel.substeps = 12;
     for i in 0..size.max(1) {
         scene.free(unit(), DVec3::new(0.0, i as f64 + 0.5, 0.0), Turn::IDENTITY);
     }
@@ -82,6 +90,7 @@ pub(super) fn card_house(size: usize) -> Scene3 {
         storeys += 1;
     }
     let mut scene = on_a_floor(0.6 * storeys as f64 + 1.0, 2.0);
+    scene.feel.substeps = 16;
     let card = cuboid(CARD);
     let (thick, high) = (f64::from(CARD.x), f64::from(CARD.y));
     let (sin, cos) = libm::sincos(LEAN);
