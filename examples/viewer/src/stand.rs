@@ -28,6 +28,8 @@ pub(crate) struct Stand<S: Sight> {
     form_of: Vec<Option<u32>>,
     /// Whether a body goes its own way; by number.
     driven: Vec<bool>,
+    /// The box around what pushes moved at the start, and that with what is driven.
+    room: (DVec3, DVec3),
     bounds: (DVec3, DVec3),
     /// Of the bodies that move, about, in metres.
     size: f64,
@@ -61,6 +63,7 @@ impl<S: Sight> Stand<S> {
             known: BTreeMap::new(),
             form_of: vec![None; game.len()],
             driven,
+            room: (DVec3::ZERO, DVec3::ZERO),
             bounds: (DVec3::ZERO, DVec3::ZERO),
             size: 1.0,
             solid: Batch::default(),
@@ -77,25 +80,19 @@ impl<S: Sight> Stand<S> {
 
     /// The box around what moves; around all that has an end, where nothing does.
     fn measure(&mut self, game: &Game<S>) {
-        let ends = |moving: bool| {
-            let (mut low, mut high, mut sizes, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0.0, 0.0);
-            for (key, body) in S::bodies(&game.world) {
-                let is_driven = game.number(key).is_some_and(|number| self.is_scenery(number));
-                let (center, radius) = S::ball(body);
-                if radius.is_finite() && (!moving || !body.is_fixed() || is_driven) {
-                    let reach = if S::FLAT { DVec3::new(radius, radius, 0.0) } else { DVec3::splat(radius) };
-                    (low, high) = (low.min(center - reach), high.max(center + reach));
-                    if !is_driven {
-                        (sizes, count) = (sizes + radius, count + 1.0);
-                    }
-                }
-            }
-            low.cmple(high).all().then_some(((low, high), sizes / f64::max(count, 1.0)))
-        };
-        if let Some((bounds, size)) = ends(true).or_else(|| ends(false)) {
-            self.bounds = bounds;
-            self.size = if size > 0.0 { size } else { bounds.0.distance(bounds.1) * 0.05 };
-        }
+        let is_driven = |key| game.number(key).is_some_and(|number| self.is_driven(number));
+        let bodies = || S::bodies(&game.world).filter(|(_, body)| S::ball(body).1.is_finite());
+        let free = || bodies().filter(|(key, body)| !body.is_fixed() && !is_driven(*key));
+        let around = free().map(|(_, body)| S::corners(body)).reduce(both);
+        let driven =
+            bodies().filter(|(key, _)| is_driven(*key)).map(|(_, body)| S::corners(body)).reduce(both);
+        let all = || bodies().map(|(_, body)| S::corners(body)).reduce(both);
+        let Some(room) = around.or(driven).or_else(all) else { return };
+        let bounds = driven.map_or(room, |driven| both(room, driven));
+        let (sum, count) =
+            free().fold((0.0, 0.0), |(sum, count), (_, body)| (sum + S::ball(body).1, count + 1.0));
+        let size = if sum > 0.0 { sum / count } else { room.0.distance(room.1) * 0.05 };
+        (self.room, self.bounds, self.size) = (room, bounds, size);
     }
 
     pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
@@ -108,7 +105,7 @@ impl<S: Sight> Stand<S> {
     }
 
     /// Whether a body goes its own way.
-    pub(crate) fn is_scenery(&self, number: usize) -> bool {
+    pub(crate) fn is_driven(&self, number: usize) -> bool {
         self.driven.get(number).is_some_and(|&is| is)
     }
 
@@ -152,7 +149,7 @@ impl<S: Sight> Stand<S> {
         if S::FLAT || !is_on {
             return;
         }
-        let (low, high) = self.bounds;
+        let (low, high) = self.room;
         let large = 0.08 * low.distance(high);
         let (mut counts, mut found) = (BTreeMap::<S::Key, usize>::new(), Vec::new());
         for i in 0..RAYS * RAYS * RAYS {
@@ -222,7 +219,7 @@ impl<S: Sight> Stand<S> {
     fn paint(&self, number: usize, body: &Collider<S>, toggles: &Toggles) -> Paint {
         let paint = match (body.is_sensor(), body.is_fixed()) {
             (true, _) => return Paint::SENSOR,
-            _ if self.is_scenery(number) && body.is_fixed() => Paint::DRIVEN,
+            _ if self.is_driven(number) && body.is_fixed() => Paint::DRIVEN,
             (_, true) => Paint::SCENERY,
             _ if toggles.shows(Layer::Tiers) => {
                 let tier = self.tiers.of_body.get(number).copied().flatten();
@@ -240,7 +237,7 @@ impl<S: Sight> Stand<S> {
             boxes: toggles.shows(Layer::Boxes),
             contacts: toggles.shows(Layer::Contacts) && !toggles.shows(Layer::Tiers),
             normals: toggles.shows(Layer::Normals),
-            length: (self.size * 0.8) as f32,
+            length: (self.size * 0.6) as f32,
             endless: self.bounds.0.distance(self.bounds.1) as f32,
         };
         let Self { thin, over, .. } = self;
@@ -273,6 +270,10 @@ impl<S: Sight> Stand<S> {
             }
         }
     }
+}
+
+fn both(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
+    (a.0.min(b.0), a.1.max(b.1))
 }
 
 impl Tiers {
