@@ -14,6 +14,10 @@ use std::collections::BTreeMap;
 
 /// No more bodies than this are drawn: those that are nearest.
 const MOST: usize = 40_000;
+/// Scenes of more sizes of a body from their middle are not shown whole at first,
+const FARTHEST: f64 = 300.0;
+/// but so many from a body.
+const NEAR: f64 = 30.0;
 /// Rays from the eye along each side of the scene that ask what hides it.
 const RAYS: usize = 5;
 /// Scenery that so many of them meet is left out.
@@ -83,15 +87,23 @@ impl<S: Sight> Stand<S> {
         let is_driven = |key| game.number(key).is_some_and(|number| self.is_driven(number));
         let bodies = || S::bodies(&game.world).filter(|(_, body)| S::ball(body).1.is_finite());
         let free = || bodies().filter(|(key, body)| !body.is_fixed() && !is_driven(*key));
-        let around = free().map(|(_, body)| S::corners(body)).reduce(both);
+        let around = most(free().map(|(_, body)| S::corners(body)).collect());
         let driven =
             bodies().filter(|(key, _)| is_driven(*key)).map(|(_, body)| S::corners(body)).reduce(both);
         let all = || bodies().map(|(_, body)| S::corners(body)).reduce(both);
         let Some(room) = around.or(driven).or_else(all) else { return };
-        let bounds = driven.map_or(room, |driven| both(room, driven));
         let (sum, count) =
             free().fold((0.0, 0.0), |(sum, count), (_, body)| (sum + S::ball(body).1, count + 1.0));
         let size = if sum > 0.0 { sum / count } else { room.0.distance(room.1) * 0.05 };
+        let mut bounds = driven.map_or(room, |driven| both(room, driven));
+        if bounds.0.distance(bounds.1) > 2.0 * FARTHEST * size {
+            // A world too large to see anything of from outside: where a body is, near the middle.
+            let middle = (bounds.0 + bounds.1) * 0.5;
+            let centers = free().map(|(_, body)| S::ball(body).0);
+            let near = centers.min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
+            let reach = DVec3::splat(NEAR * size);
+            bounds = near.map_or(bounds, |near| (bounds.0.max(near - reach), bounds.1.min(near + reach)));
+        }
         (self.room, self.bounds, self.size) = (room, bounds, size);
     }
 
@@ -227,7 +239,8 @@ impl<S: Sight> Stand<S> {
             }
             _ => S::paint(body).varied(number),
         };
-        if body.is_asleep() && toggles.shows(Layer::Sleep) { paint.asleep() } else { paint }
+        let is_dark = body.is_asleep() && toggles.shows(Layer::Sleep) && !toggles.shows(Layer::Tiers);
+        if is_dark { paint.asleep() } else { paint }
     }
 
     fn add_lines(&mut self, game: &Game<S>, view: &View, toggles: &Toggles) {
@@ -270,6 +283,24 @@ impl<S: Sight> Stand<S> {
             }
         }
     }
+}
+
+/// The box around boxes. What flies far outside, of which there is one in a hundred or less, is left out.
+fn most(boxes: Vec<(DVec3, DVec3)>) -> Option<(DVec3, DVec3)> {
+    let (mut low, mut high) = boxes.iter().copied().reduce(both)?;
+    let few = boxes.len().div_ceil(100);
+    for axis in 0..3 {
+        let mut ends = [boxes.iter().map(|b| b.0[axis]).collect(), boxes.iter().map(|b| b.1[axis]).collect()];
+        ends.iter_mut().for_each(|ends: &mut Vec<f64>| ends.sort_unstable_by(f64::total_cmp));
+        let [lows, highs] = ends;
+        let (Some(&from), Some(&to)) = (lows.get(few), highs.get(highs.len().saturating_sub(few + 1))) else {
+            continue;
+        };
+        if from < to && to - from < 0.6 * (high[axis] - low[axis]) {
+            (low[axis], high[axis]) = (from, to);
+        }
+    }
+    Some((low, high))
 }
 
 fn both(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
