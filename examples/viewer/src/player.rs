@@ -47,11 +47,11 @@ pub(crate) fn show(scene: &Scene) -> Result<Box<dyn Show>, Box<dyn Error>> {
     Ok(match scene {
         Scene::Plane(scene) => {
             let driven = scene.drivers.iter().map(|driver| driver.body as usize).collect();
-            Box::new(Player::<Plane>::new(plane(scene)?, driven))
+            Box::new(Player::<Plane>::new(plane(scene)?, driven, scene.room))
         }
         Scene::Volume(scene) => {
             let driven = scene.drivers.iter().map(|driver| driver.body as usize).collect();
-            Box::new(Player::<Volume>::new(volume(scene)?, driven))
+            Box::new(Player::<Volume>::new(volume(scene)?, driven, scene.room))
         }
     })
 }
@@ -72,9 +72,9 @@ struct Held {
 }
 
 impl<S: Sight> Player<S> {
-    fn new(mut game: Game<S>, driven: Vec<usize>) -> Self {
+    fn new(mut game: Game<S>, driven: Vec<usize>, (low, high): (S::Vector, S::Vector)) -> Self {
         game.update();
-        let stand = Stand::new(&game, driven);
+        let stand = Stand::new(&game, driven, (S::in_space(low), S::in_space(high)));
         Self { game, stand, times: Times::default(), held: None, drawing: Duration::ZERO }
     }
 }

@@ -59,7 +59,7 @@ struct Tiers {
 }
 
 impl<S: Sight> Stand<S> {
-    pub(crate) fn new(game: &Game<S>, moved: Vec<usize>) -> Self {
+    pub(crate) fn new(game: &Game<S>, moved: Vec<usize>, closed: (DVec3, DVec3)) -> Self {
         let mut driven = vec![false; game.len()];
         moved.into_iter().filter_map(|number| driven.get_mut(number).map(|is| *is = true)).count();
         let mut stand = Self {
@@ -78,12 +78,12 @@ impl<S: Sight> Stand<S> {
             tiers: Tiers::default(),
             left_out: 0,
         };
-        stand.measure(game);
+        stand.measure(game, closed);
         stand
     }
 
-    /// The box around what moves; around all that has an end, where nothing does.
-    fn measure(&mut self, game: &Game<S>) {
+    /// The box around what moves, with the room that is never left; around all that has an end, where nothing moves.
+    fn measure(&mut self, game: &Game<S>, (low, high): (DVec3, DVec3)) {
         let is_driven = |key| game.number(key).is_some_and(|number| self.is_driven(number));
         let bodies = || S::bodies(&game.world).filter(|(_, body)| S::ball(body).1.is_finite());
         let free = || bodies().filter(|(key, body)| !body.is_fixed() && !is_driven(*key));
@@ -96,6 +96,10 @@ impl<S: Sight> Stand<S> {
             free().fold((0.0, 0.0), |(sum, count), (_, body)| (sum + S::ball(body).1, count + 1.0));
         let size = if sum > 0.0 { sum / count } else { room.0.distance(room.1) * 0.05 };
         let mut bounds = driven.map_or(room, |driven| both(room, driven));
+        if low.is_finite() && high.is_finite() {
+            // Where they will go in a closed room; seldom up.
+            bounds = both(bounds, (low, DVec3::new(high.x, high.y.min(bounds.1.y), high.z)));
+        }
         if bounds.0.distance(bounds.1) > 2.0 * FARTHEST * size {
             // A world too large to see anything of from outside: where a body is, near the middle.
             let middle = (bounds.0 + bounds.1) * 0.5;
@@ -150,9 +154,13 @@ impl<S: Sight> Stand<S> {
         set_camera(&view.lens(!S::FLAT));
         self.solid.draw();
         self.glass.draw();
-        self.thin.draw();
-        set_camera(&view.lens(false));
-        self.over.draw();
+        self.thin.draw(1.0);
+        self.over.draw(1.0);
+        if !S::FLAT {
+            // Most of what is between bodies lies inside the heap.
+            set_camera(&view.lens(false));
+            self.over.draw(self.over.share());
+        }
     }
 
     /// Notes scenery that stands between the eye and where the bodies are.
