@@ -142,7 +142,7 @@ impl Window {
     fn mouse(&mut self) -> Option<DVec3> {
         let (at, moved) = (mouse_position_local(), mouse_delta_position());
         let at = [f64::from(at.x), f64::from(-at.y)];
-        // Of half the window: to the right and up.
+        // The way that the eye goes: against the mouse, so that the scene goes with it. macroquad gives last minus now.
         let [x, y] = [f64::from(moved.x), f64::from(-moved.y)];
         if is_mouse_button_released(MouseButton::Left) {
             self.show.release();
