@@ -111,9 +111,16 @@ impl Lines {
         self.0.push((ends, Color::from(color)));
     }
 
-    /// Draws all of them.
-    pub(crate) fn draw(&self) {
-        self.0.iter().for_each(|&([from, to], color)| draw_line_3d(from, to, color));
+    /// Draws all of them, the fainter the lower the share.
+    pub(crate) fn draw(&self, share: f32) {
+        for &([from, to], color) in &self.0 {
+            draw_line_3d(from, to, Color { a: color.a * share, ..color });
+        }
+    }
+
+    /// How faint they must be where they lie over each other: thousands would hide all else.
+    pub(crate) fn share(&self) -> f32 {
+        (400.0 / (self.0.len() as f32 + 1.0)).clamp(0.04, 0.9)
     }
 }
 

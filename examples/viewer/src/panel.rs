@@ -13,13 +13,12 @@ const INK: Color = Color::new(0.13, 0.12, 0.14, 1.0);
 const FAINT: Color = Color::new(0.13, 0.12, 0.14, 0.42);
 const PAPER: Color = Color::new(1.0, 1.0, 1.0, 0.72);
 
-const KEYS: [&str; 6] = [
+const KEYS: [&str; 5] = [
     "space pause   . step   R restart",
     "N next scene   B scene before",
     "left drag: throw a body, or look around",
     "right drag: move aside   wheel: zoom",
     "F whole scene   Esc leave",
-    "",
 ];
 
 /// Figures at the upper left, keys at the lower left: what is on in full ink.
@@ -39,7 +38,7 @@ pub(crate) fn draw(title: &str, report: &[String], toggles: &Toggles) {
     }
     for (i, (name, is_on)) in layers.into_iter().enumerate() {
         let column = 2.0 * EDGE + 112.0 * (i % 3) as f32;
-        draw_text(name, column, at(KEYS.len() - 1 + i / 3), SIZE, if is_on { INK } else { FAINT });
+        draw_text(name, column, at(KEYS.len() + i / 3), SIZE, if is_on { INK } else { FAINT });
     }
 }
 

@@ -10,7 +10,9 @@ use asunder_examples::game::Game;
 use asunder_examples::opened::{plane, volume};
 use asunder_examples::report::{STEP, Times, stages};
 use asunder_scenes::stages::Scene;
+use core::time::Duration;
 use std::error::Error;
+use std::time::Instant;
 
 /// How fast what is held goes to the hand: the share of the way, a second.
 const PULL: f64 = 10.0;
@@ -45,11 +47,11 @@ pub(crate) fn show(scene: &Scene) -> Result<Box<dyn Show>, Box<dyn Error>> {
     Ok(match scene {
         Scene::Plane(scene) => {
             let driven = scene.drivers.iter().map(|driver| driver.body as usize).collect();
-            Box::new(Player::<Plane>::new(plane(scene)?, driven))
+            Box::new(Player::<Plane>::new(plane(scene)?, driven, scene.room))
         }
         Scene::Volume(scene) => {
             let driven = scene.drivers.iter().map(|driver| driver.body as usize).collect();
-            Box::new(Player::<Volume>::new(volume(scene)?, driven))
+            Box::new(Player::<Volume>::new(volume(scene)?, driven, scene.room))
         }
     })
 }
@@ -59,6 +61,8 @@ struct Player<S: Sight> {
     stand: Stand<S>,
     times: Times,
     held: Option<Held>,
+    /// What it took to gather the last frame.
+    drawing: Duration,
 }
 
 struct Held {
@@ -68,10 +72,10 @@ struct Held {
 }
 
 impl<S: Sight> Player<S> {
-    fn new(mut game: Game<S>, driven: Vec<usize>) -> Self {
+    fn new(mut game: Game<S>, driven: Vec<usize>, (low, high): (S::Vector, S::Vector)) -> Self {
         game.update();
-        let stand = Stand::new(&game, driven);
-        Self { game, stand, times: Times::default(), held: None }
+        let stand = Stand::new(&game, driven, (S::in_space(low), S::in_space(high)));
+        Self { game, stand, times: Times::default(), held: None, drawing: Duration::ZERO }
     }
 }
 
@@ -87,7 +91,9 @@ impl<S: Sight> Show for Player<S> {
     }
 
     fn draw(&mut self, view: &View, toggles: &Toggles) {
+        let start = Instant::now();
         self.stand.draw(&self.game, view, toggles);
+        self.drawing = start.elapsed();
     }
 
     fn report(&self) -> Vec<String> {
@@ -101,6 +107,7 @@ impl<S: Sight> Show for Player<S> {
             format!("  solver   {:7.2} ms", ms(self.times.all.saturating_sub(self.times.updates()))),
         ];
         lines.extend(stages(stats).iter().map(|(name, time)| format!("  {name:<8} {:7.2} ms", ms(*time))));
+        lines.push(format!("drawing    {:7.2} ms", self.drawing.as_secs_f64() * 1e3));
         if let Some(note) = self.stand.note() {
             lines.push(note);
         }
@@ -110,7 +117,7 @@ impl<S: Sight> Show for Player<S> {
     fn hold(&mut self, (from, direction): (DVec3, DVec3)) -> Option<DVec3> {
         let (key, place) = S::pick(&self.game.world, from, direction, self.stand.hidden())?;
         let number = self.game.number(key)?;
-        if self.stand.is_scenery(number) || S::get(&self.game.world, key)?.is_fixed() {
+        if self.stand.is_driven(number) || S::get(&self.game.world, key)?.is_fixed() {
             return None;
         }
         self.held = Some(Held { number, offset: place - S::in_space(self.game.center(number)?) });

@@ -29,6 +29,8 @@ pub(crate) trait Sight: Physics {
     fn frame(body: &Collider<Self>, from: DVec3) -> Frame;
     /// The middle of a ball around a body, in the world, and its radius: infinite for what has no end.
     fn ball(body: &Collider<Self>) -> (DVec3, f64);
+    /// Two corners of the box around a body.
+    fn corners(body: &Collider<Self>) -> (DVec3, DVec3);
     /// Equal for shapes that look the same; nothing for those that are too many-sided to tell.
     fn likeness(body: &Collider<Self>) -> Option<[u64; 3]>;
     /// Triangles. What has no end is shown so far.

@@ -14,6 +14,10 @@ use std::collections::BTreeMap;
 
 /// No more bodies than this are drawn: those that are nearest.
 const MOST: usize = 40_000;
+/// Scenes of more sizes of a body from their middle are not shown whole at first,
+const FARTHEST: f64 = 300.0;
+/// but so many from a body.
+const NEAR: f64 = 30.0;
 /// Rays from the eye along each side of the scene that ask what hides it.
 const RAYS: usize = 5;
 /// Scenery that so many of them meet is left out.
@@ -28,6 +32,8 @@ pub(crate) struct Stand<S: Sight> {
     form_of: Vec<Option<u32>>,
     /// Whether a body goes its own way; by number.
     driven: Vec<bool>,
+    /// The box around what pushes moved at the start, and that with what is driven.
+    room: (DVec3, DVec3),
     bounds: (DVec3, DVec3),
     /// Of the bodies that move, about, in metres.
     size: f64,
@@ -53,7 +59,7 @@ struct Tiers {
 }
 
 impl<S: Sight> Stand<S> {
-    pub(crate) fn new(game: &Game<S>, moved: Vec<usize>) -> Self {
+    pub(crate) fn new(game: &Game<S>, moved: Vec<usize>, closed: (DVec3, DVec3)) -> Self {
         let mut driven = vec![false; game.len()];
         moved.into_iter().filter_map(|number| driven.get_mut(number).map(|is| *is = true)).count();
         let mut stand = Self {
@@ -61,6 +67,7 @@ impl<S: Sight> Stand<S> {
             known: BTreeMap::new(),
             form_of: vec![None; game.len()],
             driven,
+            room: (DVec3::ZERO, DVec3::ZERO),
             bounds: (DVec3::ZERO, DVec3::ZERO),
             size: 1.0,
             solid: Batch::default(),
@@ -71,31 +78,37 @@ impl<S: Sight> Stand<S> {
             tiers: Tiers::default(),
             left_out: 0,
         };
-        stand.measure(game);
+        stand.measure(game, closed);
         stand
     }
 
-    /// The box around what moves; around all that has an end, where nothing does.
-    fn measure(&mut self, game: &Game<S>) {
-        let ends = |moving: bool| {
-            let (mut low, mut high, mut sizes, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0.0, 0.0);
-            for (key, body) in S::bodies(&game.world) {
-                let is_driven = game.number(key).is_some_and(|number| self.is_scenery(number));
-                let (center, radius) = S::ball(body);
-                if radius.is_finite() && (!moving || !body.is_fixed() || is_driven) {
-                    let reach = if S::FLAT { DVec3::new(radius, radius, 0.0) } else { DVec3::splat(radius) };
-                    (low, high) = (low.min(center - reach), high.max(center + reach));
-                    if !is_driven {
-                        (sizes, count) = (sizes + radius, count + 1.0);
-                    }
-                }
-            }
-            low.cmple(high).all().then_some(((low, high), sizes / f64::max(count, 1.0)))
-        };
-        if let Some((bounds, size)) = ends(true).or_else(|| ends(false)) {
-            self.bounds = bounds;
-            self.size = if size > 0.0 { size } else { bounds.0.distance(bounds.1) * 0.05 };
+    /// The box around what moves, with the room that is never left; around all that has an end, where nothing moves.
+    fn measure(&mut self, game: &Game<S>, (low, high): (DVec3, DVec3)) {
+        let is_driven = |key| game.number(key).is_some_and(|number| self.is_driven(number));
+        let bodies = || S::bodies(&game.world).filter(|(_, body)| S::ball(body).1.is_finite());
+        let free = || bodies().filter(|(key, body)| !body.is_fixed() && !is_driven(*key));
+        let around = most(free().map(|(_, body)| S::corners(body)).collect());
+        let driven =
+            bodies().filter(|(key, _)| is_driven(*key)).map(|(_, body)| S::corners(body)).reduce(both);
+        let all = || bodies().map(|(_, body)| S::corners(body)).reduce(both);
+        let Some(room) = around.or(driven).or_else(all) else { return };
+        let (sum, count) =
+            free().fold((0.0, 0.0), |(sum, count), (_, body)| (sum + S::ball(body).1, count + 1.0));
+        let size = if sum > 0.0 { sum / count } else { room.0.distance(room.1) * 0.05 };
+        let mut bounds = driven.map_or(room, |driven| both(room, driven));
+        if low.is_finite() && high.is_finite() {
+            // Where they will go in a closed room; seldom up.
+            bounds = both(bounds, (low, DVec3::new(high.x, high.y.min(bounds.1.y), high.z)));
         }
+        if bounds.0.distance(bounds.1) > 2.0 * FARTHEST * size {
+            // A world too large to see anything of from outside: where a body is, near the middle.
+            let middle = (bounds.0 + bounds.1) * 0.5;
+            let centers = free().map(|(_, body)| S::ball(body).0);
+            let near = centers.min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
+            let reach = DVec3::splat(NEAR * size);
+            bounds = near.map_or(bounds, |near| (bounds.0.max(near - reach), bounds.1.min(near + reach)));
+        }
+        (self.room, self.bounds, self.size) = (room, bounds, size);
     }
 
     pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
@@ -108,7 +121,7 @@ impl<S: Sight> Stand<S> {
     }
 
     /// Whether a body goes its own way.
-    pub(crate) fn is_scenery(&self, number: usize) -> bool {
+    pub(crate) fn is_driven(&self, number: usize) -> bool {
         self.driven.get(number).is_some_and(|&is| is)
     }
 
@@ -141,9 +154,13 @@ impl<S: Sight> Stand<S> {
         set_camera(&view.lens(!S::FLAT));
         self.solid.draw();
         self.glass.draw();
-        self.thin.draw();
-        set_camera(&view.lens(false));
-        self.over.draw();
+        self.thin.draw(1.0);
+        self.over.draw(1.0);
+        if !S::FLAT {
+            // Most of what is between bodies lies inside the heap.
+            set_camera(&view.lens(false));
+            self.over.draw(self.over.share());
+        }
     }
 
     /// Notes scenery that stands between the eye and where the bodies are.
@@ -152,7 +169,7 @@ impl<S: Sight> Stand<S> {
         if S::FLAT || !is_on {
             return;
         }
-        let (low, high) = self.bounds;
+        let (low, high) = self.room;
         let large = 0.08 * low.distance(high);
         let (mut counts, mut found) = (BTreeMap::<S::Key, usize>::new(), Vec::new());
         for i in 0..RAYS * RAYS * RAYS {
@@ -222,7 +239,7 @@ impl<S: Sight> Stand<S> {
     fn paint(&self, number: usize, body: &Collider<S>, toggles: &Toggles) -> Paint {
         let paint = match (body.is_sensor(), body.is_fixed()) {
             (true, _) => return Paint::SENSOR,
-            _ if self.is_scenery(number) && body.is_fixed() => Paint::DRIVEN,
+            _ if self.is_driven(number) && body.is_fixed() => Paint::DRIVEN,
             (_, true) => Paint::SCENERY,
             _ if toggles.shows(Layer::Tiers) => {
                 let tier = self.tiers.of_body.get(number).copied().flatten();
@@ -230,7 +247,8 @@ impl<S: Sight> Stand<S> {
             }
             _ => S::paint(body).varied(number),
         };
-        if body.is_asleep() && toggles.shows(Layer::Sleep) { paint.asleep() } else { paint }
+        let is_dark = body.is_asleep() && toggles.shows(Layer::Sleep) && !toggles.shows(Layer::Tiers);
+        if is_dark { paint.asleep() } else { paint }
     }
 
     fn add_lines(&mut self, game: &Game<S>, view: &View, toggles: &Toggles) {
@@ -240,7 +258,7 @@ impl<S: Sight> Stand<S> {
             boxes: toggles.shows(Layer::Boxes),
             contacts: toggles.shows(Layer::Contacts) && !toggles.shows(Layer::Tiers),
             normals: toggles.shows(Layer::Normals),
-            length: (self.size * 0.8) as f32,
+            length: (self.size * 0.6) as f32,
             endless: self.bounds.0.distance(self.bounds.1) as f32,
         };
         let Self { thin, over, .. } = self;
@@ -273,6 +291,28 @@ impl<S: Sight> Stand<S> {
             }
         }
     }
+}
+
+/// The box around boxes. What flies far outside, of which there is one in a hundred or less, is left out.
+fn most(boxes: Vec<(DVec3, DVec3)>) -> Option<(DVec3, DVec3)> {
+    let (mut low, mut high) = boxes.iter().copied().reduce(both)?;
+    let few = boxes.len().div_ceil(100);
+    for axis in 0..3 {
+        let mut ends = [boxes.iter().map(|b| b.0[axis]).collect(), boxes.iter().map(|b| b.1[axis]).collect()];
+        ends.iter_mut().for_each(|ends: &mut Vec<f64>| ends.sort_unstable_by(f64::total_cmp));
+        let [lows, highs] = ends;
+        let (Some(&from), Some(&to)) = (lows.get(few), highs.get(highs.len().saturating_sub(few + 1))) else {
+            continue;
+        };
+        if from < to && to - from < 0.6 * (high[axis] - low[axis]) {
+            (low[axis], high[axis]) = (from, to);
+        }
+    }
+    Some((low, high))
+}
+
+fn both(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
+    (a.0.min(b.0), a.1.max(b.1))
 }
 
 impl Tiers {

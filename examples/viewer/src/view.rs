@@ -1,7 +1,7 @@
 //! Where the eye is, and what it sees.
 
 use asunder::glam::DVec3;
-use macroquad::camera::{Camera, Camera3D, Projection};
+use macroquad::camera::Camera;
 use macroquad::math::{Mat4, Vec3};
 use macroquad::texture::RenderPass;
 
@@ -110,23 +110,15 @@ impl View {
     pub(crate) fn lens(&self, has_depth: bool) -> Lens {
         let vec3 = |v: DVec3| Vec3::from_array(v.as_vec3().to_array());
         let [_, up, back] = self.axes();
-        let tall = 2.0 * HALF_ANGLE * self.distance;
-        let (projection, fovy) = match self.is_flat {
-            true => (Projection::Orthographics, tall),
-            false => (Projection::Perspective, 2.0 * libm::atan(HALF_ANGLE)),
+        let high = (HALF_ANGLE * self.distance) as f32;
+        let (wide, aspect) = (high * self.aspect as f32, self.aspect as f32);
+        let (near, far) = ((self.distance * 0.02) as f32, (self.distance * 40.0) as f32);
+        let seen = match self.is_flat {
+            true => Mat4::orthographic_rh_gl(-wide, wide, -high, high, near, far),
+            false => Mat4::perspective_rh_gl(2.0 * libm::atan(HALF_ANGLE) as f32, aspect, near, far),
         };
-        let camera = Camera3D {
-            position: vec3(back * self.distance),
-            target: Vec3::ZERO,
-            up: vec3(up),
-            fovy: fovy as f32,
-            aspect: Some(self.aspect as f32),
-            projection,
-            z_near: (self.distance * 0.02) as f32,
-            z_far: (self.distance * 40.0) as f32,
-            ..Camera3D::default()
-        };
-        Lens { matrix: camera.matrix(), has_depth }
+        let matrix = seen * Mat4::look_at_rh(vec3(back * self.distance), Vec3::ZERO, vec3(up));
+        Lens { matrix, has_depth }
     }
 }
 

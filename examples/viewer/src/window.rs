@@ -18,6 +18,7 @@ use macroquad::texture::get_screen_data;
 use macroquad::time::get_frame_time;
 use macroquad::window::{clear_background, next_frame, screen_height, screen_width};
 use std::error::Error;
+use std::fs::OpenOptions;
 use std::path::{Path, PathBuf};
 
 const SKY: Color = Color::new(0.90, 0.93, 0.96, 1.0);
@@ -141,7 +142,7 @@ impl Window {
     fn mouse(&mut self) -> Option<DVec3> {
         let (at, moved) = (mouse_position_local(), mouse_delta_position());
         let at = [f64::from(at.x), f64::from(-at.y)];
-        // Of half the window: to the right and up.
+        // The way that the eye goes: against the mouse, so that the scene goes with it. macroquad gives last minus now.
         let [x, y] = [f64::from(moved.x), f64::from(-moved.y)];
         if is_mouse_button_released(MouseButton::Left) {
             self.show.release();
@@ -191,7 +192,14 @@ impl Window {
 /// # Errors
 /// What the file system says.
 pub(crate) fn check(file: &Path) -> Result<(), String> {
-    std::fs::File::create(file).map(drop).map_err(|error| format!("{}: {error}", file.display()))
+    let is_new = !file.exists();
+    let opened = OpenOptions::new().append(true).create(true).open(file);
+    opened.map_err(|error| format!("{}: {error}", file.display()))?;
+    if is_new {
+        // Nothing is left behind where no window opens.
+        std::fs::remove_file(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    }
+    Ok(())
 }
 
 fn aspect() -> f64 {

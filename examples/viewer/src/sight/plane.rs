@@ -46,6 +46,11 @@ impl Sight for Plane {
         (center.extend(0.0), f64::from(body.shape().outer_radius()))
     }
 
+    fn corners(body: &Collider2) -> (DVec3, DVec3) {
+        let bounds = body.shape().bounds(body.pose(), 0.0);
+        (bounds.min.as_dvec2().extend(0.0), bounds.max.as_dvec2().extend(0.0))
+    }
+
     fn likeness(body: &Collider2) -> Option<[u64; 3]> {
         let radius = u64::from(body.shape().radius().to_bits());
         match body.shape() {

@@ -47,6 +47,11 @@ impl Sight for Volume {
         (center, f64::from(body.shape().outer_radius()))
     }
 
+    fn corners(body: &Collider3) -> (DVec3, DVec3) {
+        let bounds = body.shape().bounds(body.pose(), 0.0);
+        (bounds.min.as_dvec3(), bounds.max.as_dvec3())
+    }
+
     fn likeness(body: &Collider3) -> Option<[u64; 3]> {
         let radius = u64::from(body.shape().radius().to_bits());
         match body.shape() {
