@@ -1,8 +1,6 @@
 //! What the stepper does with bodies: bounces, carries, sends to sleep and wakes, and is played again.
 #![allow(clippy::unwrap_used, reason = "helpers of tests stop the test, as tests do")]
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests are outside of #[test]")]
-
 use asunder::glam::{DVec3, Vec3};
 use asunder::{Collider3, Cuboid, Pose3, Shape3, Sphere, Volume};
 use asunder_examples::game::{Game, MARGIN};
