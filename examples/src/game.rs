@@ -5,7 +5,7 @@ mod tally;
 use crate::flight::{Flight, Flights};
 use crate::islands::Islands;
 use crate::physics::{Physics, Touch};
-use crate::response::{Forces, Motion, Response};
+use crate::response::{Forces, Motion, Response, approach};
 use asunder::slotmap::SecondaryMap;
 use asunder::{Collider, Event, World};
 use asunder_scenes::stages::Feel;
@@ -401,10 +401,16 @@ impl<S: Physics> Game<S> {
         S::touches(&self.world, wanted, &mut self.touches);
     }
 
-    /// Wakes the islands that something touches which moves.
+    /// Wakes the islands that something which moves touches, or will touch in the next step: to be hit while asleep
+    /// is to be hit as a wall.
     fn wake(&mut self) -> bool {
-        let Self { bodies, islands, .. } = self;
-        for touch in self.touches.iter().filter(|touch| touch.separation < JOINED) {
+        let Self { bodies, motions, islands, seconds, .. } = self;
+        for touch in &self.touches {
+            let [a, b] = touch.bodies.map(|number| &motions[number as usize]);
+            let closing = approach(touch, [a, b]) * *seconds;
+            if touch.separation - closing.max(0.0) > JOINED {
+                continue;
+            }
             let [a, b] = touch.bodies;
             match touch.bodies.map(|number| bodies[number as usize].state) {
                 [State::Awake | State::Driven, State::Asleep] => islands.rouse(b),

@@ -119,6 +119,12 @@ impl<S: Physics> Motion<S> {
     }
 }
 
+/// How fast two bodies come together at a contact point, in m/s; negative where they part.
+pub(crate) fn approach<S: Physics>(touch: &Touch<S>, [a, b]: [&Motion<S>; 2]) -> f64 {
+    let (at_a, at_b) = (a.velocity_at(touch.anchor_a - a.offset), b.velocity_at(touch.anchor_b - b.offset));
+    S::dot(at_a - at_b, touch.normal)
+}
+
 impl<S: Physics> Response<S> {
     pub(crate) const NONE: Self = Self { points: Vec::new(), last: Vec::new() };
 
@@ -202,7 +208,7 @@ impl<S: Physics> Point<S> {
             separation: touch.separation,
             mass,
             pushes: Pushes { apart: 0.0, aside: S::Vector::default() },
-            speed_before: S::dot(b.velocity_at(arm_b) - a.velocity_at(arm_a), normal),
+            speed_before: -approach(touch, [a, b]),
             hardest: 0.0,
         }
     }

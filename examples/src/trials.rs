@@ -44,8 +44,8 @@ impl Figure {
 ///
 /// A pyramid of base 100 must be let sleep. It is a wall 100 m high and 1 m thick, and contacts that are springs make an
 /// elastic column of it, which buckles under its own weight (Greenhill, 1881: where q L^3 > 7.84 EI). With I the moment
-/// of a box's base and springs of f hertz, 20 boxes take f = 45, and 100 take 500, or forty short steps a step. A stack
-/// of 20 with 60 Hz sways as slowly as that says.
+/// of a box's base and springs of f hertz, 20 boxes take f = 45, and 100 take 500, or nearly seventy short steps a
+/// step. A stack of 20 with 60 Hz sways as slowly as that says.
 ///
 /// # Errors
 /// A stage in the plane.

@@ -250,7 +250,7 @@ impl Stage {
     /// whole; at least one of those. Of [`Stage::LargeWorld`] the size is that of the landscape, and one body for ten
     /// thousand of its boxes moves.
     ///
-    /// Cost: below a microsecond a body, and that of making up to 64 hulls.
+    /// Cost: linear in the size, and that of making up to 64 hulls.
     pub fn build(self, size: usize, seed: u64) -> Scene {
         let mut scene = match self {
             Self::Pyramid => Scene::Volume(stacks::pyramid(size)),

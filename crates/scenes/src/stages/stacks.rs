@@ -122,7 +122,7 @@ const COURSE: usize = 10;
 
 /// Courses of bricks in running bond, closed by half bricks, and a ball on its way.
 pub(super) fn brick_wall(size: usize) -> Scene3 {
-    let mut scene = on_a_floor(30.0, 30.0);
+    let mut scene = on_a_floor(15.0, 27.0);
     let (whole, half) = (cuboid(BRICK), cuboid(Vec3::new(0.5 * BRICK.x - 0.002, BRICK.y, BRICK.z)));
     let (wide, high) = (2.0 * f64::from(BRICK.x) + 0.004, 2.0 * f64::from(BRICK.y));
     let courses = (size / COURSE).max(1);
@@ -160,6 +160,7 @@ pub(super) fn dominoes(size: usize) -> Scene3 {
     let outer = inner + opening * size as f64 + 2.0;
     let mut scene = on_a_floor(outer, outer);
     let (shape, high) = (cuboid(DOMINO), f64::from(DOMINO.y));
+    (scene.feel.friction, scene.feel.spin_damping) = (0.4, 0.1);
     let mut angle = 0.0;
     for i in 0..size.max(1) {
         let radius = inner + opening * i as f64;
