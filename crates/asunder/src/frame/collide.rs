@@ -136,9 +136,7 @@ fn gather<S: Space>(world: &mut World<S>) {
     records.clear();
     manifolds.clear();
     let batch_count = asked.len().div_ceil(BATCH);
-    let mut answers = batches[..batch_count]
-        .iter()
-        .flat_map(|batch| batch.answers.iter().map(move |answer| (answer, &batch.manifolds)));
+    let mut answers = Answers::new(&mut batches[..batch_count]);
     let mut last = 0;
     for (&pair, &carried) in pairs.iter().zip(&*carried) {
         let start = manifolds.len() as u32;
@@ -159,17 +157,45 @@ fn gather<S: Space>(world: &mut World<S>) {
             }
             continue;
         }
-        let Some((answer, of_batch)) = answers.next() else { break };
+        let Some(answer) = answers.next(manifolds) else { break };
         let keys = (keys[pair.a as usize], keys[pair.b as usize]);
         let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = *answer;
         candidates.push(Candidate { pair, keys, hint });
-        if let (Answer::Contact { overlapping, manifolds: range, .. }, Some(a), Some(b)) =
+        if let (Answer::Contact { overlapping, .. }, Some(a), Some(b)) =
             (answer, bodies.get(keys.0), bodies.get(keys.1))
         {
-            let found = &of_batch[range_of(range)];
-            manifolds.extend_from_slice(found);
+            let found = &manifolds[start as usize..];
             let range = start..manifolds.len() as u32;
             records.push(record_of::<S>((pair, keys), [a, b], *overlapping, found, range));
+        }
+    }
+}
+
+/// The answers of all batches, one after the other. Manifolds are moved, not cloned: clones of heaps' are a twelfth of
+/// a frame (AMD EPYC, Zen 4, 2026-11-22).
+struct Answers<'a, M> {
+    batches: core::slice::IterMut<'a, Batch<M>>,
+    answers: core::slice::Iter<'a, Answer>,
+    manifolds: Option<std::vec::Drain<'a, M>>,
+}
+
+impl<'a, M> Answers<'a, M> {
+    fn new(batches: &'a mut [Batch<M>]) -> Self {
+        Self { batches: batches.iter_mut(), answers: [].iter(), manifolds: None }
+    }
+
+    /// The next answer; its manifolds go behind those of the one before it.
+    fn next(&mut self, manifolds: &mut Vec<M>) -> Option<&'a Answer> {
+        loop {
+            if let Some(answer) = self.answers.next() {
+                if let (Answer::Contact { manifolds: range, .. }, Some(left)) = (answer, &mut self.manifolds)
+                {
+                    manifolds.extend(left.take(range.len()));
+                }
+                return Some(answer);
+            }
+            let batch = self.batches.next()?;
+            (self.answers, self.manifolds) = (batch.answers.iter(), Some(batch.manifolds.drain(..)));
         }
     }
 }
