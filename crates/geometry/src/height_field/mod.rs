@@ -13,7 +13,6 @@ use crate::ground::{Ground, Prominent};
 use crate::mesh::bounds_of;
 use crate::pose3::Pose3;
 use crate::triangle::Triangle3;
-use core::ops::ControlFlow;
 use glam::{DVec3, Vec2, Vec3};
 use grid::{Cell, Grid};
 use std::sync::Arc;
