@@ -9,6 +9,7 @@
 //!   which has no peer here. A [`judge`] knows the true separations, and [`accuracy`] holds both sides against them.
 //! - [`certain`]: yes or no that is never wrong, beside the first tier alone.
 //! - [`world`]: whole frames, beside the [`lean`] pipeline over parry3d.
+//! - [`mesh`]: bodies, questions and casts on triangle meshes, beside parry3d's `TriMesh`.
 #![deny(missing_docs)]
 
 pub mod accuracy;
@@ -21,5 +22,6 @@ pub mod lean;
 pub mod mesh;
 pub mod narrow;
 pub mod parry;
+pub mod race;
 pub mod row;
 pub mod world;

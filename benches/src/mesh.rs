@@ -1,13 +1,15 @@
-//! Bodies, rays and casts on triangle meshes, beside parry3d's `TriMesh`.
+//! Bodies, questions, rays and casts on triangle meshes, beside parry3d's `TriMesh`.
 //!
-//! The ground is hills in cells of a metre. Bodies stand apart, so that all contacts are with the ground; both sides
-//! keep contacts up to 2 cm apart, and parry3d keeps its manifolds from frame to frame.
+//! The ground is hills in cells of a metre, or a plane cut into the same triangles. Bodies stand apart, so that all
+//! contacts are with the ground; both sides keep contacts up to 2 cm apart, and parry3d keeps its manifolds from frame
+//! to frame.
 
 mod asked;
 
-use crate::clock::{Effort, Samples, time};
+use crate::clock::Effort;
 use crate::lean::{Lean, LeanBody};
 use crate::parry::{self, Shapes};
+use crate::race::Race;
 use crate::row::Row;
 use crate::world::{MARGIN, Ours, peer_frame};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
@@ -24,19 +26,19 @@ use std::error::Error;
 pub enum Kind {
     /// A frame with bodies that all but rest: each moves by a tenth of a millimetre.
     Rest(Bodies),
+    /// The same on a plane.
+    Flat(Bodies),
     /// A frame with bodies that move on by two centimetres.
     Roll(Bodies),
     /// A ray from above, at a slant.
     Rays,
-    /// A sphere that flies down at a slant.
-    Spheres,
-    /// A cuboid that flies down at a slant.
-    Cuboids,
+    /// One body and the ground.
+    Asked(Question, Bodies),
     /// Making the mesh, a triangle.
     Build,
 }
 
-/// What stands on the ground.
+/// What stands on the ground, or is held against it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bodies {
     /// Cuboids with a side of 0.8 m.
@@ -45,6 +47,41 @@ pub enum Bodies {
     Hulls,
     /// Spheres as large.
     Spheres,
+}
+
+impl Bodies {
+    const ALL: [Self; 3] = [Self::Boxes, Self::Hulls, Self::Spheres];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Boxes => "box",
+            Self::Hulls => "hull32",
+            Self::Spheres => "sphere",
+        }
+    }
+}
+
+/// What is asked about a body and the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// Where it touches as it flies down at a slant.
+    Cast,
+    /// Whether they touch; half of the bodies do.
+    Overlap,
+    /// How far they are apart: up to 3 m.
+    Distance,
+}
+
+impl Question {
+    const ALL: [Self; 3] = [Self::Cast, Self::Overlap, Self::Distance];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Cast => "casts",
+            Self::Overlap => "overlap",
+            Self::Distance => "distance",
+        }
+    }
 }
 
 /// One row: what is measured, and on how many triangles.
@@ -61,12 +98,12 @@ const BODIES: usize = 1000;
 /// assert!(names.contains(&"rest/box/20k".into()) && names.contains(&"rays/1000k".into()));
 /// ```
 pub fn cases(effort: &Effort) -> Vec<Case> {
-    let bodies = [Bodies::Boxes, Bodies::Hulls, Bodies::Spheres];
-    let kinds: Vec<Kind> = bodies
+    let frames = Bodies::ALL
         .into_iter()
-        .flat_map(|bodies| [Kind::Rest(bodies), Kind::Roll(bodies)])
-        .chain([Kind::Rays, Kind::Spheres, Kind::Cuboids, Kind::Build])
-        .collect();
+        .flat_map(|bodies| [Kind::Rest(bodies), Kind::Flat(bodies), Kind::Roll(bodies)]);
+    let of_question = |question| Bodies::ALL.map(|bodies| Kind::Asked(question, bodies));
+    let asked = Question::ALL.into_iter().flat_map(of_question);
+    let kinds: Vec<Kind> = frames.chain([Kind::Rays]).chain(asked).chain([Kind::Build]).collect();
     let sizes: &[usize] = if effort.is_quick { &[20_000] } else { &[20_000, 1_000_000] };
     sizes.iter().flat_map(|&size| kinds.iter().map(move |&kind| (kind, size))).collect()
 }
@@ -78,17 +115,12 @@ pub fn cases(effort: &Effort) -> Vec<Case> {
 /// assert_eq!(mesh::name(&(Kind::Roll(Bodies::Hulls), 20_000)), "roll/hull32/20k");
 /// ```
 pub fn name(&(kind, triangles): &Case) -> String {
-    let of_bodies = |bodies| match bodies {
-        Bodies::Boxes => "box",
-        Bodies::Hulls => "hull32",
-        Bodies::Spheres => "sphere",
-    };
     let kind = match kind {
-        Kind::Rest(bodies) => format!("rest/{}", of_bodies(bodies)),
-        Kind::Roll(bodies) => format!("roll/{}", of_bodies(bodies)),
+        Kind::Rest(bodies) => format!("rest/{}", bodies.name()),
+        Kind::Flat(bodies) => format!("flat/{}", bodies.name()),
+        Kind::Roll(bodies) => format!("roll/{}", bodies.name()),
         Kind::Rays => "rays".into(),
-        Kind::Spheres => "casts/sphere".into(),
-        Kind::Cuboids => "casts/box".into(),
+        Kind::Asked(question, bodies) => format!("{}/{}", question.name(), bodies.name()),
         Kind::Build => "build".into(),
     };
     format!("{kind}/{}k", triangles / 1000)
@@ -100,9 +132,10 @@ pub fn name(&(kind, triangles): &Case) -> String {
 /// What refuses to be made, on either side.
 ///
 /// ```
-/// use asunder_benches::{clock::Effort, mesh::{self, Bodies, Kind}};
+/// use asunder_benches::{clock::Effort, mesh::{self, Bodies, Kind, Question}};
 /// let effort = Effort { rounds: 2, ..Effort::quick() };
-/// for kind in [Kind::Rest(Bodies::Boxes), Kind::Rays, Kind::Build] {
+/// let distance = Kind::Asked(Question::Distance, Bodies::Spheres);
+/// for kind in [Kind::Rest(Bodies::Boxes), Kind::Rays, distance, Kind::Build] {
 ///     let row = mesh::measure(&(kind, 2000), &effort)?;
 ///     assert!(row.ratio.is_some(), "{row:?}");
 /// }
@@ -110,20 +143,22 @@ pub fn name(&(kind, triangles): &Case) -> String {
 /// ```
 pub fn measure(case: &Case, effort: &Effort) -> Result<Row, Box<dyn Error>> {
     let (kind, triangles) = *case;
-    let terrain = Terrain::new(triangles, 1.0, 20);
+    let terrain = match kind {
+        Kind::Flat(_) => Terrain::flat(triangles, 1.0),
+        _ => Terrain::new(triangles, 1.0, 20),
+    };
+    let row = |per, n| Row::new(name(case), per, n);
     match kind {
-        Kind::Build => asked::build(&terrain, effort, Row::new(name(case), "triangle", triangles)),
-        Kind::Rays => asked::rays(&terrain, effort, Row::new(name(case), "ray", triangles)),
-        Kind::Spheres => {
-            let ball = Sphere::new(0.4)?.into();
-            asked::casts(&terrain, &ball, effort, Row::new(name(case), "cast", triangles))
+        Kind::Build => asked::build(&terrain, effort, row("triangle", triangles)),
+        Kind::Rays => asked::rays(&terrain, effort, row("ray", triangles)),
+        Kind::Asked(question, bodies) => {
+            let body = shape_of(bodies, &mut Random::new(23))?;
+            asked::bodies(&terrain, (question, &body), effort, row("question", triangles))
         }
-        Kind::Cuboids => {
-            let cube = Cuboid::from_half_extents(Vec3::splat(0.4))?.into();
-            asked::casts(&terrain, &cube, effort, Row::new(name(case), "cast", triangles))
+        Kind::Rest(bodies) | Kind::Flat(bodies) => {
+            frames(&terrain, bodies, 1e-4, effort, row("frame", BODIES))
         }
-        Kind::Rest(bodies) => frames(&terrain, bodies, 1e-4, effort, Row::new(name(case), "frame", BODIES)),
-        Kind::Roll(bodies) => frames(&terrain, bodies, 0.02, effort, Row::new(name(case), "frame", BODIES)),
+        Kind::Roll(bodies) => frames(&terrain, bodies, 0.02, effort, row("frame", BODIES)),
     }
 }
 
@@ -149,30 +184,22 @@ fn frames(
     let mut peer = Lean::new(lean.ok_or("parry3d refuses a shape")?, MARGIN);
     ours.world.update();
     peer.update();
-    let (mut ours_samples, mut peer_samples) = (Samples::default(), Samples::default());
-    for frame in 1..=effort.rounds {
+    let mut race = Race::default();
+    while !race.is_over(effort) {
+        let frame = race.ours.len() + 1;
         let poses = standing.poses(frame, step)?;
         let converted: Vec<(u32, Pose)> = poses.iter().map(|(i, pose)| (*i, parry::pose(pose))).collect();
-        let (ns, walked) = time(|| ours.frame(&poses));
-        ours_samples.push(ns, ns);
-        let (ns, peer_walked) = time(|| peer_frame(&mut peer, &converted));
-        peer_samples.push(ns, ns);
+        let (walked, peer_walked) = race.turn(1, || ours.frame(&poses), || peer_frame(&mut peer, &converted));
         if frame == 1 {
             row.remark(&format!("{} contacts, {} points", walked.contacts, walked.points));
             row.remark(&format!("peer: {} contacts, {} points", peer_walked.contacts, peer_walked.points));
         }
-        if ours_samples.spent().max(peer_samples.spent()) > effort.nanoseconds() {
-            break;
-        }
     }
-    row.done = ours_samples.len();
-    row.ours_ns = ours_samples.median();
-    (row.peer, row.peer_ns) = (Some("lean parry3d"), peer_samples.median());
-    row.finish();
+    race.tell(&mut row, "lean parry3d");
     Ok(row)
 }
 
-/// Bodies on hills.
+/// Bodies on the ground.
 struct Standing {
     /// The ground first.
     bodies: Vec<Body3>,

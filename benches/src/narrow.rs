@@ -21,9 +21,10 @@ mod both;
 mod cached;
 
 use crate::accuracy::Accuracy;
-use crate::clock::{Effort, Samples, time};
+use crate::clock::{Effort, time};
 use crate::judge::Judge;
 use crate::parry::Shapes;
+use crate::race::Race;
 use crate::row::Row;
 use asunder_narrow::{Batch3, Hint, Job3, Pair3, collide3, separations3};
 use asunder_scenes::pairs::{FRAMES, PairSet, PosedPair3, SolidKind, frames3, pairs3};
@@ -178,7 +179,7 @@ pub fn measure(case: &Case, effort: &Effort, judge: &mut Judge) -> Row {
         row.remark("parry3d refuses a hull");
         return row;
     };
-    let (ours, peer) = match (operation, at_once) {
+    let race = match (operation, at_once) {
         (Operation::Cached, _) => cached::time_frames(&all, effort, &mut row),
         (_, false) => fresh(operation, &all[0], effort, &mut row),
         (_, true) => batched(operation, &all[0], effort, &mut row),
@@ -186,11 +187,10 @@ pub fn measure(case: &Case, effort: &Effort, judge: &mut Judge) -> Row {
     if is_growing && operation == Operation::Separation {
         slowest(&all[0], effort, &mut row);
     }
-    row.done = row.done.min(row.n);
-    row.ours_ns = ours.median();
-    (row.peer, row.peer_ns) = (Some("parry3d"), peer.median());
+    let done = row.done.min(row.n);
+    race.tell(&mut row, "parry3d");
+    row.done = done;
     row.accuracy = Some(judged(case, effort, &frames, &all, judge));
-    row.finish();
     row
 }
 
@@ -252,25 +252,22 @@ fn in_turns<B>(
     row: &mut Row,
     mut ours: impl FnMut(&B) -> f32,
     mut peer: impl FnMut(&B) -> f32,
-) -> (Samples, Samples) {
-    let (mut of_ours, mut of_peer) = (Samples::default(), Samples::default());
+) -> Race {
+    let mut race = Race::default();
     'rounds: for _ in 0..effort.rounds {
         for (count, block) in blocks {
-            let (ns, _) = time(|| ours(block));
-            of_ours.push(ns / *count as f64, ns);
-            let (ns, _) = time(|| peer(block));
-            of_peer.push(ns / *count as f64, ns);
+            race.turn(*count, || ours(block), || peer(block));
             row.done += count;
-            if of_ours.spent().max(of_peer.spent()) > effort.nanoseconds() {
+            if race.is_spent(effort) {
                 break 'rounds;
             }
         }
     }
-    (of_ours, of_peer)
+    race
 }
 
 /// Questions without memory, one by one.
-fn fresh(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row) -> (Samples, Samples) {
+fn fresh(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row) -> Race {
     let first = pairs.first().map_or(0.0, |both| time(|| both.ask(operation)).0);
     let blocks = pairs.chunks(block_size(first, effort));
     let blocks: Vec<(usize, &[Both])> = blocks.map(|block| (block.len(), block)).collect();
@@ -280,7 +277,7 @@ fn fresh(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row) -
 }
 
 /// Questions without memory, many at once. The jobs are there beforehand, as the peer's shapes are.
-fn batched(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row) -> (Samples, Samples) {
+fn batched(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row) -> Race {
     let is_sensor = operation == Operation::Boolean;
     let blocks: Vec<(usize, Block<'_>)> =
         pairs.chunks(BLOCK).map(|pairs| (pairs.len(), Block::new(pairs, is_sensor))).collect();

@@ -8,6 +8,7 @@ pub mod threads;
 use crate::clock::{Effort, Samples, time};
 use crate::lean::{Lean, LeanBody, Walked};
 use crate::parry::{self, Shapes};
+use crate::race::Race;
 use crate::row::Row;
 use asunder::{BodyKey2, BodyKey3, Collider2, Collider3, MarginError, World2, World3};
 use asunder_geometry::Pose3;
@@ -84,26 +85,15 @@ fn measure_volume(
     };
     ours.world.update();
     peer.update();
-    let (mut ours_samples, mut peer_samples) = (Samples::default(), Samples::default());
-    let mut stages = Stages::default();
+    let (mut race, mut stages) = (Race::default(), Stages::default());
     let (mut found, mut peer_found) = (Walked::default(), Walked::default());
-    for frame in 1..=effort.rounds as u32 {
-        let poses = poses_at(&mut replay, frame);
+    while !race.is_over(effort) {
+        let poses = poses_at(&mut replay, race.ours.len() as u32 + 1);
         let converted: Vec<(u32, Pose)> = poses.iter().map(|(i, pose)| (*i, parry::pose(pose))).collect();
-        let (ns, walked) = time(|| ours.frame(&poses));
-        ours_samples.push(ns, ns);
+        (found, peer_found) = race.turn(1, || ours.frame(&poses), || peer_frame(&mut peer, &converted));
         stages.push(ours.world.stats());
-        found = walked;
-        let (ns, walked) = time(|| peer_frame(&mut peer, &converted));
-        peer_samples.push(ns, ns);
-        peer_found = walked;
-        if ours_samples.spent().max(peer_samples.spent()) > effort.nanoseconds() {
-            break;
-        }
     }
-    row.done = ours_samples.len();
-    row.ours_ns = ours_samples.median();
-    (row.peer, row.peer_ns) = (Some("lean parry3d"), peer_samples.median());
+    race.tell(&mut row, "lean parry3d");
     let stats = ours.world.stats();
     row.world = Some(stages.figures(stats));
     row.remark(&format!(
@@ -116,7 +106,6 @@ fn measure_volume(
         peer_found.contacts,
         peer_found.points
     ));
-    row.finish();
     Ok(row)
 }
 

@@ -1,9 +1,10 @@
 //! From a scene to a game: stages by name, and scene files.
 
 use crate::game::{Game, MARGIN};
+use crate::physics::Physics;
 use asunder::{Collider, Collider2, Collider3, Layers, Plane, Space, Volume};
-use asunder_scenes::level::{Level, LevelLayers};
-use asunder_scenes::stages::{Scene, Scene2, Scene3, Stage};
+use asunder_scenes::level::{Level, LevelBody, LevelLayers};
+use asunder_scenes::stages::{Path2, Path3, Scene, Scene2, Scene3, SceneOf, Stage};
 use std::error::Error;
 use std::path::Path;
 
@@ -66,21 +67,7 @@ pub fn scene(name: &str, size: Option<usize>) -> Result<Scene, Box<dyn Error>> {
 /// # Errors
 /// A body that moves and has no mass.
 pub fn plane(scene: &Scene2) -> Result<Game<Plane>, Box<dyn Error>> {
-    let mut game = Game::new(scene.level.gravity);
-    game.feel = scene.feel;
-    for (number, body) in scene.level.bodies.iter().enumerate() {
-        let collider = Collider2::new(body.shape.clone()).at(body.pose).margin(margin(body.sensor))?;
-        let flags = [body.fixed, body.sensor, scene.bullets.binary_search(&(number as u32)).is_ok()];
-        let collider = with_flags(collider, flags, body.layers).user_data(body.user_data);
-        let collider = owned(collider, &scene.owners, number);
-        game.add(collider, &body.shape, &body.pose, body.linear_velocity, body.angular_velocity)
-            .map_err(|error| format!("bodies[{number}].shape: {error}"))?;
-    }
-    for driver in &scene.drivers {
-        let path = driver.path.clone();
-        game.drive(driver.body as usize, move |frame| path.pose_at(frame));
-    }
-    Ok(game)
+    game(scene, |shape, pose| Collider2::new(shape).at(pose), Path2::pose_at)
 }
 
 /// The game of a scene in space.
@@ -88,10 +75,21 @@ pub fn plane(scene: &Scene2) -> Result<Game<Plane>, Box<dyn Error>> {
 /// # Errors
 /// A body that moves and has no mass.
 pub fn volume(scene: &Scene3) -> Result<Game<Volume>, Box<dyn Error>> {
+    game(scene, |shape, pose| Collider3::new(shape).at(pose), Path3::pose_at)
+}
+
+type Body<S> =
+    LevelBody<<S as Space>::Shape, <S as Space>::Pose, <S as Physics>::Vector, <S as Physics>::Spin>;
+
+fn game<S: Physics, P: Clone + Send + 'static>(
+    scene: &SceneOf<S::Vector, Body<S>, P>,
+    collider: fn(S::Shape, S::Pose) -> Collider<S>,
+    pose_at: fn(&P, u32) -> S::Pose,
+) -> Result<Game<S>, Box<dyn Error>> {
     let mut game = Game::new(scene.level.gravity);
     game.feel = scene.feel;
     for (number, body) in scene.level.bodies.iter().enumerate() {
-        let collider = Collider3::new(body.shape.clone()).at(body.pose).margin(margin(body.sensor))?;
+        let collider = collider(body.shape.clone(), body.pose).margin(margin(body.sensor))?;
         let flags = [body.fixed, body.sensor, scene.bullets.binary_search(&(number as u32)).is_ok()];
         let collider = with_flags(collider, flags, body.layers).user_data(body.user_data);
         let collider = owned(collider, &scene.owners, number);
@@ -100,7 +98,7 @@ pub fn volume(scene: &Scene3) -> Result<Game<Volume>, Box<dyn Error>> {
     }
     for driver in &scene.drivers {
         let path = driver.path.clone();
-        game.drive(driver.body as usize, move |frame| path.pose_at(frame));
+        game.drive(driver.body as usize, move |frame| pose_at(&path, frame));
     }
     Ok(game)
 }

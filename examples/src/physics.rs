@@ -3,7 +3,6 @@
 use asunder::slotmap::Key;
 use asunder::{Collider, Event, Space, World};
 use core::ops::{Add, AddAssign, Mul, Sub, SubAssign};
-use std::io::{Read, Write};
 
 /// Vectors, and what bodies spin by: a number in the plane, a vector in space.
 pub trait Linear:
@@ -40,6 +39,8 @@ pub trait Physics: Space {
     type Turn: Copy;
     /// An inverse inertia about the centre of mass.
     type Inertia: Copy;
+    /// How many numbers a position has, and how many a rotation.
+    const NUMBERS: [usize; 2];
     /// Of what no torque turns.
     const IMMOVABLE: Self::Inertia;
 
@@ -102,18 +103,10 @@ pub trait Physics: Space {
     );
     /// How many contacts there are by where bodies are, and how many of them share a point.
     fn count_contacts(world: &World<Self>) -> (u32, u32);
-    /// Writes a pose, bit for bit.
-    ///
-    /// # Errors
-    /// Those of what it is written to.
-    fn write_pose(pose: &Self::Pose, to: &mut impl Write) -> Result<(), std::io::Error>;
-    /// Reads a pose; nothing where the numbers are none.
-    ///
-    /// # Errors
-    /// Those of what it is read from.
-    fn read_pose(from: &mut impl Read) -> Result<Option<Self::Pose>, std::io::Error>;
-    /// Numbers that differ wherever two poses do.
-    fn pose_bits(pose: &Self::Pose) -> impl Iterator<Item = u64>;
+    /// The numbers of a pose, bit for bit: those of the position, then those of the rotation, which are f32.
+    fn numbers(pose: &Self::Pose) -> impl Iterator<Item = f64>;
+    /// The pose of such numbers; nothing where they are none.
+    fn of_numbers(numbers: &[f64]) -> Option<Self::Pose>;
 }
 
 /// Mass at unit density, and how it is spread.

@@ -73,6 +73,8 @@ struct Canvas {
     low: DVec2,
     high: DVec2,
     pixels: f64,
+    /// What widths of lines and marks are multiplied by.
+    fine: f64,
 }
 
 impl Canvas {
@@ -87,7 +89,24 @@ impl Canvas {
         (low, high) = (low - air, high + air);
         // A scene much taller than wide is shown as tall as the picture is wide.
         let pixels = WIDTH / (high - low).max_element();
-        Self { elements: String::new(), low, high, pixels }
+        Self { elements: String::new(), low, high, pixels, fine: 1.0 }
+    }
+
+    /// Shows the middle of a scene that is wider than so many times its height, as large as the picture allows.
+    fn at_most_wide(mut self, times: f64) -> Self {
+        let size = self.high - self.low;
+        let cut = 0.5 * (size.x - times * size.y);
+        if cut > 0.0 {
+            (self.low.x, self.high.x) = (self.low.x + cut, self.high.x - cut);
+            self.pixels = WIDTH / (self.high - self.low).max_element();
+        }
+        self
+    }
+
+    /// Thinner lines and smaller marks where bodies of so many metres are smaller than 30 pixels.
+    fn fine_for(mut self, size: f64) -> Self {
+        self.fine = (size * self.pixels / 30.0).clamp(0.1, 1.0);
+        self
     }
 
     fn at(&self, point: DVec2) -> DVec2 {
@@ -103,6 +122,13 @@ impl Canvas {
     }
 
     fn path(&mut self, points: &[DVec2], end: &str, pen: Pen) {
+        if (0..2).any(|axis| {
+            points.iter().all(|point| point[axis] < self.low[axis])
+                || points.iter().all(|point| point[axis] > self.high[axis])
+        }) {
+            return;
+        }
+        let pen = Pen { width: pen.width * self.fine, ..pen };
         self.elements.push_str("<path d=\"");
         for (i, &point) in points.iter().enumerate() {
             let DVec2 { x, y } = self.at(point);
@@ -115,6 +141,7 @@ impl Canvas {
     /// A round mark, its radius in pixels.
     fn dot(&mut self, center: DVec2, radius: f64, pen: Pen) {
         let DVec2 { x, y } = self.at(center);
+        let radius = radius * self.fine;
         let _ = writeln!(
             self.elements,
             "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\"{}/>",

@@ -1,10 +1,8 @@
 //! The game in the plane.
 
 use crate::physics::{Mass, Physics, Touch, TouchId};
-use crate::recording::read;
 use asunder::glam::DVec2;
 use asunder::{BodyKey2, Collider2, Event2, Motion2, Plane, Pose2, Rotation2, Shape2, World2};
-use std::io::{Read, Write};
 
 impl Physics for Plane {
     type Vector = DVec2;
@@ -12,6 +10,7 @@ impl Physics for Plane {
     /// Cosine and sine.
     type Turn = DVec2;
     type Inertia = f64;
+    const NUMBERS: [usize; 2] = [2, 2];
     const IMMOVABLE: f64 = 0.0;
 
     #[inline]
@@ -159,31 +158,13 @@ impl Physics for Plane {
         near.fold((0, 0), |(near, touching), contact| (near + 1, touching + u32::from(contact.overlapping)))
     }
 
-    fn write_pose(pose: &Pose2, to: &mut impl Write) -> Result<(), std::io::Error> {
-        for coordinate in pose.position().to_array() {
-            to.write_all(&coordinate.to_le_bytes())?;
-        }
-        for number in [pose.rotation().cos(), pose.rotation().sin()] {
-            to.write_all(&number.to_le_bytes())?;
-        }
-        Ok(())
-    }
-
-    fn read_pose(from: &mut impl Read) -> Result<Option<Pose2>, std::io::Error> {
-        let mut position = [0.0; 2];
-        for coordinate in &mut position {
-            *coordinate = f64::from_le_bytes(read(from)?);
-        }
-        let mut rotation = [0.0; 2];
-        for number in &mut rotation {
-            *number = f32::from_le_bytes(read(from)?);
-        }
-        let Ok(rotation) = Rotation2::new(rotation[0], rotation[1]) else { return Ok(None) };
-        Ok(Pose2::new(position, rotation).ok())
-    }
-
-    fn pose_bits(pose: &Pose2) -> impl Iterator<Item = u64> {
+    fn numbers(pose: &Pose2) -> impl Iterator<Item = f64> {
         let rotation = [pose.rotation().cos(), pose.rotation().sin()].map(f64::from);
-        pose.position().to_array().into_iter().chain(rotation).map(f64::to_bits)
+        pose.position().to_array().into_iter().chain(rotation)
+    }
+
+    fn of_numbers(numbers: &[f64]) -> Option<Pose2> {
+        let &[x, y, cos, sin] = numbers else { return None };
+        Self::pose(DVec2::new(x, y), DVec2::new(cos, sin))
     }
 }

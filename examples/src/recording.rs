@@ -160,13 +160,33 @@ pub fn write_step<S: Physics>(to: &mut impl Write, step: &Step<S>) -> Result<(),
     to.write_all(&(step.moved.len() as u32).to_le_bytes())?;
     for (body, pose) in &step.moved {
         to.write_all(&body.to_le_bytes())?;
-        S::write_pose(pose, to)?;
+        write_pose::<S>(pose, to)?;
     }
     to.write_all(&(step.left.len() as u32).to_le_bytes())?;
     for number in step.left.iter().chain([&step.contacts, &step.touching]) {
         to.write_all(&number.to_le_bytes())?;
     }
     Ok(())
+}
+
+fn write_pose<S: Physics>(pose: &S::Pose, to: &mut impl Write) -> Result<(), std::io::Error> {
+    let [of_position, _] = S::NUMBERS;
+    S::numbers(pose).enumerate().try_for_each(|(place, number)| match place < of_position {
+        true => to.write_all(&number.to_le_bytes()),
+        false => to.write_all(&(number as f32).to_le_bytes()),
+    })
+}
+
+fn read_pose<S: Physics>(from: &mut impl Read) -> Result<Option<S::Pose>, std::io::Error> {
+    let [of_position, of_rotation] = S::NUMBERS;
+    let mut numbers = Vec::with_capacity(of_position + of_rotation);
+    for _ in 0..of_position {
+        numbers.push(f64::from_le_bytes(read(from)?));
+    }
+    for _ in 0..of_rotation {
+        numbers.push(f64::from(f32::from_le_bytes(read(from)?)));
+    }
+    Ok(S::of_numbers(&numbers))
 }
 
 /// Reads the head of a recording.
@@ -218,7 +238,7 @@ pub fn read_step<S: Physics>(from: &mut impl Read, head: &Head) -> Result<Option
     let mut moved = Vec::new();
     for _ in 0..count {
         let body = read_body(from, head)?;
-        let pose = S::read_pose(from)?.ok_or(RecordError::Pose { body })?;
+        let pose = read_pose::<S>(from)?.ok_or(RecordError::Pose { body })?;
         moved.push((body, pose));
     }
     let count = check_count(read_u32(from)?, head)?;
@@ -240,7 +260,7 @@ fn read_u32(from: &mut impl Read) -> Result<u32, RecordError> {
 }
 
 /// So many bytes.
-pub(crate) fn read<const N: usize>(from: &mut impl Read) -> Result<[u8; N], std::io::Error> {
+fn read<const N: usize>(from: &mut impl Read) -> Result<[u8; N], std::io::Error> {
     let mut bytes = [0; N];
     from.read_exact(&mut bytes)?;
     Ok(bytes)

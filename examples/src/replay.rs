@@ -33,7 +33,9 @@ impl<S: Physics, W: Write> Recorder<S, W> {
         for (number, last) in self.last.iter_mut().enumerate() {
             let now = pose(game, number);
             match (&*last, now) {
-                (Some(before), Some(now)) if !S::pose_bits(before).eq(S::pose_bits(&now)) => {
+                (Some(before), Some(now))
+                    if !S::numbers(before).map(f64::to_bits).eq(S::numbers(&now).map(f64::to_bits)) =>
+                {
                     moved.push((number as u32, now));
                 }
                 (Some(_), None) => left.push(number as u32),

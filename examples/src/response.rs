@@ -223,6 +223,12 @@ impl<S: Physics> Point<S> {
         motions[self.b].push(self.arm_b, push);
     }
 
+    /// The velocity of B's point, as seen from A's.
+    #[inline]
+    fn drift(&self, motions: &[Motion<S>]) -> S::Vector {
+        motions[self.b].velocity_at(self.arm_b) - motions[self.a].velocity_at(self.arm_a)
+    }
+
     fn push(&mut self, motions: &mut [Motion<S>], substep: f64, spring: Option<&Spring>, friction: f64) {
         self.push_apart(motions, substep, spring);
         self.push_aside(motions, friction);
@@ -232,7 +238,7 @@ impl<S: Physics> Point<S> {
         let (a, b) = (&motions[self.a], &motions[self.b]);
         let carried = b.moved + S::sweep(b.turned, self.arm_b) - a.moved - S::sweep(a.turned, self.arm_a);
         let separation = self.separation + S::dot(carried, self.normal);
-        let speed = S::dot(b.velocity_at(self.arm_b) - a.velocity_at(self.arm_a), self.normal);
+        let speed = S::dot(self.drift(motions), self.normal);
         let push = match spring {
             // In a gap: allow as much speed as closes it.
             _ if separation > 0.0 => -self.mass * (speed + separation / substep),
@@ -259,13 +265,13 @@ impl<S: Physics> Point<S> {
         if most == 0.0 && self.pushes.aside == S::Vector::default() {
             return;
         }
-        let (a, b) = (&motions[self.a], &motions[self.b]);
-        let velocity = b.velocity_at(self.arm_b) - a.velocity_at(self.arm_a);
+        let velocity = self.drift(motions);
         let slide = velocity - self.normal * S::dot(velocity, self.normal);
         let speed = S::dot(slide, slide).sqrt();
         let mut aside = self.pushes.aside;
         if speed > 1e-12 {
             let direction = slide * (1.0 / speed);
+            let (a, b) = (&motions[self.a], &motions[self.b]);
             let yielding = a.yielding(self.arm_a, direction) + b.yielding(self.arm_b, direction);
             if yielding > 0.0 {
                 aside -= direction * (speed / yielding);
@@ -284,8 +290,7 @@ impl<S: Physics> Point<S> {
         if self.speed_before > -BOUNCE_SPEED || self.hardest == 0.0 {
             return;
         }
-        let (a, b) = (&motions[self.a], &motions[self.b]);
-        let speed = S::dot(b.velocity_at(self.arm_b) - a.velocity_at(self.arm_a), self.normal);
+        let speed = S::dot(self.drift(motions), self.normal);
         let push = -self.mass * (speed + restitution * self.speed_before);
         self.set_apart(motions, self.pushes.apart + push);
     }

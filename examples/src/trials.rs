@@ -45,7 +45,9 @@ impl Figure {
 /// A pyramid of base 100 must be let sleep. It is a wall 100 m high and 1 m thick, and contacts that are springs make an
 /// elastic column of it, which buckles under its own weight (Greenhill, 1881: where q L^3 > 7.84 EI). With I the moment
 /// of a box's base and springs of f hertz, 20 boxes take f = 45, and 100 take 500, or nearly seventy short steps a
-/// step. A stack of 20 with 60 Hz sways as slowly as that says.
+/// step. A stack of 20 with 60 Hz sways as slowly as that says. Kept awake with its 12 short steps, the pyramid leans by
+/// 1.9 cm from the 8th second to the 10th, half as fast again every second, and by 1.7 m to the 20th (2026-11-22). Tried
+/// without gain: the points of a pair from the last to the first in every other short step.
 ///
 /// # Errors
 /// A stage in the plane.

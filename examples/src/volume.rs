@@ -1,16 +1,15 @@
 //! The game in space.
 
 use crate::physics::{Mass, Physics, Touch, TouchId};
-use crate::recording::read;
-use asunder::glam::{DMat3, DQuat, DVec3, Quat};
+use asunder::glam::{DMat3, DQuat, DVec3};
 use asunder::{BodyKey3, Collider3, Event3, Motion3, Pose3, Shape3, Volume, World3};
-use std::io::{Read, Write};
 
 impl Physics for Volume {
     type Vector = DVec3;
     type Spin = DVec3;
     type Turn = DQuat;
     type Inertia = DMat3;
+    const NUMBERS: [usize; 2] = [3, 4];
     const IMMOVABLE: DMat3 = DMat3::ZERO;
 
     #[inline]
@@ -163,30 +162,13 @@ impl Physics for Volume {
         near.fold((0, 0), |(near, touching), contact| (near + 1, touching + u32::from(contact.overlapping)))
     }
 
-    fn write_pose(pose: &Pose3, to: &mut impl Write) -> Result<(), std::io::Error> {
-        for coordinate in pose.position().to_array() {
-            to.write_all(&coordinate.to_le_bytes())?;
-        }
-        for number in pose.rotation().to_array() {
-            to.write_all(&number.to_le_bytes())?;
-        }
-        Ok(())
-    }
-
-    fn read_pose(from: &mut impl Read) -> Result<Option<Pose3>, std::io::Error> {
-        let mut position = [0.0; 3];
-        for coordinate in &mut position {
-            *coordinate = f64::from_le_bytes(read(from)?);
-        }
-        let mut rotation = [0.0; 4];
-        for number in &mut rotation {
-            *number = f32::from_le_bytes(read(from)?);
-        }
-        Ok(Pose3::new(position, Quat::from_array(rotation)).ok())
-    }
-
-    fn pose_bits(pose: &Pose3) -> impl Iterator<Item = u64> {
+    fn numbers(pose: &Pose3) -> impl Iterator<Item = f64> {
         let rotation = pose.rotation().to_array().map(f64::from);
-        pose.position().to_array().into_iter().chain(rotation).map(f64::to_bits)
+        pose.position().to_array().into_iter().chain(rotation)
+    }
+
+    fn of_numbers(numbers: &[f64]) -> Option<Pose3> {
+        let &[x, y, z, i, j, k, w] = numbers else { return None };
+        Self::pose(DVec3::new(x, y, z), DQuat::from_xyzw(i, j, k, w))
     }
 }

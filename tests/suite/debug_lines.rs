@@ -5,8 +5,15 @@ use asunder::{Collider2, Collider3, DebugLine, DebugOptions, Pair3, Pose2, Pose3
 use asunder_tests::cases::Random;
 use asunder_tests::shapes::{Clay, KINDS2, KINDS3};
 
-const SHAPES: DebugOptions =
-    DebugOptions { shapes: true, boxes: false, contacts: false, normals: false, length: 0.2, endless: 20.0 };
+const SHAPES: DebugOptions = DebugOptions {
+    shapes: true,
+    boxes: false,
+    columns: false,
+    contacts: false,
+    normals: false,
+    length: 0.2,
+    endless: 20.0,
+};
 
 /// Every line of an outline starts and ends in its body's box, and together they are nearly as wide as it: arcs are
 /// drawn by chords.
@@ -116,6 +123,38 @@ fn crosses_and_normals_stand_where_bodies_touch() {
         });
     }
     assert!(crosses > 50 && crosses == 2 * normals, "{crosses} arms, {normals} normals");
+}
+
+/// Every box that stands in a column's drawn bounds is counted in it, and nothing further than a rounding away.
+#[test]
+fn columns_are_drawn_where_their_boxes_are() {
+    let mut random = Random::new(902);
+    let (mut world, mut flat) = (World3::new(), World2::new());
+    for _ in 0..600 {
+        let place = random.vector() * 50.0;
+        let ball = asunder::Sphere::new(0.5).unwrap();
+        world.insert(Collider3::new(ball).at(Pose3::at(place).unwrap()));
+        let disc = asunder::Circle::new(0.5).unwrap();
+        flat.insert(Collider2::new(disc).at(Pose2::at(place.truncate()).unwrap()));
+    }
+    world.update();
+    flat.update();
+    let options = DebugOptions { shapes: false, boxes: true, columns: true, ..DebugOptions::default() };
+    let (mut boxes, mut columns) = (0, vec![]);
+    world.debug_lines(&options, &mut |from, to, what| match what {
+        DebugLine::Box => boxes += 1,
+        DebugLine::Column => columns.push((from, to)),
+        _ => {}
+    });
+    assert!(boxes == 12 * 600 && columns.len() > 12 && columns.len().is_multiple_of(12), "{}", columns.len());
+    // One axis is swept: all columns reach along it from end to end, and so far that nearly all boxes are inside.
+    let all = columns.iter().flat_map(|&(from, to)| [from, to]);
+    let (low, high) =
+        all.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), end| (low.min(end), high.max(end)));
+    assert!((high - low).min_element() > 90.0 && (high - low).max_element() < 130.0, "{low} {high}");
+    let mut strips = 0;
+    flat.debug_lines(&options, &mut |_, _, what| strips += usize::from(what == DebugLine::Column));
+    assert!(strips > 4 && strips.is_multiple_of(4), "{strips}");
 }
 
 #[test]

@@ -24,7 +24,7 @@ enum Part {
     Narrow(Options),
     /// Whole frames, from poses to contact points.
     World(WorldOptions),
-    /// Bodies, rays and casts on triangle meshes, and making one.
+    /// Bodies, questions, rays and casts on triangle meshes, and making one.
     Mesh(Options),
     /// What certainty costs: yes or no that is never wrong, beside the first tier alone.
     Certain(Options),

@@ -3,8 +3,9 @@
 //! A row is a thousand questions; its time is for one. Both sides must give the same answers.
 
 use super::size_name;
-use crate::clock::{Effort, Samples, time};
+use crate::clock::{Effort, time};
 use crate::parry;
+use crate::race::Race;
 use crate::row::Row;
 use asunder_broad::{self as broad, Cast, Index, Queue};
 use asunder_geometry::{Aabb3, Ray3};
@@ -88,28 +89,19 @@ pub fn measure(case: &Case, effort: &Effort) -> Row {
     let boxes = MovingBoxes::new(scene, count, 1).boxes;
     let asked = Asked::new(&boxes);
     let (mut ours, mut peer) = (Ours::new(&boxes), Peer::new(&boxes));
-    let [mut samples, mut of_peer] = [Samples::default(), Samples::default()];
-    let (mut answers, mut differ) = (Found::default(), false);
-    for _ in 0..effort.rounds {
-        let (ns, found) = time(|| ours.ask(question, &asked));
-        samples.push(ns / QUESTIONS as f64, ns);
-        let (ns, found_by_peer) = time(|| peer.ask(question, &asked));
-        of_peer.push(ns / QUESTIONS as f64, ns);
+    let (mut race, mut answers, mut differ) = (Race::default(), Found::default(), false);
+    while !race.is_over(effort) {
+        let ours = || ours.ask(question, &asked);
+        let (found, found_by_peer) = race.turn(QUESTIONS, ours, || peer.ask(question, &asked));
         differ |= found != found_by_peer;
         answers = found;
-        if samples.spent() + of_peer.spent() > 2.0 * effort.nanoseconds() {
-            break;
-        }
     }
-    row.done = samples.len();
-    row.ours_ns = samples.median();
-    (row.peer, row.peer_ns) = (Some("parry3d Bvh"), of_peer.median());
+    race.tell(&mut row, "parry3d Bvh");
     row.remark(&format!("{:.2} found a question", answers.count as f64 / QUESTIONS as f64));
     row.remark(&format!("built in {:.0} ns a box, peer {:.0}", ours.built_ns, peer.built_ns));
     if differ {
         row.remark("ANSWERS DIFFER");
     }
-    row.finish();
     row
 }
 

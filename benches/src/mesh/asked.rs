@@ -1,8 +1,9 @@
-//! Making meshes, rays and casts.
+//! Making meshes, rays, and questions about a body and the ground.
 
-use super::mesh_of;
-use crate::clock::{Effort, Samples, time};
+use super::{Question, mesh_of};
+use crate::clock::Effort;
 use crate::parry::{self, Shapes};
+use crate::race::Race;
 use crate::row::Row;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Pose3, Ray3, Shape3, TriMesh};
@@ -17,30 +18,27 @@ use std::error::Error;
 /// Questions in a set.
 const QUESTIONS: usize = 2000;
 
+const PEER: &str = "parry3d TriMesh";
+
 /// The time for a triangle.
 pub(super) fn build(terrain: &Terrain, effort: &Effort, mut row: Row) -> Result<Row, Box<dyn Error>> {
+    let effort = Effort { rounds: effort.rounds.min(9), ..*effort };
     let (vertices, triangles) = (terrain.vertices(), terrain.triangles());
-    let (mut ours, mut peer) = (Samples::default(), Samples::default());
-    let count = triangles.len() as f64;
-    for _ in 0..effort.rounds.min(9) {
-        let given = (vertices.clone(), triangles.clone());
-        let (ns, mesh) = time(|| TriMesh::new(given.0, given.1));
-        ours.push(ns / count, ns);
+    let mut race = Race::default();
+    while !race.is_over(&effort) {
+        let [ours, peers] = [(); 2].map(|()| (vertices.clone(), triangles.clone()));
+        let ours = || TriMesh::new(ours.0, ours.1);
+        let (mesh, _) = race.turn(triangles.len(), ours, || SharedShape::trimesh(peers.0, peers.1));
         if row.note.is_empty() {
-            row.remark(&format!("{:.1} bytes a triangle", mesh?.bytes() as f64 / count));
-        }
-        let given = (vertices.clone(), triangles.clone());
-        let (ns, _) = time(|| SharedShape::trimesh(given.0, given.1));
-        peer.push(ns / count, ns);
-        if ours.spent().max(peer.spent()) > effort.nanoseconds() {
-            break;
+            row.remark(&format!("{:.1} bytes a triangle", mesh?.bytes() as f64 / triangles.len() as f64));
         }
     }
-    Ok(told(row, "parry3d TriMesh", &ours, &peer))
+    race.tell(&mut row, PEER);
+    Ok(row)
 }
 
-/// A point over the ground, and a way down that is as long as it takes to pass through.
-fn falls(terrain: &Terrain) -> Vec<(DVec3, Vec3)> {
+/// Points so many metres over the ground, at least and at most, and a way down each, long enough to pass through.
+fn falls(terrain: &Terrain, low: f64, high: f64) -> Vec<(DVec3, Vec3)> {
     let mut random = Random::new(22);
     let inside = |random: &mut Random| random.range(0.2, 0.8) * terrain.side();
     (0..QUESTIONS)
@@ -48,76 +46,81 @@ fn falls(terrain: &Terrain) -> Vec<(DVec3, Vec3)> {
             let (x, z) = (inside(&mut random), inside(&mut random));
             let (height, _) = terrain.under([x, z]);
             let aside = random.direction() * 10.0;
-            (DVec3::new(x, height + 10.0, z), Vec3::new(aside.x as f32, -30.0, aside.z as f32))
+            let above = if low < high { random.range(low, high) } else { low };
+            (DVec3::new(x, height + above, z), Vec3::new(aside.x as f32, -30.0, aside.z as f32))
         })
         .collect()
 }
 
-pub(super) fn rays(terrain: &Terrain, effort: &Effort, mut row: Row) -> Result<Row, Box<dyn Error>> {
-    let (mesh, falls) = (mesh_of(terrain)?, falls(terrain));
+/// The whole set in turns, until rounds or time are up.
+fn in_turns(
+    effort: &Effort,
+    mut row: Row,
+    mut ours: impl FnMut() -> usize,
+    mut peer: impl FnMut() -> usize,
+) -> Row {
+    let mut race = Race::default();
+    while !race.is_over(effort) {
+        let (hits, peer_hits) = race.turn(QUESTIONS, &mut ours, &mut peer);
+        if row.note.is_empty() {
+            row.remark(&format!("{hits} of {QUESTIONS} say yes, the peer's {peer_hits}"));
+        }
+    }
+    race.tell(&mut row, PEER);
+    row
+}
+
+pub(super) fn rays(terrain: &Terrain, effort: &Effort, row: Row) -> Result<Row, Box<dyn Error>> {
+    let (mesh, falls) = (mesh_of(terrain)?, falls(terrain, 10.0, 10.0));
     let twin = Shapes::default().convert(&mesh).ok_or("parry3d refuses the mesh")?;
     let rays: Vec<Ray3> = falls.iter().map(|(from, way)| Ray3::new(*from, *way)).collect::<Result<_, _>>()?;
     let twins: Vec<Ray> = falls.iter().map(|(from, way)| Ray::new(from.as_vec3(), *way)).collect();
-    let (mut ours, mut peer) = (Samples::default(), Samples::default());
-    for _ in 0..effort.rounds {
-        let (ns, hits) =
-            time(|| rays.iter().filter_map(|ray| cast_ray3(&mesh, &Pose3::IDENTITY, ray, 1.0)).count());
-        ours.push(ns / QUESTIONS as f64, ns);
-        let pose = parry::pose(&Pose3::IDENTITY);
-        let (ns, peer_hits) = time(|| {
-            twins.iter().filter_map(|ray| twin.cast_ray_and_get_normal(&pose, ray, 1.0, false)).count()
-        });
-        peer.push(ns / QUESTIONS as f64, ns);
-        if row.note.is_empty() {
-            row.remark(&format!("{hits} of {QUESTIONS} hit, the peer's {peer_hits}"));
-        }
-        if ours.spent().max(peer.spent()) > effort.nanoseconds() {
-            break;
-        }
-    }
-    Ok(told(row, "parry3d TriMesh", &ours, &peer))
+    let here = parry::pose(&Pose3::IDENTITY);
+    let ours = |ray: &&Ray3| cast_ray3(&mesh, &Pose3::IDENTITY, ray, 1.0).is_some();
+    let peer = |ray: &&Ray| twin.cast_ray_and_get_normal(&here, ray, 1.0, false).is_some();
+    Ok(in_turns(effort, row, || rays.iter().filter(ours).count(), || twins.iter().filter(peer).count()))
 }
 
-pub(super) fn casts(
+/// One question about one shape, in many places.
+pub(super) fn bodies(
     terrain: &Terrain,
-    shape: &Shape3,
+    (question, shape): (Question, &Shape3),
     effort: &Effort,
-    mut row: Row,
+    row: Row,
 ) -> Result<Row, Box<dyn Error>> {
-    let (mesh, falls) = (mesh_of(terrain)?, falls(terrain));
+    let (low, high) = match question {
+        Question::Cast => (10.0, 10.0),
+        Question::Overlap => (-0.8, 1.6),
+        Question::Distance => (0.8, 3.4),
+    };
+    let (mesh, falls) = (mesh_of(terrain)?, falls(terrain, low, high));
     let mut shapes = Shapes::default();
     let twin = shapes.convert(&mesh).ok_or("parry3d refuses the mesh")?;
     let twin_shape = shapes.convert(shape).ok_or("parry3d refuses the shape")?;
     let poses: Vec<Pose3> = falls.iter().map(|(from, _)| Pose3::at(*from)).collect::<Result<_, _>>()?;
-    let (mut ours, mut peer) = (Samples::default(), Samples::default());
     let options = ShapeCastOptions { max_time_of_impact: 1.0, ..ShapeCastOptions::default() };
     let here = parry::pose(&Pose3::IDENTITY);
-    for _ in 0..effort.rounds {
-        let both = poses.iter().zip(&falls);
-        let cast = |(pose, (_, way)): (&Pose3, &(DVec3, Vec3))| {
-            Pair3::new(shape, pose, &mesh, &Pose3::IDENTITY).cast(*way)
-        };
-        let (ns, hits) = time(|| both.clone().filter_map(cast).count());
-        ours.push(ns / QUESTIONS as f64, ns);
-        let cast = |(pose, (_, way)): (&Pose3, &(DVec3, Vec3))| {
-            let pose = parry::pose(pose);
-            query::cast_shapes(&pose, *way, &*twin_shape.0, &here, Vector::ZERO, &*twin.0, options).ok()?
-        };
-        let (ns, peer_hits) = time(|| both.clone().filter_map(cast).count());
-        peer.push(ns / QUESTIONS as f64, ns);
-        if row.note.is_empty() {
-            row.remark(&format!("{hits} of {QUESTIONS} hit, the peer's {peer_hits}"));
+    let both = || poses.iter().zip(&falls);
+    let ours = |(pose, (_, way)): &(&Pose3, &(DVec3, Vec3))| {
+        let pair = Pair3::new(shape, pose, &mesh, &Pose3::IDENTITY);
+        match question {
+            Question::Cast => pair.cast(*way).is_some(),
+            Question::Overlap => pair.overlaps(),
+            Question::Distance => pair.distance().is_some_and(|closest| closest.distance > 0.0),
         }
-        if ours.spent().max(peer.spent()) > effort.nanoseconds() {
-            break;
+    };
+    let peer = |(pose, (_, way)): &(&Pose3, &(DVec3, Vec3))| {
+        let (pose, one, other) = (parry::pose(pose), &*twin_shape.0, &*twin.0);
+        match question {
+            Question::Cast => query::cast_shapes(&pose, *way, one, &here, Vector::ZERO, other, options)
+                .is_ok_and(|hit| hit.is_some()),
+            Question::Overlap => {
+                query::intersection_test(&pose, one, &here, other).is_ok_and(|found| found.intersecting)
+            }
+            Question::Distance => {
+                query::distance(&pose, one, &here, other).is_ok_and(|found| found.distance > 0.0)
+            }
         }
-    }
-    Ok(told(row, "parry3d TriMesh", &ours, &peer))
-}
-
-fn told(mut row: Row, peer_name: &'static str, ours: &Samples, peer: &Samples) -> Row {
-    (row.ours_ns, row.done) = (ours.median(), ours.len());
-    (row.peer, row.peer_ns) = (Some(peer_name), peer.median());
-    row.finish();
-    row
+    };
+    Ok(in_turns(effort, row, || both().filter(ours).count(), || both().filter(peer).count()))
 }

@@ -3,7 +3,8 @@
 use super::BLOCK;
 use super::both::{Both, Manifolds, of_answer, of_peer};
 use crate::accuracy::Said;
-use crate::clock::{Effort, Samples, time};
+use crate::clock::{Effort, time};
+use crate::race::Race;
 use crate::row::Row;
 use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
 use core::borrow::Borrow;
@@ -16,8 +17,8 @@ fn steps(frames: usize) -> usize {
 }
 
 /// Times all frames, blocks of pairs in turns; the first frame of a block is not timed.
-pub(super) fn time_frames(frames: &[Vec<Both>], effort: &Effort, row: &mut Row) -> (Samples, Samples) {
-    let (mut ours, mut peer) = (Samples::default(), Samples::default());
+pub(super) fn time_frames(frames: &[Vec<Both>], effort: &Effort, row: &mut Row) -> Race {
+    let mut race = Race::default();
     let tracks = frames.first().map_or(0, Vec::len);
     let steps = steps(frames.len());
     let rounds = effort.rounds.div_ceil(steps);
@@ -30,17 +31,17 @@ pub(super) fn time_frames(frames: &[Vec<Both>], effort: &Effort, row: &mut Row) 
                 let (ours_ns, _) = time(|| memory.ask_ours(block));
                 let (peer_ns, _) = time(|| memory.ask_peer(block));
                 if step > 0 {
-                    ours.push(ours_ns / block.len() as f64, ours_ns);
-                    peer.push(peer_ns / block.len() as f64, peer_ns);
+                    race.ours.push(ours_ns / block.len() as f64, ours_ns);
+                    race.peer.push(peer_ns / block.len() as f64, peer_ns);
                 }
                 row.done += block.len();
-                if ours.spent().max(peer.spent()) > effort.nanoseconds() {
+                if race.is_spent(effort) {
                     break 'rounds;
                 }
             }
         }
     }
-    (ours, peer)
+    race
 }
 
 /// Both sides' answers in every frame, frame by frame, to be judged; of a pair at rest, the last.

@@ -19,6 +19,9 @@ pub struct DebugOptions {
     pub shapes: bool,
     /// The boxes of the broad phase, as of the last update; none around half-spaces. Off at first.
     pub boxes: bool,
+    /// The columns that the broad phase last sorted boxes into, those that hold any. How fast it is depends on them,
+    /// and which were last depends on what came before; contacts do not. Off at first.
+    pub columns: bool,
     /// A cross at each contact point, half-way between both bodies, as of the last update. On at first.
     pub contacts: bool,
     /// The normal at each contact point, from there towards the body in the higher slot. On at first.
@@ -31,7 +34,15 @@ pub struct DebugOptions {
 
 impl Default for DebugOptions {
     fn default() -> Self {
-        Self { shapes: true, boxes: false, contacts: true, normals: true, length: 0.2, endless: 20.0 }
+        Self {
+            shapes: true,
+            boxes: false,
+            columns: false,
+            contacts: true,
+            normals: true,
+            length: 0.2,
+            endless: 20.0,
+        }
     }
 }
 
@@ -60,6 +71,8 @@ pub enum DebugLine {
     Asleep,
     /// A box of the broad phase.
     Box,
+    /// A column of the broad phase.
+    Column,
     /// A contact point.
     Contact,
     /// A contact's normal.
@@ -75,6 +88,7 @@ impl DebugLine {
             Self::Sensor => [90, 200, 120, 255],
             Self::Asleep => [70, 90, 160, 255],
             Self::Box => [200, 180, 60, 160],
+            Self::Column => [60, 150, 140, 160],
             Self::Contact => [255, 64, 64, 255],
             Self::Normal => [255, 150, 40, 255],
         }

@@ -14,6 +14,7 @@
 
 mod rest;
 
+use crate::columns::Column;
 use crate::pair::{PairId, TooManyPairs};
 use crate::sweep::Sweep;
 use crate::sweep::order::Order;
@@ -130,6 +131,12 @@ impl<B: Bounds> CoherentSweep<B> {
         self.order.sort(&mut self.fresh, boxes.len());
         merge(&self.kept, &self.fresh, pairs);
         Ok(())
+    }
+
+    /// The columns of the last sweep of all boxes, as [`Sweep::columns`] tells them: what moves meanwhile is looked up in
+    /// them, and sorted into none.
+    pub fn columns(&self) -> impl Iterator<Item = Column> {
+        self.sweep.columns()
     }
 
     /// Memory that is held for the next call, in bytes: some 80 a box and 16 a pair, and 28 for every column that a

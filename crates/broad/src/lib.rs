@@ -25,6 +25,7 @@ mod sweep;
 mod width;
 
 pub use coherent::CoherentSweep;
+pub use columns::Column;
 pub use index::{Cast, Found, Index, Queue, least_distance};
 pub use pair::{PairId, TooManyPairs};
 pub use plain::PlainSweep;

@@ -45,6 +45,17 @@ impl Terrain {
         Self { cells: ((triangles as f64 / 2.0).sqrt().round() as usize).max(1), cell, waves }
     }
 
+    /// A plane of about so many triangles, cut as the hills are, at height 0.
+    ///
+    /// ```
+    /// use asunder_scenes::terrain::Terrain;
+    /// let terrain = Terrain::flat(800, 0.5);
+    /// assert!(terrain.vertices().iter().all(|vertex| vertex.y == 0.0) && terrain.side() == 10.0);
+    /// ```
+    pub fn flat(triangles: usize, cell: f64) -> Self {
+        Self { waves: Vec::new(), ..Self::new(triangles, cell, 0) }
+    }
+
     /// How many cells each side has.
     pub const fn cells(&self) -> usize {
         self.cells

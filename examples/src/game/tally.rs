@@ -134,7 +134,7 @@ impl<S: Physics> Game<S> {
     pub fn digest(&self) -> u64 {
         let mut digest = 0xcbf2_9ce4_8422_2325_u64;
         for pose in self.bodies.iter().filter_map(|body| S::pose_of(&self.world, body.key)) {
-            for byte in S::pose_bits(&pose).flat_map(u64::to_le_bytes) {
+            for byte in S::numbers(&pose).flat_map(f64::to_le_bytes) {
                 digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }
         }

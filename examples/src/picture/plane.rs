@@ -9,13 +9,17 @@ const EARTH: Color = DVec3::new(0.43, 0.34, 0.27);
 const GRASS: Color = DVec3::new(0.40, 0.62, 0.27);
 const WATER: Color = DVec3::new(0.25, 0.55, 0.85);
 
+/// A scene that is so many times wider than high is not shown whole.
+const WIDEST: f64 = 6.0;
+
 /// Draws the world as of its last update.
 pub fn draw(world: &World2) -> String {
     let bodies: Vec<(&Collider2, Vec<Vec<DVec2>>)> =
         world.iter().map(|(_, body)| (body, outlines(body))).collect();
     // What has no end is drawn as far as the rest goes.
     let bounded = bodies.iter().filter(|(body, _)| body.shape().outer_radius().is_finite());
-    let mut canvas = Canvas::around(bounded.flat_map(|(_, outlines)| outlines.iter().flatten().copied()));
+    let canvas = Canvas::around(bounded.flat_map(|(_, outlines)| outlines.iter().flatten().copied()));
+    let mut canvas = canvas.at_most_wide(WIDEST).fine_for(size(world));
     // Scenery last but for the solid bodies: what stands on the ground hides the grass, and water hides nothing.
     let layers: [fn(&Collider2) -> bool; 3] = [
         |body| body.is_fixed() && !body.is_sensor(),
@@ -30,6 +34,14 @@ pub fn draw(world: &World2) -> String {
     }
     draw_contacts(&mut canvas, world);
     canvas.finish(DVec3::new(0.62, 0.80, 0.93), DVec3::new(0.95, 0.96, 0.92))
+}
+
+/// The middle one of the sizes of bodies that move, in metres.
+fn size(world: &World2) -> f64 {
+    let moving = world.iter().filter(|(_, body)| !body.is_fixed());
+    let mut sizes: Vec<f32> = moving.map(|(_, body)| body.shape().outer_radius()).collect();
+    sizes.sort_unstable_by(f32::total_cmp);
+    sizes.get(sizes.len() / 2).map_or(f64::INFINITY, |&radius| 2.0 * f64::from(radius))
 }
 
 fn draw_body(canvas: &mut Canvas, body: &Collider2, points: &[DVec2], number: usize) {
@@ -95,7 +107,7 @@ fn draw_contacts(canvas: &mut Canvas, world: &World2) {
         for manifold in contact.manifolds {
             for point in &manifold.points {
                 let place = a.pose().position() + Vec2::as_dvec2(point.anchor_a);
-                let tip = place + manifold.normal.as_dvec2() * (9.0 / canvas.pixels);
+                let tip = place + manifold.normal.as_dvec2() * (9.0 * canvas.fine / canvas.pixels);
                 canvas.line(place, tip, Pen::line(INK, 1.0).faint(0.6));
                 canvas.dot(place, 2.2, Pen::fill(MARK));
             }

@@ -4,7 +4,7 @@ use crate::toggles::{Layer, Toggles};
 use macroquad::color::Color;
 use macroquad::shapes::draw_rectangle;
 use macroquad::text::{TextDimensions, draw_text, measure_text};
-use macroquad::window::screen_height;
+use macroquad::window::{screen_height, screen_width};
 
 const SIZE: f32 = 19.0;
 const LINE: f32 = 18.0;
@@ -40,6 +40,14 @@ pub(crate) fn draw(title: &str, report: &[String], toggles: &Toggles) {
         let column = 2.0 * EDGE + 112.0 * (i % 3) as f32;
         draw_text(name, column, at(KEYS.len() + i / 3), SIZE, if is_on { INK } else { FAINT });
     }
+}
+
+/// One line in the middle of the upper edge.
+pub(crate) fn note(text: &str) {
+    let width = measure_text(text, None, SIZE as u16, 1.0).width;
+    let left = 0.5 * (screen_width() - width);
+    draw_rectangle(left - EDGE, EDGE, width + 2.0 * EDGE, LINE + 1.5 * EDGE, PAPER);
+    draw_text(text, left, 2.0 * EDGE + 0.6 * LINE, SIZE, INK);
 }
 
 /// A sheet behind lines of text.

@@ -256,6 +256,7 @@ impl<S: Sight> Stand<S> {
         let options = DebugOptions {
             shapes: !is_filled || S::FLAT,
             boxes: toggles.shows(Layer::Boxes),
+            columns: toggles.shows(Layer::Columns),
             contacts: toggles.shows(Layer::Contacts) && !toggles.shows(Layer::Tiers),
             normals: toggles.shows(Layer::Normals),
             length: (self.size * 0.6) as f32,
@@ -268,7 +269,7 @@ impl<S: Sight> Stand<S> {
             }
             match what {
                 DebugLine::Contact | DebugLine::Normal => over.add(view, [from, to], what.colour()),
-                DebugLine::Box => thin.add(view, [from, to], what.colour()),
+                DebugLine::Box | DebugLine::Column => thin.add(view, [from, to], what.colour()),
                 _ if is_filled => thin.add(view, [from, to], Paint::INK.faint(0.55).bytes(1.0)),
                 _ => thin.add(view, [from, to], what.colour()),
             }

@@ -10,6 +10,8 @@ pub(crate) enum Layer {
     Fill,
     /// Boxes of the broad phase
     Boxes,
+    /// Columns that the broad phase sorts boxes into
+    Columns,
     /// Candidate pairs: lines between bodies whose boxes meet
     Pairs,
     /// Contact points
@@ -28,7 +30,7 @@ pub(crate) enum Layer {
 
 impl Layer {
     /// Every one, with its key and what it is called on the screen.
-    pub(crate) const ALL: [(Self, KeyCode, &'static str); 9] = [
+    pub(crate) const ALL: [(Self, KeyCode, &'static str); 10] = [
         (Self::Fill, KeyCode::Key1, "1 filled"),
         (Self::Boxes, KeyCode::Key2, "2 boxes"),
         (Self::Pairs, KeyCode::Key3, "3 pairs"),
@@ -37,6 +39,7 @@ impl Layer {
         (Self::Tiers, KeyCode::Key6, "6 tiers"),
         (Self::Sleep, KeyCode::Key7, "7 sleep"),
         (Self::Cut, KeyCode::Key8, "8 cut away"),
+        (Self::Columns, KeyCode::Key9, "9 columns"),
         (Self::Text, KeyCode::H, "H help"),
     ];
 }

@@ -38,6 +38,8 @@ pub(crate) struct Window {
     owed: f64,
     /// Whether the mouse goes around.
     is_orbiting: bool,
+    /// What is opened as soon as the screen says so: a million bodies take seconds.
+    next: Option<Stage>,
 }
 
 impl Window {
@@ -50,7 +52,17 @@ impl Window {
         let show = show(&scene)?;
         let view = View::of(show.bounds(), show.is_flat(), 1.6);
         let name = name.to_owned();
-        Ok(Self { scene, name, show, view, toggles, is_paused: false, owed: 0.0, is_orbiting: false })
+        Ok(Self {
+            scene,
+            name,
+            show,
+            view,
+            toggles,
+            is_paused: false,
+            owed: 0.0,
+            is_orbiting: false,
+            next: None,
+        })
     }
 
     /// Shows the scene until the user leaves.
@@ -62,6 +74,11 @@ impl Window {
             let hand = self.mouse();
             self.pass_time(hand);
             self.draw();
+            if let Some(stage) = self.next {
+                panel::note(&format!("opening {}: {} bodies", stage.name(), stage.usual_size()));
+                next_frame().await;
+                self.go(stage);
+            }
             next_frame().await;
         }
     }
@@ -114,7 +131,9 @@ impl Window {
         }
         for (key, by) in [(KeyCode::N, 1), (KeyCode::B, Stage::ALL.len() - 1)] {
             if is_key_pressed(key) {
-                self.go(by);
+                let here = Stage::ALL.iter().position(|stage| stage.name() == self.name);
+                let next = here.map_or(0, |here| (here + by) % Stage::ALL.len());
+                self.next = Stage::ALL.get(next).copied();
             }
         }
     }
@@ -126,14 +145,11 @@ impl Window {
         }
     }
 
-    /// Goes on by so many of the named scenes; from a file, to the first.
-    fn go(&mut self, by: usize) {
-        let here = Stage::ALL.iter().position(|stage| stage.name() == self.name);
-        let next = here.map_or(0, |here| (here + by) % Stage::ALL.len());
-        if let Some(stage) = Stage::ALL.get(next)
-            && let Ok(opened) = Self::open(stage.name(), None, self.toggles.clone())
-        {
-            *self = opened;
+    /// Goes to a named scene, paused where this one is.
+    fn go(&mut self, stage: Stage) {
+        self.next = None;
+        if let Ok(opened) = Self::open(stage.name(), None, self.toggles.clone()) {
+            *self = Self { is_paused: self.is_paused, ..opened };
             self.whole();
         }
     }

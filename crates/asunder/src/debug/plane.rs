@@ -7,10 +7,11 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::{HalfPlane, Pose2, Shape2};
 
 impl World<Plane> {
-    /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it
-    /// is about.
+    /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with what
+    /// it is about.
     ///
-    /// Always the same lines in the same order for the same world. Cost: linear in what is drawn; nothing is allocated.
+    /// Always the same lines in the same order for the same world; columns for a world with the same past. Cost: linear in
+    /// what is drawn; nothing is allocated.
     ///
     /// ```
     /// use asunder::{Collider2, DebugLine, DebugOptions, Rect, World2, glam::{DVec2, Vec2}};
@@ -32,9 +33,16 @@ impl World<Plane> {
         if options.boxes {
             for bounds in self.boxes.iter().filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite())
             {
-                let (low, high) = (bounds.min.as_dvec2(), bounds.max.as_dvec2());
-                let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-                around(&corners, &mut |from, to| line(from, to, DebugLine::Box));
+                rectangle(bounds.min.as_dvec2(), bounds.max.as_dvec2(), &mut |from, to| {
+                    line(from, to, DebugLine::Box);
+                });
+            }
+        }
+        if options.columns {
+            for column in self.scratch.sweep.columns() {
+                let [low, high] =
+                    [column.bounds.min, column.bounds.max].map(|corner| corner.as_dvec3().truncate());
+                rectangle(low, high, &mut |from, to| line(from, to, DebugLine::Column));
             }
         }
         if options.contacts || options.normals {
@@ -64,6 +72,10 @@ impl World<Plane> {
             }
         }
     }
+}
+
+fn rectangle(low: DVec2, high: DVec2, line: &mut impl FnMut(DVec2, DVec2)) {
+    around(&[low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)], line);
 }
 
 fn around(corners: &[DVec2], line: &mut impl FnMut(DVec2, DVec2)) {

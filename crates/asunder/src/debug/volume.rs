@@ -7,10 +7,11 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Ground, HalfSpace, Pose3, Shape3};
 
 impl World<Volume> {
-    /// Hands over the lines that show shapes, boxes, contacts and normals, in world coordinates, each with what it
-    /// is about.
+    /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with what
+    /// it is about.
     ///
-    /// Always the same lines in the same order for the same world. Cost: linear in what is drawn; nothing is allocated.
+    /// Always the same lines in the same order for the same world; columns for a world with the same past. Cost: linear in
+    /// what is drawn; nothing is allocated.
     ///
     /// ```
     /// use asunder::{Collider3, Cuboid, DebugLine, DebugOptions, Sphere, World3, glam::Vec3};
@@ -42,6 +43,12 @@ impl World<Volume> {
                 box_edges(bounds.min.as_dvec3(), bounds.max.as_dvec3(), &mut |from, to| {
                     line(from, to, DebugLine::Box);
                 });
+            }
+        }
+        if options.columns {
+            for column in self.scratch.sweep.columns() {
+                let (low, high) = (column.bounds.min.as_dvec3(), column.bounds.max.as_dvec3());
+                box_edges(low, high, &mut |from, to| line(from, to, DebugLine::Column));
             }
         }
         if options.contacts || options.normals {

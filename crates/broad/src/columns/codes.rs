@@ -48,6 +48,12 @@ impl Quantiser {
         f64::from(self.scale[axis])
     }
 
+    /// Where the codes of a rank begin on an axis, in metres, and of the ranks behind the last, where they end.
+    pub(crate) fn least(&self, axis: usize, rank: u32) -> f32 {
+        let code = (f64::from(rank) - 32_768.5).clamp(-f64::from(LAST), f64::from(LAST));
+        (f64::from(self.middle[axis]) + code / f64::from(self.scale[axis])) as f32
+    }
+
     /// The codes of a box without NaN; for any other, some.
     #[inline(always)]
     pub(crate) fn codes(&self, low: [f32; 3], high: [f32; 3]) -> Codes {

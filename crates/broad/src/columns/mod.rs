@@ -2,6 +2,9 @@
 
 pub(crate) mod codes;
 pub(crate) mod grid;
+mod shown;
+
+pub use shown::Column;
 
 use asunder_geometry::Bounds;
 use codes::{Codes, Entry};

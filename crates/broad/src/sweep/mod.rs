@@ -50,7 +50,7 @@ mod threads;
 pub(crate) mod wide;
 
 use crate::columns::grid::{Grid, Over};
-use crate::columns::{Columns, MOST_BOXES};
+use crate::columns::{Column, Columns, MOST_BOXES};
 use crate::pair::{PairId, TooManyPairs};
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
@@ -177,6 +177,26 @@ impl Sweep {
             return Some(sorted);
         }
         Some((self.grid.as_ref()?, core::slice::from_ref(&self.columns)))
+    }
+
+    /// The columns that the last sweep sorted boxes into, for debug views: those that hold any, in the order in which
+    /// they are swept. None before the first sweep. What an overfull column was cut into is not told. Cost: linear in all
+    /// columns.
+    ///
+    /// ```
+    /// use asunder_broad::Sweep;
+    /// use asunder_geometry::{Aabb2, glam::Vec2};
+    /// let low = |i: u32| Vec2::new((i % 20) as f32, (i / 20) as f32) * 2.0;
+    /// let boxes: Vec<Aabb2> = (0..400).map(|i| Aabb2::new(low(i), low(i) + Vec2::ONE)).collect();
+    /// let mut sweep = Sweep::new();
+    /// assert_eq!(sweep.columns().count(), 0);
+    /// sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut Vec::new())?;
+    /// assert!(sweep.columns().count() > 1);
+    /// assert!(sweep.columns().map(|column| column.boxes).sum::<usize>() >= 400);
+    /// # Ok::<(), asunder_broad::TooManyPairs>(())
+    /// ```
+    pub fn columns(&self) -> impl Iterator<Item = Column> {
+        self.sorted().into_iter().flat_map(|(grid, parts)| Column::all(grid, parts))
     }
 
     /// Memory that is held for the next sweep, in bytes: some 70 a box.

@@ -8,12 +8,11 @@ mod walk;
 pub use error::HeightFieldError;
 
 use crate::aabb::Aabb3;
-use crate::ground::Prominent;
 use crate::ground::tree::Tree;
-use crate::mesh::{bounds_of, box_of};
+use crate::ground::{Ground, Prominent};
+use crate::mesh::bounds_of;
 use crate::pose3::Pose3;
 use crate::triangle::Triangle3;
-use core::ops::ControlFlow;
 use glam::{DVec3, Vec2, Vec3};
 use grid::{Cell, Grid};
 use std::sync::Arc;
@@ -227,12 +226,7 @@ impl HeightField {
 
     /// Whether any triangle holds a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
-        let point = point.into();
-        let holds = |number: u32| match self.triangle(number) {
-            Some(triangle) if triangle.contains(point) => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
-        };
-        self.visit_near(&box_of(point), holds).is_break()
+        Ground::Field(self).holds(point.into())
     }
 
     /// A box around the posed field, grown by `margin` metres and rounded outwards: around its own box, turned. Cost:

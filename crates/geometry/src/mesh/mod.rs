@@ -7,8 +7,8 @@ mod error;
 pub use error::{DroppedTriangles, MeshError};
 
 use crate::aabb::Aabb3;
-use crate::ground::Prominent;
 use crate::ground::tree::Tree;
+use crate::ground::{Ground, Prominent};
 use crate::outward::{around3, round_down, round_up};
 use crate::pose3::Pose3;
 use crate::triangle::Triangle3;
@@ -162,12 +162,7 @@ impl TriMesh {
 
     /// Whether any triangle holds a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
-        let point = point.into();
-        let holds = |number: u32| match self.triangle(number) {
-            Some(triangle) if triangle.contains(point) => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
-        };
-        self.visit_near(&box_of(point), holds).is_break()
+        Ground::Mesh(self).holds(point.into())
     }
 
     /// A box around the posed mesh, grown by `margin` metres and rounded outwards: around its own box, turned. Cost: of
@@ -237,8 +232,19 @@ impl PartialEq for TriMesh {
     }
 }
 
+impl Ground<'_> {
+    /// Whether any triangle holds a local point.
+    pub(crate) fn holds(self, point: DVec3) -> bool {
+        let holds = |number: u32| match self.triangle(number) {
+            Some(triangle) if triangle.contains(point) => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        self.visit_near(&box_of(point), holds).is_break()
+    }
+}
+
 /// The smallest box of f32 that holds a point; none, if it is not finite.
-pub(crate) fn box_of(point: DVec3) -> Aabb3 {
+fn box_of(point: DVec3) -> Aabb3 {
     let [low, high] = [point.to_array().map(round_down), point.to_array().map(round_up)];
     Aabb3::new(Vec3::from_array(low), Vec3::from_array(high))
 }

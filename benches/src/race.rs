@@ -1,0 +1,52 @@
+//! Our side and the peer's, in turns.
+
+use crate::clock::{Effort, Samples, time};
+use crate::row::Row;
+
+/// Times of both sides of a row, who take turns so that whatever else the machine does falls on both.
+///
+/// ```
+/// use asunder_benches::{clock::Effort, race::Race, row::Row};
+/// let (mut race, mut row) = (Race::default(), Row::new("sum", "number", 1000));
+/// while !race.is_over(&Effort { rounds: 3, ..Effort::quick() }) {
+///     let (ours, peer) = race.turn(1000, || (0..1000_u64).sum::<u64>(), || 499_500);
+///     assert_eq!(ours, peer);
+/// }
+/// race.tell(&mut row, "what is known");
+/// assert!(row.done == 3 && row.ours_ns.is_some() && row.peer_ns.is_some());
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Race {
+    /// Our times.
+    pub ours: Samples,
+    /// The peer's.
+    pub peer: Samples,
+}
+
+impl Race {
+    /// One turn of either side, of so many of what the row counts. Returns what both found.
+    pub fn turn<A, B>(&mut self, count: usize, ours: impl FnOnce() -> A, peer: impl FnOnce() -> B) -> (A, B) {
+        let (ns, found) = time(ours);
+        self.ours.push(ns / count as f64, ns);
+        let (ns, found_by_peer) = time(peer);
+        self.peer.push(ns / count as f64, ns);
+        (found, found_by_peer)
+    }
+
+    /// Whether one side has spent the time of a variant.
+    pub fn is_spent(&self, effort: &Effort) -> bool {
+        self.ours.spent().max(self.peer.spent()) > effort.nanoseconds()
+    }
+
+    /// Whether there were all rounds, or one side has spent its time.
+    pub fn is_over(&self, effort: &Effort) -> bool {
+        self.ours.len() >= effort.rounds || self.is_spent(effort)
+    }
+
+    /// Fills in the row's figures.
+    pub fn tell(&self, row: &mut Row, peer: &'static str) {
+        (row.ours_ns, row.done) = (self.ours.median(), self.ours.len());
+        (row.peer, row.peer_ns) = (Some(peer), self.peer.median());
+        row.finish();
+    }
+}

@@ -1,0 +1,85 @@
+//! Columns as boxes, to be looked at.
+
+use super::Columns;
+use super::grid::Grid;
+use asunder_geometry::Aabb3;
+use asunder_geometry::glam::Vec3;
+
+/// A column that a sweep has sorted boxes into: what debug views draw.
+///
+/// Columns say how fast a sweep was, and never which pairs it found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Column {
+    /// Where it lies, in metres; without height in the plane. The outermost columns take all that lies outside as well,
+    /// and are shown as far as nearly all boxes go.
+    pub bounds: Aabb3,
+    /// Boxes that reach into it.
+    pub boxes: usize,
+}
+
+impl Column {
+    /// Every column of a grid that holds a box, and what is in all parts of it.
+    pub(crate) fn all<'a>(grid: &'a Grid, parts: &'a [Columns]) -> impl Iterator<Item = Self> + 'a {
+        let of_y = grid.columns[1] as usize;
+        (0..grid.count()).filter_map(move |index| {
+            let boxes = parts.iter().map(|part| part.column(grid, index).entries.len()).sum();
+            (boxes > 0).then(|| Self { bounds: grid.column_bounds(index / of_y, index % of_y), boxes })
+        })
+    }
+}
+
+impl Grid {
+    fn column_bounds(&self, on_y: usize, on_z: usize) -> Aabb3 {
+        let (mut low, mut high) = (Vec3::ZERO, Vec3::ZERO);
+        for (offset, (place, columns)) in
+            [(0, 1), (on_y, self.columns[0]), (on_z, self.columns[1])].into_iter().enumerate()
+        {
+            let axis = (self.sweep + offset) % 3;
+            // The least rank of the codes in a column: see `reach`.
+            let first = |place: usize| ((place << 16).div_ceil(columns as usize)) as u32;
+            low[axis] = self.quantiser.least(axis, first(place));
+            high[axis] = self.quantiser.least(axis, first(place + 1));
+        }
+        Aabb3::new(low, high)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Sweep;
+    use asunder_geometry::{Aabb3, glam::Vec3};
+
+    #[test]
+    fn a_column_counts_the_boxes_that_reach_into_where_it_is_shown() {
+        // Multiples of three irrational numbers: spread evenly, over 100 m by 60 m by 40 m.
+        let part = |i: u32, by: f64| (f64::from(i) * by).fract() as f32;
+        let place = |i| Vec3::new(part(i, 0.819_172_5), part(i, 0.671_043_6), part(i, 0.549_700_4));
+        let boxes: Vec<Aabb3> = (0..3000)
+            .map(|i| place(i) * Vec3::new(100.0, 60.0, 40.0))
+            .map(|low| Aabb3::new(low, low + Vec3::splat(1.5)))
+            .collect();
+        let mut sweep = Sweep::new();
+        assert_eq!(sweep.columns().count(), 0);
+        sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut Vec::new()).unwrap();
+        let columns: Vec<_> = sweep.columns().collect();
+        assert!(columns.len() > 3, "{}", columns.len());
+        let whole = columns.iter().map(|column| column.bounds).reduce(|all, one| all.union(&one)).unwrap();
+        for column in &columns {
+            // The outermost take all that is beyond. Codes are a 65,536th of the whole.
+            let count = |more: f32| {
+                let mut grown = Aabb3::new(column.bounds.min - more, column.bounds.max + more);
+                for axis in 0..3 {
+                    if column.bounds.min[axis] == whole.min[axis] {
+                        grown.min[axis] = f32::MIN;
+                    }
+                    if column.bounds.max[axis] == whole.max[axis] {
+                        grown.max[axis] = f32::MAX;
+                    }
+                }
+                boxes.iter().filter(|one| one.overlaps(&grown)).count()
+            };
+            assert!((count(-0.01)..=count(0.01)).contains(&column.boxes), "{column:?}");
+        }
+        assert!(columns.iter().map(|column| column.boxes).sum::<usize>() >= boxes.len());
+    }
+}
