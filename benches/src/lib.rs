@@ -15,6 +15,7 @@ pub mod accuracy;
 pub mod broad;
 pub mod certain;
 pub mod clock;
+pub mod error;
 pub mod flat;
 pub mod judge;
 pub mod lean;
