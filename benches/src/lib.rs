@@ -9,6 +9,8 @@
 //!   which has no peer here. A [`judge`] knows the true separations, and [`accuracy`] holds both sides against them.
 //! - [`certain`]: yes or no that is never wrong, beside the first tier alone.
 //! - [`world`]: whole frames, beside the [`lean`] pipeline over parry3d.
+//!
+//! [`report`] makes a page of [`error`], [`broad`] and [`world`]: speed against error.
 #![deny(missing_docs)]
 
 pub mod accuracy;
@@ -22,5 +24,6 @@ pub mod lean;
 pub mod mesh;
 pub mod narrow;
 pub mod parry;
+pub mod report;
 pub mod row;
 pub mod world;

@@ -1,0 +1,224 @@
+//! Where somebody else is ahead: found in the rows, sentence by sentence.
+
+use super::names::{count, dimension, duration, error, short, size, words};
+use super::palette::{is_ours, look};
+use crate::broad::rows::BroadRow;
+use crate::error::{ErrorRow, GapRow, StabilityRow, VertexRow};
+use crate::world::rows::FrameRow;
+
+/// Distinct keys, in the order in which they first come.
+pub fn distinct<T, K: PartialEq>(rows: &[T], key: impl Fn(&T) -> K) -> Vec<K> {
+    let mut keys: Vec<K> = Vec::new();
+    for row in rows {
+        let key = key(row);
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    keys
+}
+
+/// Whoever answers faster than one of ours and is no less exact: of ours the certain and the fast one, since eight boxes
+/// at once are no other answer.
+///
+/// ```
+/// use asunder_benches::{error::ErrorRow, report::losses};
+/// let row = |method: &str, ns: f64, error_p99: f64| ErrorRow {
+///     dimension: "3d".into(), group: "far".into(), method: method.into(), pairs: 10, ns, ns_low: ns, ns_high: ns,
+///     error_p99, error_max: error_p99, wrong_per_100k: 0.0, refused: 0,
+/// };
+/// let rows = [row("certain", 100.0, 1e-9), row("textbook-f64", 50.0, 1e-12), row("parry-f32", 20.0, 1e-7)];
+/// let said = losses::of_error(&rows);
+/// assert!(said.len() == 1 && said[0].contains("textbook f64") && said[0].contains("2.0 times"), "{said:?}");
+/// ```
+pub fn of_error(rows: &[ErrorRow]) -> Vec<String> {
+    let mut said = Vec::new();
+    for (dim, group) in distinct(rows, |row| (row.dimension.clone(), row.group.clone())) {
+        let here = || rows.iter().filter(|row| row.dimension == dim && row.group == group);
+        for ours in here().filter(|row| is_ours(&row.method)) {
+            let ahead = here().filter(|row| !is_ours(&row.method) && is_ahead(row, ours));
+            let Some(best) = ahead.min_by(|a, b| a.ns.total_cmp(&b.ns)) else { continue };
+            let wrong = if best.wrong_per_100k + ours.wrong_per_100k > 0.0 {
+                format!(
+                    "; wrong in 100,000: {} against {}",
+                    short(best.wrong_per_100k),
+                    short(ours.wrong_per_100k)
+                )
+            } else {
+                String::new()
+            };
+            said.push(format!(
+                "{}, {}: {} is {} times as fast as {} and no less exact (99th percentile {} against {}{wrong}).",
+                dimension(&dim),
+                words(&group),
+                look(&best.method).name,
+                short(ours.ns / best.ns),
+                look(&ours.method).name,
+                error(best.error_p99),
+                error(ours.error_p99),
+            ));
+        }
+    }
+    said
+}
+
+/// Faster, and worse in nothing.
+fn is_ahead(other: &ErrorRow, ours: &ErrorRow) -> bool {
+    other.ns < ours.ns
+        && other.error_p99 <= ours.error_p99
+        && other.wrong_per_100k <= ours.wrong_per_100k
+        && other.refused <= ours.refused
+}
+
+/// Widths of gap at which another method was wrong less often than our certain one; and how often ours was wrong.
+pub fn of_gap(rows: &[GapRow]) -> Vec<String> {
+    let of = |method: &str| {
+        rows.iter()
+            .filter(|row| row.method == method)
+            .fold((0, 0), |sum, row| (sum.0 + row.wrong, sum.1 + row.pairs))
+    };
+    let mut said = Vec::new();
+    for method in distinct(rows, |row| row.method.clone()).iter().filter(|method| is_ours(method)) {
+        let (wrong, pairs) = of(method);
+        if wrong > 0 {
+            let name = look(method).name;
+            said.push(format!("{name} was wrong {} times in {} pairs.", count(wrong), count(pairs)));
+        }
+    }
+    said
+}
+
+/// Whoever is steadier than our certain method, by the 99th percentile.
+pub fn of_stability(rows: &[StabilityRow]) -> Vec<String> {
+    let mut said = Vec::new();
+    for (measure, shape) in distinct(rows, |row| (row.measure.clone(), row.shape.clone())) {
+        let here = || rows.iter().filter(|row| row.measure == measure && row.shape == shape);
+        let ours = here().filter(|row| is_ours(&row.method)).min_by(|a, b| a.p99.total_cmp(&b.p99));
+        let other = here().filter(|row| !is_ours(&row.method)).min_by(|a, b| a.p99.total_cmp(&b.p99));
+        if let (Some(ours), Some(other)) = (ours, other)
+            && other.p99 < ours.p99
+        {
+            said.push(format!(
+                "{}, {}: {} is steadier than {} (99th percentile {} against {} {}).",
+                words(&measure),
+                words(&shape),
+                look(&other.method).name,
+                look(&ours.method).name,
+                error(other.p99),
+                error(ours.p99),
+                ours.unit,
+            ));
+        }
+    }
+    said
+}
+
+/// The fastest way of a method on so many threads.
+pub fn best<'a>(
+    rows: &'a [BroadRow],
+    key: (&str, u64, &str),
+    clock: &str,
+    threads: u64,
+) -> Option<&'a BroadRow> {
+    let (scene, boxes, method) = key;
+    let here = rows.iter().filter(|row| row.scene == scene && row.boxes == boxes && row.method == method);
+    here.filter(|row| row.clock == clock && row.threads == threads).min_by(|a, b| a.ns.total_cmp(&b.ns))
+}
+
+/// Scenes and sizes at which the peer finds all pairs sooner, or our second thread costs time.
+pub fn of_broad(rows: &[BroadRow]) -> Vec<String> {
+    let mut said = Vec::new();
+    for (scene, boxes) in distinct(rows, |row| (row.scene.clone(), row.boxes)) {
+        let of = |method| best(rows, (&scene, boxes, method), "thread", 1);
+        if let (Some(ours), Some(peer)) = (of("asunder"), of("parry3d"))
+            && peer.ns < ours.ns
+        {
+            let factor = short(ours.ns / peer.ns);
+            said.push(format!("{scene}, {} boxes: {} is {factor} times as fast.", size(boxes), peer.variant));
+        }
+        let on = |threads| best(rows, (&scene, boxes, "asunder"), "wall", threads);
+        if let (Some(one), Some(two)) = (on(1), on(2))
+            && two.ns > one.ns
+        {
+            let factor = short(two.ns / one.ns);
+            said.push(format!(
+                "{scene}, {} boxes: two threads take {factor} times as long as one.",
+                size(boxes)
+            ));
+        }
+    }
+    said
+}
+
+/// Sizes between which one curve falls below another, scene by scene: where the two cross, by straight lines between
+/// logarithms.
+///
+/// ```
+/// let ours = [(1000.0, 20.0), (10_000.0, 100.0)];
+/// let theirs = [(1000.0, 10.0), (10_000.0, 200.0)];
+/// let at = asunder_benches::report::losses::crossover(&ours, &theirs);
+/// assert!(at.is_some_and(|n| (1000.0..10_000.0).contains(&n)));
+/// assert_eq!(asunder_benches::report::losses::crossover(&ours, &ours), None);
+/// ```
+pub fn crossover(ours: &[(f64, f64)], theirs: &[(f64, f64)]) -> Option<f64> {
+    let gaps: Vec<(f64, f64)> = ours
+        .iter()
+        .filter_map(|&(n, a)| {
+            let (_, b) = theirs.iter().find(|other| other.0 == n)?;
+            Some((libm::log10(n), libm::log10(a) - libm::log10(*b)))
+        })
+        .collect();
+    let change = gaps.windows(2).find(|ends| ends[0].1 * ends[1].1 < 0.0)?;
+    let [(n0, d0), (n1, d1)] = [change[0], change[1]];
+    Some(libm::exp10(n0 + (n1 - n0) * d0 / (d0 - d1)))
+}
+
+/// Scenes whose frames the peer does sooner, on one thread each.
+pub fn of_frame(rows: &[FrameRow]) -> Vec<String> {
+    let mut said = Vec::new();
+    for scene in distinct(rows, |row| row.scene.clone()) {
+        let of = |method: &str, threads: u64| {
+            rows.iter().find(|row| row.scene == scene && row.method == method && row.threads == threads)
+        };
+        let (Some(ours), Some(peer)) = (of("asunder", 1), of("parry3d", 1)) else { continue };
+        if peer.ns < ours.ns {
+            let on_two = of("asunder", 2).filter(|two| two.ns < peer.ns);
+            let on_two = on_two.map_or("", |_| "; on two threads asunder is ahead");
+            said.push(format!(
+                "{scene}: lean parry3d takes {} a frame, asunder {}, {} times as long{on_two}.",
+                duration(peer.ns),
+                duration(ours.ns),
+                short(ours.ns / peer.ns),
+            ));
+        }
+    }
+    said
+}
+
+/// Numbers of vertices at which another method answers sooner than the fastest of ours.
+pub fn of_vertices(rows: &[VertexRow]) -> Vec<String> {
+    let mut said = Vec::new();
+    for (dim, operation) in distinct(rows, |row| (row.dimension.clone(), row.operation.clone())) {
+        let here: Vec<&VertexRow> =
+            rows.iter().filter(|row| row.dimension == dim && row.operation == operation).collect();
+        for vertices in distinct(&here, |row| row.vertices) {
+            let least = |ours: bool| {
+                let rows = here.iter().filter(|row| row.vertices == vertices && is_ours(&row.method) == ours);
+                rows.min_by(|a, b| a.ns.total_cmp(&b.ns))
+            };
+            if let (Some(ours), Some(other)) = (least(true), least(false))
+                && other.ns < ours.ns
+            {
+                said.push(format!(
+                    "{}, {operation}, {vertices} vertices: {} takes {}, {} {}.",
+                    dimension(&dim),
+                    look(&other.method).name,
+                    duration(other.ns),
+                    look(&ours.method).name,
+                    duration(ours.ns),
+                ));
+            }
+        }
+    }
+    said
+}
