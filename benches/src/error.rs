@@ -1,5 +1,11 @@
 //! Speed against error: how fast each method answers, and how wrong it is where that is hard.
 
+mod groups;
+mod methods;
+mod speed;
+mod textbook;
+mod truth;
+
 use serde::{Deserialize, Serialize};
 
 /// What one method took for a group of pairs, and how wrong it was.
@@ -90,13 +96,13 @@ pub struct VertexRow {
 }
 
 /// Time and error of every method, a group of pairs at a time; `quick` in about a tenth of the time.
-pub fn speed_against_error(_quick: bool, _progress: &dyn Fn(&str)) -> Vec<ErrorRow> {
-    Vec::new()
+pub fn speed_against_error(quick: bool, progress: &dyn Fn(&str)) -> Vec<ErrorRow> {
+    speed::all(quick, progress)
 }
 
 /// Wrong answers of every method by the width of the gap; `quick` in about a tenth of the time.
-pub fn wrong_by_gap(_quick: bool, _progress: &dyn Fn(&str)) -> Vec<GapRow> {
-    Vec::new()
+pub fn wrong_by_gap(quick: bool, progress: &dyn Fn(&str)) -> Vec<GapRow> {
+    speed::by_gap(quick, progress)
 }
 
 /// How steady answers are; `quick` in about a tenth of the time.
