@@ -57,21 +57,6 @@ impl Samples {
         quantiles(&self.ns, [0.25, 0.5, 0.75]).map(|[low, median, high]| Spread { low, median, high })
     }
 
-    /// Lower quartile, median and upper quartile: samples, not means of them. Nothing before the first. Cost: a sort.
-    ///
-    /// ```
-    /// use asunder_benches::clock::Samples;
-    /// let mut samples = Samples::default();
-    /// (0..9).for_each(|i| samples.push(f64::from(8 - i), 0.0));
-    /// assert_eq!(samples.quartiles(), Some([2.0, 4.0, 6.0]));
-    /// ```
-    pub fn quartiles(&self) -> Option<[f64; 3]> {
-        let mut sorted = self.ns.clone();
-        sorted.sort_unstable_by(f64::total_cmp);
-        let last = sorted.len().checked_sub(1)?;
-        Some([last / 4, last / 2, last - last / 4].map(|i| sorted[i]))
-    }
-
     /// The time that all samples took, in nanoseconds.
     pub fn spent(&self) -> f64 {
         self.spent

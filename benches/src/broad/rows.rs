@@ -2,7 +2,7 @@
 
 use super::memory::{bandwidth, least_traffic};
 use super::{Case, run, threads};
-use crate::clock::{Effort, Samples};
+use crate::clock::{Effort, Samples, Spread};
 use crate::row::Row;
 use rayon::ThreadPoolBuildError;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ pub struct BroadRow {
 
 impl BroadRow {
     fn new(&(scene, count): &Case, (method, variant): (&str, &str), samples: &Samples) -> Option<Self> {
-        let [ns_low, ns, ns_high] = samples.quartiles()?;
+        let Spread { low: ns_low, median: ns, high: ns_high } = samples.spread()?;
         Some(Self {
             scene: scene.name().to_string(),
             boxes: count as u64,

@@ -2,13 +2,13 @@
 
 use libm::{exp10, floor, log10};
 
-/// A logarithmic axis, with an own band for zero where it is asked for.
+/// An axis, logarithmic with an own band for zero where it is asked for, or linear from zero.
 ///
 /// ```
 /// use asunder_benches::report::axis::Axis;
 /// let axis = Axis::new(&[0.02, 5.0], (0.0, 300.0));
 /// assert_eq!((axis.at(0.01), axis.at(1.0), axis.at(10.0)), (0.0, 200.0, 300.0));
-/// assert_eq!(axis.ticks(4), [-2, -1, 0, 1]);
+/// assert_eq!(axis.ticks(4), [0.01, 0.1, 1.0, 10.0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
@@ -18,6 +18,8 @@ pub struct Axis {
     places: (f64, f64),
     /// Where zero is drawn.
     zero: Option<f64>,
+    /// The value at the upper end of a linear axis.
+    linear: Option<f64>,
 }
 
 impl Axis {
@@ -32,7 +34,7 @@ impl Axis {
         } else {
             (0, 1)
         };
-        Self { decades, places, zero: None }
+        Self { decades, places, zero: None, linear: None }
     }
 
     /// The same with a band for zero, `width` wide, at the low end.
@@ -45,17 +47,17 @@ impl Axis {
         self
     }
 
-    /// The same within these values and no wider; for scales that do not begin with a power of ten.
+    /// A linear axis from zero to the greatest value, or to 1.
     ///
     /// ```
     /// use asunder_benches::report::axis::Axis;
-    /// let axis = Axis::new(&[1.0], (0.0, 100.0)).spanning(3, 5);
-    /// assert_eq!((axis.at(1e3), axis.at(1e5)), (0.0, 100.0));
+    /// let axis = Axis::linear(&[0.3, 2.0], (0.0, 100.0));
+    /// assert_eq!((axis.at(0.0), axis.at(1.0), axis.at(2.0)), (0.0, 50.0, 100.0));
+    /// assert_eq!(axis.ticks(5), [0.0, 0.5, 1.0, 1.5, 2.0]);
     /// ```
-    #[must_use]
-    pub fn spanning(mut self, low: i32, high: i32) -> Self {
-        self.decades = (low, high.max(low + 1));
-        self
+    pub fn linear(values: &[f64], places: (f64, f64)) -> Self {
+        let high = values.iter().copied().filter(|value| value.is_finite()).fold(1.0, f64::max);
+        Self { decades: (0, 1), places, zero: None, linear: Some(high) }
     }
 
     /// The place of a value. Zero has its band, where there is one; what is beyond an end is at that end.
@@ -64,8 +66,11 @@ impl Axis {
             return zero;
         }
         let (low, high) = (f64::from(self.decades.0), f64::from(self.decades.1));
-        let part = ((log10(value.max(f64::MIN_POSITIVE)) - low) / (high - low)).clamp(0.0, 1.0);
-        self.places.0 + part * (self.places.1 - self.places.0)
+        let part = match self.linear {
+            Some(most) => value / most,
+            None => (log10(value.max(f64::MIN_POSITIVE)) - low) / (high - low),
+        };
+        self.places.0 + part.clamp(0.0, 1.0) * (self.places.1 - self.places.0)
     }
 
     /// Where the band of zero lies, and where it ends.
@@ -73,22 +78,21 @@ impl Axis {
         self.zero.map(|place| (place, self.places.0))
     }
 
-    /// The decades to be labelled: all, or as many as fit.
-    pub fn ticks(&self, most: usize) -> Vec<i32> {
-        let (low, high) = self.decades;
-        let count = (high - low) as usize + 1;
-        let step = count.div_ceil(most.max(2)).max(1) as i32;
-        (low..=high).filter(|decade| (high - decade) % step == 0).collect()
+    /// The values to be labelled: as many as fit, and none that would stand beside the name of zero.
+    pub fn ticks(&self, most: usize) -> Vec<f64> {
+        let lines = self.lines();
+        let step = lines.len().div_ceil(most.max(2)).max(1);
+        let last = lines.len() - 1;
+        let is_shown = |i: usize| (last - i).is_multiple_of(step) && (i > 0 || self.zero.is_none());
+        (0..lines.len()).filter(|&i| is_shown(i)).map(|i| lines[i]).collect()
     }
 
-    /// Every power of ten on the axis.
-    pub fn decades(&self) -> impl Iterator<Item = i32> {
-        self.decades.0..=self.decades.1
-    }
-
-    /// A power of ten.
-    pub fn power(decade: i32) -> f64 {
-        exp10(f64::from(decade))
+    /// Every power of ten on the axis; every half on a linear one.
+    pub fn lines(&self) -> Vec<f64> {
+        match self.linear {
+            Some(most) => (0..=floor(most * 2.0) as i32).map(|half| 0.5 * f64::from(half)).collect(),
+            None => (self.decades.0..=self.decades.1).map(|decade| exp10(f64::from(decade))).collect(),
+        }
     }
 }
 
@@ -113,7 +117,7 @@ mod tests {
             for value in [0.0, 1.0, f64::MAX, f64::INFINITY, 1e-320] {
                 assert!((0.0..=100.0).contains(&axis.at(value)), "{values:?}: {value} at {}", axis.at(value));
             }
-            assert!((2..=7).contains(&axis.ticks(6).len()), "{values:?}: {:?}", axis.ticks(6));
+            assert!((2..=6).contains(&axis.ticks(6).len()), "{values:?}: {:?}", axis.ticks(6));
         }
     }
 }

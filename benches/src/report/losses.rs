@@ -1,6 +1,6 @@
 //! Where somebody else is ahead: found in the rows, sentence by sentence.
 
-use super::names::{count, dimension, duration, error, short, size, words};
+use super::names::{count, dimension, duration, error, number, short, size, words};
 use super::palette::{is_ours, look};
 use crate::broad::rows::BroadRow;
 use crate::error::{ErrorRow, GapRow, StabilityRow, VertexRow};
@@ -104,8 +104,8 @@ pub fn of_stability(rows: &[StabilityRow]) -> Vec<String> {
                 words(&shape),
                 look(&other.method).name,
                 look(&ours.method).name,
-                error(other.p99),
-                error(ours.p99),
+                number(other.p99),
+                number(ours.p99),
                 ours.unit,
             ));
         }
@@ -125,7 +125,7 @@ pub fn best<'a>(
     here.filter(|row| row.clock == clock && row.threads == threads).min_by(|a, b| a.ns.total_cmp(&b.ns))
 }
 
-/// Scenes and sizes at which the peer finds all pairs sooner, or our second thread costs time.
+/// Scenes and sizes at which the peer finds all pairs sooner, or our second thread costs time beyond the noise.
 pub fn of_broad(rows: &[BroadRow]) -> Vec<String> {
     let mut said = Vec::new();
     for (scene, boxes) in distinct(rows, |row| (row.scene.clone(), row.boxes)) {
@@ -138,7 +138,7 @@ pub fn of_broad(rows: &[BroadRow]) -> Vec<String> {
         }
         let on = |threads| best(rows, (&scene, boxes, "asunder"), "wall", threads);
         if let (Some(one), Some(two)) = (on(1), on(2))
-            && two.ns > one.ns
+            && two.ns_low > one.ns_high
         {
             let factor = short(two.ns / one.ns);
             said.push(format!(

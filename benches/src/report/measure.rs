@@ -8,7 +8,6 @@ use crate::broad::{self, rows as broad_rows};
 use crate::clock::Effort;
 use crate::error;
 use crate::world::{self, rows as world_rows};
-use rayon::ThreadPool;
 use std::error::Error;
 
 /// Threads of the rows that have more than one.
@@ -28,26 +27,22 @@ pub fn measure(
     (quick, processor): (bool, &Processor),
     progress: Progress,
 ) -> Result<(), Box<dyn Error>> {
-    // One thread, so that its CPU time is all the time there is.
-    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let say = |text: &str| progress(text, None);
     match section {
-        Section::Error => data.error = alone.install(|| error::speed_against_error(quick, &say)),
-        Section::Gap => data.gap = alone.install(|| error::wrong_by_gap(quick, &say)),
-        Section::Stability => data.stability = alone.install(|| error::stability(quick, &say)),
-        Section::Vertices => data.vertices = alone.install(|| error::vertices(quick, &say)),
-        Section::Broad => data.broad = broad_phase(&alone, quick, progress)?,
+        Section::Error => data.error = error::speed_against_error(quick, &say),
+        Section::Gap => data.gap = error::wrong_by_gap(quick, &say),
+        Section::Stability => data.stability = error::stability(quick, &say),
+        Section::Vertices => data.vertices = error::vertices(quick, &say),
+        Section::Broad => data.broad = broad_phase(quick, progress)?,
         Section::Frame => data.frame = frames(quick, progress)?,
     }
     data.set_origin(Origin::now(section, processor, quick));
     Ok(())
 }
 
-fn broad_phase(
-    alone: &ThreadPool,
-    quick: bool,
-    progress: Progress,
-) -> Result<Vec<broad_rows::BroadRow>, Box<dyn Error>> {
+fn broad_phase(quick: bool, progress: Progress) -> Result<Vec<broad_rows::BroadRow>, Box<dyn Error>> {
+    // One thread, so that its CPU time is all the time there is.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let effort = if quick {
         Effort { seconds: 0.05, ..Effort::quick() }
     } else {
@@ -64,7 +59,7 @@ fn broad_phase(
 }
 
 fn frames(quick: bool, progress: Progress) -> Result<Vec<world_rows::FrameRow>, Box<dyn Error>> {
-    let effort = if quick { Effort { seconds: 0.1, ..Effort::quick() } } else { Effort::full() };
+    let effort = if quick { Effort { seconds: 0.25, ..Effort::quick() } } else { Effort::full() };
     let cases: Vec<world::Case> = world::cases().into_iter().filter(|(_, in_plane)| !in_plane).collect();
     let mut rows = Vec::new();
     for (i, case) in cases.iter().enumerate() {

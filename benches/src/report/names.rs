@@ -18,6 +18,16 @@ pub fn duration(ns: f64) -> String {
     format!("{} {unit}", short(value))
 }
 
+/// A time that is a round number: a place on an axis.
+///
+/// ```
+/// use asunder_benches::report::names::round;
+/// assert_eq!([1.0, 1e3, 1e5].map(round), ["1 ns", "1 µs", "100 µs"]);
+/// ```
+pub fn round(ns: f64) -> String {
+    duration(ns).replace(".0 ", " ")
+}
+
 /// A number to two figures, or more before the point.
 ///
 /// ```

@@ -1,5 +1,7 @@
 //! What the noise of a row is, and who is beaten by nobody.
 
+use crate::clock::Spread;
+
 /// Quartiles further apart than this part of the median are marked, in plots and in tables.
 pub const WIDE: f64 = 0.2;
 
@@ -14,6 +16,24 @@ pub const WIDE: f64 = 0.2;
 pub fn is_wide(median: f64, low: f64, high: f64) -> bool {
     // Not `>`: a comparison with no number must not pass for steady.
     !(high - low <= WIDE * median)
+}
+
+impl Spread {
+    /// A median and its quartiles.
+    pub const fn new(median: f64, low: f64, high: f64) -> Self {
+        Self { low, median, high }
+    }
+
+    /// The same in other units.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self::new(self.median * factor, self.low * factor, self.high * factor)
+    }
+
+    /// Whether it is marked: [`is_wide`].
+    pub fn is_wide(self) -> bool {
+        is_wide(self.median, self.low, self.high)
+    }
 }
 
 /// The points that no other is at least as good as in both coordinates, and better in one; less is better. Indices in

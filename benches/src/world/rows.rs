@@ -2,7 +2,7 @@
 
 use super::threads::{Run, Side, run};
 use super::{Case, MARGIN, Ours, lean_bodies, name, peer_frame, poses_at};
-use crate::clock::Effort;
+use crate::clock::{Effort, Spread};
 use crate::lean::{Lean, Walked};
 use crate::parry;
 use asunder_geometry::Pose3;
@@ -94,7 +94,7 @@ fn row(
     (side, method, threads): (&Side, &str, usize),
     memory: Held,
 ) -> Option<FrameRow> {
-    let [ns_low, ns, ns_high] = side.samples.quartiles()?;
+    let Spread { low: ns_low, median: ns, high: ns_high } = side.samples.spread()?;
     let [refit_ns, sweep_ns, collide_ns, merge_ns, report_ns] = side.stages.medians();
     let candidates = if method == "parry3d" { run.peer_candidates } else { run.stats.candidates };
     let (allocations, bytes_per_body) = memory.unwrap_or((-1.0, -1.0));

@@ -32,16 +32,18 @@ pub struct Group {
 
 const TOP: f64 = 88.0;
 const ROW: f64 = 17.0;
+/// Bars end here, whatever they stand for: their label says how much that is.
+const LONGEST: f64 = 4.0;
 const HEADING: f64 = 19.0;
 
 /// Draws the groups; all lengths are parts of the line at 1, which the caption names. Parts have names and colours.
 pub fn bars(title: &Title, caption: &str, parts: &[(&str, RGBColor)], groups: &[Group]) -> String {
     let all = || groups.iter().flat_map(|group| &group.bars);
     let left = 20.0 + all().map(|bar| width_of(&bar.name, TEXT)).fold(0.0, f64::max);
-    let label = all().map(|bar| width_of(&bar.label, TEXT)).fold(0.0, f64::max);
+    let label = all().map(|bar| width_of(&bar.label, TEXT) + 8.0).fold(0.0, f64::max);
     let right = WIDTH - 18.0 - label;
-    let longest = all().map(|bar| bar.parts.iter().sum::<f64>().max(bar.whisker.1)).fold(1.0, f64::max);
-    let at = |length: f64| left + (right - left) * length / longest;
+    let longest = all().map(|bar| bar.parts.iter().sum::<f64>()).fold(1.0, f64::max).min(LONGEST);
+    let at = |length: f64| left + (right - left) * (length / longest).min(1.0);
     let height: f64 = groups.iter().map(|group| HEADING + ROW * group.bars.len() as f64).sum();
     let bottom = TOP + height + 4.0;
     draw(&title.question, bottom + 44.0, |sheet| {
@@ -88,7 +90,13 @@ fn one(
     }
     let (low, high) = bar.whisker;
     sheet.line(&[(at(low), middle), (at(high), middle)], INK, 1.0);
-    sheet.text(&bar.label, (at(sum.max(high)) + 6.0, middle), Hang::Start, (INK, TEXT - 0.5));
+    let cut = if sum > LONGEST { "» " } else { "" };
+    sheet.text(
+        &format!("{cut}{}", bar.label),
+        (at(sum.max(high)) + 6.0, middle),
+        Hang::Start,
+        (INK, TEXT - 0.5),
+    );
 }
 
 /// Two lines of names, each after a patch of its colour.

@@ -1,10 +1,11 @@
 //! Curves over sizes, both axes logarithmic, each named at its end.
 
+use super::Title;
 use super::labels::apart;
 use super::scatter::dark;
-use super::{Spread, Title};
+use crate::clock::Spread;
 use crate::report::axis::Axis;
-use crate::report::names::{duration, size};
+use crate::report::names::{round, size};
 use crate::report::palette::{GRID, INK, Look, Mark, PALE};
 use crate::report::sheet::{Hang, Sheet, TEXT, WIDTH, draw, width_of};
 
@@ -78,23 +79,23 @@ impl Scale {
 
 fn backdrop(sheet: &mut Sheet, caption: &str, sizes: &[u64], (x, y, right): (&Scale, &Axis, f64)) {
     let small = TEXT - 0.5;
-    for decade in y.decades() {
-        let value = Axis::power(decade);
+    for value in y.lines() {
         for step in 1..10 {
             let width = if step == 1 { 1.0 } else { 0.25 };
             let at = y.at(value * f64::from(step));
             sheet.line(&[(LEFT, at), (right, at)], GRID, width);
         }
-        sheet.text(&duration(value), (LEFT - 5.0, y.at(value)), Hang::End, (INK, small));
+        sheet.text(&round(value), (LEFT - 5.0, y.at(value)), Hang::End, (INK, small));
     }
-    let mut free = f64::NEG_INFINITY;
-    for &value in sizes {
+    // From the greatest down: both ends should be named, and the upper one is the one that is asked for.
+    let mut free = f64::INFINITY;
+    for &value in sizes.iter().rev() {
         let (place, name) = (x.at(value as f64), size(value));
         sheet.line(&[(place, BOTTOM), (place, BOTTOM + 4.0)], PALE, 1.0);
         let half = 0.5 * width_of(&name, small);
-        if place - half > free {
+        if place + half < free {
             sheet.text(&name, (place, BOTTOM + 13.0), Hang::Middle, (INK, small));
-            free = place + half + 4.0;
+            free = place - half - 4.0;
         }
     }
     sheet.text(caption, (0.5 * (LEFT + right), BOTTOM + 33.0), Hang::Middle, (PALE, TEXT));

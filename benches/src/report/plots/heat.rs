@@ -34,7 +34,7 @@ pub fn heat(title: &Title, caption: &str, columns: &[String], rows: &[Row]) -> S
                 let from = left + cell * k as f64;
                 let Some(share) = *share else { continue };
                 sheet.rect((from + 0.5, top + 0.5), (from + cell - 0.5, top + ROW - 0.5), shade(share));
-                let color = if share > 0.1 { RGBColor(255, 255, 255) } else { INK };
+                let color = if share > 0.09 { RGBColor(255, 255, 255) } else { INK };
                 sheet.text(&percent(share), (from + 0.5 * cell, middle), Hang::Middle, (color, small));
             }
         }
@@ -63,7 +63,9 @@ fn shade(share: f64) -> RGBColor {
         return RGBColor(230, 242, 230);
     }
     let part = (1.0 + libm::log10(share.clamp(1e-4, 1.0)) / 4.0).clamp(0.0, 1.0);
-    let [pale, deep] = [[254.0, 232.0, 200.0], [140.0, 20.0, 0.0]];
+    // Squared: most of the way is kept for the shares that matter, and letters stay legible on the rest.
+    let part = part * part;
+    let [pale, deep] = [[254.0, 228.0, 190.0], [140.0, 20.0, 0.0]];
     let mix = |i: usize| (pale[i] + part * (deep[i] - pale[i])) as u8;
     RGBColor(mix(0), mix(1), mix(2))
 }

@@ -6,15 +6,15 @@ use crate::report::sheet::{TEXT, width_of};
 pub type Rectangle = [(f64, f64); 2];
 
 /// Places for labels of some lines each, at points, within a frame: the least corner of each label. No label lies on
-/// another, on a point or outside the frame, as long as there is room anywhere near.
+/// another, on a point or outside the frame, as long as there is room anywhere near; nor, if it can, on a line.
 ///
 /// ```
 /// use asunder_benches::report::plots::labels::place;
 /// let labels = [("one".to_string(), (50.0, 50.0)), ("two".to_string(), (52.0, 50.0))];
-/// let places = place(&labels, [(0.0, 0.0), (200.0, 100.0)]);
+/// let places = place(&labels, [(0.0, 0.0), (200.0, 100.0)], &[]);
 /// assert!((places[0].1 - places[1].1).abs() > 10.0 || (places[0].0 - places[1].0).abs() > 15.0);
 /// ```
-pub fn place(labels: &[(String, (f64, f64))], frame: Rectangle) -> Vec<(f64, f64)> {
+pub fn place(labels: &[(String, (f64, f64))], frame: Rectangle, lines: &[Rectangle]) -> Vec<(f64, f64)> {
     let points: Vec<Rectangle> =
         labels.iter().map(|(_, (x, y))| [(x - 6.0, y - 6.0), (x + 6.0, y + 6.0)]).collect();
     let mut taken: Vec<Rectangle> = Vec::new();
@@ -24,9 +24,10 @@ pub fn place(labels: &[(String, (f64, f64))], frame: Rectangle) -> Vec<(f64, f64
         for (i, corner) in around(*at, size).into_iter().enumerate() {
             let label = [corner, (corner.0 + size.0, corner.1 + size.1)];
             let hidden: f64 = taken.iter().chain(&points).map(|other| shared(&label, other)).sum();
+            let crossed: f64 = lines.iter().map(|line| shared(&label, line)).sum();
             let outside = size.0 * size.1 - shared(&label, &frame);
             // Nearer places come first, and win among equals.
-            let cost = 10.0 * hidden + 40.0 * outside + i as f64;
+            let cost = 10.0 * hidden + 40.0 * outside + 0.15 * crossed + i as f64;
             if cost < least {
                 (best, least) = (label, cost);
             }
@@ -102,7 +103,7 @@ mod tests {
     fn seven_labels_at_one_place_do_not_hide_each_other() {
         let labels: Vec<(String, (f64, f64))> =
             (0..7).map(|i| (format!("textbook f{i}"), (200.0, 150.0 + f64::from(i)))).collect();
-        let places = place(&labels, [(0.0, 0.0), (400.0, 300.0)]);
+        let places = place(&labels, [(0.0, 0.0), (400.0, 300.0)], &[]);
         for (i, one) in places.iter().enumerate() {
             for other in &places[..i] {
                 let (width, height) = size_of("textbook f0");

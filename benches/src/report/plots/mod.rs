@@ -27,37 +27,3 @@ impl Title {
         [&self.question, &self.reading]
     }
 }
-
-/// A median with what it varies over.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spread {
-    /// The middle sample.
-    pub median: f64,
-    /// The lower quartile.
-    pub low: f64,
-    /// The upper quartile.
-    pub high: f64,
-}
-
-impl Spread {
-    /// A value and its quartiles.
-    pub const fn new(median: f64, low: f64, high: f64) -> Self {
-        Self { median, low, high }
-    }
-
-    /// A value without noise.
-    pub const fn exactly(value: f64) -> Self {
-        Self { median: value, low: value, high: value }
-    }
-
-    /// The same in other units.
-    #[must_use]
-    pub fn scaled(self, factor: f64) -> Self {
-        Self { median: self.median * factor, low: self.low * factor, high: self.high * factor }
-    }
-
-    /// Whether it is marked.
-    pub fn is_wide(self) -> bool {
-        super::spread::is_wide(self.median, self.low, self.high)
-    }
-}

@@ -1,10 +1,11 @@
 //! Time against error, both logarithmic: a point a method, the front of those whom nobody beats, and a band for no
 //! error at all.
 
-use super::labels::place;
-use super::{Spread, Title};
+use super::Title;
+use super::labels::{Rectangle, place};
+use crate::clock::Spread;
 use crate::report::axis::Axis;
-use crate::report::names::{duration, error};
+use crate::report::names::{error, round};
 use crate::report::palette::{GRID, INK, Look, PALE};
 use crate::report::sheet::{Hang, Sheet, TEXT, WIDTH, draw};
 use crate::report::spread::pareto_front;
@@ -23,6 +24,8 @@ pub struct Point {
     pub reach: f64,
     /// Its time, in nanoseconds.
     pub ns: Spread,
+    /// It answers the same question as the others: only such are held against each other.
+    pub is_ranked: bool,
 }
 
 /// What is drawn across.
@@ -50,7 +53,8 @@ pub fn scatter(title: &Title, across: &Across, points: &[Point]) -> String {
     draw(&title.question, HEIGHT, |sheet| {
         sheet.title(&title.lines());
         backdrop(sheet, across, (&x, &y));
-        front(sheet, points, (&x, &y));
+        let steps = front(points, (&x, &y));
+        sheet.line(&steps, FRONT, 2.0);
         let at: Vec<(f64, f64)> = points.iter().map(|p| (x.at(p.across), y.at(p.ns.median))).collect();
         for (point, place) in points.iter().zip(&at) {
             whiskers(sheet, point, (&x, &y));
@@ -58,8 +62,10 @@ pub fn scatter(title: &Title, across: &Across, points: &[Point]) -> String {
         }
         let labels: Vec<(String, (f64, f64))> =
             points.iter().zip(&at).map(|(point, &place)| (point.label.clone(), place)).collect();
-        for ((point, corner), from) in
-            points.iter().zip(place(&labels, [(LEFT, TOP), (RIGHT, BOTTOM)])).zip(&at)
+        for ((point, corner), from) in points
+            .iter()
+            .zip(place(&labels, [(LEFT, TOP), (RIGHT, BOTTOM)], &drawn_lines(points, &steps, (&x, &y))))
+            .zip(&at)
         {
             let middle = (corner.0, corner.1 + 0.5 * (TEXT + 2.0));
             if (middle.1 - from.1).abs() > 22.0 {
@@ -84,30 +90,29 @@ fn backdrop(sheet: &mut Sheet, across: &Across, (x, y): (&Axis, &Axis)) {
         sheet.rect((LEFT, TOP), (end, BOTTOM), BAND);
         sheet.text(&across.zero, (zero, BOTTOM + 12.0), Hang::Middle, (INK, small));
     }
-    for decade in x.decades() {
-        let place = x.at(Axis::power(decade));
+    for value in x.lines() {
+        let place = x.at(value);
         sheet.line(&[(place, TOP), (place, BOTTOM)], GRID, 0.5);
     }
-    for decade in x.ticks(6) {
-        let value = Axis::power(decade);
+    for value in x.ticks(6) {
         let hang = if x.at(value) > RIGHT - 10.0 { Hang::End } else { Hang::Middle };
         sheet.text(&error(value), (x.at(value), BOTTOM + 12.0), hang, (INK, small));
     }
-    for decade in y.decades() {
-        let value = Axis::power(decade);
+    for value in y.lines() {
         for step in 1..10 {
             let at = y.at(value * f64::from(step));
             let width = if step == 1 { 1.0 } else { 0.25 };
             sheet.line(&[(LEFT, at), (RIGHT, at)], GRID, width);
         }
-        sheet.text(&duration(value), (LEFT - 5.0, y.at(value)), Hang::End, (INK, small));
+        sheet.text(&round(value), (LEFT - 5.0, y.at(value)), Hang::End, (INK, small));
     }
     sheet.text(&across.caption, (0.5 * (LEFT + RIGHT), BOTTOM + 32.0), Hang::Middle, (PALE, TEXT));
 }
 
 /// Steps from one method that nobody beats to the next: nothing was measured below and left of them.
-fn front(sheet: &mut Sheet, points: &[Point], (x, y): (&Axis, &Axis)) {
-    let values: Vec<(f64, f64)> = points.iter().map(|point| (point.across, point.ns.median)).collect();
+fn front(points: &[Point], (x, y): (&Axis, &Axis)) -> Vec<(f64, f64)> {
+    let value = |point: &Point| if point.is_ranked { point.across } else { f64::NAN };
+    let values: Vec<(f64, f64)> = points.iter().map(|point| (value(point), point.ns.median)).collect();
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for i in pareto_front(&values) {
         let place = (x.at(values[i].0), y.at(values[i].1));
@@ -116,8 +121,24 @@ fn front(sheet: &mut Sheet, points: &[Point], (x, y): (&Axis, &Axis)) {
     }
     if let Some(&(_, last)) = steps.last() {
         steps.push((RIGHT, last));
-        sheet.line(&steps, FRONT, 2.0);
     }
+    steps
+}
+
+/// What labels should not lie on: the front, and how far errors reach.
+fn drawn_lines(points: &[Point], steps: &[(f64, f64)], (x, y): (&Axis, &Axis)) -> Vec<Rectangle> {
+    let around = |a: (f64, f64), b: (f64, f64)| {
+        [(a.0.min(b.0) - 2.0, a.1.min(b.1) - 2.0), (a.0.max(b.0) + 2.0, a.1.max(b.1) + 2.0)]
+    };
+    let reach = points.iter().map(|point| {
+        let height = y.at(point.ns.median);
+        around((x.at(point.across), height), (x.at(point.reach), height))
+    });
+    let noise = points.iter().map(|point| {
+        let place = x.at(point.across);
+        around((place, y.at(point.ns.low)), (place, y.at(point.ns.high)))
+    });
+    steps.windows(2).map(|ends| around(ends[0], ends[1])).chain(reach).chain(noise).collect()
 }
 
 /// Quartiles of time up and down; to the right, as far as the error reaches.

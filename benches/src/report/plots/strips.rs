@@ -8,6 +8,15 @@ use crate::report::palette::{GRID, INK, Look, PALE};
 use crate::report::sheet::{Hang, TEXT, WIDTH, draw, width_of};
 use plotters::style::RGBColor;
 
+/// How values lie along the axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// By their logarithms, zero in a band of its own.
+    Logarithmic,
+    /// From zero up.
+    Linear,
+}
+
 /// One row of a group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strip {
@@ -37,31 +46,36 @@ const ROW: f64 = 16.0;
 const HEADING: f64 = 19.0;
 
 /// Draws the groups, one below the other; the figure beside a row is its value, and its end where that is another.
-pub fn strips(title: &Title, caption: &str, zero: &str, groups: &[Group]) -> String {
+pub fn strips(title: &Title, caption: &str, scale: Scale, groups: &[Group]) -> String {
     let all = || groups.iter().flat_map(|group| &group.strips);
     let left = 22.0 + all().map(|strip| width_of(&strip.look.name, TEXT)).fold(0.0, f64::max);
     let widest = all().map(|strip| width_of(&figures(strip), TEXT)).fold(0.0, f64::max);
     let right = WIDTH - 22.0 - widest;
     let values: Vec<f64> = all().flat_map(|s| [s.value, s.inner.0, s.inner.1, s.end]).collect();
-    let mut axis = Axis::new(&values, (left, right));
-    if values.contains(&0.0) {
-        axis = axis.with_zero(36.0);
-    }
+    let axis = match scale {
+        Scale::Linear => Axis::linear(&values, (left, right)),
+        Scale::Logarithmic if values.contains(&0.0) => Axis::new(&values, (left, right)).with_zero(40.0),
+        Scale::Logarithmic => Axis::new(&values, (left, right)),
+    };
     let height: f64 = groups.iter().map(|group| HEADING + ROW * group.strips.len() as f64).sum();
     let bottom = TOP + height + 4.0;
     draw(&title.question, bottom + 48.0, |sheet| {
         sheet.title(&title.lines());
         if let Some((place, end)) = axis.zero() {
             sheet.rect((left, TOP), (end, bottom), RGBColor(236, 245, 236));
-            sheet.text(zero, (place, bottom + 12.0), Hang::Middle, (INK, TEXT - 0.5));
+            sheet.text("0", (place, bottom + 12.0), Hang::Middle, (INK, TEXT - 0.5));
         }
-        for decade in axis.decades() {
-            let place = axis.at(Axis::power(decade));
+        for value in axis.lines() {
+            let place = axis.at(value);
             sheet.line(&[(place, TOP), (place, bottom)], GRID, 0.75);
         }
-        for decade in axis.ticks(5) {
-            let value = Axis::power(decade);
-            sheet.text(&number(value), (axis.at(value), bottom + 12.0), Hang::Middle, (INK, TEXT - 0.5));
+        for value in axis.ticks(5) {
+            sheet.text(
+                &number(value).replace(".0", "").replace("0.50", "0.5"),
+                (axis.at(value), bottom + 12.0),
+                Hang::Middle,
+                (INK, TEXT - 0.5),
+            );
         }
         let mut y = TOP;
         for group in groups {

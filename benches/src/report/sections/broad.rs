@@ -2,12 +2,13 @@
 
 use super::{Draft, Figure, marked};
 use crate::broad::rows::BroadRow;
+use crate::clock::Spread;
 use crate::report::losses::{best, crossover, distinct, of_broad};
 use crate::report::names::{count, short, size};
 use crate::report::palette::look;
+use crate::report::plots::Title;
 use crate::report::plots::curves::{Curve, curves};
-use crate::report::plots::strips::{Group, Strip, strips};
-use crate::report::plots::{Spread, Title};
+use crate::report::plots::strips::{Group, Scale, Strip, strips};
 use crate::report::table::Table;
 
 pub(super) fn draft(rows: &[BroadRow]) -> Draft {
@@ -17,7 +18,7 @@ pub(super) fn draft(rows: &[BroadRow]) -> Draft {
     if !groups.is_empty() {
         let question = "Do two threads pay in the broad phase?".to_string();
         let title = Title::new(question.clone(), "One thread's time over two's, by the clock on the wall.");
-        let svg = strips(&title, "times as fast on two threads as on one", "none", &groups);
+        let svg = strips(&title, "times as fast on two threads as on one", Scale::Linear, &groups);
         figures.push(Figure { file: "broad-threads".to_string(), question, svg });
     }
     Draft {
@@ -118,21 +119,27 @@ fn findings(scenes: &[String], rows: &[BroadRow]) -> Vec<String> {
                 count(libm::round(at) as u64)
             ));
         }
-        let on = |threads: u64| -> Vec<(f64, f64)> {
-            let at = |boxes: u64| best(rows, (scene, boxes, "asunder"), "wall", threads);
-            sizes_of(scene, rows)
-                .into_iter()
-                .filter_map(|boxes| Some((boxes as f64, at(boxes)?.ns)))
-                .collect()
+    }
+    said.extend(pays_from(scenes, rows));
+    said
+}
+
+/// The least size of each scene from which on a second thread saves time beyond the noise.
+fn pays_from(scenes: &[String], rows: &[BroadRow]) -> Option<String> {
+    let mut said = Vec::new();
+    for scene in scenes {
+        let pays = |boxes: &u64| {
+            let on = |threads| best(rows, (scene, *boxes, "asunder"), "wall", threads);
+            on(1).zip(on(2)).is_some_and(|(one, two)| two.ns_high < one.ns_low)
         };
-        if let Some(at) = crossover(&on(1), &on(2)) {
-            said.push(format!(
-                "{scene}: a second thread pays from about {} boxes.",
-                count(libm::round(at) as u64)
-            ));
+        let sizes = sizes_of(scene, rows);
+        if let Some(least) = sizes.iter().rev().take_while(|boxes| pays(boxes)).last() {
+            said.push(format!("{scene} from {}", size(*least)));
         }
     }
-    said
+    let all = said.join(", ");
+    (!all.is_empty())
+        .then(|| format!("A second thread saves time beyond the noise, of the sizes measured: {all}."))
 }
 
 fn table(scenes: &[String], rows: &[BroadRow]) -> Table {

@@ -1,12 +1,13 @@
 //! Time of every method against its error, a plot a family of pairs.
 
 use super::{Draft, Figure, marked};
+use crate::clock::Spread;
 use crate::error::ErrorRow;
 use crate::report::losses::{distinct, of_error};
 use crate::report::names::{count, dimension, error, short, words};
 use crate::report::palette::{look, rank};
+use crate::report::plots::Title;
 use crate::report::plots::scatter::{Across, Point, scatter};
-use crate::report::plots::{Spread, Title};
 use crate::report::table::Table;
 
 pub(super) fn draft(rows: &[ErrorRow]) -> Draft {
@@ -27,7 +28,8 @@ pub(super) fn draft(rows: &[ErrorRow]) -> Draft {
         method: "One question, the separation, about every pair of a family. Across: the 99th percentile of \
                  |answer - truth| over size; the thin line goes on to the greatest. Up: median time of a query; the \
                  upright line spans its quartiles. The grey steps are the Pareto front: below and left of them nobody \
-                 was. “Wrong” counts pairs strictly apart or strictly overlapping that were answered the other way. \
+                 was. asunder's fast tier says yes or no only, so that it has an error only where it is wrong; it is \
+                 left out of the front. “Wrong” counts pairs strictly apart or strictly overlapping that were answered the other way. \
                  Methods took turns, block by block, in CPU time of one thread.",
         figures,
         findings: findings(rows),
@@ -50,11 +52,19 @@ fn of_group(dim: &str, group: &str, rows: &[&ErrorRow]) -> Figure {
 
 fn point(row: &ErrorRow, (across, reach): (f64, f64), label: String) -> Point {
     let ns = Spread::new(row.ns, row.ns_low, row.ns_high);
-    Point { look: look(&row.method), label, across, reach, ns }
+    Point { look: look(&row.method), label, across, reach, ns, is_ranked: has_depth(&row.method) }
+}
+
+/// Whether a method says how deep, or only yes or no.
+fn has_depth(method: &str) -> bool {
+    method != "fast"
 }
 
 fn with_wrong(row: &ErrorRow) -> String {
     let mut label = look(&row.method).name;
+    if !has_depth(&row.method) {
+        label.push_str(", yes or no only");
+    }
     if row.wrong_per_100k > 0.0 {
         label.push_str(&format!(", {:.1} % wrong", row.wrong_per_100k * 1e-3).replace(", 0.0 %", ", <0.1 %"));
     }
@@ -78,7 +88,7 @@ fn of_wrong(dim: &str, rows: &[&ErrorRow]) -> Figure {
             let ns = Spread::new(mean(|row| row.ns), mean(|row| row.ns_low), mean(|row| row.ns_high));
             let wrong = mean(|row| row.wrong_per_100k);
             let look = look(&method);
-            Point { label: look.name.clone(), look, across: wrong, reach: wrong, ns }
+            Point { label: look.name.clone(), look, across: wrong, reach: wrong, ns, is_ranked: true }
         })
         .collect();
     Figure { file: format!("wrong-{dim}"), question, svg: scatter(&title, &across, &points) }

@@ -53,7 +53,11 @@ fn parts(row: &FrameRow) -> [f64; 6] {
 
 fn bar(row: &FrameRow, unit: f64) -> Bar {
     let mark = if crate::report::spread::is_wide(row.ns, row.ns_low, row.ns_high) { " ±" } else { "" };
-    let threads = if row.method == "parry3d" { String::new() } else { format!(", {}", row.threads) };
+    let threads = match (row.method.as_str(), row.threads) {
+        ("parry3d", _) => String::new(),
+        (_, 1) => ", 1 thread".to_string(),
+        (_, more) => format!(", {more} threads"),
+    };
     let look = look(&row.method);
     Bar {
         name: format!("{}{threads}", look.name),

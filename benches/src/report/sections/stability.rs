@@ -6,7 +6,7 @@ use crate::report::losses::{distinct, of_stability};
 use crate::report::names::{count, error, words};
 use crate::report::palette::{look, rank};
 use crate::report::plots::Title;
-use crate::report::plots::strips::{Group, Strip, strips};
+use crate::report::plots::strips::{Group, Scale, Strip, strips};
 use crate::report::table::Table;
 
 pub(super) fn draft(rows: &[StabilityRow]) -> Draft {
@@ -53,7 +53,8 @@ fn of_measure(measure: &str, rows: &[StabilityRow]) -> Figure {
         .collect();
     let unit = here.first().map_or("", |row| row.unit.as_str());
     let title = Title::new(question(measure), "Further left is steadier. Figures: median … greatest.");
-    let svg = strips(&title, &format!("{unit}: median, 99th percentile, greatest"), "none", &groups);
+    let svg =
+        strips(&title, &format!("{unit}: median, 99th percentile, greatest"), Scale::Logarithmic, &groups);
     Figure { file: format!("stability-{measure}"), question: question(measure), svg }
 }
 

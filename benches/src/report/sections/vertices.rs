@@ -1,12 +1,13 @@
 //! Time against vertices, a plot a question.
 
 use super::{Draft, Figure, marked};
+use crate::clock::Spread;
 use crate::error::VertexRow;
 use crate::report::losses::{distinct, of_vertices};
 use crate::report::names::dimension;
 use crate::report::palette::{look, rank};
+use crate::report::plots::Title;
 use crate::report::plots::curves::{Curve, curves};
-use crate::report::plots::{Spread, Title};
 use crate::report::table::Table;
 
 pub(super) fn draft(rows: &[VertexRow]) -> Draft {
