@@ -87,10 +87,14 @@ impl Axis {
         (0..lines.len()).filter(|&i| is_shown(i)).map(|i| lines[i]).collect()
     }
 
-    /// Every power of ten on the axis; every half on a linear one.
+    /// Every power of ten on the axis; on a linear one, every half of the power of ten below its end.
     pub fn lines(&self) -> Vec<f64> {
         match self.linear {
-            Some(most) => (0..=floor(most * 2.0) as i32).map(|half| 0.5 * f64::from(half)).collect(),
+            Some(most) => {
+                // Half of the power of ten below the end: 2 to 20 steps.
+                let step = 0.5 * exp10(floor(log10(most)));
+                (0..=floor(most / step) as i32).map(|i| step * f64::from(i)).collect()
+            }
             None => (self.decades.0..=self.decades.1).map(|decade| exp10(f64::from(decade))).collect(),
         }
     }

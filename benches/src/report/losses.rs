@@ -18,8 +18,8 @@ pub fn distinct<T, K: PartialEq>(rows: &[T], key: impl Fn(&T) -> K) -> Vec<K> {
     keys
 }
 
-/// Whoever answers faster than one of ours and is no less exact: of ours the certain and the fast one, since eight boxes
-/// at once are no other answer.
+/// Whoever is faster than our certain answers, or eight of them at once, with less error: what that costs in wrong
+/// answers stands beside it. At the end, whoever is only faster.
 ///
 /// ```
 /// use asunder_benches::{error::ErrorRow, report::losses};
@@ -29,45 +29,53 @@ pub fn distinct<T, K: PartialEq>(rows: &[T], key: impl Fn(&T) -> K) -> Vec<K> {
 /// };
 /// let rows = [row("certain", 100.0, 1e-9), row("textbook-f64", 50.0, 1e-12), row("parry-f32", 20.0, 1e-7)];
 /// let said = losses::of_error(&rows);
-/// assert!(said.len() == 1 && said[0].contains("textbook f64") && said[0].contains("2.0 times"), "{said:?}");
+/// assert!(said.len() == 2 && said[0].contains("textbook f64") && said[0].contains("2.0 times"), "{said:?}");
+/// assert!(said[1].contains("3D, far (parry3d, 5.0 times)"), "{said:?}");
 /// ```
 pub fn of_error(rows: &[ErrorRow]) -> Vec<String> {
-    let mut said = Vec::new();
+    let (mut said, mut faster) = (Vec::new(), Vec::new());
     for (dim, group) in distinct(rows, |row| (row.dimension.clone(), row.group.clone())) {
         let here = || rows.iter().filter(|row| row.dimension == dim && row.group == group);
-        for ours in here().filter(|row| is_ours(&row.method)) {
-            let ahead = here().filter(|row| !is_ours(&row.method) && is_ahead(row, ours));
-            let Some(best) = ahead.min_by(|a, b| a.ns.total_cmp(&b.ns)) else { continue };
-            let wrong = if best.wrong_per_100k + ours.wrong_per_100k > 0.0 {
-                format!(
-                    "; wrong in 100,000: {} against {}",
-                    short(best.wrong_per_100k),
-                    short(ours.wrong_per_100k)
-                )
-            } else {
-                String::new()
-            };
-            said.push(format!(
-                "{}, {}: {} is {} times as fast as {} and no less exact (99th percentile {} against {}{wrong}).",
-                dimension(&dim),
-                words(&group),
-                look(&best.method).name,
-                short(ours.ns / best.ns),
-                look(&ours.method).name,
-                error(best.error_p99),
-                error(ours.error_p99),
-            ));
+        let others = || here().filter(|row| !is_ours(&row.method));
+        let place = format!("{}, {}", dimension(&dim), words(&group));
+        for ours in here().filter(|row| ["certain", "batched-boxes"].contains(&row.method.as_str())) {
+            let ahead = others().filter(|row| row.ns < ours.ns && row.error_p99 < ours.error_p99);
+            said.extend(ahead.map(|other| format!("{place}: {}", ahead_of(other, ours))));
         }
+        let certain = here().find(|row| row.method == "certain");
+        let fastest = others().min_by(|a, b| a.ns.total_cmp(&b.ns));
+        if let (Some(certain), Some(fastest)) = (certain, fastest)
+            && fastest.ns < certain.ns
+        {
+            let times = short(certain.ns / fastest.ns);
+            faster.push(format!("{place} ({}, {times} times)", look(&fastest.method).name));
+        }
+    }
+    if !faster.is_empty() {
+        said.push(format!("Faster than asunder certain, more exact or not: {}.", faster.join("; ")));
     }
     said
 }
 
-/// Faster, and worse in nothing.
-fn is_ahead(other: &ErrorRow, ours: &ErrorRow) -> bool {
-    other.ns < ours.ns
-        && other.error_p99 <= ours.error_p99
-        && other.wrong_per_100k <= ours.wrong_per_100k
-        && other.refused <= ours.refused
+/// By how much, and at what price.
+fn ahead_of(other: &ErrorRow, ours: &ErrorRow) -> String {
+    let wrong = |row: &ErrorRow| match (row.wrong_per_100k, row.refused) {
+        (0.0, 0) => "never wrong".to_string(),
+        (wrong, 0) => format!("wrong {} times in 100,000", count(libm::ceil(wrong) as u64)),
+        (wrong, refused) => {
+            format!("wrong {} times in 100,000, {} refused", count(libm::ceil(wrong) as u64), count(refused))
+        }
+    };
+    format!(
+        "{} is {} times as fast as {}, with a 99th percentile of {} ({}) against {} ({}).",
+        look(&other.method).name,
+        short(ours.ns / other.ns),
+        look(&ours.method).name,
+        error(other.error_p99),
+        wrong(other),
+        error(ours.error_p99),
+        wrong(ours),
+    )
 }
 
 /// Widths of gap at which another method was wrong less often than our certain one; and how often ours was wrong.

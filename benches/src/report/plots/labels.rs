@@ -27,7 +27,7 @@ pub fn place(labels: &[(String, (f64, f64))], frame: Rectangle, lines: &[Rectang
             let crossed: f64 = lines.iter().map(|line| shared(&label, line)).sum();
             let outside = size.0 * size.1 - shared(&label, &frame);
             // Nearer places come first, and win among equals.
-            let cost = 10.0 * hidden + 40.0 * outside + 0.15 * crossed + i as f64;
+            let cost = 10.0 * hidden + 40.0 * outside + 0.06 * crossed + i as f64;
             if cost < least {
                 (best, least) = (label, cost);
             }
