@@ -28,7 +28,7 @@ struct Effort {
 /// Everything of both dimensions.
 pub(super) fn all(quick: bool, progress: &dyn Fn(&str)) -> Vec<ErrorRow> {
     let (few, seconds) = if quick { (10, 0.1) } else { (1, 1.0) };
-    let in_space = Effort { pairs: [100_000 / few, 20_000 / few], timed: 1024, seconds: 6.0 * seconds };
+    let in_space = Effort { pairs: [100_000 / few, 10_000 / few], timed: 1024, seconds: 6.0 * seconds };
     let in_plane = Effort { timed: 2048, seconds: 2.0 * seconds, ..in_space };
     let mut rows = of_dimension::<PosedPair3>(&in_space, progress);
     rows.extend(of_dimension::<PosedPair2>(&in_plane, progress));
@@ -84,7 +84,7 @@ fn said_by_all<P: Sync>(methods: &[Method<P>], pairs: &[P]) -> Vec<Vec<Said>> {
 }
 
 /// The time of each method a pair: chunk by chunk in turns, a sample a round; who is first changes from chunk to chunk.
-fn in_turns<P>(methods: &[Method<P>], pairs: &[P], seconds: f64) -> Vec<Samples> {
+pub(super) fn in_turns<P>(methods: &[Method<P>], pairs: &[P], seconds: f64) -> Vec<Samples> {
     let prepared: Vec<Vec<Box<dyn Prepared + '_>>> = pairs
         .chunks(CHUNK)
         .map(|chunk| methods.iter().map(|method| (method.prepare)(chunk)).collect())

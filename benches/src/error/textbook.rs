@@ -13,6 +13,7 @@
 
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 use core::ops::{Add, Div, Mul, Neg, Sub};
+use std::rc::Rc;
 
 /// f32 or f64.
 pub(super) trait Number:
@@ -50,7 +51,7 @@ impl Number for f64 {
 }
 
 /// A shape in its own axes.
-struct Form<T, const N: usize> {
+pub(super) struct Form<T, const N: usize> {
     vertices: Vec<[T; N]>,
     normals: Vec<[T; N]>,
     edges: Vec<[T; N]>,
@@ -61,12 +62,34 @@ struct Form<T, const N: usize> {
 struct Place<T, const N: usize> {
     axes: [[T; N]; N],
     position: [T; N],
+    /// What makes a turned normal a unit vector again: a cosine and a sine of f32 are off by their rounding.
+    unit: T,
 }
 
-/// A shape where it is.
+/// A shape where it is. Equal shapes share their form, as a game's do.
 pub(super) struct Body<T, const N: usize> {
-    form: Form<T, N>,
+    form: Rc<Form<T, N>>,
     place: Place<T, N>,
+}
+
+/// The forms of shapes that were seen. Cost of one: a look through those before it.
+pub(super) struct Forms<'a, S, T, const N: usize>(Vec<(&'a S, Rc<Form<T, N>>)>);
+
+impl<S, T, const N: usize> Default for Forms<'_, S, T, N> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<'a, S: PartialEq, T, const N: usize> Forms<'a, S, T, N> {
+    fn find(&mut self, shape: &'a S, make: impl FnOnce(&S) -> Form<T, N>) -> Rc<Form<T, N>> {
+        if let Some((_, form)) = self.0.iter().find(|(known, _)| *known == shape) {
+            return form.clone();
+        }
+        let form = Rc::new(make(shape));
+        self.0.push((shape, form.clone()));
+        form
+    }
 }
 
 /// Memory that is kept from query to query.
@@ -144,9 +167,8 @@ impl<T: Number, const N: usize> Form<T, N> {
     }
 }
 
-impl<T: Number> Body<T, 3> {
-    /// A sharp solid where it is.
-    pub(super) fn solid(shape: &Shape3, pose: &Pose3) -> Self {
+impl<T: Number> Form<T, 3> {
+    fn of_solid(shape: &Shape3) -> Self {
         let core = shape.core();
         let vertices: Vec<[f64; 3]> = core.vertices().iter().map(|v| v.as_dvec3().to_array()).collect();
         let topology = core.topology();
@@ -154,7 +176,21 @@ impl<T: Number> Body<T, 3> {
             let (from, to) = topology.ends(edge.into());
             (core.vertices()[to].as_dvec3() - core.vertices()[from].as_dvec3()).normalize().to_array()
         });
-        let form = Form::new(&vertices, core.normals().iter().map(|n| n.to_array()), edges);
+        Self::new(&vertices, core.normals().iter().map(|n| n.to_array()), edges)
+    }
+}
+
+impl<T: Number> Form<T, 2> {
+    fn of_polygon(shape: &Shape2) -> Self {
+        let core = shape.core();
+        let vertices: Vec<[f64; 2]> = core.vertices().iter().map(|v| v.as_dvec2().to_array()).collect();
+        Self::new(&vertices, core.normals().iter().map(|n| n.to_array()), core::iter::empty())
+    }
+}
+
+impl<T: Number> Body<T, 3> {
+    /// A sharp solid where it is.
+    pub(super) fn solid<'a>(shape: &'a Shape3, pose: &Pose3, forms: &mut Forms<'a, Shape3, T, 3>) -> Self {
         let q = pose.rotation().to_array().map(|c| T::of(c.into()));
         let length = dot(q, q).root();
         let [x, y, z, w] = q.map(|c| c / length);
@@ -164,20 +200,19 @@ impl<T: Number> Body<T, 3> {
             [two * (x * y - w * z), one - two * (x * x + z * z), two * (y * z + w * x)],
             [two * (x * z + w * y), two * (y * z - w * x), one - two * (x * x + y * y)],
         ];
-        Self { form, place: Place { axes, position: pose.position().to_array().map(T::of) } }
+        let position = pose.position().to_array().map(T::of);
+        Self { form: forms.find(shape, Form::of_solid), place: Place { axes, position, unit: one } }
     }
 }
 
 impl<T: Number> Body<T, 2> {
     /// A sharp polygon where it is.
-    pub(super) fn polygon(shape: &Shape2, pose: &Pose2) -> Self {
-        let core = shape.core();
-        let vertices: Vec<[f64; 2]> = core.vertices().iter().map(|v| v.as_dvec2().to_array()).collect();
-        let normals = core.normals().iter().map(|n| n.to_array());
-        let form = Form::new(&vertices, normals, core::iter::empty());
+    pub(super) fn polygon<'a>(shape: &'a Shape2, pose: &Pose2, forms: &mut Forms<'a, Shape2, T, 2>) -> Self {
         let [c, s] = [pose.rotation().cos(), pose.rotation().sin()].map(|c| T::of(c.into()));
-        let place = Place { axes: [[c, s], [-s, c]], position: pose.position().to_array().map(T::of) };
-        Self { form, place }
+        let position = pose.position().to_array().map(T::of);
+        let unit = T::of(1.0) / dot([c, s], [c, s]).root();
+        let place = Place { axes: [[c, s], [-s, c]], position, unit };
+        Self { form: forms.find(shape, Form::of_polygon), place }
     }
 }
 
@@ -190,7 +225,7 @@ impl<T: Number, const N: usize> World<T, N> {
                 into.extend(from.iter().map(|&v| make(v)));
             };
             fill(&mut self.vertices[i], &form.vertices, &|v| place.moved(v));
-            fill(&mut self.normals[i], &form.normals, &|v| place.turned(v));
+            fill(&mut self.normals[i], &form.normals, &|v| place.turned(v).map(|x| x * place.unit));
             fill(&mut self.edges[i], &form.edges, &|v| place.turned(v));
         }
         let [a, b] = bodies.map(|body| body.place.moved(body.form.center));
@@ -263,8 +298,8 @@ mod tests {
     use asunder_tests::report::Posed;
 
     fn depth3<T: Number>(pair: &PosedPair3) -> Option<f64> {
-        let a = Body::<T, 3>::solid(&pair.shape_a, &pair.pose_a);
-        let b = Body::<T, 3>::solid(&pair.shape_b, &pair.pose_b);
+        let a = Body::<T, 3>::solid(&pair.shape_a, &pair.pose_a, &mut Forms::default());
+        let b = Body::<T, 3>::solid(&pair.shape_b, &pair.pose_b, &mut Forms::default());
         World::<T, 3>::default().depth(&a, &b).map(|(depth, _)| depth.into())
     }
 
@@ -296,8 +331,8 @@ mod tests {
             if truth.abs() < 1e-5 * size || truth < -0.1 * size {
                 continue;
             }
-            let a = Body::<f64, 2>::polygon(&pair.shape_a, &pair.pose_a);
-            let b = Body::<f64, 2>::polygon(&pair.shape_b, &pair.pose_b);
+            let a = Body::<f64, 2>::polygon(&pair.shape_a, &pair.pose_a, &mut Forms::default());
+            let b = Body::<f64, 2>::polygon(&pair.shape_b, &pair.pose_b, &mut Forms::default());
             let found = World::<f64, 2>::default().depth(&a, &b).map(|(depth, _)| depth);
             assert_eq!(found.is_none(), truth > 0.0, "{truth}");
             assert!(found.is_none_or(|depth| (depth + truth).abs() < 1e-9 * size), "{found:?}, {truth}");
@@ -307,7 +342,7 @@ mod tests {
     #[test]
     fn boxes_have_fifteen_axes() {
         let pair = &pairs3(SolidKind::Box, PairSet::Mixed, 1, 1)[0];
-        let body = Body::<f32, 3>::solid(&pair.shape_a, &pair.pose_a);
+        let body = Body::<f32, 3>::solid(&pair.shape_a, &pair.pose_a, &mut Forms::default());
         assert_eq!((body.form.normals.len(), body.form.edges.len()), (3, 3));
     }
 

@@ -58,7 +58,7 @@ macro_rules! peer {
     ($module:ident, $parry:ident, $doc:literal) => {
         #[doc = $doc]
         pub mod $module {
-            use super::{Contact, Said};
+            use super::{Contact, Said, unless_panic};
             use asunder_geometry::{Pose3, Shape3};
             use asunder_scenes::pairs::PosedPair3;
             use glam::{DVec3, Vec3};
@@ -85,6 +85,25 @@ macro_rules! peer {
                         shapes: [shape(&pair.shape_a)?, shape(&pair.shape_b)?],
                         poses: [pose(&pair.pose_a), pose(&pair.pose_b)],
                     })
+                }
+
+                /// As [`Twins::new`] for many pairs, those of equal shapes sharing theirs, as a game's do. Cost: each
+                /// shape is looked for among those before it.
+                pub fn all(pairs: &[PosedPair3]) -> Vec<Option<Self>> {
+                    let mut known: Vec<(&Shape3, Option<SharedShape>)> = Vec::new();
+                    let mut find = |ours| {
+                        if let Some((_, twin)) = known.iter().find(|(other, _)| *other == ours) {
+                            return twin.clone();
+                        }
+                        let twin = unless_panic(|| shape(ours));
+                        known.push((ours, twin.clone()));
+                        twin
+                    };
+                    let twins = pairs.iter().map(|pair| {
+                        let shapes = [find(&pair.shape_a)?, find(&pair.shape_b)?];
+                        Some(Self { shapes, poses: [pose(&pair.pose_a), pose(&pair.pose_b)] })
+                    });
+                    twins.collect()
                 }
 
                 /// Whether they share a point; nothing where the peer has no such query.
@@ -122,6 +141,15 @@ macro_rules! peer {
                         let normal = DVec3::new(n.x as f64, n.y as f64, n.z as f64);
                         Contact { separation: found.dist as f64, normal, points: 1 }
                     }))
+                }
+
+                /// Leaves nothing of the last frame in memory but the memory: an empty manifold without a normal is one
+                /// that it has never seen.
+                pub fn forget(kept: &mut Manifolds) {
+                    for manifold in kept {
+                        manifold.points.clear();
+                        (manifold.local_n1, manifold.local_n2) = (Vector::ZERO, Vector::ZERO);
+                    }
                 }
 
                 /// Its contact points at margin 0, out of what it kept of the last frame: the deepest one's separation,
