@@ -230,3 +230,87 @@ pub fn of_vertices(rows: &[VertexRow]) -> Vec<String> {
     }
     said
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn boxes(method: &str, threads: u64, [ns_low, ns, ns_high]: [f64; 3]) -> BroadRow {
+        let clock = if threads == 0 { "thread" } else { "wall" }.to_string();
+        let (scene, method, threads) = ("gas".to_string(), method.to_string(), threads.max(1));
+        BroadRow {
+            scene,
+            boxes: 1000,
+            variant: method.clone(),
+            method,
+            threads,
+            clock,
+            ns_low,
+            ns,
+            ns_high,
+            ..BroadRow::default()
+        }
+    }
+
+    #[test]
+    fn the_best_way_of_each_side_is_compared_and_only_on_one_clock() {
+        let ours = [boxes("asunder", 0, [90.0, 100.0, 110.0]), boxes("asunder", 0, [190.0, 200.0, 210.0])];
+        let slower = boxes("parry3d", 0, [140.0, 150.0, 160.0]);
+        let by_wall = boxes("parry3d", 1, [1.0, 1.0, 1.0]);
+        let rows = [&ours[..], &[slower, by_wall]].concat();
+        assert!(of_broad(&rows).is_empty(), "{:?}", of_broad(&rows));
+        let faster = boxes("parry3d", 0, [40.0, 50.0, 60.0]);
+        let said = of_broad(&[&ours[..], &[faster]].concat());
+        assert_eq!(said, ["gas, 1k boxes: parry3d is 2.0 times as fast."]);
+    }
+
+    #[test]
+    fn a_second_thread_costs_time_only_beyond_the_noise() {
+        let one = boxes("asunder", 1, [90.0, 100.0, 110.0]);
+        let noisy = boxes("asunder", 2, [105.0, 120.0, 130.0]);
+        assert!(of_broad(&[one.clone(), noisy]).is_empty());
+        let costly = boxes("asunder", 2, [115.0, 120.0, 130.0]);
+        assert_eq!(of_broad(&[one, costly]), ["gas, 1k boxes: two threads take 1.2 times as long as one."]);
+    }
+
+    fn frame(method: &str, threads: u64, ns: f64) -> FrameRow {
+        FrameRow { scene: "pile".to_string(), method: method.to_string(), threads, ns, ..FrameRow::default() }
+    }
+
+    #[test]
+    fn a_frame_that_is_lost_on_one_thread_is_a_loss_even_if_two_win() {
+        let rows = [frame("asunder", 1, 4e6), frame("asunder", 2, 1e6), frame("parry3d", 1, 2e6)];
+        let said = of_frame(&rows);
+        assert_eq!(
+            said,
+            [
+                "pile: lean parry3d takes 2.0 ms a frame, asunder 4.0 ms, 2.0 times as long; on two threads asunder is ahead."
+            ]
+        );
+        assert!(of_frame(&rows[1..]).is_empty(), "nothing to compare with");
+    }
+
+    #[test]
+    fn the_fastest_of_both_sides_decides_at_each_number_of_vertices() {
+        let row = |method: &str, vertices: u32, ns: f64| VertexRow {
+            dimension: "3d".to_string(),
+            operation: "boolean".to_string(),
+            method: method.to_string(),
+            vertices,
+            ns,
+            ns_low: ns,
+            ns_high: ns,
+        };
+        let rows = [
+            row("certain", 8, 100.0),
+            row("fast", 8, 50.0),
+            row("parry-f32", 8, 60.0),
+            row("certain", 16, 70.0),
+            row("parry-f32", 16, 60.0),
+        ];
+        assert_eq!(
+            of_vertices(&rows),
+            ["3D, boolean, 16 vertices: parry3d takes 60 ns, asunder certain 70 ns."]
+        );
+    }
+}

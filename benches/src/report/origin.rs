@@ -89,10 +89,11 @@ fn locked_version(package: &str) -> &'static str {
 }
 
 fn commit() -> String {
-    let folder = env!("CARGO_MANIFEST_DIR");
-    let commit = said_by("git", &["-C", folder, "rev-parse", "--short=9", "HEAD"]);
-    let changed = !commit.is_empty() && !said_by("git", &["-C", folder, "status", "--porcelain"]).is_empty();
-    if changed { format!("{commit}+") } else { commit }
+    let git = |arguments: &[&str]| said_by("git", &[&["-C", env!("CARGO_MANIFEST_DIR")], arguments].concat());
+    let commit = git(&["rev-parse", "--short=9", "HEAD"]);
+    // Rows that were saved a minute ago are no change of what is measured.
+    let changed = git(&["status", "--porcelain", "--", ":/", ":(top,exclude)benches/results"]);
+    if changed.is_empty() { commit } else { format!("{commit}+") }
 }
 
 /// What a program prints; nothing if it cannot be run.

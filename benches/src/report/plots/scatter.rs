@@ -7,7 +7,7 @@ use crate::clock::Spread;
 use crate::report::axis::Axis;
 use crate::report::names::{error, round};
 use crate::report::palette::{GRID, INK, Look, PALE};
-use crate::report::sheet::{Hang, Sheet, TEXT, WIDTH, draw};
+use crate::report::sheet::{Hang, Sheet, TEXT, WIDTH, draw, width_of};
 use crate::report::spread::pareto_front;
 use plotters::style::RGBColor;
 
@@ -69,7 +69,9 @@ pub fn scatter(title: &Title, across: &Across, points: &[Point]) -> String {
         {
             let middle = (corner.0, corner.1 + 0.5 * (TEXT + 2.0));
             if (middle.1 - from.1).abs() > 22.0 {
-                sheet.line(&[*from, (corner.0.max(from.0.min(corner.0 + 30.0)), middle.1)], FRONT, 0.75);
+                let end = corner.0 + width_of(&point.label, TEXT);
+                let edge = if from.1 > middle.1 { corner.1 + TEXT } else { corner.1 + 1.0 };
+                sheet.line(&[*from, (from.0.clamp(corner.0, end), edge)], FRONT, 0.75);
             }
             sheet.text(&point.label, middle, Hang::Start, (dark(point.look.color), TEXT));
         }

@@ -63,7 +63,7 @@ fn has_depth(method: &str) -> bool {
 fn with_wrong(row: &ErrorRow) -> String {
     let mut label = look(&row.method).name;
     if !has_depth(&row.method) {
-        label.push_str(", yes or no only");
+        label.push_str(" (yes or no)");
     }
     if row.wrong_per_100k > 0.0 {
         label.push_str(&format!(", {:.1} % wrong", row.wrong_per_100k * 1e-3).replace(", 0.0 %", ", <0.1 %"));

@@ -46,7 +46,8 @@ fn field(dim: &str, side: &str, rows: &[&GapRow]) -> Figure {
     let question = format!("{}, {side}: how wide a gap is told right?", dimension(dim));
     let question = if side == "apart" { question } else { question.replace("wide a gap", "deep an overlap") };
     let title = Title::new(question.clone(), "Per cent wrong; green: none of them. From wide to narrow.");
-    let columns: Vec<i32> = (NARROWEST..=WIDEST).rev().collect();
+    let widest = rows.iter().map(|row| column(row.decade)).max().unwrap_or(WIDEST);
+    let columns: Vec<i32> = (NARROWEST..=widest).rev().collect();
     let names: Vec<String> = columns
         .iter()
         .map(|&decade| match decade {
