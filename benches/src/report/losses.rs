@@ -96,7 +96,7 @@ pub fn of_gap(rows: &[GapRow]) -> Vec<String> {
     said
 }
 
-/// Whoever is steadier than our certain method, by the 99th percentile.
+/// Whoever is steadier than our certain method, by the 99th percentile and by more than two figures show.
 pub fn of_stability(rows: &[StabilityRow]) -> Vec<String> {
     let mut said = Vec::new();
     for (measure, shape) in distinct(rows, |row| (row.measure.clone(), row.shape.clone())) {
@@ -105,6 +105,7 @@ pub fn of_stability(rows: &[StabilityRow]) -> Vec<String> {
         let other = here().filter(|row| !is_ours(&row.method)).min_by(|a, b| a.p99.total_cmp(&b.p99));
         if let (Some(ours), Some(other)) = (ours, other)
             && other.p99 < ours.p99
+            && number(other.p99) != number(ours.p99)
         {
             said.push(format!(
                 "{}, {}: {} is steadier than {} (99th percentile {} against {} {}).",
@@ -181,7 +182,7 @@ pub fn crossover(ours: &[(f64, f64)], theirs: &[(f64, f64)]) -> Option<f64> {
     Some(libm::exp10(n0 + (n1 - n0) * d0 / (d0 - d1)))
 }
 
-/// Scenes whose frames the peer does sooner, on one thread each.
+/// Scenes whose frames the peer does sooner, on one thread each; and those in which it takes less memory.
 pub fn of_frame(rows: &[FrameRow]) -> Vec<String> {
     let mut said = Vec::new();
     for scene in distinct(rows, |row| row.scene.clone()) {
@@ -200,7 +201,24 @@ pub fn of_frame(rows: &[FrameRow]) -> Vec<String> {
             ));
         }
     }
+    said.extend(of_memory(rows));
     said
+}
+
+/// Scenes in which a body takes more memory than the peer's.
+fn of_memory(rows: &[FrameRow]) -> Option<String> {
+    let scenes: Vec<String> = distinct(rows, |row| row.scene.clone())
+        .into_iter()
+        .filter_map(|scene| {
+            let of = |method: &str| {
+                let mut here = rows.iter().filter(|row| row.scene == scene && row.bytes_per_body > 0.0);
+                here.find(|row| row.method == method)
+            };
+            let ratio = of("asunder")?.bytes_per_body / of("parry3d")?.bytes_per_body;
+            (ratio > 1.0).then(|| format!("{scene} ({} times)", short(ratio)))
+        })
+        .collect();
+    (!scenes.is_empty()).then(|| format!("More memory a body than lean parry3d: {}.", scenes.join(", ")))
 }
 
 /// Numbers of vertices at which another method answers sooner than the fastest of ours.

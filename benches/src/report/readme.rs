@@ -2,7 +2,7 @@
 
 use super::data::{Data, Section};
 use super::losses::{best, distinct};
-use super::names::{dimension, error, short, size, words};
+use super::names::{dimension, error, size, words};
 use super::origin::Origin;
 use super::sections::{Chapter, Figure, chapters};
 use super::spread::is_wide;
@@ -95,7 +95,7 @@ fn error_rows(data: &Data) -> Vec<Vec<String>> {
         let said = |row: &crate::error::ErrorRow| {
             let wrong = match row.wrong_per_100k {
                 0.0 => String::new(),
-                wrong => format!(", {} wrong in 100,000", short(wrong)),
+                wrong => format!(", {} wrong in 100,000", super::names::count(libm::ceil(wrong) as u64)),
             };
             format!("{}{wrong}", error(row.error_p99))
         };

@@ -14,8 +14,9 @@ pub const WIDE: f64 = 0.2;
 /// assert!(is_wide(f64::NAN, 1.0, 2.0), "what is no number is not steady");
 /// ```
 pub fn is_wide(median: f64, low: f64, high: f64) -> bool {
-    // Not `>`: a comparison with no number must not pass for steady.
-    !(high - low <= WIDE * median)
+    let is_steady = high - low <= WIDE * median;
+    // A comparison with what is no number is false, and must not pass for steady.
+    !is_steady
 }
 
 impl Spread {

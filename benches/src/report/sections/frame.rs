@@ -57,7 +57,7 @@ fn memory(rows: &[FrameRow]) -> Option<Figure> {
     let groups: Vec<Group> = distinct(&counted, |row| row.scene.clone())
         .into_iter()
         .map(|scene| {
-            let strips = counted.iter().filter(|row| row.scene == scene).map(|row| strip(&row)).collect();
+            let strips = counted.iter().filter(|row| row.scene == scene).map(strip).collect();
             Group { name: scene, strips }
         })
         .collect();
