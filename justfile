@@ -14,6 +14,14 @@ play:
 compare what="narrow":
     cargo run --release -p asunder-benches --bin compare -- {{ what }} --quick
 
+# Speed against error, in one page: target/report/index.html (ten minutes; --quick: two).
+report *options:
+    cargo run --release -p asunder-benches --bin report -- {{ options }}
+
+# Criterion benches of another commit, then of this tree beside them, in one place: bench-compare main.
+bench-compare base:
+    bash benches/compare-commits {{ base }}
+
 # A million hard cases beside parry3d: docs/hard.md.
 hard:
     cargo run --release -p asunder-tests --bin hard

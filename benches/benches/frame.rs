@@ -1,10 +1,9 @@
-//! Criterion's view of the main rows: narrow phases in space and in the plane, one whole frame. The broad
-//! phase has a file of its own.
+//! Criterion's view of whole frames, and of pairs that are asked about from frame to frame.
 
 use asunder::{Collider3, World3};
-use asunder_narrow::{Answer, Batch3, Hint, Job3, Pair2, Pair3, collide3, separations3};
-use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, frames3, pairs2, pairs3};
-use asunder_scenes::worlds::{Replay3, WorldScene};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
+use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, frames3, pairs3};
+use asunder_scenes::worlds::{Body3, Replay3, WorldScene};
 use core::hint::black_box;
 use core::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -12,88 +11,63 @@ use criterion::{Criterion, criterion_group, criterion_main};
 /// Pairs in a set: one iteration asks them all.
 const PAIRS: usize = 200;
 
-fn posed(p: &PosedPair3) -> Pair3<'_> {
-    Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)
-}
-
-/// One question about every pair of a set. The name is that of the row of `compare`; times are for the whole set.
-fn solids(
-    criterion: &mut Criterion,
-    (kind, set): (SolidKind, PairSet),
-    operation: &str,
-    ask: impl Fn(&Pair3) -> bool,
-) {
-    let pairs = pairs3(kind, set, PAIRS, 1);
-    let one = |pair: &PosedPair3| ask(&posed(pair));
-    criterion.bench_function(
-        &format!("{}/{}/{operation}, {PAIRS} pairs", kind.name(), set.name()),
-        |bencher| {
-            bencher.iter(|| pairs.iter().filter(|pair| one(black_box(pair))).count());
-        },
-    );
-}
-
-fn space(criterion: &mut Criterion) {
-    for kind in [SolidKind::Box, SolidKind::Authored, SolidKind::Hull32, SolidKind::Hull128] {
-        let mixed = (kind, PairSet::Mixed);
-        solids(criterion, mixed, "boolean", |pair| pair.overlaps());
-        solids(criterion, mixed, "separation", |pair| {
-            black_box(pair.separation(0.0));
-            true
-        });
-        solids(criterion, mixed, "manifold", |pair| black_box(pair.manifold(0.0)).is_some());
-        solids(criterion, (kind, PairSet::Rest), "manifold", |pair| black_box(pair.manifold(0.0)).is_some());
+/// One frame of a scene, small enough for a look.
+fn frames(criterion: &mut Criterion) {
+    let scenes = [
+        (WorldScene::Mixed, 2000),
+        (WorldScene::ManyPyramids, 1000),
+        (WorldScene::ConvexPile, 505),
+        (WorldScene::MostlyStatic, 10_000),
+    ];
+    for (scene, count) in scenes {
+        frame(criterion, scene, count);
     }
-    for kind in [SolidKind::Box, SolidKind::Hull32] {
-        solids(criterion, (kind, PairSet::Far), "boolean", |pair| pair.overlaps());
-        solids(criterion, (kind, PairSet::Deep), "separation", |pair| {
-            black_box(pair.separation(0.0));
-            true
+}
+
+fn frame(criterion: &mut Criterion, scene: WorldScene, count: usize) {
+    let mut replay = Replay3::new(scene, count, 1);
+    let mut world = World3::new();
+    let insert = |world: &mut World3, body: &Body3| {
+        let collider = Collider3::new(body.shape.clone()).at(body.pose);
+        world.insert(if body.fixed { collider.fixed() } else { collider })
+    };
+    let keys: Vec<_> = replay.bodies.iter().map(|body| insert(&mut world, body)).collect();
+    let mut number = 0;
+    criterion.bench_function(&format!("frame/{}, {count} bodies", scene.name()), |bencher| {
+        bencher.iter(|| {
+            number += 1;
+            replay.advance(number);
+            for &i in replay.movers() {
+                // No key is stale: no body is ever removed.
+                let _ = world.set_pose(keys[i as usize], replay.bodies[i as usize].pose);
+            }
+            world.update();
+            world.contacts().map(|contact| contact.manifolds.len()).sum::<usize>()
         });
+    });
+}
+
+/// Pairs that are asked about frame after frame.
+fn hints(criterion: &mut Criterion) {
+    for kind in [SolidKind::Box, SolidKind::Hull32] {
         cached(criterion, kind);
         followed(criterion, kind);
     }
-    at_once(criterion);
 }
 
-fn job(pair: &PosedPair3, hint: Hint, sensor: bool) -> Job3<'_> {
+fn job(pair: &PosedPair3, hint: Hint) -> Job3<'_> {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
-    Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor }
-}
-
-/// Boxes without hints, all in one call.
-fn at_once(criterion: &mut Criterion) {
-    let pairs = pairs3(SolidKind::Box, PairSet::Mixed, PAIRS, 1);
-    let posed: Vec<Pair3<'_>> = pairs.iter().map(posed).collect();
-    let mut found = Vec::new();
-    criterion.bench_function(&format!("box8/mixed/separation, {PAIRS} pairs"), |bencher| {
-        bencher.iter(|| {
-            found.clear();
-            separations3(black_box(&posed), 0.0, &mut found);
-            found.len()
-        });
-    });
-    let mut batch = Batch3::default();
-    for (operation, sensor) in [("boolean", true), ("manifold", false)] {
-        let jobs: Vec<Job3<'_>> = pairs.iter().map(|pair| job(pair, Hint::NONE, sensor)).collect();
-        criterion.bench_function(&format!("box8/mixed/{operation}, {PAIRS} pairs"), |bencher| {
-            bencher.iter(|| {
-                batch.clear();
-                collide3(black_box(&jobs), &mut batch);
-                batch.manifolds.len()
-            });
-        });
-    }
+    Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }
 }
 
 /// Faces on faces, with the hints of the frame before.
 fn cached(criterion: &mut Criterion, kind: SolidKind) {
     let pairs = pairs3(kind, PairSet::Rest, PAIRS, 1);
     let mut batch = Batch3::default();
-    let fresh: Vec<Job3<'_>> = pairs.iter().map(|pair| job(pair, Hint::NONE, false)).collect();
+    let fresh: Vec<Job3<'_>> = pairs.iter().map(|pair| job(pair, Hint::NONE)).collect();
     collide3(&fresh, &mut batch);
     let hints = batch.answers.iter().map(hint_of);
-    let jobs: Vec<Job3<'_>> = pairs.iter().zip(hints).map(|(pair, hint)| job(pair, hint, false)).collect();
+    let jobs: Vec<Job3<'_>> = pairs.iter().zip(hints).map(|(pair, hint)| job(pair, hint)).collect();
     criterion.bench_function(&format!("{}/rest/cached, {PAIRS} pairs", kind.name()), |bencher| {
         let mut batch = Batch3::default();
         bencher.iter(|| {
@@ -123,7 +97,7 @@ fn followed(criterion: &mut Criterion, kind: SolidKind) {
                     hints.resize(frames[0].len(), Hint::NONE);
                     for frame in black_box(&frames) {
                         let jobs: Vec<Job3<'_>> =
-                            frame.iter().zip(&hints).map(|(pair, &hint)| job(pair, hint, false)).collect();
+                            frame.iter().zip(&hints).map(|(pair, &hint)| job(pair, hint)).collect();
                         batch.clear();
                         collide3(&jobs, &mut batch);
                         hints
@@ -138,65 +112,12 @@ fn followed(criterion: &mut Criterion, kind: SolidKind) {
     }
 }
 
-fn pair(p: &PosedPair2) -> Pair2<'_> {
-    Pair2::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)
-}
-
-fn plane(criterion: &mut Criterion) {
-    for kind in [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly64] {
-        let pairs = pairs2(kind, PairSet::Mixed, PAIRS, 1);
-        criterion.bench_function(&format!("{}/mixed/boolean, {PAIRS} pairs", kind.name()), |bencher| {
-            bencher.iter(|| pairs.iter().filter(|p| pair(black_box(p)).overlaps()).count());
-        });
-        criterion.bench_function(&format!("{}/mixed/manifold, {PAIRS} pairs", kind.name()), |bencher| {
-            bencher.iter(|| pairs.iter().filter(|p| pair(black_box(p)).manifold(0.0).is_some()).count());
-        });
-    }
-    for (kind, set) in [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly64]
-        .into_iter()
-        .flat_map(|kind| [(kind, PairSet::Touch), (kind, PairSet::Deep)])
-    {
-        let pairs = pairs2(kind, set, PAIRS, 1);
-        let name = format!("{}/{}/separation, {PAIRS} pairs", kind.name(), set.name());
-        criterion.bench_function(&name, |bencher| {
-            bencher.iter(|| {
-                for p in &pairs {
-                    black_box(pair(black_box(p)).separation(0.0));
-                }
-            });
-        });
-    }
-    let far = pairs2(PlaneKind::Poly4096, PairSet::Far, PAIRS, 1);
-    criterion.bench_function(&format!("poly4096/far/boolean, {PAIRS} pairs"), |bencher| {
-        bencher.iter(|| far.iter().filter(|p| pair(black_box(p)).overlaps()).count());
-    });
-}
-
-fn frame(criterion: &mut Criterion) {
-    let mut replay = Replay3::new(WorldScene::Mixed, 2000, 1);
-    let mut world = World3::new();
-    let insert = |world: &mut World3, body: &asunder_scenes::worlds::Body3| {
-        world.insert(Collider3::new(body.shape.clone()).at(body.pose))
-    };
-    let keys: Vec<_> = replay.bodies.iter().map(|body| insert(&mut world, body)).collect();
-    let mut number = 0;
-    criterion.bench_function("frame/mixed, 2000 bodies", |bencher| {
-        bencher.iter(|| {
-            number += 1;
-            replay.advance(number);
-            for &i in replay.movers() {
-                // No key is stale: no body is ever removed.
-                let _ = world.set_pose(keys[i as usize], replay.bodies[i as usize].pose);
-            }
-            world.update();
-            world.contacts().map(|contact| contact.manifolds.len()).sum::<usize>()
-        });
-    });
-}
-
 criterion_group! {
     name = benches;
-    config = Criterion::default().sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
-    targets = space, plane, frame
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(100))
+        .measurement_time(Duration::from_millis(300));
+    targets = frames, hints
 }
 criterion_main!(benches);

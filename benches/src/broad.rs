@@ -4,13 +4,14 @@
 //! scratch, sweep and order, are reported apart. parry3d's is the unsorted list of the best of its ways to bring a tree
 //! up to date (`peer.rs` lists them). Every frame all of them must find equally many pairs, and ours equal lists.
 //!
-//! [`threads`] holds several threads against one, [`queries`] asks a structure of resting boxes.
+//! [`rows`] hands the same out as data, [`threads`] holds several threads against one, [`queries`] asks a structure of resting boxes.
 
 pub mod figures;
 mod memory;
 mod ours;
 mod peer;
 pub mod queries;
+pub mod rows;
 pub mod threads;
 
 use crate::clock::{Effort, Samples};
@@ -89,6 +90,13 @@ fn size_name(count: usize) -> String {
 /// assert!(row.ratio.is_some() && row.done == 60, "{row:?}");
 /// ```
 pub fn measure(case: &Case, effort: &Effort) -> Row {
+    let (mut row, ours, peers) = run(case, effort);
+    report(&mut row, &ours, &peers);
+    row
+}
+
+/// Every variant's samples, and a row that says no more than where they differ.
+fn run(case: &Case, effort: &Effort) -> (Row, Ours, Vec<Peer>) {
     let &(_, count) = case;
     let mut row = Row::new(name(case), "frame", count);
     let mut stage = Stage::new(case);
@@ -114,8 +122,7 @@ pub fn measure(case: &Case, effort: &Effort) -> Row {
             break;
         }
     }
-    report(&mut row, &ours, &peers);
-    row
+    (row, ours, peers)
 }
 
 /// Frames of a row: small worlds are over in no time, and would give but a few milliseconds to take a median of.

@@ -40,9 +40,21 @@ impl Samples {
 
     /// The middle sample; the lower of two. Nothing before the first. Cost: a sort.
     pub fn median(&self) -> Option<f64> {
-        let mut sorted = self.ns.clone();
-        sorted.sort_unstable_by(f64::total_cmp);
-        sorted.get(sorted.len().saturating_sub(1) / 2).copied()
+        quantiles(&self.ns, [0.5]).map(|[median]| median)
+    }
+
+    /// The middle half of the samples. Nothing before the first. Cost: a sort.
+    ///
+    /// ```
+    /// use asunder_benches::clock::{Samples, Spread};
+    /// let mut samples = Samples::default();
+    /// for ns in [5.0, 1.0, 4.0, 2.0, 3.0] {
+    ///     samples.push(ns, ns);
+    /// }
+    /// assert_eq!(samples.spread(), Some(Spread { low: 2.0, median: 3.0, high: 4.0 }));
+    /// ```
+    pub fn spread(&self) -> Option<Spread> {
+        quantiles(&self.ns, [0.25, 0.5, 0.75]).map(|[low, median, high]| Spread { low, median, high })
     }
 
     /// The time that all samples took, in nanoseconds.
@@ -59,6 +71,32 @@ impl Samples {
     pub fn is_empty(&self) -> bool {
         self.ns.is_empty()
     }
+}
+
+/// Median and quartiles of some samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// A quarter of the samples lie below.
+    pub low: f64,
+    /// Half of them do.
+    pub median: f64,
+    /// Three quarters do.
+    pub high: f64,
+}
+
+/// The samples below which such shares of all lie: of those that there are, the one at that place between the first
+/// and the last, rounded down. Nothing of none; a NaN counts as the greatest. Cost: a sort.
+///
+/// ```
+/// use asunder_benches::clock::quantiles;
+/// assert_eq!(quantiles(&[4.0, 1.0, 3.0, 2.0], [0.0, 0.5, 0.99, 1.0]), Some([1.0, 2.0, 3.0, 4.0]));
+/// assert_eq!(quantiles(&[], [0.5]), None);
+/// ```
+pub fn quantiles<const N: usize>(samples: &[f64], shares: [f64; N]) -> Option<[f64; N]> {
+    let mut sorted = samples.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let last = sorted.len().checked_sub(1)?;
+    Some(shares.map(|share| sorted[((last as f64 * share) as usize).min(last)]))
 }
 
 /// How much a row may cost.

@@ -2,7 +2,7 @@
 //!
 //! Our answers to a part of each set are held against true separations in double-double, as they are in space.
 
-mod grown;
+pub(crate) mod grown;
 mod judged;
 mod round;
 

@@ -15,6 +15,7 @@ use parry3d::query::{
 };
 use parry3d::shape::SharedShape;
 use parry3d::utils::hashmap::HashMap;
+use std::time::{Duration, Instant};
 
 /// A body of the pipeline.
 #[derive(Clone)]
@@ -62,6 +63,7 @@ pub struct Lean {
     places: HashMap<(u32, u32), u32>,
     records: Vec<Record>,
     prediction: f32,
+    times: [Duration; 4],
 }
 
 struct Record {
@@ -104,6 +106,7 @@ impl Lean {
             places: HashMap::default(),
             records: Vec::new(),
             prediction,
+            times: [Duration::ZERO; 4],
         }
     }
 
@@ -116,10 +119,17 @@ impl Lean {
     /// Brings all contacts up to date.
     pub fn update(&mut self) {
         self.frame += 1;
-        self.refit();
-        self.find_pairs();
-        self.keep_records();
-        self.collide();
+        let stages = [Self::refit, Self::find_pairs, Self::keep_records, Self::collide];
+        for (i, stage) in stages.into_iter().enumerate() {
+            let start = Instant::now();
+            stage(self);
+            self.times[i] = start.elapsed();
+        }
+    }
+
+    /// Wall-clock times of the last update: of the trees, of finding pairs, of keeping records, of contacts.
+    pub fn times(&self) -> [Duration; 4] {
+        self.times
     }
 
     /// Pairs whose boxes overlapped at the last update.

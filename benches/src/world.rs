@@ -2,6 +2,7 @@
 //!
 //! Both sides keep contacts up to 2 cm apart. Rows that start with `plane/` are in the plane and have no peer.
 
+pub mod rows;
 mod stages;
 pub mod threads;
 
@@ -163,13 +164,16 @@ impl Ours {
 }
 
 fn lean_of(bodies: &[Body3]) -> Option<Lean> {
+    Some(Lean::new(lean_bodies(bodies)?, MARGIN))
+}
+
+fn lean_bodies(bodies: &[Body3]) -> Option<Vec<LeanBody>> {
     let mut shapes = Shapes::default();
     let convert = |body: &Body3| {
         let shape = shapes.convert(&body.shape)?;
         Some(LeanBody { shape, pose: parry::pose(&body.pose), fixed: body.fixed, owner: body.owner })
     };
-    let bodies = bodies.iter().map(convert).collect::<Option<Vec<LeanBody>>>()?;
-    Some(Lean::new(bodies, MARGIN))
+    bodies.iter().map(convert).collect()
 }
 
 pub(crate) fn peer_frame(peer: &mut Lean, poses: &[(u32, Pose)]) -> Walked {

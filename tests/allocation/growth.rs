@@ -1,8 +1,8 @@
 //! A million operations without growth of memory.
 
-use crate::counting::{counted, live_bytes};
 use asunder::{Plane, Volume, World};
 use asunder_tests::cases::Random;
+use asunder_tests::counting::{counted, live_bytes};
 use asunder_tests::engine::{Change, Engine};
 
 /// Bodies, more or less.

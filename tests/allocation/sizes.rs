@@ -1,8 +1,8 @@
 //! Memory a body, which the documentation of `World` states.
 
-use crate::counting::{counted, live_bytes};
 use asunder::{Collider2, Collider3, Manifold2, Manifold3, Plane, Volume};
 use asunder_scenes::worlds::WorldScene;
+use asunder_tests::counting::{counted, live_bytes};
 use asunder_tests::recorded::{Recorded, Recording};
 
 /// What the documentation says: bytes a body, and bytes a candidate pair.

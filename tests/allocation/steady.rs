@@ -1,8 +1,8 @@
 //! A steady scene allocates nothing per frame.
 
-use crate::counting::{allocations, counted, counted_here};
 use asunder::{Hooks, Plane, Volume};
 use asunder_scenes::worlds::WorldScene;
+use asunder_tests::counting::{allocations, counted, counted_here};
 use asunder_tests::recorded::{Fnv1a, Recorded, Recording};
 
 /// Frames after which everything begins anew.

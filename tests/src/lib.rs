@@ -17,6 +17,7 @@
 //! - [`fuzzed`]: hulls, polygons and outlines from raw bytes, with all that must hold of them; `fuzz/` runs the same
 //! - [`report`]: hard cases, family by family: what we and parry3d get wrong, and at what cost
 //! - [`solver`]: a small rigid-body solver, for bodies that shall stand on our manifolds
+//! - [`counting`]: an allocator that counts
 //! - [`recorded`]: the named worlds, played frame by frame, and what they say in one number
 //! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
 //!
@@ -30,6 +31,7 @@ pub mod bodies;
 pub mod brute_pairs;
 pub mod cases;
 pub mod cores;
+pub mod counting;
 pub mod engine;
 pub mod exact;
 pub mod exact_overlap;

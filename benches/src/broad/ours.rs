@@ -57,7 +57,7 @@ pub(super) struct Variant {
     pub(super) engine: Engine,
     pub(super) pairs: Vec<PairId>,
     pub(super) samples: Samples,
-    peak: usize,
+    pub(super) peak: usize,
 }
 
 impl Variant {
@@ -131,6 +131,11 @@ impl Ours {
         if unordered_last {
             self.unordered.frame(frame, expected, limit, row);
         }
+    }
+
+    /// What was measured of each mode, unless the sweep was broken off.
+    pub(super) fn variants(&self) -> &[Variant] {
+        if self.unordered.was_cut { &[] } else { &self.variants }
     }
 
     pub(super) fn report(&self, row: &mut Row, figures: &mut Figures) {

@@ -27,6 +27,19 @@ use std::time::Instant;
 pub fn measure(case: &Case, threads: usize, effort: &Effort) -> Result<Row, ThreadPoolBuildError> {
     let &(_, count) = case;
     let mut row = Row::new(format!("{}/{threads} threads", name(case)), "frame", count);
+    let sides = run(case, threads, effort, &mut row)?;
+    report(&mut row, threads, &sides);
+    Ok(row)
+}
+
+/// What both numbers of threads took; where their lists differ, the row says so.
+pub(super) fn run(
+    case: &Case,
+    threads: usize,
+    effort: &Effort,
+    row: &mut Row,
+) -> Result<[Side; 2], ThreadPoolBuildError> {
+    let &(_, count) = case;
     let mut stage = Stage::new(case);
     let mut sides = [Side::new(1, stage.few_move)?, Side::new(threads, stage.few_move)?];
     let limit = nanoseconds(count, effort);
@@ -37,7 +50,7 @@ pub fn measure(case: &Case, threads: usize, effort: &Effort) -> Result<Row, Thre
         sides[turn].frame(&stage.now());
         sides[1 - turn].frame(&stage.now());
         if !Side::agree(&sides) {
-            object(&mut row, &format!("LISTS DIFFER in frame {number}"));
+            object(row, &format!("LISTS DIFFER in frame {number}"));
         }
         if number == 0 {
             sides.iter_mut().for_each(|side| side.forget_samples(limit));
@@ -46,8 +59,7 @@ pub fn measure(case: &Case, threads: usize, effort: &Effort) -> Result<Row, Thre
             break;
         }
     }
-    report(&mut row, threads, &sides);
-    Ok(row)
+    Ok(sides)
 }
 
 fn report(row: &mut Row, threads: usize, [one, many]: &[Side; 2]) {
@@ -61,7 +73,7 @@ fn report(row: &mut Row, threads: usize, [one, many]: &[Side; 2]) {
 }
 
 /// One number of threads: a pool, and our modes in it.
-struct Side {
+pub(super) struct Side {
     pool: ThreadPool,
     variants: Vec<Variant>,
 }
@@ -94,7 +106,7 @@ impl Side {
         self.variants.iter().map(|variant| variant.samples.spent()).fold(0.0, f64::max)
     }
 
-    fn best(&self) -> Option<(f64, &Variant)> {
+    pub(super) fn best(&self) -> Option<(f64, &Variant)> {
         let medians = self.variants.iter().filter_map(|one| Some((one.samples.median()?, one)));
         medians.min_by(|a, b| a.0.total_cmp(&b.0))
     }

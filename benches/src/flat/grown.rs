@@ -69,7 +69,7 @@ fn reach(shape: &Shape2, turn: Rotation2, axis: DVec2) -> f64 {
 }
 
 /// `count` pairs of polygons of so many vertices each.
-pub(super) fn pairs(vertices: usize, lie: Lie, count: usize) -> Vec<PosedPair2> {
+pub(crate) fn pairs(vertices: usize, lie: Lie, count: usize) -> Vec<PosedPair2> {
     let mut random = Random::new(vertices as u64);
     let shapes: Vec<Shape2> = (0..DISTINCT).map(|_| ellipse(vertices, lie, &mut random)).collect();
     let mut pairs = Vec::new();

@@ -4,6 +4,7 @@ use crate::clock::Samples;
 use crate::row::{self, duration};
 use asunder::Stats;
 use serde::Serialize;
+use std::time::Duration;
 
 /// Figures of whole frames. Stages are medians of wall-clock times; what is left of a frame is setting poses and
 /// walking contacts.
@@ -72,15 +73,23 @@ pub(super) struct Stages([Samples; 5]);
 impl Stages {
     pub(super) fn push(&mut self, stats: &Stats) {
         let Stats { refit, sweep, collide, merge, report, .. } = *stats;
-        for (samples, time) in self.0.iter_mut().zip([refit, sweep, collide, merge, report]) {
+        self.push_times([refit, sweep, collide, merge, report]);
+    }
+
+    pub(super) fn push_times(&mut self, times: [Duration; 5]) {
+        for (samples, time) in self.0.iter_mut().zip(times) {
             let ns = time.as_nanos() as f64;
             samples.push(ns, ns);
         }
     }
 
+    /// Their medians, in nanoseconds.
+    pub(super) fn medians(&self) -> [f64; 5] {
+        [0, 1, 2, 3, 4].map(|stage: usize| self.0[stage].median().unwrap_or(0.0))
+    }
+
     pub(super) fn figures(&self, last: &Stats) -> Figures {
-        let [refit_ns, sweep_ns, collide_ns, merge_ns, report_ns] =
-            [0, 1, 2, 3, 4].map(|stage: usize| self.0[stage].median().unwrap_or(0.0));
+        let [refit_ns, sweep_ns, collide_ns, merge_ns, report_ns] = self.medians();
         let pairs_per_body = last.candidates as f64 / last.bodies.max(1) as f64;
         Figures { refit_ns, sweep_ns, collide_ns, merge_ns, report_ns, pairs_per_body, ..Figures::default() }
     }

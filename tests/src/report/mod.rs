@@ -12,7 +12,7 @@
 //! more, so it is asked of every k-th case ([`Scope::truth_every`]).
 
 mod judged;
-mod peers;
+pub mod peers;
 mod posed;
 mod table;
 mod tally;

@@ -4,6 +4,7 @@
 //! own number and the stored quaternion made a unit one in f64 first: the least that their types take away.
 
 use asunder_scenes::pairs::PosedPair3;
+use glam::DVec3;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What a peer says of a pair. Nothing where it has no such shape or no such query.
@@ -17,13 +18,33 @@ pub struct Said {
     pub panicked: bool,
 }
 
+/// Contact points of a peer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// That of the deepest one, in metres; it may be a NaN.
+    pub separation: f64,
+    /// From A to B; it may be a NaN.
+    pub normal: DVec3,
+    /// How many there are.
+    pub points: usize,
+}
+
+impl Contact {
+    /// Both, as deep as the deeper one; a NaN stays.
+    fn with(&self, other: &Self) -> Self {
+        let deeper =
+            if other.separation < self.separation || other.separation.is_nan() { other } else { self };
+        Self { points: self.points + other.points, ..*deeper }
+    }
+}
+
 /// parry3d's word on a pair: f32, then f64.
 pub(super) fn ask(pair: &PosedPair3) -> [Said; 2] {
     [guarded(|| Some(single::Twins::new(pair)?.said())), guarded(|| Some(double::Twins::new(pair)?.said()))]
 }
 
 /// What a call returns; nothing if it panics. Nothing that a panic leaves behind is looked at again.
-pub(super) fn unless_panic<T>(call: impl FnOnce() -> Option<T>) -> Option<T> {
+pub fn unless_panic<T>(call: impl FnOnce() -> Option<T>) -> Option<T> {
     catch_unwind(AssertUnwindSafe(call)).ok().flatten()
 }
 
@@ -36,32 +57,57 @@ fn guarded(ask: impl FnOnce() -> Option<Said>) -> Said {
 macro_rules! peer {
     ($module:ident, $parry:ident, $doc:literal) => {
         #[doc = $doc]
-        pub(super) mod $module {
-            use super::Said;
+        pub mod $module {
+            use super::{Contact, Said, unless_panic};
             use asunder_geometry::{Pose3, Shape3};
             use asunder_scenes::pairs::PosedPair3;
             use glam::{DVec3, Vec3};
             use $parry::math::{Pose, Real, Rotation, Vector};
-            use $parry::query::{contact, distance, intersection_test};
+            use $parry::query::{
+                ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, contact, distance,
+                intersection_test,
+            };
             use $parry::shape::SharedShape;
 
             /// Both shapes as this peer's, where they stand.
-            pub(in super::super) struct Twins {
+            pub struct Twins {
                 shapes: [SharedShape; 2],
                 poses: [Pose; 2],
             }
 
+            /// Its manifolds of a pair, kept from frame to frame.
+            pub type Manifolds = Vec<ContactManifold<(), ()>>;
+
             impl Twins {
                 /// Nothing where the peer has no such shape, or refuses it.
-                pub(in super::super) fn new(pair: &PosedPair3) -> Option<Self> {
+                pub fn new(pair: &PosedPair3) -> Option<Self> {
                     Some(Self {
                         shapes: [shape(&pair.shape_a)?, shape(&pair.shape_b)?],
                         poses: [pose(&pair.pose_a), pose(&pair.pose_b)],
                     })
                 }
 
+                /// As [`Twins::new`] for many pairs, those of equal shapes sharing theirs, as a game's do. Cost: each
+                /// shape is looked for among those before it.
+                pub fn all(pairs: &[PosedPair3]) -> Vec<Option<Self>> {
+                    let mut known: Vec<(&Shape3, Option<SharedShape>)> = Vec::new();
+                    let mut find = |ours| {
+                        if let Some((_, twin)) = known.iter().find(|(other, _)| *other == ours) {
+                            return twin.clone();
+                        }
+                        let twin = unless_panic(|| shape(ours));
+                        known.push((ours, twin.clone()));
+                        twin
+                    };
+                    let twins = pairs.iter().map(|pair| {
+                        let shapes = [find(&pair.shape_a)?, find(&pair.shape_b)?];
+                        Some(Self { shapes, poses: [pose(&pair.pose_a), pose(&pair.pose_b)] })
+                    });
+                    twins.collect()
+                }
+
                 /// Whether they share a point; nothing where the peer has no such query.
-                pub(in super::super) fn overlaps(&self) -> Option<bool> {
+                pub fn overlaps(&self) -> Option<bool> {
                     let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);
                     Some(intersection_test(at_a, &*a.0, at_b, &*b.0).ok()?.intersecting)
                 }
@@ -82,6 +128,49 @@ macro_rules! peer {
                     let Some(found) = found else { return Some(0.0) };
                     let sum = found.normal1.x + found.normal1.y + found.normal1.z;
                     Some(if sum.is_nan() { f64::NAN } else { found.dist as f64 })
+                }
+
+                /// Where they overlap, how deep; the inner nothing where they are apart, the outer where the peer has no
+                /// such query.
+                #[allow(clippy::unnecessary_cast, reason = "written once for f32 and f64")]
+                pub fn contact(&self) -> Option<Option<Contact>> {
+                    let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);
+                    let found = contact(at_a, &*a.0, at_b, &*b.0, 0.0).ok()?;
+                    Some(found.map(|found| {
+                        let n = found.normal1;
+                        let normal = DVec3::new(n.x as f64, n.y as f64, n.z as f64);
+                        Contact { separation: found.dist as f64, normal, points: 1 }
+                    }))
+                }
+
+                /// Leaves nothing of the last frame in memory but the memory: an empty manifold without a normal is one
+                /// that it has never seen.
+                pub fn forget(kept: &mut Manifolds) {
+                    for manifold in kept {
+                        manifold.points.clear();
+                        (manifold.local_n1, manifold.local_n2) = (Vector::ZERO, Vector::ZERO);
+                    }
+                }
+
+                /// Its contact points at margin 0, out of what it kept of the last frame: the deepest one's separation,
+                /// and its manifold's normal in A's axes.
+                #[allow(clippy::unnecessary_cast, reason = "written once for f32 and f64")]
+                pub fn manifold(&self, kept: &mut Manifolds) -> Option<Option<Contact>> {
+                    let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);
+                    let between = at_a.inv_mul(at_b);
+                    DefaultQueryDispatcher
+                        .contact_manifolds(&between, &*a.0, &*b.0, 0.0, kept, &mut None)
+                        .ok()?;
+                    let mut found: Option<Contact> = None;
+                    for manifold in kept.iter() {
+                        let n = manifold.local_n1;
+                        let normal = DVec3::new(n.x as f64, n.y as f64, n.z as f64);
+                        for point in &manifold.points {
+                            let new = Contact { separation: point.dist as f64, normal, points: 1 };
+                            found = Some(found.map_or(new, |known| known.with(&new)));
+                        }
+                    }
+                    Some(found)
                 }
 
                 /// Both answers.

@@ -1,4 +1,16 @@
-//! An allocator that counts what the threads of one pool ask of it.
+//! An allocator that counts what the threads of one pool ask of it. A program that counts makes it its own:
+//!
+//! ```standalone_crate
+//! use asunder_tests::counting::{Counting, allocations, counted};
+//! #[global_allocator]
+//! static COUNTING: Counting = Counting;
+//! let made = counted(1, || {
+//!     let before = allocations();
+//!     drop(vec![1_u8; 100]);
+//!     allocations() - before
+//! });
+//! assert_eq!(made, 1);
+//! ```
 
 #![allow(unsafe_code, reason = "`GlobalAlloc` is an unsafe trait; all that is not counting is the system's")]
 
@@ -8,10 +20,8 @@ use std::cell::Cell;
 use std::sync::atomic::{AtomicI64, AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 
-#[global_allocator]
-static COUNTING: Counting = Counting;
-
-struct Counting;
+/// The system's allocator, and two sums.
+pub struct Counting;
 
 static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
 static LIVE: AtomicI64 = AtomicI64::new(0);
@@ -22,19 +32,19 @@ thread_local! {
 }
 
 /// Calls that asked for memory so far, by counted threads.
-pub(crate) fn allocations() -> u64 {
+pub fn allocations() -> u64 {
     ALLOCATIONS.load(Relaxed)
 }
 
 /// Bytes that counted threads asked for and have not given back.
-pub(crate) fn live_bytes() -> i64 {
+pub fn live_bytes() -> i64 {
     LIVE.load(Relaxed)
 }
 
 static ALONE: Mutex<()> = Mutex::new(());
 
 /// Runs the work on this thread, which is in no pool; no other counts.
-pub(crate) fn counted_here<T>(work: impl FnOnce() -> T) -> T {
+pub fn counted_here<T>(work: impl FnOnce() -> T) -> T {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     IS_COUNTED.set(true);
     let done = work();
@@ -43,7 +53,7 @@ pub(crate) fn counted_here<T>(work: impl FnOnce() -> T) -> T {
 }
 
 /// Runs the work in a pool of so many threads, which are the only ones that count while it runs.
-pub(crate) fn counted<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+pub fn counted<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let pool = ThreadPoolBuilder::new().num_threads(threads);
     pool.start_handler(|_| IS_COUNTED.set(true)).build().unwrap().install(work)
@@ -81,16 +91,4 @@ unsafe impl GlobalAlloc for Counting {
         // SAFETY: the caller's promises are passed on.
         unsafe { System.realloc(memory, layout, size) }
     }
-}
-
-#[test]
-fn what_is_allocated_is_counted() {
-    let (calls, live) = counted(2, || {
-        let (calls, live) = (allocations(), live_bytes());
-        let (one, other) = rayon::join(|| vec![1_u8; 1000], || vec![2_u8; 500]);
-        assert_eq!(live_bytes() - live, 1500);
-        drop((one, other));
-        (allocations() - calls, live_bytes() - live)
-    });
-    assert_eq!((calls, live), (2, 0));
 }

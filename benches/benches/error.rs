@@ -1,0 +1,54 @@
+//! Criterion's view of the report's first section: the separation of pairs, near and far, by our certain and our fast
+//! way, and eight boxes at a time.
+
+use asunder_narrow::{Pair3, separations3};
+use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, pairs3};
+use core::hint::black_box;
+use core::time::Duration;
+use criterion::{Criterion, criterion_group, criterion_main};
+
+/// Pairs in a set: one iteration asks them all.
+const PAIRS: usize = 200;
+
+fn posed(p: &PosedPair3) -> Pair3<'_> {
+    Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)
+}
+
+fn separations(criterion: &mut Criterion) {
+    for kind in [SolidKind::Box, SolidKind::Hull32] {
+        for set in [PairSet::Mixed, PairSet::Touch, PairSet::Rest] {
+            let pairs = pairs3(kind, set, PAIRS, 1);
+            let name = format!("error/{}/{}", kind.name(), set.name());
+            criterion.bench_function(&format!("{name}/certain, {PAIRS} pairs"), |bencher| {
+                bencher.iter(|| {
+                    for p in &pairs {
+                        black_box(posed(black_box(p)).separation(0.0));
+                    }
+                });
+            });
+            criterion.bench_function(&format!("{name}/fast, {PAIRS} pairs"), |bencher| {
+                bencher.iter(|| pairs.iter().filter(|p| posed(black_box(p)).guess()).count());
+            });
+        }
+    }
+    let pairs = pairs3(SolidKind::Box, PairSet::Mixed, PAIRS, 1);
+    let posed: Vec<Pair3<'_>> = pairs.iter().map(posed).collect();
+    let mut found = Vec::new();
+    criterion.bench_function(&format!("error/box/mixed/batched, {PAIRS} pairs"), |bencher| {
+        bencher.iter(|| {
+            found.clear();
+            separations3(black_box(&posed), 0.0, &mut found);
+            found.len()
+        });
+    });
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(100))
+        .measurement_time(Duration::from_millis(300));
+    targets = separations
+}
+criterion_main!(benches);

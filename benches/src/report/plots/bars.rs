@@ -1,0 +1,114 @@
+//! Bars of parts, in groups, against a line that stands for the peer.
+
+use super::Title;
+use super::scatter::dark;
+use crate::report::palette::{GRID, INK, PALE};
+use crate::report::sheet::{Hang, Sheet, TEXT, WIDTH, draw, width_of};
+use plotters::style::RGBColor;
+
+/// One bar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bar {
+    /// Its name at the left.
+    pub name: String,
+    /// The colour of its name.
+    pub color: RGBColor,
+    /// Lengths of its parts, in the same order for every bar.
+    pub parts: Vec<f64>,
+    /// Quartiles of the whole.
+    pub whisker: (f64, f64),
+    /// What is written at its end.
+    pub label: String,
+}
+
+/// Bars under one heading.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// The heading.
+    pub name: String,
+    /// Its bars.
+    pub bars: Vec<Bar>,
+}
+
+const TOP: f64 = 88.0;
+const ROW: f64 = 17.0;
+/// Bars end here, whatever they stand for: their label says how much that is.
+const LONGEST: f64 = 4.0;
+const HEADING: f64 = 19.0;
+
+/// Draws the groups; all lengths are parts of the line at 1, which the caption names. Parts have names and colours.
+pub fn bars(title: &Title, caption: &str, parts: &[(&str, RGBColor)], groups: &[Group]) -> String {
+    let all = || groups.iter().flat_map(|group| &group.bars);
+    let left = 20.0 + all().map(|bar| width_of(&bar.name, TEXT)).fold(0.0, f64::max);
+    let label = all().map(|bar| width_of(&bar.label, TEXT) + 8.0).fold(0.0, f64::max);
+    let right = WIDTH - 18.0 - label;
+    let longest = all().map(|bar| bar.parts.iter().sum::<f64>()).fold(1.0, f64::max).min(LONGEST);
+    let at = |length: f64| left + (right - left) * (length / longest).min(1.0);
+    let height: f64 = groups.iter().map(|group| HEADING + ROW * group.bars.len() as f64).sum();
+    let bottom = TOP + height + 4.0;
+    draw(&title.question, bottom + 44.0, |sheet| {
+        sheet.title(&title.lines());
+        legend(sheet, parts);
+        for quarter in 0..=(longest * 2.0) as usize {
+            let place = at(0.5 * quarter as f64);
+            let color = if quarter == 2 { PALE } else { GRID };
+            sheet.line(&[(place, TOP), (place, bottom)], color, 1.0);
+            if quarter % 2 == 0 {
+                sheet.text(
+                    &format!("{}", quarter / 2),
+                    (place, bottom + 11.0),
+                    Hang::Middle,
+                    (INK, TEXT - 0.5),
+                );
+            }
+        }
+        let mut y = TOP;
+        for group in groups {
+            sheet.bold(&group.name, (10.0, y + 0.5 * HEADING + 1.0), Hang::Start, (INK, TEXT));
+            y += HEADING;
+            for bar in &group.bars {
+                one(sheet, bar, parts, (y, left, &at));
+                y += ROW;
+            }
+        }
+        sheet.text(caption, (0.5 * WIDTH, bottom + 30.0), Hang::Middle, (PALE, TEXT));
+    })
+}
+
+fn one(
+    sheet: &mut Sheet,
+    bar: &Bar,
+    parts: &[(&str, RGBColor)],
+    (y, left, at): (f64, f64, &impl Fn(f64) -> f64),
+) {
+    let middle = y + 0.5 * ROW;
+    sheet.text(&bar.name, (left - 6.0, middle), Hang::End, (dark(bar.color), TEXT));
+    let mut sum = 0.0;
+    for (length, (_, color)) in bar.parts.iter().zip(parts) {
+        sheet.rect((at(sum), y + 2.0), (at(sum + length), y + ROW - 2.0), *color);
+        sum += length;
+    }
+    let (low, high) = bar.whisker;
+    sheet.line(&[(at(low), middle), (at(high), middle)], INK, 1.0);
+    let cut = if sum > LONGEST { "» " } else { "" };
+    sheet.text(
+        &format!("{cut}{}", bar.label),
+        (at(sum.max(high)) + 6.0, middle),
+        Hang::Start,
+        (INK, TEXT - 0.5),
+    );
+}
+
+/// Two lines of names, each after a patch of its colour.
+fn legend(sheet: &mut Sheet, parts: &[(&str, RGBColor)]) {
+    let (mut x, mut y) = (10.0, 54.0);
+    for (name, color) in parts {
+        let width = 17.0 + width_of(name, TEXT) + 12.0;
+        if x + width > WIDTH {
+            (x, y) = (10.0, y + 17.0);
+        }
+        sheet.rect((x, y - 5.5), (x + 12.0, y + 5.5), *color);
+        sheet.text(name, (x + 17.0, y), Hang::Start, (INK, TEXT));
+        x += width;
+    }
+}

@@ -1,0 +1,29 @@
+//! Kinds of plots. None of them knows where its figures come from.
+
+pub mod bars;
+pub mod curves;
+pub mod heat;
+pub mod labels;
+pub mod scatter;
+pub mod strips;
+
+/// What stands above every plot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Title {
+    /// What the plot answers.
+    pub question: String,
+    /// How to read it.
+    pub reading: String,
+}
+
+impl Title {
+    /// A question, and how to read the answer.
+    pub fn new(question: impl Into<String>, reading: impl Into<String>) -> Self {
+        Self { question: question.into(), reading: reading.into() }
+    }
+
+    /// The lines that fit the width.
+    fn lines(&self) -> [&str; 2] {
+        [&self.question, &self.reading]
+    }
+}

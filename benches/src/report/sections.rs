@@ -1,0 +1,101 @@
+//! The sections of the page, from rows to plots, tables and sentences.
+
+mod broad;
+mod error;
+mod frame;
+mod gap;
+mod stability;
+mod vertices;
+
+use super::data::{Data, Section};
+use super::origin::Origin;
+use super::table::Table;
+
+/// A plot of a section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Its file, without ending.
+    pub file: String,
+    /// What it answers.
+    pub question: String,
+    /// The SVG.
+    pub svg: String,
+}
+
+/// One section, ready to be laid out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chapter {
+    /// Which it is.
+    pub section: Section,
+    /// Its heading.
+    pub heading: String,
+    /// How its figures are to be read, and how they were taken.
+    pub method: String,
+    /// Its plots.
+    pub figures: Vec<Figure>,
+    /// What follows from the data, other than losses.
+    pub findings: Vec<String>,
+    /// Where others are ahead.
+    pub losses: Vec<String>,
+    /// Its tables.
+    pub tables: Vec<Table>,
+    /// Where it comes from.
+    pub origin: Option<Origin>,
+}
+
+/// A chapter before it is known which section it is of.
+#[derive(Default)]
+struct Draft {
+    heading: &'static str,
+    method: &'static str,
+    figures: Vec<Figure>,
+    findings: Vec<String>,
+    losses: Vec<String>,
+    tables: Vec<Table>,
+}
+
+/// All sections that have rows, in the order of the page.
+pub fn chapters(data: &Data) -> Vec<Chapter> {
+    let drafts = Section::ALL.into_iter().map(|section| {
+        let draft = match section {
+            Section::Error => error::draft(&data.error),
+            Section::Gap => gap::draft(&data.gap),
+            Section::Stability => stability::draft(&data.stability),
+            Section::Broad => broad::draft(&data.broad),
+            Section::Frame => frame::draft(&data.frame),
+            Section::Vertices => vertices::draft(&data.vertices),
+        };
+        (section, draft)
+    });
+    let drawn = drafts.filter(|(_, draft)| !draft.figures.is_empty());
+    drawn
+        .map(|(section, draft)| {
+            let Draft { heading, method, figures, findings, losses, tables } = draft;
+            let origin = data.origin(section).cloned();
+            let (heading, method) = (heading.to_string(), method.to_string());
+            Chapter { section, heading, method, figures, findings, losses, tables, origin }
+        })
+        .collect()
+}
+
+/// What a table says of a time: the median, and a mark where its noise is wide.
+fn marked(median: f64, low: f64, high: f64) -> String {
+    let time = super::names::duration(median);
+    if super::spread::is_wide(median, low, high) { format!("{time} ±") } else { time }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_rows_make_no_chapters() {
+        assert!(chapters(&Data::default()).is_empty());
+    }
+
+    #[test]
+    fn a_noisy_time_is_marked() {
+        assert_eq!(marked(100.0, 90.0, 109.0), "100 ns");
+        assert_eq!(marked(100.0, 90.0, 111.0), "100 ns ±");
+    }
+}

@@ -1,0 +1,169 @@
+//! All pairs of boxes: time over sizes, a plot a scene; threads; crossovers.
+
+use super::{Draft, Figure, marked};
+use crate::broad::rows::BroadRow;
+use crate::clock::Spread;
+use crate::report::losses::{best, crossover, distinct, of_broad};
+use crate::report::names::{count, short, size};
+use crate::report::palette::look;
+use crate::report::plots::Title;
+use crate::report::plots::curves::{Curve, curves};
+use crate::report::plots::strips::{Group, Scale, Strip, strips};
+use crate::report::table::Table;
+
+pub(super) fn draft(rows: &[BroadRow]) -> Draft {
+    let scenes = distinct(rows, |row| row.scene.clone());
+    let mut figures: Vec<Figure> = scenes.iter().map(|scene| over_sizes(scene, rows)).collect();
+    let groups: Vec<Group> = scenes.iter().filter_map(|scene| speedups(scene, rows)).collect();
+    if !groups.is_empty() {
+        let question = "Do two threads pay in the broad phase?".to_string();
+        let title = Title::new(question.clone(), "One thread's time over two's, by the clock on the wall.");
+        let svg = strips(&title, "times as fast on two threads as on one", Scale::Linear, &groups);
+        figures.push(Figure { file: "broad-threads".to_string(), question, svg });
+    }
+    Draft {
+        heading: "Broad phase",
+        method: "All overlapping pairs of a frame of moving boxes, filtered; asunder's sorted, by the better of its two \
+                 ways, parry3d's in no order, by the best of up to nine ways to bring its tree up to date. The dashed \
+                 line is the time in which one thread's memory could read every box and write every pair. Ways took \
+                 turns, frame by frame, in CPU time of one thread; every frame all had to find equally many pairs. No \
+                 listed pair is false: its boxes overlap. How many of them have shapes that do not touch stands with \
+                 the frames.",
+        figures,
+        findings: findings(&scenes, rows),
+        losses: of_broad(rows),
+        tables: vec![table(&scenes, rows)],
+    }
+}
+
+fn sizes_of(scene: &str, rows: &[BroadRow]) -> Vec<u64> {
+    let here: Vec<&BroadRow> = rows.iter().filter(|row| row.scene == scene).collect();
+    let mut sizes = distinct(&here, |row| row.boxes);
+    sizes.sort_unstable();
+    sizes
+}
+
+/// Time a box of the best way of each, at every size.
+fn curve(scene: &str, method: &str, rows: &[BroadRow]) -> Vec<(f64, Spread)> {
+    let at = |boxes: u64| {
+        let row = best(rows, (scene, boxes, method), "thread", 1)?;
+        let spread = Spread::new(row.ns, row.ns_low, row.ns_high).scaled(1.0 / boxes.max(1) as f64);
+        Some((boxes as f64, spread))
+    };
+    sizes_of(scene, rows).into_iter().filter_map(at).collect()
+}
+
+fn over_sizes(scene: &str, rows: &[BroadRow]) -> Figure {
+    let question = format!("{scene}: what does a box cost among many?");
+    let title = Title::new(question.clone(), "Time a box, one thread; lower is better.");
+    let drawn: Vec<Curve> = ["asunder", "parry3d", "memory"]
+        .map(|method| Curve {
+            look: look(method),
+            points: curve(scene, method, rows),
+            is_bound: method == "memory",
+        })
+        .into_iter()
+        .filter(|curve| !curve.points.is_empty())
+        .collect();
+    let svg = curves(&title, "boxes", &sizes_of(scene, rows), &drawn);
+    Figure { file: format!("broad-{scene}"), question, svg }
+}
+
+fn speedups(scene: &str, rows: &[BroadRow]) -> Option<Group> {
+    let strips: Vec<Strip> = sizes_of(scene, rows)
+        .into_iter()
+        .filter_map(|boxes| {
+            let on = |threads| best(rows, (scene, boxes, "asunder"), "wall", threads);
+            let (one, two) = (on(1)?, on(2)?);
+            let mut look = look("asunder");
+            look.name = size(boxes);
+            let is_noisy =
+                [one, two].iter().any(|row| Spread::new(row.ns, row.ns_low, row.ns_high).is_wide());
+            let (value, inner) = (one.ns / two.ns, (one.ns_low / two.ns_high, one.ns_high / two.ns_low));
+            Some(Strip { look, value, inner, end: value, is_noisy })
+        })
+        .collect();
+    (!strips.is_empty()).then(|| Group { name: scene.to_string(), strips })
+}
+
+fn findings(scenes: &[String], rows: &[BroadRow]) -> Vec<String> {
+    let mut said = Vec::new();
+    let cases = distinct(rows, |row| (row.scene.clone(), row.boxes));
+    let ratios: Vec<(f64, &String, u64)> = cases
+        .iter()
+        .filter_map(|(scene, boxes)| {
+            let of = |method| best(rows, (scene, *boxes, method), "thread", 1);
+            Some((of("parry3d")?.ns / of("asunder")?.ns, scene, *boxes))
+        })
+        .collect();
+    let least = ratios.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    let most = ratios.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    if let (Some(least), Some(most)) = (least, most) {
+        said.push(format!(
+            "parry3d's time over asunder's, over all scenes and sizes: from {} ({}, {}) to {} ({}, {}).",
+            short(least.0),
+            least.1,
+            size(least.2),
+            short(most.0),
+            most.1,
+            size(most.2),
+        ));
+    }
+    for scene in scenes {
+        let medians = |method: &str| -> Vec<(f64, f64)> {
+            curve(scene, method, rows).into_iter().map(|(n, spread)| (n, spread.median)).collect()
+        };
+        if let Some(at) = crossover(&medians("asunder"), &medians("parry3d")) {
+            said.push(format!(
+                "{scene}: asunder and parry3d cross at about {} boxes.",
+                count(libm::round(at) as u64)
+            ));
+        }
+    }
+    said.extend(pays_from(scenes, rows));
+    said
+}
+
+/// The least size of each scene from which on a second thread saves time beyond the noise.
+fn pays_from(scenes: &[String], rows: &[BroadRow]) -> Option<String> {
+    let mut said = Vec::new();
+    for scene in scenes {
+        let pays = |boxes: &u64| {
+            let on = |threads| best(rows, (scene, *boxes, "asunder"), "wall", threads);
+            on(1).zip(on(2)).is_some_and(|(one, two)| two.ns_high < one.ns_low)
+        };
+        let sizes = sizes_of(scene, rows);
+        if let Some(least) = sizes.iter().rev().take_while(|boxes| pays(boxes)).last() {
+            said.push(format!("{scene} from {}", size(*least)));
+        }
+    }
+    let all = said.join(", ");
+    (!all.is_empty())
+        .then(|| format!("A second thread saves time beyond the noise, of the sizes measured: {all}."))
+}
+
+fn table(scenes: &[String], rows: &[BroadRow]) -> Table {
+    let head =
+        ["scene", "pairs", "asunder", "its way", "parry3d", "its way", "ratio", "% of bound", "bytes a box"];
+    let mut table = Table::new("Every scene and size, one thread", &head);
+    for scene in scenes {
+        for boxes in sizes_of(scene, rows) {
+            let of = |method| best(rows, (scene, boxes, method), "thread", 1);
+            let Some(ours) = of("asunder") else { continue };
+            let peer = of("parry3d");
+            let bound = of("memory").map_or(0.0, |row| row.ns);
+            table.rows.push(vec![
+                format!("{scene}/{}", size(boxes)),
+                count(ours.pairs),
+                marked(ours.ns, ours.ns_low, ours.ns_high),
+                ours.variant.clone(),
+                peer.map_or("-".to_string(), |row| marked(row.ns, row.ns_low, row.ns_high)),
+                peer.map_or("-".to_string(), |row| row.variant.replace("parry3d ", "")),
+                peer.map_or("-".to_string(), |row| short(row.ns / ours.ns)),
+                short(100.0 * bound / ours.ns),
+                short(ours.bytes_per_box),
+            ]);
+        }
+    }
+    table
+}
