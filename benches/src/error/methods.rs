@@ -317,3 +317,27 @@ impl Asked for PosedPair2 {
         methods
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn a_nan_and_a_panic_are_refusals_and_a_gap_is_no_depth() {
+        let answers = [-0.5, f64::NAN, 0.25, 0.0, f64::INFINITY];
+        let ask = |answer: &f64| {
+            assert!(*answer < 1.0 || answer.is_nan(), "as a peer may");
+            Said::deep(Some(*answer))
+        };
+        let mut said = Vec::new();
+        one_by_one(answers.to_vec(), ask).say(&mut said);
+        assert_eq!(said, [Said::Deep(-0.5), Said::Refused, Said::Apart, Said::Deep(0.0), Said::Refused]);
+        assert_eq!(Said::of_peer(None), Said::Refused);
+        assert_eq!(Said::of_peer(Some(None)), Said::Apart);
+        let contact = Contact { separation: -0.5, normal: DVec3::X, points: 1 };
+        assert_eq!(Said::of_peer(Some(Some(contact))), Said::Deep(-0.5));
+        let without_normal = Contact { normal: DVec3::NAN, ..contact };
+        assert_eq!(Said::of_peer(Some(Some(without_normal))), Said::Refused);
+    }
+}
