@@ -49,6 +49,7 @@ mod meeting;
 mod outstanding;
 mod plane;
 mod prism;
+mod round;
 mod standing;
 
 use super::OnGround;
@@ -69,6 +70,7 @@ use facet::{Facet, is_same};
 use groups::{Group, Groups};
 use meeting::{Meeting, Met};
 use prism::{Incident, Prism};
+use round::Round;
 use standing::{Extent, Octets, Place, Standing};
 
 /// Triangles whose yes or no waits until all have been seen.
@@ -123,6 +125,8 @@ struct Known {
     refused: ArrayVec<u32, MOST_REFUSED>,
     incident: Option<Incident>,
     plane: Option<Plane>,
+    /// The short way for spheres met what it cannot settle.
+    is_open: bool,
 }
 
 /// A triangle, and how a part stands over its plane.
@@ -150,6 +154,46 @@ impl<'a> Asking<'a> {
     /// interest.
     fn contact_of(&self, part: Part<'a>, is_settled: bool, manifolds: &mut impl Room) -> Option<bool> {
         let place = Place::of(self.on, &part, self.poses);
+        if let Shape3::Sphere(sphere) = part.shape {
+            let round = Round::new(&place, sphere.radius().into(), self.reach);
+            if let Some(found) = self.contact_of_round(&round, part, is_settled, manifolds) {
+                return found;
+            }
+        }
+        self.contact_in_general(part, place, is_settled, manifolds)
+    }
+
+    /// The short way for spheres; nothing where the general one has to be gone.
+    fn contact_of_round(
+        &self,
+        round: &Round,
+        part: Part<'a>,
+        is_settled: bool,
+        manifolds: &mut impl Room,
+    ) -> Option<Option<bool>> {
+        let bounds = self.on.bounds(&part, self.reach);
+        let slack = round.slack();
+        let mut known = Known::new(slack);
+        if !round.look(self.on.ground, &bounds, !manifolds.is_wanted(), &mut known) {
+            return None;
+        }
+        if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
+            known.groups.keep_within(-slack);
+        }
+        if known.groups.least() > slack && known.shown_by.is_some() {
+            return None;
+        }
+        Some(self.answer(part, &mut known, is_settled, manifolds))
+    }
+
+    #[inline(never)]
+    fn contact_in_general(
+        &self,
+        part: Part<'a>,
+        place: Place,
+        is_settled: bool,
+        manifolds: &mut impl Room,
+    ) -> Option<bool> {
         let bounds = self.on.bounds(&part, self.reach);
         let core = part.shape.core();
         let solid = Solid::new(&core, place.axes, place.origin, f64::from(part.shape.radius()));
@@ -170,7 +214,19 @@ impl<'a> Asking<'a> {
         }
         seen.add_refused(&mut known);
         seen.conclude(&mut known, is_settled);
-        let Known { groups, overlapping, .. } = &mut known;
+        self.answer(part, &mut known, is_settled, manifolds)
+    }
+
+    /// Hands over what was found.
+    #[inline]
+    fn answer(
+        &self,
+        part: Part<'a>,
+        known: &mut Known,
+        is_settled: bool,
+        manifolds: &mut impl Room,
+    ) -> Option<bool> {
+        let Known { groups, overlapping, .. } = known;
         if !*overlapping && groups.least() == f64::INFINITY {
             return None;
         }
@@ -178,7 +234,7 @@ impl<'a> Asking<'a> {
             groups.finish();
             let least = groups.least();
             for group in groups.iter() {
-                self.add_manifold(&standing, group, (*overlapping, is_settled, least), manifolds);
+                self.add_manifold(part.index, group, (*overlapping, is_settled, least), manifolds);
             }
         }
         Some(*overlapping)
@@ -186,7 +242,7 @@ impl<'a> Asking<'a> {
 
     fn add_manifold(
         &self,
-        standing: &Standing,
+        part: u32,
         group: &Group,
         (overlapping, is_settled, least): (bool, bool, f64),
         to: &mut impl Room,
@@ -206,7 +262,7 @@ impl<'a> Asking<'a> {
             _ => deepest.separation as f32,
         };
         let Some(manifold) = to.room(separation) else { return };
-        let sides = [standing.part.index, group.base.patch];
+        let sides = [part, group.base.patch];
         [manifold.part_a, manifold.part_b] = if on.is_b { sides } else { [sides[1], sides[0]] };
         let towards = on.basis.turn(group.base.normal);
         manifold.normal = if on.is_b { -towards } else { towards }.as_vec3();
@@ -240,6 +296,7 @@ impl Known {
             refused: ArrayVec::new(),
             incident: None,
             plane: None,
+            is_open: false,
         }
     }
 }
@@ -372,7 +429,7 @@ impl Seen<'_> {
         }
         let is_within = nearest.separation <= self.asking.reach;
         let has_points =
-            is_within && nearest.add_point((self.standing, facet), ground, doubt, &mut known.groups);
+            is_within && nearest.add_point((self.standing.center, self.standing.radius), facet, ground, doubt, &mut known.groups);
         if known.overlapping || nearest.separation > doubt {
             return;
         }

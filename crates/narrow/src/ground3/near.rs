@@ -51,18 +51,26 @@ impl<'a> OnGround<'a> {
     /// Everything, for a half-space.
     pub(crate) fn bounds(&self, part: &Part, reach: f64) -> Aabb3 {
         let (axes, shift) = part.placed(&self.body_basis);
-        let core = part.shape.core();
         let origin = self.basis.turn_back(self.to_body + shift);
         let axes = [axes.x, axes.y, axes.z].map(|axis| self.basis.turn_back(axis));
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for vertex in core.vertices() {
-            let [x, y, z] = vertex.as_dvec3().to_array();
-            let place = axes[0] * x + axes[1] * y + axes[2] * z + origin;
-            (low, high) = (low.min(place), high.max(place));
-        }
-        if core.vertices().is_empty() {
-            return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
-        }
+        let (low, high) = match part.shape {
+            Shape3::HalfSpace(_) => return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY),
+            Shape3::Sphere(_) => (origin, origin),
+            Shape3::Cuboid(cuboid) => {
+                let half = cuboid.half_extents().as_dvec3();
+                let half = axes[0].abs() * half.x + axes[1].abs() * half.y + axes[2].abs() * half.z;
+                (origin - half, origin + half)
+            }
+            shape => {
+                let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                for vertex in shape.core().vertices() {
+                    let [x, y, z] = vertex.as_dvec3().to_array();
+                    let place = axes[0] * x + axes[1] * y + axes[2] * z + origin;
+                    (low, high) = (low.min(place), high.max(place));
+                }
+                (low, high)
+            }
+        };
         let radius = f64::from(part.shape.radius());
         let lengths = self.to_body.length() + shift.length() + f64::from(part.shape.outer_radius());
         let lengths = lengths + part.shape.center().as_dvec3().length();

@@ -40,6 +40,19 @@ impl Facet {
     /// The triangle with a number as a part whose centre this is sees it. Nothing for one-sided ground whose front is
     /// not seen, and where the triangle has no normal.
     pub(super) fn seen(ground: Ground, number: u32, center: DVec3) -> Option<Self> {
+        let mut facet = Self::front_of(ground, number)?;
+        if !facet.has_in_front(ground, center) {
+            if ground.is_one_sided() {
+                return None;
+            }
+            facet.turn_over();
+        }
+        Some(facet)
+    }
+
+    /// A triangle as it is seen from its front. Nothing where it has no normal.
+    #[inline]
+    pub(super) fn front_of(ground: Ground, number: u32) -> Option<Self> {
         let corners = ground.corners(number).map(|corner| corner.as_dvec3());
         let sides = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
         let squares = sides.map(|side| side.length_squared());
@@ -58,15 +71,13 @@ impl Facet {
         if tilt.is_nan() || tilt >= SAME_NORMAL {
             return None;
         }
-        let mut facet =
-            Self { number, corners, normal: cross / area, origin: corners[other], is_front: true, tilt };
-        if !facet.has_in_front(ground, center) {
-            if ground.is_one_sided() {
-                return None;
-            }
-            (facet.normal, facet.is_front) = (-facet.normal, false);
-        }
-        Some(facet)
+        Some(Self { number, corners, normal: cross / area, origin: corners[other], is_front: true, tilt })
+    }
+
+    /// The same as seen from the other side.
+    #[inline]
+    pub(super) fn turn_over(&mut self) {
+        (self.normal, self.is_front) = (-self.normal, !self.is_front);
     }
 
     /// Another triangle of the same flat patch, if it lies in this one's plane up to so many metres and has a point on
@@ -89,7 +100,12 @@ impl Facet {
         if ground.is_one_sided() {
             return is_above;
         }
-        let (feature, at) = nearest_to(self, point);
+        self.is_before(ground, point, nearest_to(self, point))
+    }
+
+    /// The same of two-sided ground, where it is known what of the triangle is nearest to the point.
+    pub(super) fn is_before(&self, ground: Ground, point: DVec3, (feature, at): (Furthest, DVec3)) -> bool {
+        let is_above = self.height(point) >= 0.0;
         let around = match feature {
             Furthest::Face => return is_above,
             Furthest::Edge(edge) => match ground.neighbor(self.number, edge) {

@@ -17,7 +17,7 @@ pub(super) struct Place {
     pub(super) axes: Basis3,
     pub(super) origin: DVec3,
     /// How long the vectors are that this is a sum of, in metres.
-    summed: f64,
+    pub(super) summed: f64,
 }
 
 /// Vertices eight by eight: large, and filled where they stay.
@@ -115,7 +115,7 @@ impl<'s> Standing<'s> {
     /// What a coordinate, and a product with a unit vector, may be off by at most, beside a point of ground.
     #[inline]
     pub(super) fn doubt(&self, ground: DVec3) -> f64 {
-        IN_SPACE[1] * (f64::EPSILON / 2.0) * (self.lengths + ground.abs().element_sum())
+        doubt_of(self.lengths, ground)
     }
 
     /// Whether an axis that costs little shows that a triangle is further away than so many metres: one of the part's
@@ -193,6 +193,13 @@ impl<'s> Standing<'s> {
             highest: vertex(high_at[up], up),
         }
     }
+}
+
+/// What a coordinate that such lengths went into, and a product of it with a unit vector, may be off by at most, beside
+/// a point of ground.
+#[inline]
+pub(super) fn doubt_of(lengths: f64, ground: DVec3) -> f64 {
+    IN_SPACE[1] * (f64::EPSILON / 2.0) * (lengths + ground.abs().element_sum())
 }
 
 /// Whether an axis across an edge of the triangle and one of a box shows that they are further apart than so many
