@@ -428,8 +428,14 @@ impl Seen<'_> {
             return;
         }
         let is_within = nearest.separation <= self.asking.reach;
-        let has_points =
-            is_within && nearest.add_point((self.standing.center, self.standing.radius), facet, ground, doubt, &mut known.groups);
+        let has_points = is_within
+            && nearest.add_point(
+                (self.standing.center, self.standing.radius),
+                facet,
+                ground,
+                doubt,
+                &mut known.groups,
+            );
         if known.overlapping || nearest.separation > doubt {
             return;
         }

@@ -5,7 +5,7 @@
 
 use super::ball::nearest_to;
 use asunder_geometry::Ground;
-use asunder_geometry::glam::DVec3;
+use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_NORMAL;
 
 /// Triangles around a corner that are looked at, each way. More than that meet in no level that was meant to be one;
@@ -40,7 +40,7 @@ impl Facet {
     /// The triangle with a number as a part whose centre this is sees it. Nothing for one-sided ground whose front is
     /// not seen, and where the triangle has no normal.
     pub(super) fn seen(ground: Ground, number: u32, center: DVec3) -> Option<Self> {
-        let mut facet = Self::front_of(ground, number)?;
+        let mut facet = Self::front_of(number, ground.corners(number))?;
         if !facet.has_in_front(ground, center) {
             if ground.is_one_sided() {
                 return None;
@@ -52,8 +52,8 @@ impl Facet {
 
     /// A triangle as it is seen from its front. Nothing where it has no normal.
     #[inline]
-    pub(super) fn front_of(ground: Ground, number: u32) -> Option<Self> {
-        let corners = ground.corners(number).map(|corner| corner.as_dvec3());
+    pub(super) fn front_of(number: u32, corners: [Vec3; 3]) -> Option<Self> {
+        let corners = corners.map(|corner| corner.as_dvec3());
         let sides = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
         let squares = sides.map(|side| side.length_squared());
         let longest = if squares[0] >= squares[1] && squares[0] >= squares[2] {

@@ -18,7 +18,7 @@ use super::facet::{Facet, Furthest, is_same};
 use super::standing::{Place, doubt_of};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
-use asunder_geometry::{Aabb3, Ground};
+use asunder_geometry::{Aabb3, Ground, NearTriangle, Prominent};
 use core::ops::ControlFlow;
 
 /// A sphere, in the ground's axes.
@@ -51,19 +51,23 @@ impl Round {
         is_yes_enough: bool,
         known: &mut Known,
     ) -> bool {
-        let flow = ground.visit_near(bounds, |number| {
-            if !self.look_at(ground, number, known) {
+        let flow = ground.read_near(bounds, |near| {
+            if !self.look_at(ground, near, known) {
                 known.is_open = true;
                 return ControlFlow::Break(());
             }
-            if known.overlapping && is_yes_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if known.overlapping && is_yes_enough {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
         });
         flow.is_continue() || !known.is_open
     }
 
     /// Looks at one triangle; whether it is settled.
-    fn look_at(&self, ground: Ground, number: u32, known: &mut Known) -> bool {
-        let Some(mut facet) = Facet::front_of(ground, number) else { return true };
+    fn look_at(&self, ground: Ground, near: &NearTriangle, known: &mut Known) -> bool {
+        let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return true };
         let height = facet.height(self.center);
         let lever = (self.center - facet.origin()).abs().element_sum() + self.radius;
         let doubt = doubt_of(self.lengths, facet.origin()) + facet.tilt * lever;
@@ -82,26 +86,25 @@ impl Round {
         if nearest.separation > most {
             return true;
         }
-        if nearest.separation <= self.reach && self.may_add(&nearest, &facet, ground) {
+        if nearest.separation <= self.reach && may_add(&nearest, &facet, near.prominent) {
             if on.0 != Furthest::Face && !ground.is_one_sided() && !facet.is_before(ground, self.center, on) {
                 facet.turn_over();
             }
             nearest.add_point((self.center, self.radius), &facet, ground, doubt, &mut known.groups);
         }
         if nearest.separation < -doubt {
-            known.settle(number);
+            known.settle(near.number);
         }
         known.overlapping || nearest.separation > doubt
     }
+}
 
-    /// Whether the triangle may give a point as seen from either side.
-    fn may_add(&self, nearest: &Nearest, facet: &Facet, ground: Ground) -> bool {
-        let prominent = || ground.prominent(facet.number);
-        let is_prominent = match nearest.feature {
-            Furthest::Face => true,
-            Furthest::Edge(edge) => [true, false].iter().any(|&front| prominent().edge(edge, front)),
-            Furthest::Corner(corner) => [true, false].iter().any(|&front| prominent().corner(corner, front)),
-        };
-        is_prominent || is_same(facet.normal, nearest.towards) || is_same(-facet.normal, nearest.towards)
-    }
+/// Whether the triangle may give a point as seen from either side.
+fn may_add(nearest: &Nearest, facet: &Facet, prominent: Prominent) -> bool {
+    let is_prominent = match nearest.feature {
+        Furthest::Face => true,
+        Furthest::Edge(edge) => prominent.edge(edge, true) || prominent.edge(edge, false),
+        Furthest::Corner(corner) => prominent.corner(corner, true) || prominent.corner(corner, false),
+    };
+    is_prominent || is_same(facet.normal, nearest.towards) || is_same(-facet.normal, nearest.towards)
 }
