@@ -42,6 +42,7 @@
 //! in the ground.
 
 mod against;
+mod axes;
 mod ball;
 mod facet;
 mod groups;
@@ -62,7 +63,7 @@ use crate::room::Room;
 use against::Against;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Aabb3, Pose3, Shape3};
+use asunder_geometry::{Aabb3, NearTriangle, Pose3, Shape3};
 use ball::{Nearest, nearest_to};
 use core::cell::Cell;
 use core::ops::ControlFlow;
@@ -206,8 +207,8 @@ impl<'a> Asking<'a> {
         if let Shape3::HalfSpace(half_space) = part.shape {
             seen.look_at_all(place.axes.turn(half_space.unit_normal()), &mut known);
         } else {
-            let _ = self.on.ground.visit_near(&bounds, |number| {
-                seen.look_at(number, &mut known);
+            let _ = self.on.ground.read_near(&bounds, |near| {
+                seen.look_at(near, &mut known);
                 let is_enough = known.overlapping && !manifolds.is_wanted();
                 if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
@@ -303,17 +304,14 @@ impl Known {
 
 impl Seen<'_> {
     /// Looks at one triangle.
-    fn look_at(&self, number: u32, known: &mut Known) {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
+    fn look_at(&self, near: &NearTriangle, known: &mut Known) {
+        let (ground, standing, number) = (self.asking.on.ground, self.standing, near.number);
         if self.is_ball {
             return self.look_at_from_ball(number, known);
         }
-        let Some(plane) = self.plane_of(number, known) else { return };
+        let Some(plane) = self.plane_of(near, known) else { return };
         let Plane { facet, extent, doubt, .. } = plane;
         let separation = extent.low - standing.radius;
-        if separation > self.asking.reach + doubt {
-            return;
-        }
         let prism = Prism {
             ground,
             standing,
@@ -323,8 +321,13 @@ impl Seen<'_> {
             doubt,
             gate: None,
         };
-        if self.needs_kernels(&prism) {
-            if standing.is_apart(&facet, self.asking.reach + 2.0 * doubt) {
+        if self.needs_kernels(&prism, near.prominent) {
+            let beyond = self.asking.reach + 2.0 * doubt;
+            let axes = prism.axes();
+            let overlapping = axes.as_ref().filter(|axes| axes.best < -doubt);
+            if axes.as_ref().is_some_and(|axes| axes.best > beyond + standing.radius)
+                || overlapping.is_none() && standing.is_apart(&facet, beyond)
+            {
                 return;
             }
             if self.is_explained(&facet, known) {
@@ -340,6 +343,10 @@ impl Seen<'_> {
                 Against::Added(separation, _) if separation > doubt + standing.planarity => return,
                 Against::Added(separation, _) => return self.doubt_of(number, (true, separation), known),
                 Against::Unknown => {}
+            }
+            if overlapping.is_some_and(|axes| prism.refuses(axes)) {
+                known.settle(number);
+                return self.refuse(&prism, known);
             }
             let ways = (self.asking.margin, self.asking.reach);
             match self.meeting.add_points((ground, &facet), &standing.place, ways, &mut known.groups) {
@@ -365,18 +372,29 @@ impl Seen<'_> {
         self.doubt_of(number, (has_points, separation), known);
     }
 
-    /// A triangle and how the part stands over its plane, which most often is that of the one before.
-    fn plane_of(&self, number: u32, known: &mut Known) -> Option<Plane> {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
-        let patch = ground.patch(number);
+    /// A triangle and how the part stands over its plane, which most often is that of the one before. Nothing where all
+    /// of the part is further from the plane than is wanted, on whichever side.
+    fn plane_of(&self, near: &NearTriangle, known: &mut Known) -> Option<Plane> {
+        let (ground, standing, patch) = (self.asking.on.ground, self.standing, near.patch);
         if let Some(plane) = known.plane.as_ref().filter(|plane| plane.patch == patch)
-            && let Some(facet) = plane.facet.next(ground, number, 0.25 * plane.doubt, standing.center)
+            && let Some(facet) = plane.facet.next(ground, near.number, 0.25 * plane.doubt, standing.center)
         {
             return Some(Plane { facet, ..*plane });
         }
-        let facet = Facet::seen(ground, number, standing.center)?;
-        let extent = standing.extent(facet.normal, facet.origin());
+        let mut facet = Facet::front_of(near.number, near.corners)?;
+        let mut extent = standing.extent(facet.normal, facet.origin());
         let doubt = 2.0 * self.doubt_over(&facet);
+        let beyond = self.asking.reach + standing.radius + doubt;
+        if extent.low > beyond || -extent.high > beyond {
+            return None;
+        }
+        if !facet.has_in_front(ground, standing.center) {
+            if ground.is_one_sided() {
+                return None;
+            }
+            facet.turn_over();
+            extent = extent.turned_over();
+        }
         Some(*known.plane.insert(Plane { patch, facet, extent, doubt }))
     }
 

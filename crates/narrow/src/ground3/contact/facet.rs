@@ -95,7 +95,7 @@ impl Facet {
     ///
     /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005), with sines for
     /// angles.
-    fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
+    pub(super) fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
         let is_above = self.height(point) >= 0.0;
         if ground.is_one_sided() {
             return is_above;

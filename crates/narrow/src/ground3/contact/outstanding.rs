@@ -4,12 +4,13 @@ use super::facet::{Facet, edge_number};
 use super::prism::Prism;
 use super::{Known, Seen};
 use crate::feature::Feature;
+use asunder_geometry::Prominent;
 
 impl Seen<'_> {
     /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer.
-    pub(super) fn needs_kernels(&self, prism: &Prism) -> bool {
+    pub(super) fn needs_kernels(&self, prism: &Prism, prominent: Prominent) -> bool {
         let Prism { ground, standing, facet, extent, .. } = *prism;
-        let (prominent, is_front) = (ground.prominent(facet.number), facet.is_front);
+        let is_front = facet.is_front;
         // Two-sided ground that the part is in may bend the other way, and end there all the same.
         let is_in = extent.low - standing.radius < -standing.slack && !ground.is_one_sided();
         if !(prominent.any(is_front) || is_in && prominent.any(!is_front)) {

@@ -19,7 +19,7 @@ use super::standing::{Extent, Standing};
 use crate::feature::Feature;
 use crate::polyhedron::manifold::opposed_face;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Ground, Shape3};
+use asunder_geometry::{Cuboid, Ground, Shape3};
 use core::cell::Cell;
 
 /// Cosine up to which a body's face looks away from the ground so much that it has no inside as seen along the normal.
@@ -50,7 +50,12 @@ pub(super) struct Prism<'p> {
 
 impl Incident {
     pub(super) fn of(standing: &Standing, normal: DVec3) -> Self {
-        let face = opposed_face(standing.solid, normal, standing.slack).face;
+        let face = match standing.part.shape {
+            Shape3::Cuboid(cuboid) => {
+                opposed_of_cuboid(standing.place.axes.turn_back(normal), cuboid, standing.slack)
+            }
+            _ => opposed_face(standing.solid, normal, standing.slack).face,
+        };
         Self { normal, face, outwards: standing.solid.outwards(face, -normal) }
     }
 
@@ -58,6 +63,17 @@ impl Incident {
     pub(super) fn is_for(&self, normal: DVec3) -> bool {
         (self.normal - normal).length_squared() <= 1e-14
     }
+}
+
+/// The face that [`opposed_face`] finds, of a cuboid: the most opposed of those that have all the furthest corners.
+fn opposed_of_cuboid(normal: DVec3, cuboid: &Cuboid, slack: f64) -> usize {
+    let (lean, half) = (normal.abs(), cuboid.half_extents().as_dvec3());
+    // A face whose other side is as far up to the slack has but some of them.
+    let has_all = [0, 1, 2].map(|axis| 2.0 * half[axis] * lean[axis] > slack);
+    let is_better = |axis: usize, than: usize| (has_all[axis], lean[axis]) > (has_all[than], lean[than]);
+    let axis = (1..3).fold(0, |best, axis| if is_better(axis, best) { axis } else { best });
+    // Faces are two an axis, the one that looks along it second.
+    2 * axis + usize::from(normal[axis] < 0.0)
 }
 
 impl Prism<'_> {

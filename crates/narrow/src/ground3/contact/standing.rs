@@ -53,6 +53,13 @@ pub(super) struct Extent {
     pub(super) highest: usize,
 }
 
+impl Extent {
+    /// The same as seen from the other side of the plane.
+    pub(super) fn turned_over(self) -> Self {
+        Self { low: -self.high, lowest: self.highest, high: -self.low, highest: self.lowest }
+    }
+}
+
 impl Place {
     pub(super) fn of(on: &OnGround, part: &Part, [body, ground]: [&Pose3; 2]) -> Self {
         let (axes, shift) = part.placed(&on.body_basis);
@@ -156,43 +163,40 @@ impl<'s> Standing<'s> {
     /// vertices, eight at a time.
     #[inline]
     pub(super) fn extent(&self, normal: DVec3, origin: DVec3) -> Extent {
-        let (mut low, mut high) = ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8]);
-        let (mut low_at, mut high_at) = ([0_u64; 8], [0_u64; 8]);
-        for (octet, number) in self.octets.iter().zip(0_u64..) {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut low_at, mut high_at) = (0, 0);
+        for (octet, number) in self.octets.iter().zip(0..) {
             let [x, y, z] = octet;
+            let mut heights = [0.0; 8];
             for i in 0..8 {
-                let height = normal.x * (x[i] - origin.x)
+                heights[i] = normal.x * (x[i] - origin.x)
                     + normal.y * (y[i] - origin.y)
                     + normal.z * (z[i] - origin.z);
-                let (is_lower, is_higher) = (height < low[i], height > high[i]);
-                low[i] = if is_lower { height } else { low[i] };
-                low_at[i] = if is_lower { number } else { low_at[i] };
-                high[i] = if is_higher { height } else { high[i] };
-                high_at[i] = if is_higher { number } else { high_at[i] };
+            }
+            let (least, most) = (fold(&heights, |a, b| a < b), fold(&heights, |a, b| a > b));
+            if least < low {
+                (low, low_at) = (least, 8 * number + first(&heights, least));
+            }
+            if most > high {
+                (high, high_at) = (most, 8 * number + first(&heights, most));
             }
         }
-        let (mut down, mut up) = (0, 0);
-        for i in 1..8 {
-            if low[i] < low[down] {
-                down = i;
-            }
-            if high[i] > high[up] {
-                up = i;
-            }
-        }
-        // What fills up the last eight is the first.
-        let count = self.solid.vertices.len();
-        let vertex = |at: u64, lane: usize| {
-            let vertex = 8 * at as usize + lane;
-            if vertex < count { vertex } else { 8 * at as usize }
-        };
-        Extent {
-            low: low[down],
-            lowest: vertex(low_at[down], down),
-            high: high[up],
-            highest: vertex(high_at[up], up),
-        }
+        Extent { low, lowest: low_at, high, highest: high_at }
     }
+}
+
+/// Of eight numbers the one that comes before all others.
+#[inline(always)]
+fn fold(of: &[f64; 8], is_before: impl Fn(f64, f64) -> bool) -> f64 {
+    let pick = |a: f64, b: f64| if is_before(a, b) { a } else { b };
+    let four: [f64; 4] = [pick(of[0], of[4]), pick(of[1], of[5]), pick(of[2], of[6]), pick(of[3], of[7])];
+    pick(pick(four[0], four[2]), pick(four[1], four[3]))
+}
+
+/// The first place of a number among eight; what fills up the last eight is the first of them, and never comes before it.
+#[inline(always)]
+fn first(of: &[f64; 8], number: f64) -> usize {
+    (0..8).fold(0, |bits, i| bits | usize::from(of[i] == number) << i).trailing_zeros() as usize % 8
 }
 
 /// What a coordinate that such lengths went into, and a product of it with a unit vector, may be off by at most, beside

@@ -1,0 +1,103 @@
+//! A cuboid and a triangle by their thirteen axes: whether the kernels have anything to say that ground lets through.
+//!
+//! ```text
+//! in the cuboid's axes: three across its faces, the triangle's normal, nine across two edges
+//! one shows a gap beyond what is wanted: apart
+//! one shows a gap: the closest points are what counts, and the kernels know them
+//! else the cores overlap, and the axis with the least depth is the kernels' own:
+//!   ground refuses it, and all that are as good up to the slack: refused, and the kernels need not be asked
+//! ```
+//! Most of what overlaps a triangle of a bump does so along its own normal, or along one that its neighbours refuse.
+//!
+//! Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with depths.
+
+use super::facet::{Furthest, is_same};
+use super::prism::Prism;
+use arrayvec::ArrayVec;
+use asunder_geometry::Shape3;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::FACE_PREFERENCE;
+
+/// The axes of a cuboid and a triangle.
+pub(super) struct Axes {
+    all: ArrayVec<Axis, 13>,
+    /// The greatest separation of the cores along any, in metres.
+    pub(super) best: f64,
+}
+
+/// A direction from the triangle to the cuboid, in the cuboid's axes, and how far they are apart along it, in metres.
+type Axis = (f64, DVec3);
+
+/// Sine of an angle between edges up to which what is across them is across faces, too.
+const PARALLEL: f64 = 1e-10;
+
+/// Sine of the angle between edges above which what is across them is right to a millionth of the slack.
+const CROSSED: f64 = 1e-3;
+
+impl Prism<'_> {
+    /// The axes, where the part is a cuboid and no two edges are so nearly parallel that they are not to be trusted.
+    pub(super) fn axes(&self) -> Option<Axes> {
+        let (standing, facet) = (self.standing, self.facet);
+        let Shape3::Cuboid(cuboid) = standing.part.shape else { return None };
+        let place = &standing.place;
+        let corners = facet.corners.map(|corner| place.axes.turn_back(corner - place.origin));
+        let normal = place.axes.turn_back(facet.normal);
+        let all = axes_of(corners, normal, cuboid.half_extents().as_dvec3())?;
+        let best = all.iter().fold(f64::NEG_INFINITY, |most, axis| if axis.0 > most { axis.0 } else { most });
+        Some(Axes { all, best })
+    }
+
+    /// Whether ground refuses the axis along which overlapping cores are the least deep, and all that are as good.
+    pub(super) fn refuses(&self, axes: &Axes) -> bool {
+        let (standing, facet) = (self.standing, self.facet);
+        let size = 2.0 * (standing.outer_radius + facet.corners[0].distance(facet.corners[1]));
+        let slack = self.doubt + 2.0 * FACE_PREFERENCE * size;
+        let is_refused = |towards: DVec3| {
+            let furthest = facet.furthest(towards);
+            furthest == Furthest::Face
+                || is_same(facet.normal, towards)
+                || !facet.may_give(self.ground, furthest, towards)
+        };
+        let mut rivals = axes.all.iter().filter(|axis| axis.0 >= axes.best - slack);
+        rivals.all(|axis| is_refused(standing.place.axes.turn(axis.1)))
+    }
+}
+
+/// The thirteen axes, less those across edges that are parallel; nothing where some are nearly so.
+fn axes_of(corners: [DVec3; 3], normal: DVec3, half: DVec3) -> Option<ArrayVec<Axis, 13>> {
+    let mut axes = ArrayVec::new();
+    let mut offer = |axis: DVec3, low: f64, high: f64| {
+        let reach = half.dot(axis.abs());
+        // Of both directions the one in which the triangle has less to pass.
+        axes.push(if low + high > 0.0 { (low - reach, -axis) } else { (-high - reach, axis) });
+    };
+    let (low, high) =
+        (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
+    offer(DVec3::X, low.x, high.x);
+    offer(DVec3::Y, low.y, high.y);
+    offer(DVec3::Z, low.z, high.z);
+    let height = normal.dot(corners[0]);
+    offer(normal, height, height);
+    for (edge, third) in [(0, 2), (1, 0), (2, 1)] {
+        let along = corners[(edge + 1) % 3] - corners[edge];
+        let across = [
+            DVec3::new(0.0, -along.z, along.y),
+            DVec3::new(along.z, 0.0, -along.x),
+            DVec3::new(-along.y, along.x, 0.0),
+        ];
+        let square = along.length_squared();
+        for axis in across {
+            let length = axis.length_squared();
+            if length <= PARALLEL * PARALLEL * square {
+                continue;
+            }
+            if length < CROSSED * CROSSED * square {
+                return None;
+            }
+            let axis = axis / length.sqrt();
+            let (one, other) = (axis.dot(corners[edge]), axis.dot(corners[third]));
+            offer(axis, one.min(other), one.max(other));
+        }
+    }
+    Some(axes)
+}
