@@ -323,11 +323,9 @@ impl Seen<'_> {
         };
         if self.needs_kernels(&prism, near.prominent) {
             let beyond = self.asking.reach + 2.0 * doubt;
-            let axes = prism.axes();
+            let axes = prism.axes(beyond + standing.radius);
             let overlapping = axes.as_ref().filter(|axes| axes.best < -doubt);
-            if axes.as_ref().is_some_and(|axes| axes.best > beyond + standing.radius)
-                || overlapping.is_none() && standing.is_apart(&facet, beyond)
-            {
+            if standing.is_apart((&facet, axes.as_ref()), beyond) {
                 return;
             }
             if self.is_explained(&facet, known) {

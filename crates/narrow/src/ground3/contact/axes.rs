@@ -36,15 +36,16 @@ const CROSSED: f64 = 1e-3;
 
 impl Prism<'_> {
     /// The axes, where the part is a cuboid and no two edges are so nearly parallel that they are not to be trusted.
-    pub(super) fn axes(&self) -> Option<Axes> {
+    /// All of them, unless one says at once that they are further apart than so many metres.
+    pub(super) fn axes(&self, beyond: f64) -> Option<Axes> {
         let (standing, facet) = (self.standing, self.facet);
         let Shape3::Cuboid(cuboid) = standing.part.shape else { return None };
         let place = &standing.place;
-        let corners = facet.corners.map(|corner| place.axes.turn_back(corner - place.origin));
+        let own = |corner: DVec3| place.axes.turn_back(corner - place.origin);
+        let corners = [own(facet.corners[0]), own(facet.corners[1]), own(facet.corners[2])];
         let normal = place.axes.turn_back(facet.normal);
-        let all = axes_of(corners, normal, cuboid.half_extents().as_dvec3())?;
-        let best = all.iter().fold(f64::NEG_INFINITY, |most, axis| if axis.0 > most { axis.0 } else { most });
-        Some(Axes { all, best })
+        let mut axes = Axes { all: ArrayVec::new_const(), best: f64::NEG_INFINITY };
+        axes.fill(corners, normal, (cuboid.half_extents().as_dvec3(), beyond)).then_some(axes)
     }
 
     /// Whether ground refuses the axis along which overlapping cores are the least deep, and all that are as good.
@@ -63,41 +64,50 @@ impl Prism<'_> {
     }
 }
 
-/// The thirteen axes, less those across edges that are parallel; nothing where some are nearly so.
-fn axes_of(corners: [DVec3; 3], normal: DVec3, half: DVec3) -> Option<ArrayVec<Axis, 13>> {
-    let mut axes = ArrayVec::new();
-    let mut offer = |axis: DVec3, low: f64, high: f64| {
-        let reach = half.dot(axis.abs());
-        // Of both directions the one in which the triangle has less to pass.
-        axes.push(if low + high > 0.0 { (low - reach, -axis) } else { (-high - reach, axis) });
-    };
-    let (low, high) =
-        (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
-    offer(DVec3::X, low.x, high.x);
-    offer(DVec3::Y, low.y, high.y);
-    offer(DVec3::Z, low.z, high.z);
-    let height = normal.dot(corners[0]);
-    offer(normal, height, height);
-    for (edge, third) in [(0, 2), (1, 0), (2, 1)] {
-        let along = corners[(edge + 1) % 3] - corners[edge];
-        let across = [
-            DVec3::new(0.0, -along.z, along.y),
-            DVec3::new(along.z, 0.0, -along.x),
-            DVec3::new(-along.y, along.x, 0.0),
-        ];
-        let square = along.length_squared();
-        for axis in across {
-            let length = axis.length_squared();
-            if length <= PARALLEL * PARALLEL * square {
-                continue;
+impl Axes {
+    /// The thirteen axes, less those across edges that are parallel, and those after the first that shows a gap beyond
+    /// what is wanted; whether no edges are nearly parallel.
+    fn fill(&mut self, corners: [DVec3; 3], normal: DVec3, (half, beyond): (DVec3, f64)) -> bool {
+        let (low, high) =
+            (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
+        self.offer(DVec3::X, (low.x, high.x), half.x);
+        self.offer(DVec3::Y, (low.y, high.y), half.y);
+        self.offer(DVec3::Z, (low.z, high.z), half.z);
+        let height = normal.dot(corners[0]);
+        self.offer(normal, (height, height), half.dot(normal.abs()));
+        for (edge, third) in [(0, 2), (1, 0), (2, 1)] {
+            if self.best > beyond {
+                return true;
             }
-            if length < CROSSED * CROSSED * square {
-                return None;
+            let along = corners[(edge + 1) % 3] - corners[edge];
+            let across = [
+                DVec3::new(0.0, -along.z, along.y),
+                DVec3::new(along.z, 0.0, -along.x),
+                DVec3::new(-along.y, along.x, 0.0),
+            ];
+            let square = along.length_squared();
+            for axis in across {
+                let length = axis.length_squared();
+                if length <= PARALLEL * PARALLEL * square {
+                    continue;
+                }
+                if length < CROSSED * CROSSED * square {
+                    return false;
+                }
+                let axis = axis * (1.0 / length.sqrt());
+                let (one, other) = (axis.dot(corners[edge]), axis.dot(corners[third]));
+                let ends = if one < other { (one, other) } else { (other, one) };
+                self.offer(axis, ends, half.dot(axis.abs()));
             }
-            let axis = axis / length.sqrt();
-            let (one, other) = (axis.dot(corners[edge]), axis.dot(corners[third]));
-            offer(axis, one.min(other), one.max(other));
         }
+        true
     }
-    Some(axes)
+
+    /// Of both directions of an axis takes the one in which the triangle has less to pass.
+    #[inline(always)]
+    fn offer(&mut self, axis: DVec3, (low, high): (f64, f64), half: f64) {
+        let axis = if low + high > 0.0 { (low - half, -axis) } else { (-high - half, axis) };
+        self.best = if axis.0 > self.best { axis.0 } else { self.best };
+        let _ = self.all.try_push(axis);
+    }
 }

@@ -53,9 +53,10 @@ impl Facet {
     /// A triangle as it is seen from its front. Nothing where it has no normal.
     #[inline]
     pub(super) fn front_of(number: u32, corners: [Vec3; 3]) -> Option<Self> {
-        let corners = corners.map(|corner| corner.as_dvec3());
+        // Not by `map`: a kernel's arrays stay in registers only without its calls.
+        let corners = [corners[0].as_dvec3(), corners[1].as_dvec3(), corners[2].as_dvec3()];
         let sides = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
-        let squares = sides.map(|side| side.length_squared());
+        let squares = [sides[0].length_squared(), sides[1].length_squared(), sides[2].length_squared()];
         let longest = if squares[0] >= squares[1] && squares[0] >= squares[2] {
             0
         } else if squares[1] >= squares[2] {

@@ -83,10 +83,27 @@ impl Prism<'_> {
         if let Some(outwards) = incident.outwards
             && self.standing.solid.vertices.len() > 1
         {
-            for edge in 0..3 {
-                if !self.facet.goes_on(self.ground, edge) {
-                    is_any |= self.add_side(incident.face, outwards, edge, groups);
-                }
+            is_any |= self.add_sides(incident.face, outwards, groups);
+        }
+        is_any
+    }
+
+    /// Adds points on those sides of the triangle behind which ground does not go on.
+    fn add_sides(&self, face: usize, outwards: DVec3, groups: &mut Groups) -> bool {
+        let (standing, facet) = (self.standing, self.facet);
+        let facing = outwards.dot(facet.normal);
+        let vertices = standing.solid.topology.face_vertices(face);
+        let (Some(first), true) = ({ vertices }.next(), facing <= -STEEP) else { return false };
+        let over = standing.point(first) + outwards * standing.radius;
+        let [a, b, c] = facet.corners;
+        // Of a side, all is beyond reach if both its ends are: by more than rounding, for what is between them.
+        let beyond = self.reach + (self.doubt + standing.planarity) / -facing;
+        let is_far = |corner: DVec3| outwards.dot(over - corner) / facing > beyond;
+        let far = [is_far(a), is_far(b), is_far(c)];
+        let mut is_any = false;
+        for edge in 0..3 {
+            if !(far[edge] && far[(edge + 1) % 3] || facet.goes_on(self.ground, edge)) {
+                is_any |= self.add_side((face, edge), outwards, over, groups);
             }
         }
         is_any
@@ -157,18 +174,19 @@ impl Prism<'_> {
         is_any
     }
 
-    /// Adds the ends of what the part's face covers of a side of the triangle, as seen along the normal.
-    fn add_side(&self, face: usize, outwards: DVec3, edge: usize, groups: &mut Groups) -> bool {
+    /// Adds the ends of what the part's face covers of a side of the triangle, as seen along the normal; `over` is a point
+    /// of the surface beyond the face.
+    fn add_side(
+        &self,
+        (face, edge): (usize, usize),
+        outwards: DVec3,
+        over: DVec3,
+        groups: &mut Groups,
+    ) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let facing = outwards.dot(facet.normal);
-        if facing > -STEEP {
-            return false;
-        }
         let Some(span) = self.span(face, outwards, edge) else { return false };
         let (from, along) = facet.edge(edge);
-        let vertices = standing.solid.topology.face_vertices(face);
-        let Some(first) = { vertices }.next() else { return false };
-        let over = standing.point(first) + outwards * standing.radius;
         let mut is_any = false;
         for (share, by) in span {
             let on_ground = from + along * share;

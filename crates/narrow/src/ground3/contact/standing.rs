@@ -1,5 +1,6 @@
 //! A convex part as it stands over ground: its vertices in the ground's axes.
 
+use super::axes::Axes;
 use super::ball::nearest_to;
 use super::facet::Facet;
 use crate::ground3::OnGround;
@@ -125,21 +126,28 @@ impl<'s> Standing<'s> {
         doubt_of(self.lengths, ground)
     }
 
-    /// Whether an axis that costs little shows that a triangle is further away than so many metres: one of the part's
-    /// own, or the one from the triangle's nearest point to the part's centre.
-    pub(super) fn is_apart(&self, facet: &Facet, beyond: f64) -> bool {
-        let own = facet.corners.map(|corner| self.place.axes.turn_back(corner - self.place.origin));
-        let [low, high] = self.around;
-        let above = own[0].min(own[1]).min(own[2]) - high;
-        let below = low - own[0].max(own[1]).max(own[2]);
+    /// Whether an axis that costs little shows that a triangle is further away than so many metres: one of a cuboid's or
+    /// across it, one of the box around another part, or the one from the triangle's nearest point to the part's centre.
+    pub(super) fn is_apart(&self, (facet, axes): (&Facet, Option<&Axes>), beyond: f64) -> bool {
         let beyond_core = beyond + self.radius;
-        if above.max(below).max_element() > beyond_core || is_apart_across(&own, [low, high], beyond_core) {
-            return true;
+        if let Some(axes) = axes {
+            if axes.best > beyond_core || axes.best < 0.0 {
+                return axes.best > 0.0;
+            }
+        } else {
+            let own = facet.corners.map(|corner| self.place.axes.turn_back(corner - self.place.origin));
+            let [low, high] = self.around;
+            let above = own[0].min(own[1]).min(own[2]) - high;
+            let below = low - own[0].max(own[1]).max(own[2]);
+            let is_apart = || is_apart_across(&own, [low, high], beyond_core);
+            if above.max(below).max_element() > beyond_core || is_apart() {
+                return true;
+            }
         }
         let near = nearest_to(facet, self.center - facet.normal * facet.height(self.center)).1;
         let Some(towards) = (self.center - near).try_normalize() else { return false };
-        let top = facet.corners.map(|corner| towards.dot(corner - near));
-        let low = self.extent(towards, near).low - top[0].max(top[1]).max(top[2]);
+        let top = |corner: usize| towards.dot(facet.corners[corner] - near);
+        let low = self.extent(towards, near).low - top(0).max(top(1)).max(top(2));
         low > beyond_core
     }
 
