@@ -195,11 +195,11 @@ impl<'a> Asking<'a> {
         is_settled: bool,
         manifolds: &mut impl Room,
     ) -> Option<bool> {
-        let bounds = self.on.bounds(&part, self.reach);
         let core = part.shape.core();
         let solid = Solid::new(&core, place.axes, place.origin, f64::from(part.shape.radius()));
         let mut octets = Octets::new_const();
-        let standing = Standing::new(part, place, &solid, &mut octets);
+        let standing = Standing::new(part, place, (&core, &solid), &mut octets);
+        let bounds = self.on.bounds_around(&part, standing.turned, self.reach);
         let meeting = Meeting::new(self.on, part, self.poses);
         let is_ball = matches!(part.shape, Shape3::Sphere(_));
         let seen = Seen { asking: self, standing: &standing, meeting, bounds, is_ball };

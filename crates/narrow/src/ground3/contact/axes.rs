@@ -11,7 +11,6 @@
 //!
 //! Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with depths.
 
-use super::facet::{Furthest, is_same};
 use super::prism::Prism;
 use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
@@ -53,14 +52,8 @@ impl Prism<'_> {
         let (standing, facet) = (self.standing, self.facet);
         let size = 2.0 * (standing.outer_radius + facet.corners[0].distance(facet.corners[1]));
         let slack = self.doubt + 2.0 * FACE_PREFERENCE * size;
-        let is_refused = |towards: DVec3| {
-            let furthest = facet.furthest(towards);
-            furthest == Furthest::Face
-                || is_same(facet.normal, towards)
-                || !facet.may_give(self.ground, furthest, towards)
-        };
         let mut rivals = axes.all.iter().filter(|axis| axis.0 >= axes.best - slack);
-        rivals.all(|axis| is_refused(standing.place.axes.turn(axis.1)))
+        rivals.all(|axis| !facet.lets_through(self.ground, standing.place.axes.turn(axis.1)))
     }
 }
 

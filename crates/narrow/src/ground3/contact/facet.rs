@@ -233,6 +233,15 @@ impl Facet {
         }
     }
 
+    /// Whether a unit direction from the ground to the body is not the triangle's own, and ground around what reaches
+    /// furthest there lets it through.
+    pub(super) fn lets_through(&self, ground: Ground, towards: DVec3) -> bool {
+        let furthest = self.furthest(towards);
+        furthest != Furthest::Face
+            && !is_same(self.normal, towards)
+            && self.may_give(ground, furthest, towards)
+    }
+
     /// Whether ground around a feature lets it give this unit direction, from the ground to the body.
     pub(super) fn may_give(&self, ground: Ground, furthest: Furthest, towards: DVec3) -> bool {
         match furthest {

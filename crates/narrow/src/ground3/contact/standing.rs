@@ -10,7 +10,7 @@ use crate::precision::IN_SPACE;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{FACE_PREFERENCE, MAX_HULL_VERTICES};
-use asunder_geometry::{Basis3, Pose3, Shape3};
+use asunder_geometry::{Basis3, Core3, Pose3, Shape3};
 
 /// Where a part is and how it is turned, in the ground's axes.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +32,8 @@ pub(super) struct Standing<'s> {
     pub(super) solid: &'s Solid<'s>,
     /// The box around the core in the part's own axes.
     around: [DVec3; 2],
+    /// The same in the ground's axes.
+    pub(super) turned: [DVec3; 2],
     /// The vertices, eight by eight; what fills up the last eight is the first.
     octets: &'s Octets,
     pub(super) center: DVec3,
@@ -81,15 +83,29 @@ impl Place {
 }
 
 impl<'s> Standing<'s> {
-    pub(super) fn new(part: Part<'s>, place: Place, solid: &'s Solid<'s>, octets: &'s mut Octets) -> Self {
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for eight in solid.vertices.chunks(8) {
+    pub(super) fn new(
+        part: Part<'s>,
+        place: Place,
+        (core, solid): (&'s Core3<'s>, &'s Solid<'s>),
+        octets: &'s mut Octets,
+    ) -> Self {
+        let axes = [place.axes.x.to_array(), place.axes.y.to_array(), place.axes.z.to_array()];
+        let origin = place.origin.to_array();
+        let mut own = [[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]].map(|row| [row; 3]);
+        let mut turned = [[f64::INFINITY; 8], [f64::NEG_INFINITY; 8]].map(|row| [row; 3]);
+        for eight in core.vertex_octets() {
+            let rows = [&eight.x, &eight.y, &eight.z];
             let mut octet = [[0.0; 8]; 3];
-            let [xs, ys, zs] = &mut octet;
-            for (i, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
-                let vertex = eight.get(i).unwrap_or(&eight[0]);
-                (low, high) = (low.min(*vertex), high.max(*vertex));
-                [*x, *y, *z] = place.point(vertex.as_dvec3()).to_array();
+            for axis in 0..3 {
+                for i in 0..8 {
+                    // As `Place::point`.
+                    let sum = axes[0][axis] * f64::from(rows[0][i])
+                        + axes[1][axis] * f64::from(rows[1][i])
+                        + axes[2][axis] * f64::from(rows[2][i]);
+                    octet[axis][i] = origin[axis] + sum;
+                }
+                widen(&mut own, axis, rows[axis]);
+                widen(&mut turned, axis, &octet[axis]);
             }
             let _ = octets.try_push(octet);
         }
@@ -104,7 +120,8 @@ impl<'s> Standing<'s> {
             part,
             place,
             solid,
-            around: [low, high].map(|corner| corner.as_dvec3()),
+            around: corners_of(&own).map(|corner| Vec3::from_array(corner).as_dvec3()),
+            turned: corners_of(&turned).map(DVec3::from_array),
             octets,
             center: place.point(center),
             radius: f64::from(part.shape.radius()),
@@ -193,11 +210,29 @@ impl<'s> Standing<'s> {
     }
 }
 
+/// Takes eight coordinates into the least and greatest of each lane.
+#[inline(always)]
+fn widen<T: Copy + PartialOrd>(ends: &mut [[[T; 8]; 3]; 2], axis: usize, row: &[T; 8]) {
+    let [low, high] = ends;
+    for i in 0..8 {
+        low[axis][i] = if row[i] < low[axis][i] { row[i] } else { low[axis][i] };
+        high[axis][i] = if row[i] > high[axis][i] { row[i] } else { high[axis][i] };
+    }
+}
+
+/// The least and greatest of all lanes.
+#[inline(always)]
+fn corners_of<T: Copy + PartialOrd>([low, high]: &[[[T; 8]; 3]; 2]) -> [[T; 3]; 2] {
+    let least = |row: &[T; 8]| fold(row, |a, b| a < b);
+    let most = |row: &[T; 8]| fold(row, |a, b| a > b);
+    [[least(&low[0]), least(&low[1]), least(&low[2])], [most(&high[0]), most(&high[1]), most(&high[2])]]
+}
+
 /// Of eight numbers the one that comes before all others.
 #[inline(always)]
-fn fold(of: &[f64; 8], is_before: impl Fn(f64, f64) -> bool) -> f64 {
-    let pick = |a: f64, b: f64| if is_before(a, b) { a } else { b };
-    let four: [f64; 4] = [pick(of[0], of[4]), pick(of[1], of[5]), pick(of[2], of[6]), pick(of[3], of[7])];
+fn fold<T: Copy>(of: &[T; 8], is_before: impl Fn(T, T) -> bool) -> T {
+    let pick = |a: T, b: T| if is_before(a, b) { a } else { b };
+    let four = [pick(of[0], of[4]), pick(of[1], of[5]), pick(of[2], of[6]), pick(of[3], of[7])];
     pick(pick(four[0], four[2]), pick(four[1], four[3]))
 }
 
