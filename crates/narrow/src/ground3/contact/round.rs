@@ -12,10 +12,12 @@
 //!
 //! What it buys: no core, no solid, no vertices eight by eight, and for most triangles no side.
 
-use super::Known;
 use super::ball::{Nearest, nearest_to};
 use super::facet::{Facet, Furthest, is_same};
 use super::standing::{Place, doubt_of};
+use super::{Asking, Known};
+use crate::pair3::Part;
+use crate::room::Room;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Aabb3, Ground, NearTriangle, Prominent};
@@ -24,8 +26,8 @@ use core::ops::ControlFlow;
 /// A sphere, in the ground's axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Round {
-    pub(super) center: DVec3,
-    pub(super) radius: f64,
+    center: DVec3,
+    radius: f64,
     /// Lengths that enter a coordinate, in metres.
     lengths: f64,
     /// The widest gap in which a point is wanted, in metres.
@@ -37,20 +39,38 @@ impl Round {
         Self { center: place.point(DVec3::ZERO), radius, lengths: place.summed + radius, reach }
     }
 
+    /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; nothing where the general way has to be
+    /// gone.
+    pub(super) fn contact(
+        &self,
+        asking: &Asking,
+        part: Part,
+        is_settled: bool,
+        manifolds: &mut impl Room,
+    ) -> Option<Option<bool>> {
+        let bounds = asking.on.bounds(&part, self.reach);
+        let slack = self.slack();
+        let mut known = Known::new(slack);
+        if !self.look(asking.on.ground, &bounds, !manifolds.is_wanted(), &mut known) {
+            return None;
+        }
+        if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
+            known.groups.keep_within(-slack);
+        }
+        if known.groups.least() > slack && known.shown_by.is_some() {
+            return None;
+        }
+        Some(asking.answer(part, &mut known, is_settled, manifolds))
+    }
+
     /// Places that differ by no more are the same, in metres.
-    pub(super) fn slack(&self) -> f64 {
+    fn slack(&self) -> f64 {
         (2.0 * FACE_PREFERENCE * self.radius).max(doubt_of(self.lengths, self.center))
     }
 
     /// Looks at the triangles near it, all but at once if only yes or no is wanted. Whether that settles everything;
     /// else it is to be asked in the general way, from the start.
-    pub(super) fn look(
-        &self,
-        ground: Ground,
-        bounds: &Aabb3,
-        is_yes_enough: bool,
-        known: &mut Known,
-    ) -> bool {
+    fn look(&self, ground: Ground, bounds: &Aabb3, is_yes_enough: bool, known: &mut Known) -> bool {
         let flow = ground.read_near(bounds, |near| {
             if !self.look_at(ground, near, known) {
                 known.is_open = true;
