@@ -21,10 +21,6 @@ pub(super) struct Place {
     pub(super) summed: f64,
 }
 
-/// Directions from a triangle to a part that are tried before the kernels are asked. Those find a gap in two of five that
-/// are asked about a hull after one step, and take thirty times as long as a step.
-const STEPS: usize = 3;
-
 /// Vertices eight by eight: large, and filled where they stay.
 pub(super) type Octets = ArrayVec<[[f64; 8]; 3], { MAX_HULL_VERTICES / 8 }>;
 
@@ -148,8 +144,8 @@ impl<'s> Standing<'s> {
     }
 
     /// Whether an axis that costs little shows that a triangle is further away than so many metres: one of a cuboid's or
-    /// across it, one of the box around another part, or one from the triangle's nearest point to the part's centre, and
-    /// on to the vertex that is furthest against that.
+    /// across it, one of the box around another part, or the one from the triangle's nearest point to the part's
+    /// centre.
     pub(super) fn is_apart(&self, (facet, axes): (&Facet, Option<&Axes>), beyond: f64) -> bool {
         let beyond_core = beyond + self.radius;
         if let Some(axes) = axes {
@@ -166,18 +162,13 @@ impl<'s> Standing<'s> {
                 return true;
             }
         }
-        let mut from = self.center;
-        for _ in 0..STEPS {
-            let near = nearest_to(facet, from - facet.normal * facet.height(from)).1;
-            let Some(towards) = (from - near).try_normalize() else { return false };
-            let top = |corner: usize| towards.dot(facet.corners[corner] - near);
-            let extent = self.extent(towards, near);
-            if extent.low - top(0).max(top(1)).max(top(2)) > beyond_core {
-                return true;
-            }
-            from = self.point(extent.lowest);
-        }
-        false
+        // Tried: two more steps, each from the vertex furthest against the last direction. No call of the kernels less for
+        // cuboids or hulls of 32, and 5 % more instructions a frame of hulls (2026-11-22).
+        let near = nearest_to(facet, self.center - facet.normal * facet.height(self.center)).1;
+        let Some(towards) = (self.center - near).try_normalize() else { return false };
+        let top = |corner: usize| towards.dot(facet.corners[corner] - near);
+        let low = self.extent(towards, near).low - top(0).max(top(1)).max(top(2));
+        low > beyond_core
     }
 
     /// Whether the box around the core holds a point that far inside, in metres.
