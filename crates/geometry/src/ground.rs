@@ -1,10 +1,13 @@
 //! Ground made of triangles, whatever keeps them.
 
 pub(crate) mod bend;
+mod read;
 pub(crate) mod slab;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tree;
+
+pub use read::NearTriangle;
 
 use crate::aabb::Aabb3;
 use crate::height_field::HeightField;

@@ -52,7 +52,7 @@ pub use cuboid::Cuboid;
 pub use decompose::{DecomposeError, decompose};
 pub use direction::DirectionError;
 pub use extent::ExtentError;
-pub use ground::{Ground, Prominent};
+pub use ground::{Ground, NearTriangle, Prominent};
 pub use half_space::{HalfPlane, HalfSpace};
 pub use height_field::{HeightField, HeightFieldError};
 pub use hull::{Hull, HullError, HullFault};

@@ -178,8 +178,12 @@ impl TriMesh {
 
     #[inline]
     pub(crate) fn corners(&self, triangle: u32) -> [Vec3; 3] {
-        self.vertex_numbers(triangle)
-            .map(|vertex| self.data.vertices.get(vertex as usize).copied().unwrap_or_default())
+        self.corners_by(self.vertex_numbers(triangle))
+    }
+
+    #[inline]
+    pub(crate) fn corners_by(&self, vertices: [u32; 3]) -> [Vec3; 3] {
+        vertices.map(|vertex| self.data.vertices.get(vertex as usize).copied().unwrap_or_default())
     }
 
     #[inline]

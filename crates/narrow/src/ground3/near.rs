@@ -51,18 +51,34 @@ impl<'a> OnGround<'a> {
     /// Everything, for a half-space.
     pub(crate) fn bounds(&self, part: &Part, reach: f64) -> Aabb3 {
         let (axes, shift) = part.placed(&self.body_basis);
-        let core = part.shape.core();
         let origin = self.basis.turn_back(self.to_body + shift);
         let axes = [axes.x, axes.y, axes.z].map(|axis| self.basis.turn_back(axis));
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for vertex in core.vertices() {
-            let [x, y, z] = vertex.as_dvec3().to_array();
-            let place = axes[0] * x + axes[1] * y + axes[2] * z + origin;
-            (low, high) = (low.min(place), high.max(place));
+        let (mut low, mut high) = (origin, origin);
+        match part.shape {
+            Shape3::Sphere(_) => {}
+            Shape3::Cuboid(cuboid) => {
+                let half = cuboid.half_extents().as_dvec3();
+                let half = axes[0].abs() * half.x + axes[1].abs() * half.y + axes[2].abs() * half.z;
+                (low, high) = (low - half, high + half);
+            }
+            shape => {
+                (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                for vertex in shape.core().vertices() {
+                    let [x, y, z] = vertex.as_dvec3().to_array();
+                    let place = axes[0] * x + axes[1] * y + axes[2] * z + origin;
+                    (low, high) = (low.min(place), high.max(place));
+                }
+            }
         }
-        if core.vertices().is_empty() {
+        self.bounds_around(part, [low, high], reach)
+    }
+
+    /// The same from the box around the part's core in the ground's axes, as good as f64 has it.
+    pub(crate) fn bounds_around(&self, part: &Part, [low, high]: [DVec3; 2], reach: f64) -> Aabb3 {
+        if matches!(part.shape, Shape3::HalfSpace(_)) {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
         }
+        let (_, shift) = part.placed(&self.body_basis);
         let radius = f64::from(part.shape.radius());
         let lengths = self.to_body.length() + shift.length() + f64::from(part.shape.outer_radius());
         let lengths = lengths + part.shape.center().as_dvec3().length();

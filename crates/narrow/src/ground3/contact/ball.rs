@@ -10,19 +10,29 @@ use asunder_geometry::glam::DVec3;
 /// What is nearest to a ball's centre on a triangle.
 pub(super) struct Nearest {
     at: DVec3,
-    feature: Furthest,
+    pub(super) feature: Furthest,
     /// Of the surfaces, in metres.
     pub(super) separation: f64,
     /// Unit direction from there to the centre.
-    towards: DVec3,
+    pub(super) towards: DVec3,
 }
 
 impl Nearest {
     /// Ericson, "Real-time collision detection" (2005), 5.1.5.
     pub(super) fn of(standing: &Standing, facet: &Facet, doubt: f64) -> Self {
         let center = standing.center;
-        let (feature, at) = nearest_to(facet, center);
-        let (between, radius) = (center - at, standing.radius);
+        Self::at((center, standing.radius), facet, nearest_to(facet, center), doubt)
+    }
+
+    /// The same, where it is known what of the triangle is nearest to the centre.
+    #[inline]
+    pub(super) fn at(
+        (center, radius): (DVec3, f64),
+        facet: &Facet,
+        (feature, at): (Furthest, DVec3),
+        doubt: f64,
+    ) -> Self {
+        let between = center - at;
         let distance = between.length();
         if feature == Furthest::Face || distance <= doubt {
             let height = facet.height(center);
@@ -35,7 +45,8 @@ impl Nearest {
     /// Adds the contact point, where ground lets the direction through; whether it did.
     pub(super) fn add_point(
         &self,
-        (standing, facet): (&Standing, &Facet),
+        (center, radius): (DVec3, f64),
+        facet: &Facet,
         ground: Ground,
         doubt: f64,
         groups: &mut Groups,
@@ -57,7 +68,7 @@ impl Nearest {
             Furthest::Face => Feature::Face(patch),
         };
         let normal = if is_face { facet.normal } else { self.towards };
-        let on_body = standing.center - normal * standing.radius;
+        let on_body = center - normal * radius;
         let pin = Pin {
             on_body,
             on_ground: self.at,

@@ -5,7 +5,7 @@
 
 use super::ball::nearest_to;
 use asunder_geometry::Ground;
-use asunder_geometry::glam::DVec3;
+use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_NORMAL;
 
 /// Triangles around a corner that are looked at, each way. More than that meet in no level that was meant to be one;
@@ -40,9 +40,23 @@ impl Facet {
     /// The triangle with a number as a part whose centre this is sees it. Nothing for one-sided ground whose front is
     /// not seen, and where the triangle has no normal.
     pub(super) fn seen(ground: Ground, number: u32, center: DVec3) -> Option<Self> {
-        let corners = ground.corners(number).map(|corner| corner.as_dvec3());
+        let mut facet = Self::front_of(number, ground.corners(number))?;
+        if !facet.has_in_front(ground, center) {
+            if ground.is_one_sided() {
+                return None;
+            }
+            facet.turn_over();
+        }
+        Some(facet)
+    }
+
+    /// A triangle as it is seen from its front. Nothing where it has no normal.
+    #[inline]
+    pub(super) fn front_of(number: u32, corners: [Vec3; 3]) -> Option<Self> {
+        // Not by `map`: a kernel's arrays stay in registers only without its calls.
+        let corners = [corners[0].as_dvec3(), corners[1].as_dvec3(), corners[2].as_dvec3()];
         let sides = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
-        let squares = sides.map(|side| side.length_squared());
+        let squares = [sides[0].length_squared(), sides[1].length_squared(), sides[2].length_squared()];
         let longest = if squares[0] >= squares[1] && squares[0] >= squares[2] {
             0
         } else if squares[1] >= squares[2] {
@@ -58,15 +72,13 @@ impl Facet {
         if tilt.is_nan() || tilt >= SAME_NORMAL {
             return None;
         }
-        let mut facet =
-            Self { number, corners, normal: cross / area, origin: corners[other], is_front: true, tilt };
-        if !facet.has_in_front(ground, center) {
-            if ground.is_one_sided() {
-                return None;
-            }
-            (facet.normal, facet.is_front) = (-facet.normal, false);
-        }
-        Some(facet)
+        Some(Self { number, corners, normal: cross / area, origin: corners[other], is_front: true, tilt })
+    }
+
+    /// The same as seen from the other side.
+    #[inline]
+    pub(super) fn turn_over(&mut self) {
+        (self.normal, self.is_front) = (-self.normal, !self.is_front);
     }
 
     /// Another triangle of the same flat patch, if it lies in this one's plane up to so many metres and has a point on
@@ -84,12 +96,17 @@ impl Facet {
     ///
     /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005), with sines for
     /// angles.
-    fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
+    pub(super) fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
         let is_above = self.height(point) >= 0.0;
         if ground.is_one_sided() {
             return is_above;
         }
-        let (feature, at) = nearest_to(self, point);
+        self.is_before(ground, point, nearest_to(self, point))
+    }
+
+    /// The same of two-sided ground, where it is known what of the triangle is nearest to the point.
+    pub(super) fn is_before(&self, ground: Ground, point: DVec3, (feature, at): (Furthest, DVec3)) -> bool {
+        let is_above = self.height(point) >= 0.0;
         let around = match feature {
             Furthest::Face => return is_above,
             Furthest::Edge(edge) => match ground.neighbor(self.number, edge) {
@@ -214,6 +231,15 @@ impl Facet {
             (false, true) => Furthest::Edge((top + 2) % 3),
             (false, false) => Furthest::Corner(top),
         }
+    }
+
+    /// Whether a unit direction from the ground to the body is not the triangle's own, and ground around what reaches
+    /// furthest there lets it through.
+    pub(super) fn lets_through(&self, ground: Ground, towards: DVec3) -> bool {
+        let furthest = self.furthest(towards);
+        furthest != Furthest::Face
+            && !is_same(self.normal, towards)
+            && self.may_give(ground, furthest, towards)
     }
 
     /// Whether ground around a feature lets it give this unit direction, from the ground to the body.

@@ -196,8 +196,11 @@ impl Group {
             }
         }
         kept.sort_unstable();
-        let pins = kept.iter().map(|&i| self.pins[i]).collect();
-        self.pins = pins;
+        // Where they stay: moved as a whole, they are large.
+        for (to, &from) in kept.iter().enumerate() {
+            self.pins[to] = self.pins[from];
+        }
+        self.pins.truncate(kept.len());
     }
 
     fn places(&self) -> ArrayVec<[f64; 2], MOST_POINTS> {

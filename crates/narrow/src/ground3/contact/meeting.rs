@@ -1,8 +1,9 @@
 //! A convex part and one triangle by the general kernels, and which of their axes ground lets through.
 
-use super::facet::{Facet, Furthest, edge_number, is_same};
+use super::Asking;
+use super::facet::{Facet, edge_number};
 use super::groups::{Base, Groups, Pin};
-use super::standing::Place;
+use super::standing::{Place, Standing};
 use crate::exact::Site3;
 use crate::feature::{Feature, Hint};
 use crate::ground3::OnGround;
@@ -58,15 +59,20 @@ impl<'a> Meeting<'a> {
     pub(super) fn add_points(
         &self,
         (ground, facet): (Ground, &Facet),
-        place: &Place,
-        (margin, reach): (f32, f64),
+        standing: &Standing,
+        asking: &Asking,
         groups: &mut Groups,
     ) -> Met {
+        let (place, margin) = (&standing.place, asking.margin);
         let mut touch = Touch::NONE;
-        let asked = Asked { limit: reach, hint: Hint::NONE, wanted: Wanted::Points };
+        let asked = Asked { limit: asking.reach, hint: Hint::NONE, wanted: Wanted::Points };
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
+        // No points are made along what ground refuses, as it does most often.
+        let is_let_through =
+            |near: &Near| asking.is_plain || facet.lets_through(ground, -place.axes.turn(near.normal));
         let found = self.with(ground, facet.number, |convex| {
-            let (probe, _) = convex.contact(asked, is_near, &mut touch);
+            let accept = |near: &Near| is_near(near) && is_let_through(near);
+            let (probe, _) = convex.contact(asked, accept, &mut touch);
             match probe {
                 Probe::Near(near) if is_near(&near) => {
                     Some((near.verdict.overlapping, f64::from(near.error)))
@@ -87,12 +93,7 @@ impl<'a> Meeting<'a> {
         groups: &mut Groups,
     ) -> bool {
         let towards = -place.axes.turn(touch.normal);
-        let furthest = facet.furthest(towards);
-        if furthest == Furthest::Face
-            || is_same(facet.normal, towards)
-            || touch.points.is_empty()
-            || !facet.may_give(ground, furthest, towards)
-        {
+        if touch.points.is_empty() || !facet.lets_through(ground, towards) {
             return false;
         }
         let base = Base { normal: towards, patch: ground.patch(facet.number), weight: 0.0 };

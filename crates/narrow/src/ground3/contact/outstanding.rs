@@ -4,12 +4,13 @@ use super::facet::{Facet, edge_number};
 use super::prism::Prism;
 use super::{Known, Seen};
 use crate::feature::Feature;
+use asunder_geometry::Prominent;
 
 impl Seen<'_> {
     /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer.
-    pub(super) fn needs_kernels(&self, prism: &Prism) -> bool {
+    pub(super) fn needs_kernels(&self, prism: &Prism, prominent: Prominent) -> bool {
         let Prism { ground, standing, facet, extent, .. } = *prism;
-        let (prominent, is_front) = (ground.prominent(facet.number), facet.is_front);
+        let is_front = facet.is_front;
         // Two-sided ground that the part is in may bend the other way, and end there all the same.
         let is_in = extent.low - standing.radius < -standing.slack && !ground.is_one_sided();
         if !(prominent.any(is_front) || is_in && prominent.any(!is_front)) {
@@ -21,15 +22,17 @@ impl Seen<'_> {
             let place = ((standing.center - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
             (standing.center - from - along * place).length_squared() <= radius * radius
         };
-        let is_corner = [0, 1, 2].map(|corner| {
+        let is_corner = |corner: usize| {
             prominent.corner(corner, is_front)
                 || (is_in
                     && prominent.corner(corner, !is_front)
                     && facet.sees_otherwise(ground, corner, standing.center))
-        });
+        };
+        let is_corner = [is_corner(0), is_corner(1), is_corner(2)];
         let stands_out =
             |edge: usize| prominent.edge(edge, is_front) || is_corner[edge] || is_corner[(edge + 1) % 3];
-        let counts = [0, 1, 2].map(|edge| stands_out(edge) && is_near(edge));
+        let counts = |edge: usize| stands_out(edge) && is_near(edge);
+        let counts = [counts(0), counts(1), counts(2)];
         if counts == [false; 3] {
             return false;
         }

@@ -19,7 +19,7 @@ use super::standing::{Extent, Standing};
 use crate::feature::Feature;
 use crate::polyhedron::manifold::opposed_face;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Ground, Shape3};
+use asunder_geometry::{Cuboid, Ground, Shape3};
 use core::cell::Cell;
 
 /// Cosine up to which a body's face looks away from the ground so much that it has no inside as seen along the normal.
@@ -50,7 +50,12 @@ pub(super) struct Prism<'p> {
 
 impl Incident {
     pub(super) fn of(standing: &Standing, normal: DVec3) -> Self {
-        let face = opposed_face(standing.solid, normal, standing.slack).face;
+        let face = match standing.part.shape {
+            Shape3::Cuboid(cuboid) => {
+                opposed_of_cuboid(standing.place.axes.turn_back(normal), cuboid, standing.slack)
+            }
+            _ => opposed_face(standing.solid, normal, standing.slack).face,
+        };
         Self { normal, face, outwards: standing.solid.outwards(face, -normal) }
     }
 
@@ -60,6 +65,17 @@ impl Incident {
     }
 }
 
+/// The face that [`opposed_face`] finds, of a cuboid: the most opposed of those that have all the furthest corners.
+fn opposed_of_cuboid(normal: DVec3, cuboid: &Cuboid, slack: f64) -> usize {
+    let (lean, half) = (normal.abs(), cuboid.half_extents().as_dvec3());
+    // A face whose other side is as far up to the slack has but some of them.
+    let has_all = [0, 1, 2].map(|axis| 2.0 * half[axis] * lean[axis] > slack);
+    let is_better = |axis: usize, than: usize| (has_all[axis], lean[axis]) > (has_all[than], lean[than]);
+    let axis = (1..3).fold(0, |best, axis| if is_better(axis, best) { axis } else { best });
+    // Faces are two an axis, the one that looks along it second.
+    2 * axis + usize::from(normal[axis] < 0.0)
+}
+
 impl Prism<'_> {
     /// Adds contact points by the triangle's own normal; whether there are any.
     pub(super) fn add_points(&self, incident: &Incident, groups: &mut Groups) -> bool {
@@ -67,10 +83,27 @@ impl Prism<'_> {
         if let Some(outwards) = incident.outwards
             && self.standing.solid.vertices.len() > 1
         {
-            for edge in 0..3 {
-                if !self.facet.goes_on(self.ground, edge) {
-                    is_any |= self.add_side(incident.face, outwards, edge, groups);
-                }
+            is_any |= self.add_sides(incident.face, outwards, groups);
+        }
+        is_any
+    }
+
+    /// Adds points on those sides of the triangle behind which ground does not go on.
+    fn add_sides(&self, face: usize, outwards: DVec3, groups: &mut Groups) -> bool {
+        let (standing, facet) = (self.standing, self.facet);
+        let facing = outwards.dot(facet.normal);
+        let vertices = standing.solid.topology.face_vertices(face);
+        let (Some(first), true) = ({ vertices }.next(), facing <= -STEEP) else { return false };
+        let over = standing.point(first) + outwards * standing.radius;
+        let [a, b, c] = facet.corners;
+        // Of a side, all is beyond reach if both its ends are: by more than rounding, for what is between them.
+        let beyond = self.reach + (self.doubt + standing.planarity) / -facing;
+        let is_far = |corner: DVec3| outwards.dot(over - corner) / facing > beyond;
+        let far = [is_far(a), is_far(b), is_far(c)];
+        let mut is_any = false;
+        for edge in 0..3 {
+            if !(far[edge] && far[(edge + 1) % 3] || facet.goes_on(self.ground, edge)) {
+                is_any |= self.add_side((face, edge), outwards, over, groups);
             }
         }
         is_any
@@ -141,18 +174,19 @@ impl Prism<'_> {
         is_any
     }
 
-    /// Adds the ends of what the part's face covers of a side of the triangle, as seen along the normal.
-    fn add_side(&self, face: usize, outwards: DVec3, edge: usize, groups: &mut Groups) -> bool {
+    /// Adds the ends of what the part's face covers of a side of the triangle, as seen along the normal; `over` is a point
+    /// of the surface beyond the face.
+    fn add_side(
+        &self,
+        (face, edge): (usize, usize),
+        outwards: DVec3,
+        over: DVec3,
+        groups: &mut Groups,
+    ) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let facing = outwards.dot(facet.normal);
-        if facing > -STEEP {
-            return false;
-        }
         let Some(span) = self.span(face, outwards, edge) else { return false };
         let (from, along) = facet.edge(edge);
-        let vertices = standing.solid.topology.face_vertices(face);
-        let Some(first) = { vertices }.next() else { return false };
-        let over = standing.point(first) + outwards * standing.radius;
         let mut is_any = false;
         for (share, by) in span {
             let on_ground = from + along * share;

@@ -1,0 +1,78 @@
+//! What was found of a part, as manifolds in world axes.
+
+use super::groups::Group;
+use super::{Asking, Known};
+use crate::answer::ContactPoint3;
+use crate::feature::FeatureId;
+use crate::pair3::Part;
+use crate::precision::{IN_SPACE, Precision, signed};
+use crate::room::Room;
+
+impl Asking<'_> {
+    /// Hands over what was found.
+    #[inline]
+    pub(super) fn answer(
+        &self,
+        part: Part,
+        known: &mut Known,
+        is_settled: bool,
+        manifolds: &mut impl Room,
+    ) -> Option<bool> {
+        let Known { groups, overlapping, .. } = known;
+        if !*overlapping && groups.least() == f64::INFINITY {
+            return None;
+        }
+        if manifolds.is_wanted() {
+            groups.finish();
+            let least = groups.least();
+            for group in groups.iter() {
+                self.add_manifold(part.index, group, (*overlapping, is_settled, least), manifolds);
+            }
+        }
+        Some(*overlapping)
+    }
+
+    fn add_manifold(
+        &self,
+        part: u32,
+        group: &Group,
+        (overlapping, is_settled, least): (bool, bool, f64),
+        to: &mut impl Room,
+    ) {
+        let on = self.on;
+        let Some(deepest) = group
+            .pins
+            .iter()
+            .reduce(|least, next| if next.separation < least.separation { next } else { least })
+        else {
+            return;
+        };
+        // The deepest of all has the sign of the decision.
+        let separation = match overlapping {
+            true if deepest.separation <= least => signed(deepest.separation, true),
+            false if !is_settled => signed(deepest.separation, false),
+            _ => deepest.separation as f32,
+        };
+        let Some(manifold) = to.room(separation) else { return };
+        let sides = [part, group.base.patch];
+        [manifold.part_a, manifold.part_b] = if on.is_b { sides } else { [sides[1], sides[0]] };
+        let towards = on.basis.turn(group.base.normal);
+        manifold.normal = if on.is_b { -towards } else { towards }.as_vec3();
+        let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE[1] };
+        let off = (f64::from(separation) - deepest.separation).abs();
+        let error = precision.of_distance(deepest.separation, deepest.doubt + off);
+        (manifold.separation, manifold.error) = (separation, error);
+        for pin in &group.pins {
+            let of_body = (on.basis.turn(pin.on_body) - on.to_body).as_vec3();
+            let of_ground = on.basis.turn(pin.on_ground).as_vec3();
+            let (anchor_a, anchor_b, feature) = if on.is_b {
+                (of_body, of_ground, FeatureId::new(pin.of_body, pin.of_ground))
+            } else {
+                (of_ground, of_body, FeatureId::new(pin.of_ground, pin.of_body))
+            };
+            let separation = pin.separation as f32;
+            let _ = manifold.points.try_push(ContactPoint3 { separation, anchor_a, anchor_b, feature });
+        }
+        manifold.points.sort_unstable_by_key(|point| point.feature);
+    }
+}

@@ -1,0 +1,106 @@
+//! A cuboid and a triangle by their thirteen axes: whether the kernels have anything to say that ground lets through.
+//!
+//! ```text
+//! in the cuboid's axes: three across its faces, the triangle's normal, nine across two edges
+//! one shows a gap beyond what is wanted: apart
+//! one shows a gap: the closest points are what counts, and the kernels know them
+//! else the cores overlap, and the axis with the least depth is the kernels' own:
+//!   ground refuses it, and all that are as good up to the slack: refused, and the kernels need not be asked
+//! ```
+//! Most of what overlaps a triangle of a bump does so along its own normal, or along one that its neighbours refuse.
+//!
+//! Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with depths.
+
+use super::prism::Prism;
+use arrayvec::ArrayVec;
+use asunder_geometry::Shape3;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::FACE_PREFERENCE;
+
+/// The axes of a cuboid and a triangle.
+pub(super) struct Axes {
+    all: ArrayVec<Axis, 13>,
+    /// The greatest separation of the cores along any, in metres.
+    pub(super) best: f64,
+}
+
+/// A direction from the triangle to the cuboid, in the cuboid's axes, and how far they are apart along it, in metres.
+type Axis = (f64, DVec3);
+
+/// Sine of an angle between edges up to which what is across them is across faces, too.
+const PARALLEL: f64 = 1e-10;
+
+/// Sine of the angle between edges above which what is across them is right to a millionth of the slack.
+const CROSSED: f64 = 1e-3;
+
+impl Prism<'_> {
+    /// The axes, where the part is a cuboid and no two edges are so nearly parallel that they are not to be trusted.
+    /// All of them, unless one says at once that they are further apart than so many metres.
+    pub(super) fn axes(&self, beyond: f64) -> Option<Axes> {
+        let (standing, facet) = (self.standing, self.facet);
+        let Shape3::Cuboid(cuboid) = standing.part.shape else { return None };
+        let place = &standing.place;
+        let own = |corner: DVec3| place.axes.turn_back(corner - place.origin);
+        let corners = [own(facet.corners[0]), own(facet.corners[1]), own(facet.corners[2])];
+        let normal = place.axes.turn_back(facet.normal);
+        let mut axes = Axes { all: ArrayVec::new_const(), best: f64::NEG_INFINITY };
+        axes.fill(corners, normal, (cuboid.half_extents().as_dvec3(), beyond)).then_some(axes)
+    }
+
+    /// Whether ground refuses the axis along which overlapping cores are the least deep, and all that are as good.
+    pub(super) fn refuses(&self, axes: &Axes) -> bool {
+        let (standing, facet) = (self.standing, self.facet);
+        let size = 2.0 * (standing.outer_radius + facet.corners[0].distance(facet.corners[1]));
+        let slack = self.doubt + 2.0 * FACE_PREFERENCE * size;
+        let mut rivals = axes.all.iter().filter(|axis| axis.0 >= axes.best - slack);
+        rivals.all(|axis| !facet.lets_through(self.ground, standing.place.axes.turn(axis.1)))
+    }
+}
+
+impl Axes {
+    /// The thirteen axes, less those across edges that are parallel, and those after the first that shows a gap beyond
+    /// what is wanted; whether no edges are nearly parallel.
+    fn fill(&mut self, corners: [DVec3; 3], normal: DVec3, (half, beyond): (DVec3, f64)) -> bool {
+        let (low, high) =
+            (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
+        self.offer(DVec3::X, (low.x, high.x), half.x);
+        self.offer(DVec3::Y, (low.y, high.y), half.y);
+        self.offer(DVec3::Z, (low.z, high.z), half.z);
+        let height = normal.dot(corners[0]);
+        self.offer(normal, (height, height), half.dot(normal.abs()));
+        for (edge, third) in [(0, 2), (1, 0), (2, 1)] {
+            if self.best > beyond {
+                return true;
+            }
+            let along = corners[(edge + 1) % 3] - corners[edge];
+            let across = [
+                DVec3::new(0.0, -along.z, along.y),
+                DVec3::new(along.z, 0.0, -along.x),
+                DVec3::new(-along.y, along.x, 0.0),
+            ];
+            let square = along.length_squared();
+            for axis in across {
+                let length = axis.length_squared();
+                if length <= PARALLEL * PARALLEL * square {
+                    continue;
+                }
+                if length < CROSSED * CROSSED * square {
+                    return false;
+                }
+                let axis = axis * (1.0 / length.sqrt());
+                let (one, other) = (axis.dot(corners[edge]), axis.dot(corners[third]));
+                let ends = if one < other { (one, other) } else { (other, one) };
+                self.offer(axis, ends, half.dot(axis.abs()));
+            }
+        }
+        true
+    }
+
+    /// Of both directions of an axis takes the one in which the triangle has less to pass.
+    #[inline(always)]
+    fn offer(&mut self, axis: DVec3, (low, high): (f64, f64), half: f64) {
+        let axis = if low + high > 0.0 { (low - half, -axis) } else { (-high - half, axis) };
+        self.best = if axis.0 > self.best { axis.0 } else { self.best };
+        let _ = self.all.try_push(axis);
+    }
+}
