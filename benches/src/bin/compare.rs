@@ -1,12 +1,16 @@
-//! Prints our times beside parry3d's: `compare broad|narrow|world|mesh|certain [--json] [--quick]`.
+//! Prints our times beside parry3d's: `compare broad|narrow|world|mesh|certain [--json] [--quick]
+//! [--save]`.
 
 use asunder_benches::broad::queries;
 use asunder_benches::clock::Effort;
 use asunder_benches::judge::Judge;
+use asunder_benches::report::cpu::Processor;
+use asunder_benches::report::{Data, KeptRow, kept};
 use asunder_benches::row::{Row, heading, heading_with_accuracy, heading_with_figures};
 use asunder_benches::{broad, certain, flat, mesh, narrow, world};
 use clap::{Args, Parser, Subcommand};
 use std::error::Error;
+use std::path::Path;
 
 /// Our time beside parry3d's in the same run: thread CPU time, variants in turns, medians. Only the ratios count.
 #[derive(Parser)]
@@ -62,6 +66,10 @@ struct Options {
     /// Only rows whose name contains this.
     #[arg(long, value_name = "TEXT", default_value = "")]
     only: String,
+    /// Keep the rows in benches/results/<cpu>/compare.csv, in place of those of the same names: README shows some. Those
+    /// of `certain`, and of several threads, are not kept.
+    #[arg(long, conflicts_with = "quick")]
+    save: bool,
 }
 
 impl Part {
@@ -70,6 +78,16 @@ impl Part {
             Self::Broad(broad) => &broad.all,
             Self::World(world) => &world.all,
             Self::Narrow(options) | Self::Mesh(options) | Self::Certain(options) => options,
+        }
+    }
+
+    const fn name(&self) -> &'static str {
+        match self {
+            Self::Broad(_) => "broad",
+            Self::Narrow(_) => "narrow",
+            Self::World(_) => "world",
+            Self::Mesh(_) => "mesh",
+            Self::Certain(_) => "certain",
         }
     }
 
@@ -136,25 +154,44 @@ impl Options {
 
 fn compare(part: &Part) -> Result<(), Box<dyn Error>> {
     let options = part.options();
+    let mut rows = Vec::new();
+    let mut tell = |row: Row| {
+        show(&row, options);
+        rows.push(KeptRow::new(part.name(), &row));
+    };
+    measure(part, &mut tell)?;
+    if options.save { save(rows) } else { Ok(()) }
+}
+
+/// Puts rows among those that are kept for this processor.
+fn save(rows: Vec<KeptRow>) -> Result<(), Box<dyn Error>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("results").join(Processor::here().folder());
+    let mut data = Data::read(&folder)?;
+    kept::put(&mut data.kept, rows);
+    data.write(&folder)
+}
+
+fn measure(part: &Part, tell: &mut impl FnMut(Row)) -> Result<(), Box<dyn Error>> {
+    let options = part.options();
     let effort = options.effort();
     let wanted = |name: &str| name.contains(&options.only);
     match part {
         Part::Broad(BroadOptions { large, .. }) => {
             let cases = broad::cases(&effort, *large);
             for case in cases.iter().filter(|case| wanted(&broad::name(case))) {
-                show(&broad::measure(case, &effort), options);
+                tell(broad::measure(case, &effort));
             }
             for case in queries::cases(&effort).iter().filter(|case| wanted(&queries::name(case))) {
-                show(&queries::measure(case, &effort), options);
+                tell(queries::measure(case, &effort));
             }
         }
         Part::Narrow(_) => {
             let mut judge = Judge::default();
             for case in narrow::cases().iter().filter(|case| wanted(&narrow::name(case))) {
-                show(&narrow::measure(case, &effort, &mut judge), options);
+                tell(narrow::measure(case, &effort, &mut judge));
             }
             for case in flat::cases().iter().filter(|case| wanted(&flat::name(case))) {
-                show(&flat::measure(case, &effort), options);
+                tell(flat::measure(case, &effort));
             }
         }
         Part::Certain(_) => {
@@ -165,12 +202,12 @@ fn compare(part: &Part) -> Result<(), Box<dyn Error>> {
         }
         Part::Mesh(_) => {
             for case in mesh::cases(&effort).iter().filter(|case| wanted(&mesh::name(case))) {
-                show(&mesh::measure(case, &effort)?, options);
+                tell(mesh::measure(case, &effort)?);
             }
         }
         Part::World(_) => {
             for case in world::cases().iter().filter(|case| wanted(&world::name(case))) {
-                show(&world::measure(case, case.0.usual_count(), &effort)?, options);
+                tell(world::measure(case, case.0.usual_count(), &effort)?);
             }
         }
     }

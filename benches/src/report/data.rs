@@ -1,5 +1,6 @@
 //! What was measured, as plain rows in CSV files of one folder: all that the page is drawn from.
 
+use super::kept::KeptRow;
 use super::origin::Origin;
 use crate::broad::rows::BroadRow;
 use crate::error::{ErrorRow, GapRow, StabilityRow, VertexRow};
@@ -70,10 +71,14 @@ pub struct Data {
     pub frame: Vec<FrameRow>,
     /// Vertices.
     pub vertices: Vec<VertexRow>,
+    /// Rows of `compare`; they are in no section of the page, but in README.
+    pub kept: Vec<KeptRow>,
 }
 
 /// The file that says where each section comes from.
 const ORIGINS: &str = "origin";
+/// The file of what `compare` kept.
+const KEPT: &str = "compare";
 
 impl Data {
     /// Reads a folder. Files that are not there have no rows.
@@ -89,6 +94,7 @@ impl Data {
             broad: read(folder, Section::Broad.name())?,
             frame: read(folder, Section::Frame.name())?,
             vertices: read(folder, Section::Vertices.name())?,
+            kept: read(folder, KEPT)?,
         })
     }
 
@@ -104,6 +110,7 @@ impl Data {
         write(folder, Section::Broad.name(), &self.broad)?;
         write(folder, Section::Frame.name(), &self.frame)?;
         write(folder, Section::Vertices.name(), &self.vertices)?;
+        write(folder, KEPT, &self.kept)?;
         write(folder, ORIGINS, &self.origins)
     }
 

@@ -54,7 +54,7 @@ impl Origin {
                 .unwrap_or("unknown")
                 .to_string(),
             commit: commit(),
-            date: day(seconds_since_1970()),
+            date: today(),
         }
     }
 
@@ -88,7 +88,8 @@ fn locked_version(package: &str) -> &'static str {
     rest.split('"').next().unwrap_or("")
 }
 
-fn commit() -> String {
+/// The commit, with a plus where something was changed since; empty where there is none.
+pub(super) fn commit() -> String {
     let git = |arguments: &[&str]| said_by("git", &[&["-C", env!("CARGO_MANIFEST_DIR")], arguments].concat());
     let commit = git(&["rev-parse", "--short=9", "HEAD"]);
     // Rows that were saved a minute ago are no change of what is measured.
@@ -100,6 +101,11 @@ fn commit() -> String {
 fn said_by(program: &str, arguments: &[&str]) -> String {
     let output = Command::new(program).args(arguments).output().ok().filter(|output| output.status.success());
     output.map_or_else(String::new, |output| String::from_utf8_lossy(&output.stdout).trim().to_string())
+}
+
+/// The day, as `2026-11-22`.
+pub(super) fn today() -> String {
+    day(seconds_since_1970())
 }
 
 fn seconds_since_1970() -> u64 {

@@ -1,4 +1,5 @@
-//! README's part: four plots, one table and the losses, between two marks, from saved data alone.
+//! README's part: four plots, one table, the losses, and kept rows of `compare`, between two marks, from saved data
+//! alone.
 
 use super::data::{Data, Section};
 use super::losses::{best, distinct};
@@ -56,9 +57,10 @@ pub fn part(data: &Data) -> String {
         .collect();
     let table = table(data).to_markdown();
     format!(
-        "<p>\n{plots}</p>\n\n{table}\n± marks medians whose quartiles are more than 20 % apart. {}\n\n{}",
+        "<p>\n{plots}</p>\n\n{table}\n± marks medians whose quartiles are more than 20 % apart. {}\n\n{}{}",
         origins(data),
-        behind(&chapters(data))
+        behind(&chapters(data)),
+        super::kept::part(&data.kept)
     )
 }
 
