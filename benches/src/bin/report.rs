@@ -25,7 +25,7 @@ struct Options {
     /// The folder of the page.
     #[arg(long, value_name = "DIR", default_value = "target/report")]
     out: PathBuf,
-    /// Keep what is measured in benches/results/<cpu>, as CSV; sections not measured stay as they are.
+    /// Keep what is measured in `benches/results/<cpu>`, as CSV; sections not measured stay as they are.
     #[arg(long)]
     save: bool,
     /// Draw from such a folder, and measure nothing.
