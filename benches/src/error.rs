@@ -56,6 +56,8 @@ pub struct ErrorRow {
     pub method: String,
     /// How many pairs were asked about.
     pub pairs: u64,
+    /// Pairs that do not touch exactly, and were answered: those that may be wrong.
+    pub answered: u64,
     /// Median time of a query over rounds, in nanoseconds of thread CPU time.
     pub ns: f64,
     /// Its lower quartile.

@@ -24,12 +24,17 @@ pub struct Race {
 }
 
 impl Race {
-    /// One turn of either side, of so many of what the row counts. Returns what both found.
+    /// One turn of either side, of so many of what the row counts; who is first takes turns, too. Returns what both found.
     pub fn turn<A, B>(&mut self, count: usize, ours: impl FnOnce() -> A, peer: impl FnOnce() -> B) -> (A, B) {
-        let (ns, found) = time(ours);
+        let ((ns, found), (peer_ns, found_by_peer)) = if self.ours.len().is_multiple_of(2) {
+            let ours = time(ours);
+            (ours, time(peer))
+        } else {
+            let peer = time(peer);
+            (time(ours), peer)
+        };
         self.ours.push(ns / count as f64, ns);
-        let (ns, found_by_peer) = time(peer);
-        self.peer.push(ns / count as f64, ns);
+        self.peer.push(peer_ns / count as f64, peer_ns);
         (found, found_by_peer)
     }
 

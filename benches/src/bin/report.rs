@@ -129,7 +129,8 @@ fn write_readme(folder: &Path) -> Result<(), Box<dyn Error>> {
     // As it will be read again: from the files.
     let data = Data::read(folder)?;
     let (path, folder) = (root().join("README.md"), std::path::absolute(folder)?);
-    let named = folder.strip_prefix(root()).unwrap_or(&folder).display().to_string();
+    let named = folder.strip_prefix(root()).map_err(|_| "README shows data of this repository alone")?;
+    let named = named.display().to_string();
     let page = std::fs::read_to_string(&path)?;
     let new = readme::spliced(&page, &named, &readme::part(&data));
     std::fs::write(&path, new.ok_or("README.md has no two marks, figures:begin and figures:end")?)?;

@@ -58,6 +58,7 @@ fn of_group<P: Grouped + Judged + Asked>(name: &str, count: usize, effort: &Effo
             group: name.to_string(),
             method: method.name.to_string(),
             pairs: pairs.len() as u64,
+            answered: tally.strict,
             ns: spread.median,
             ns_low: spread.low,
             ns_high: spread.high,
@@ -119,7 +120,7 @@ pub(super) fn in_turns<P>(methods: &[Method<P>], pairs: &[P], seconds: f64) -> V
 /// One method's answers held against the truth.
 #[derive(Debug, Default)]
 struct Tally {
-    /// Pairs that do not touch exactly.
+    /// Pairs that do not touch exactly, and were answered.
     strict: u64,
     wrong: u64,
     refused: u64,
@@ -131,7 +132,7 @@ impl Tally {
     fn new(truths: &[Truth], said: &[Said]) -> Self {
         let mut tally = Self::default();
         for (truth, &said) in truths.iter().zip(said) {
-            tally.strict += u64::from(truth.relation != Relation::Touching);
+            tally.strict += u64::from(truth.relation != Relation::Touching && said != Said::Refused);
             tally.wrong += u64::from(is_wrong(truth.relation, said));
             tally.refused += u64::from(said == Said::Refused);
             tally.errors.extend(error(truth, said));

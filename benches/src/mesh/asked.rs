@@ -100,7 +100,7 @@ pub(super) fn bodies(
     let poses: Vec<Pose3> = falls.iter().map(|(from, _)| Pose3::at(*from)).collect::<Result<_, _>>()?;
     let options = ShapeCastOptions { max_time_of_impact: 1.0, ..ShapeCastOptions::default() };
     let here = parry::pose(&Pose3::IDENTITY);
-    let both = || poses.iter().zip(&falls);
+    let of_peer: Vec<_> = poses.iter().map(parry::pose).collect();
     let ours = |(pose, (_, way)): &(&Pose3, &(DVec3, Vec3))| {
         let pair = Pair3::new(shape, pose, &mesh, &Pose3::IDENTITY);
         match question {
@@ -109,18 +109,23 @@ pub(super) fn bodies(
             Question::Distance => pair.distance().is_some_and(|closest| closest.distance > 0.0),
         }
     };
-    let peer = |(pose, (_, way)): &(&Pose3, &(DVec3, Vec3))| {
-        let (pose, one, other) = (parry::pose(pose), &*twin_shape.0, &*twin.0);
+    let peer = |(pose, (_, way)): &(&parry3d::math::Pose, &(DVec3, Vec3))| {
+        let (pose, one, other) = (*pose, &*twin_shape.0, &*twin.0);
         match question {
-            Question::Cast => query::cast_shapes(&pose, *way, one, &here, Vector::ZERO, other, options)
+            Question::Cast => query::cast_shapes(pose, *way, one, &here, Vector::ZERO, other, options)
                 .is_ok_and(|hit| hit.is_some()),
             Question::Overlap => {
-                query::intersection_test(&pose, one, &here, other).is_ok_and(|found| found.intersecting)
+                query::intersection_test(pose, one, &here, other).is_ok_and(|found| found.intersecting)
             }
             Question::Distance => {
-                query::distance(&pose, one, &here, other).is_ok_and(|found| found.distance > 0.0)
+                query::distance(pose, one, &here, other).is_ok_and(|found| found.distance > 0.0)
             }
         }
     };
-    Ok(in_turns(effort, row, || both().filter(ours).count(), || both().filter(peer).count()))
+    Ok(in_turns(
+        effort,
+        row,
+        || poses.iter().zip(&falls).filter(ours).count(),
+        || of_peer.iter().zip(&falls).filter(peer).count(),
+    ))
 }

@@ -191,6 +191,7 @@ mod tests {
             group: "slivers".to_string(),
             method: "textbook-f32".to_string(),
             pairs: 10,
+            answered: 10,
             ns: 1.5,
             ns_low: 1.0,
             ns_high: 2.0,

@@ -80,6 +80,13 @@ impl KeptRow {
     /// What both sides' answers were worth, or what the row says of itself.
     fn found(&self) -> String {
         let Some(max_error) = self.max_error else { return self.note.clone() };
+        if self.row.ends_with("/boolean") && max_error == 0.0 {
+            return match self.peer_off {
+                None => "exact".to_string(),
+                Some(0) => "exact; no disagreement".to_string(),
+                Some(off) => format!("exact; parry3d wrong by more than 1e-5 in {}", count(off)),
+            };
+        }
         let peer = self.peer_max_error.map_or(String::new(), |peer| format!(" against {}", error(peer)));
         let off = match (self.peer_off, self.judged) {
             (Some(off @ 1..), Some(judged)) => {

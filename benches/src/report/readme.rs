@@ -99,7 +99,15 @@ fn error_rows(data: &Data) -> Vec<Vec<String>> {
                 0.0 => String::new(),
                 wrong => format!(", {} wrong in 100,000", super::names::count(libm::ceil(wrong) as u64)),
             };
-            format!("{}{wrong}", error(row.error_p99))
+            let refused = match row.refused {
+                0 => String::new(),
+                refused => format!(
+                    ", {} of {} refused",
+                    super::names::count(refused),
+                    super::names::count(row.pairs)
+                ),
+            };
+            format!("{}{wrong}{refused}", error(row.error_p99))
         };
         let against = peer.map_or(String::new(), |peer| format!(" against {}", said(peer)));
         let found = format!("{}{against}", said(ours));
@@ -171,7 +179,10 @@ fn frame_rows(data: &Data) -> Vec<Vec<String>> {
 
 /// Machines, versions and days: once, where all sections have the same.
 fn origins(data: &Data) -> String {
-    let said = |origin: &Origin| format!("{}; {}; {}", origin.machine(), origin.versions(), origin.date);
+    let said = |origin: &Origin| {
+        let quick = if origin.command.contains("--quick") { "; a quick run" } else { "" };
+        format!("{}; {}; {}{quick}", origin.machine(), origin.versions(), origin.date)
+    };
     let mut all: Vec<(String, Vec<&str>)> = Vec::new();
     for origin in &data.origins {
         match all.iter_mut().find(|(text, _)| *text == said(origin)) {
@@ -190,7 +201,7 @@ fn origins(data: &Data) -> String {
 /// All losses, folded away section by section under how many there are.
 fn behind(chapters: &[Chapter]) -> String {
     let total: usize = chapters.iter().map(|chapter| chapter.losses.len()).sum();
-    let mut text = format!("**Where asunder is behind**, found in the same data: {total} rows.\n");
+    let mut text = format!("**Where asunder is behind**, found in the same data, in {total} sentences.\n");
     for chapter in chapters.iter().filter(|chapter| !chapter.losses.is_empty()) {
         let items: String = chapter.losses.iter().map(|loss| format!("- {loss}\n")).collect();
         text.push_str(&format!(

@@ -111,7 +111,7 @@ pub(super) fn run(
             ours.iter_mut().chain([&mut of_peer]).for_each(|side| *side = Side::default());
         }
         let spent = ours.iter().map(|side| side.samples.spent()).fold(of_peer.samples.spent(), f64::max);
-        if spent > effort.nanoseconds() {
+        if frame > WARM && spent > effort.nanoseconds() {
             break;
         }
     }

@@ -99,7 +99,7 @@ fn findings(rows: &[ErrorRow]) -> Vec<String> {
     for method in distinct(rows, |row| row.method.clone()) {
         let here = || rows.iter().filter(|row| row.method == method);
         let pairs: u64 = here().map(|row| row.pairs).sum();
-        let wrong: f64 = here().map(|row| row.wrong_per_100k * 1e-5 * row.pairs as f64).sum();
+        let wrong: f64 = here().map(|row| row.wrong_per_100k * 1e-5 * row.answered as f64).sum();
         let refused: u64 = here().map(|row| row.refused).sum();
         let greatest = here().map(|row| row.error_max).fold(0.0, f64::max);
         said.push(format!(

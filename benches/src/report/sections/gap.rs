@@ -28,7 +28,7 @@ pub(super) fn draft(rows: &[GapRow]) -> Draft {
     }
     Draft {
         heading: "Wrong answers by gap",
-        method: "All families together. A column holds pairs whose gap, or overlap, is so small a part of their size. \
+        method: "All families but the random one together. A column holds pairs whose gap, or overlap, is so small a part of their size. \
                  A pair counts as wrong where the sign of the answer is not that of exact arithmetic. Pairs that touch \
                  exactly are in the table.",
         figures,

@@ -15,7 +15,7 @@ pub(super) fn draft(rows: &[StabilityRow]) -> Draft {
     Draft {
         heading: "Stability",
         method: "Faces on faces, sunk by 1e-4 of size; one number of a pose is moved by one ulp of f32, or the pair is \
-                 carried along for 10,000 frames with rotations that nobody normalises. A jump of 1 is what the motion \
+                 carried along for 10,000 frames (a quick run: 1,000) with rotations that nobody normalises. A jump of 1 is what the motion \
                  itself explains. The mark is the median, the thick line reaches the 99th percentile and the thin one \
                  the greatest. Stacks stand on our contacts alone.",
         figures,
@@ -31,7 +31,7 @@ fn question(measure: &str) -> String {
         "jitter-1ulp" => "How far does depth jump, by 1 ulp of a pose?".to_string(),
         "count-changes" => "How often does 1 ulp change the points?".to_string(),
         "normal-flips" => "How far does 1 ulp turn the normal?".to_string(),
-        "drifting-depth" => "How far does depth drift in 10,000 frames?".to_string(),
+        "drifting-depth" => "How far does depth drift as frames go by?".to_string(),
         "standing-stack" => "How far do bodies of a stack creep in 5 s?".to_string(),
         other => format!("{}?", words(other)),
     }

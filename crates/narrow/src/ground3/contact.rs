@@ -262,7 +262,7 @@ impl Seen<'_> {
         if self.needs_kernels(&prism, near.prominent) {
             let beyond = self.asking.reach + 2.0 * doubt;
             let axes = if self.asking.is_plain { None } else { prism.axes(beyond + standing.radius) };
-            let overlapping = axes.as_ref().filter(|axes| axes.best < -doubt);
+            let overlapping = axes.as_ref().filter(|axes| axes.do_overlap(doubt));
             if standing.is_apart((&facet, axes.as_ref()), beyond) {
                 return;
             }

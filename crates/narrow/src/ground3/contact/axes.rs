@@ -22,12 +22,15 @@ pub(super) struct Axes {
     all: ArrayVec<Axis, 13>,
     /// The greatest separation of the cores along any, in metres.
     pub(super) best: f64,
+    /// By how much an axis that is left out, across edges that are all but parallel, may be better, in metres.
+    left_out: f64,
 }
 
 /// A direction from the triangle to the cuboid, in the cuboid's axes, and how far they are apart along it, in metres.
 type Axis = (f64, DVec3);
 
-/// Sine of an angle between edges up to which what is across them is across faces, too.
+/// Sine of an angle between edges up to which what is across them is left out: a turn by as much makes them parallel, and
+/// then it is across faces, too.
 const PARALLEL: f64 = 1e-10;
 
 /// Sine of the angle between edges above which what is across them is right to a millionth of the slack.
@@ -43,7 +46,7 @@ impl Prism<'_> {
         let own = |corner: DVec3| place.axes.turn_back(corner - place.origin);
         let corners = [own(facet.corners[0]), own(facet.corners[1]), own(facet.corners[2])];
         let normal = place.axes.turn_back(facet.normal);
-        let mut axes = Axes { all: ArrayVec::new_const(), best: f64::NEG_INFINITY };
+        let mut axes = Axes { all: ArrayVec::new_const(), best: f64::NEG_INFINITY, left_out: 0.0 };
         axes.fill(corners, normal, (cuboid.half_extents().as_dvec3(), beyond)).then_some(axes)
     }
 
@@ -58,6 +61,11 @@ impl Prism<'_> {
 }
 
 impl Axes {
+    /// Whether the cores overlap by more than so many metres for certain.
+    pub(super) fn do_overlap(&self, doubt: f64) -> bool {
+        self.best < -(doubt + self.left_out)
+    }
+
     /// The thirteen axes, less those across edges that are parallel, and those after the first that shows a gap beyond
     /// what is wanted; whether no edges are nearly parallel.
     fn fill(&mut self, corners: [DVec3; 3], normal: DVec3, (half, beyond): (DVec3, f64)) -> bool {
@@ -82,6 +90,9 @@ impl Axes {
             for axis in across {
                 let length = axis.length_squared();
                 if length <= PARALLEL * PARALLEL * square {
+                    // A turn about the cuboid's centre moves no corner further.
+                    let reach = low.abs().max(high.abs()).length();
+                    self.left_out = if length > 0.0 { 2.0 * PARALLEL * reach } else { self.left_out };
                     continue;
                 }
                 if length < CROSSED * CROSSED * square {
@@ -102,5 +113,30 @@ impl Axes {
         let axis = if low + high > 0.0 { (low - half, -axis) } else { (-high - half, axis) };
         self.best = if axis.0 > self.best { axis.0 } else { self.best };
         let _ = self.all.try_push(axis);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A triangle that lies so deep in the top of a cuboid, one of its edges turned so far from the cuboid's own.
+    fn is_certain(depth: f64, turn: f64) -> bool {
+        let (half, height) = (DVec3::new(1.0, 0.3, 0.3), 0.3 - depth);
+        let corners = [[-1.0, height, -turn], [1.0, height, turn], [0.0, height, 2.0]].map(DVec3::from);
+        let mut axes = Axes { all: ArrayVec::new_const(), best: f64::NEG_INFINITY, left_out: 0.0 };
+        assert!(
+            axes.fill(corners, DVec3::Y, (half, f64::INFINITY)),
+            "no edges too near to parallel to be trusted"
+        );
+        assert!((axes.best + depth).abs() < 1e-15);
+        axes.do_overlap(1e-13)
+    }
+
+    #[test]
+    fn an_axis_that_is_left_out_may_be_the_one_that_parts() {
+        assert!(is_certain(1e-11, 0.0), "what is parallel has no axis");
+        assert!(!is_certain(1e-11, 5e-11), "all but parallel: there is one, and it was not looked at");
+        assert!(is_certain(1e-8, 5e-11), "by more than it could show");
     }
 }

@@ -68,13 +68,7 @@ impl Convex<'_> {
         let reached = match portal::search(a, b, beyond, &self.precision) {
             Found::Beyond(direction, separation) => return self.beyond(separation, Hint::towards(direction)),
             Found::Overlap if asked.wanted == Wanted::Closest => return self.just_overlapping(),
-            Found::Overlap => {
-                // Last frame's axis, though not proved to be the best, most often nearly is: what shows less is culled.
-                let doubt = 8.0 * self.precision.projection();
-                let known = hinted.map_or(f64::NEG_INFINITY, |hinted| hinted.axis.separation - doubt);
-                let axes = self.all_axes(a, b, known);
-                return self.overlap_of_cores(axes, OVERLAPPING, 0.0);
-            }
+            Found::Overlap => return self.overlap_by_axes((a, b), hinted),
             Found::Nothing(direction) => {
                 let until = Until { beyond, ..Until::met(&self.precision) };
                 distance(a, b, direction, &until)
@@ -105,6 +99,14 @@ impl Convex<'_> {
                 self.probe_close((a, b), axes, closer, asked.wanted)
             }
         }
+    }
+
+    /// Solids that overlap for certain, of which last frame's axis was not proved to be the best. Most often it nearly
+    /// is, and what shows less is culled.
+    fn overlap_by_axes(&self, (a, b): (&Solid, &Solid), hinted: Option<Hinted>) -> Probe {
+        let doubt = 8.0 * self.precision.projection();
+        let known = hinted.map_or(f64::NEG_INFINITY, |hinted| hinted.axis.separation - doubt);
+        self.overlap_of_cores(self.all_axes(a, b, known), OVERLAPPING, 0.0)
     }
 
     fn probe_cuboids(
