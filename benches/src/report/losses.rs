@@ -323,8 +323,9 @@ mod tests {
         };
         let rows = [
             row("certain", 8, 100.0),
-            row("fast", 8, 50.0),
+            row("batched-boxes", 8, 50.0),
             row("parry-f32", 8, 60.0),
+            row("fast", 16, 50.0),
             row("certain", 16, 70.0),
             row("parry-f32", 16, 60.0),
         ];

@@ -62,7 +62,7 @@ pub fn look(method: &str) -> Look {
         "parry-f64" => ("parry3d f64", RGBColor(230, 159, 0), Mark::Square),
         "textbook-f32" => ("textbook f32", RGBColor(204, 121, 167), Mark::Triangle),
         "textbook-f64" => ("textbook f64", RGBColor(130, 60, 110), Mark::Triangle),
-        "memory" => ("memory bound", PALE, Mark::Triangle),
+        "memory" => ("memory", PALE, Mark::Triangle),
         other => (other, PALE, Mark::Triangle),
     };
     Look { name: name.to_string(), color, mark }
