@@ -165,12 +165,16 @@ fn frame_rows(data: &Data) -> Vec<Vec<String>> {
         };
         let (ours, peer) = (of("asunder")?, of("parry3d"));
         let count = super::names::count;
-        let found = match peer {
+        let mut found = match peer {
             Some(peer) if peer.contacts != ours.contacts => {
                 format!("{} contacts, parry3d {}", count(ours.contacts), count(peer.contacts))
             }
             _ => format!("{} contacts", count(ours.contacts)),
         };
+        // Contacts that differ between numbers of threads must not go unseen.
+        if ours.note.contains("DIFFER") {
+            found = format!("{found}; {}", ours.note);
+        }
         let peer = peer.map(|row| [row.ns, row.ns_low, row.ns_high]);
         Some(line(scene, [ours.ns, ours.ns_low, ours.ns_high], peer, found))
     };
