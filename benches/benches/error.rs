@@ -1,7 +1,7 @@
 //! Criterion's view of the report's first section: the separation of pairs, near and far, by our certain and our fast
-//! way, and eight boxes at a time.
+//! way. Eight boxes at a time stand in `vertices`.
 
-use asunder_narrow::{Pair3, separations3};
+use asunder_narrow::Pair3;
 use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, pairs3};
 use core::hint::black_box;
 use core::time::Duration;
@@ -31,16 +31,6 @@ fn separations(criterion: &mut Criterion) {
             });
         }
     }
-    let pairs = pairs3(SolidKind::Box, PairSet::Mixed, PAIRS, 1);
-    let posed: Vec<Pair3<'_>> = pairs.iter().map(posed).collect();
-    let mut found = Vec::new();
-    criterion.bench_function(&format!("error/box/mixed/batched, {PAIRS} pairs"), |bencher| {
-        bencher.iter(|| {
-            found.clear();
-            separations3(black_box(&posed), 0.0, &mut found);
-            found.len()
-        });
-    });
 }
 
 criterion_group! {
