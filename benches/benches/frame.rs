@@ -79,7 +79,7 @@ fn cached(criterion: &mut Criterion, kind: SolidKind) {
 }
 
 fn hint_of(answer: &Answer) -> Hint {
-    let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
+    let (Answer::Apart { hint, .. } | Answer::Contact { hint, .. }) = answer;
     *hint
 }
 

@@ -215,7 +215,7 @@ impl Memory {
         self.batch.clear();
         collide2(&jobs, &mut self.batch);
         for (kept, answer) in self.hints.iter_mut().zip(&self.batch.answers) {
-            let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
+            let (Answer::Apart { hint, .. } | Answer::Contact { hint, .. }) = answer;
             *kept = *hint;
         }
     }

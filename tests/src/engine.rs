@@ -291,7 +291,7 @@ impl Engine for Volume {
         collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor }], &mut batch);
         let overlaps = Pair3::new(shape_a, pose_a, shape_b, pose_b).overlaps();
         match batch.answers[0] {
-            Answer::Apart { hint } => {
+            Answer::Apart { hint, .. } => {
                 assert!(!overlaps);
                 (hint, None)
             }

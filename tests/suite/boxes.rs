@@ -14,7 +14,7 @@ fn job(pair: &PosedPair3, margin: f32, hint: Hint, sensor: bool) -> Job3<'_> {
 }
 
 fn hint_of(answer: &Answer) -> Hint {
-    let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
+    let (Answer::Apart { hint, .. } | Answer::Contact { hint, .. }) = answer;
     *hint
 }
 

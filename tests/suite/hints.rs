@@ -29,7 +29,7 @@ struct Fact {
 impl Fact {
     fn of<M>(answer: &Answer, manifolds: &[M], read: impl Fn(&M) -> (f64, f64, f64)) -> Self {
         match answer {
-            Answer::Apart { hint } => {
+            Answer::Apart { hint, .. } => {
                 Self { hint: *hint, contact: None, measured: None, deepest: f64::INFINITY }
             }
             Answer::Contact { hint, overlapping, manifolds: range } => {

@@ -219,7 +219,7 @@ fn units_of_length() {
 
 fn hint_of(answer: &Answer) -> Hint {
     match answer {
-        Answer::Apart { hint } | Answer::Contact { hint, .. } => *hint,
+        Answer::Apart { hint, .. } | Answer::Contact { hint, .. } => *hint,
     }
 }
 

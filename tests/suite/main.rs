@@ -41,6 +41,8 @@
 //! - [`chains`]: polylines to stand on: exact, without ghost collisions, at any angle; in casts, worlds and snapshots, too
 //! - [`ground_contacts`]: bodies slide over triangles without noticing; edges and corners give normals of their Voronoi
 //!   regions alone; yes or no, points and depths against a loop over all triangles
+//! - [`persistent`]: manifolds that are moved along are true at the new poses within their error, or refused
+//! - [`creeping`]: worlds whose bodies creep say in every frame what a new world says
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
@@ -83,6 +85,7 @@ mod casts;
 mod casts_plane;
 mod chains;
 mod characters;
+mod creeping;
 mod debug_lines;
 mod exactness;
 mod fuzzed;
@@ -100,6 +103,7 @@ mod mass;
 mod motions;
 mod oracles;
 mod peer;
+mod persistent;
 mod plane;
 mod polygons;
 mod questions;

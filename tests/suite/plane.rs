@@ -220,7 +220,7 @@ fn ask(pair: &PosedPair2, hint: Hint, margin: f32) -> (Option<bool>, Hint, Vec<M
     let mut batch = Batch2::default();
     collide2(&[job], &mut batch);
     let (overlapping, hint) = match batch.answers[0] {
-        Answer::Apart { hint } => (None, hint),
+        Answer::Apart { hint, .. } => (None, hint),
         Answer::Contact { overlapping, hint, .. } => (Some(overlapping), hint),
     };
     (overlapping, hint, batch.manifolds)

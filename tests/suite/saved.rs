@@ -171,7 +171,7 @@ fn hints_and_manifolds_come_back_and_hints_made_up_do_no_harm() {
 
 fn hint_of(answer: &asunder_narrow::Answer) -> Hint {
     match answer {
-        asunder_narrow::Answer::Apart { hint } | asunder_narrow::Answer::Contact { hint, .. } => *hint,
+        asunder_narrow::Answer::Apart { hint, .. } | asunder_narrow::Answer::Contact { hint, .. } => *hint,
     }
 }
 

@@ -69,7 +69,7 @@ fn measure(pairs: &[Posed], rounds: usize, random: &mut Random) -> [f64; 2] {
                 }
             }
             for (kept, answer) in hints.iter_mut().zip(&batch.answers) {
-                let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
+                let (Answer::Apart { hint, .. } | Answer::Contact { hint, .. }) = answer;
                 *kept = *hint;
             }
         }

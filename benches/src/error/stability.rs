@@ -124,7 +124,7 @@ const POINTS: [(&str, Points); 3] = [
                 &[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }],
                 &mut batch,
             );
-            let (Answer::Apart { hint: next } | Answer::Contact { hint: next, .. }) =
+            let (Answer::Apart { hint: next, .. } | Answer::Contact { hint: next, .. }) =
                 batch.answers.first()?;
             hint = *next;
         }

@@ -110,7 +110,8 @@ pub(super) fn of_answer(answer: &Answer, is_sensor: bool, manifolds: &[Manifold3
     }
 }
 
-fn of_manifolds(manifolds: &[Manifold3]) -> Said {
+/// What manifolds say, to be judged.
+pub(super) fn of_manifolds(manifolds: &[Manifold3]) -> Said {
     of_points(manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.separation))
 }
 

@@ -1,12 +1,13 @@
 //! Frame after frame, each with what the last one left.
 
 use super::BLOCK;
-use super::both::{Both, Manifolds, of_answer, of_peer};
+use super::both::{Both, Manifolds, of_answer, of_manifolds, of_peer};
 use crate::accuracy::Said;
 use crate::clock::{Effort, time};
 use crate::race::Race;
 use crate::row::Row;
-use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
+use asunder_geometry::{Pose3, Shape3};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Persistent3, collide3};
 use core::borrow::Borrow;
 
 /// Frames that a pair at rest is asked about with what the last one left; the first is not timed.
@@ -53,37 +54,90 @@ pub(super) fn said(frames: &[Vec<&Both>]) -> (Vec<Said>, Vec<Said>) {
         memory.ask_ours(block);
         memory.ask_peer(block);
         if step + frames.len() >= steps(frames.len()) {
-            let batch = &memory.batch;
-            ours.extend(batch.answers.iter().map(|answer| of_answer(answer, false, &batch.manifolds)));
+            ours.extend(memory.said());
             peer.extend(memory.manifolds.iter().map(of_peer));
         }
     }
     (ours, peer)
 }
 
-/// What either side remembers of a block of pairs.
+/// What either side remembers of a block of pairs. On our side that is what a world remembers: hints, manifolds that can
+/// be moved along, and where bodies were, which tells whether keeping one is of use.
 struct Memory {
-    hints: Vec<Hint>,
+    kept: Vec<Kept>,
     batch: Batch3,
+    /// Manifolds that were moved along.
+    moved: Vec<Manifold3>,
     manifolds: Vec<Manifolds>,
+}
+
+/// What we remember of a pair.
+#[derive(Clone, Default)]
+struct Kept {
+    hint: Hint,
+    persistent: Option<Persistent3>,
+    poses: Option<[Pose3; 2]>,
+    found: Found,
+}
+
+/// Where the answer of a pair is.
+#[derive(Clone, Copy, Default)]
+enum Found {
+    #[default]
+    Nowhere,
+    Moved(usize),
+    Answered(usize),
 }
 
 impl Memory {
     fn new(count: usize) -> Self {
         let manifolds = (0..count).map(|_| Vec::new()).collect();
-        Self { hints: vec![Hint::NONE; count], batch: Batch3::default(), manifolds }
+        Self { kept: vec![Kept::default(); count], batch: Batch3::default(), moved: Vec::new(), manifolds }
     }
 
     fn ask_ours<B: Borrow<Both>>(&mut self, block: &[B]) -> f32 {
-        let jobs: Vec<Job3<'_>> =
-            block.iter().zip(&self.hints).map(|(both, &hint)| both.borrow().job(hint, false)).collect();
-        self.batch.clear();
-        collide3(&jobs, &mut self.batch);
-        for (kept, answer) in self.hints.iter_mut().zip(&self.batch.answers) {
-            let (Answer::Apart { hint } | Answer::Contact { hint, .. }) = answer;
-            *kept = *hint;
+        let Self { kept, batch, moved, .. } = self;
+        batch.clear();
+        moved.clear();
+        let mut jobs: Vec<Job3<'_>> = Vec::with_capacity(block.len());
+        for (both, kept) in block.iter().zip(&mut *kept) {
+            let job = both.borrow().job(kept.hint, false);
+            let persistent = kept.persistent.as_ref();
+            if persistent.is_some_and(|persistent| persistent.carry_on([job.pose_a, job.pose_b], moved)) {
+                kept.found = Found::Moved(moved.len() - 1);
+            } else {
+                kept.found = Found::Answered(jobs.len());
+                jobs.push(job);
+            }
         }
-        self.batch.manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.separation).sum()
+        collide3(&jobs, batch);
+        for kept in kept {
+            let Found::Answered(index) = kept.found else { continue };
+            let (job, answer) = (&jobs[index], &batch.answers[index]);
+            let (Answer::Apart { hint, .. } | Answer::Contact { hint, .. }) = answer;
+            kept.hint = *hint;
+            let shapes = [job.shape_a, job.shape_b];
+            let poses = [*job.pose_a, *job.pose_b];
+            let went = |last: &[Pose3; 2]| -> f64 {
+                let arm = |shape: &Shape3| f64::from(shape.center().length() + shape.outer_radius());
+                (0..2).map(|i| last[i].travel(&poses[i], arm(shapes[i]))).sum()
+            };
+            let step = kept.poses.as_ref().map_or(f64::INFINITY, went);
+            let is_slow = step <= f64::from(Persistent3::reach(job));
+            kept.persistent = if is_slow { Persistent3::of(job, answer, &batch.manifolds) } else { None };
+            kept.poses = Some(poses);
+        }
+        let found = batch.manifolds.iter().chain(&*moved);
+        found.flat_map(|manifold| &manifold.points).map(|point| point.separation).sum()
+    }
+
+    /// What we said last, pair by pair.
+    fn said(&self) -> impl Iterator<Item = Said> + '_ {
+        self.kept.iter().map(|kept| match kept.found {
+            Found::Nowhere => Said { touching: false, separation: None },
+            Found::Moved(index) => of_manifolds(&self.moved[index..=index]),
+            Found::Answered(index) => of_answer(&self.batch.answers[index], false, &self.batch.manifolds),
+        })
     }
 
     fn ask_peer<B: Borrow<Both>>(&mut self, block: &[B]) -> f32 {

@@ -1,6 +1,7 @@
 //! Bodies come, go and change; what hangs on it is noted for the next update.
 
 use crate::collider::{Collider, Tag};
+use crate::odometer::Odometer;
 use crate::space::Space;
 use crate::world::{StaleKey, World, slot_of};
 use asunder_geometry::Bounds;
@@ -13,7 +14,7 @@ impl<S: Space> World<S> {
         for slot in 0..self.keys.len() {
             if !core::mem::replace(&mut self.keys[slot], S::Key::null()).is_null() {
                 self.motions.forget(slot as u32);
-                self.mark_dirty(slot as u32);
+                self.mark_changed(slot as u32);
             }
         }
     }
@@ -29,10 +30,11 @@ impl<S: Space> World<S> {
             self.tags.resize(index + 1, Tag::default());
             self.is_dirty.resize(index + 1, false);
             self.is_moved.resize(index + 1, false);
+            self.odometers.resize(index + 1, Odometer::CHANGED);
         }
         self.keys[index] = key;
         self.tags[index] = tag;
-        self.mark_dirty(slot);
+        self.mark_changed(slot);
         key
     }
 
@@ -40,7 +42,7 @@ impl<S: Space> World<S> {
         let collider = self.bodies.remove(key)?;
         self.keys[slot_of(key) as usize] = S::Key::null();
         self.motions.forget(slot_of(key));
-        self.mark_dirty(slot_of(key));
+        self.mark_changed(slot_of(key));
         Some(collider)
     }
 
@@ -48,6 +50,7 @@ impl<S: Space> World<S> {
     pub(crate) fn move_body(&mut self, key: S::Key, pose: S::Pose) -> Result<(), StaleKey> {
         let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
         if !S::same_bits(&body.pose, &pose) {
+            self.odometers[slot_of(key) as usize].go(S::travel(&body.shape, &body.pose, &pose));
             body.pose = pose;
             body.asleep = false;
             self.mark_dirty(slot_of(key));
@@ -75,7 +78,7 @@ impl<S: Space> World<S> {
         body.shape = shape;
         self.tags[slot_of(key) as usize] = Tag::of(body);
         self.note_reshaped(slot_of(key));
-        self.mark_dirty(slot_of(key));
+        self.mark_changed(slot_of(key));
         Ok(())
     }
 
@@ -92,7 +95,7 @@ impl<S: Space> World<S> {
         if is_reshaped {
             self.note_reshaped(slot_of(key));
         }
-        self.mark_dirty(slot_of(key));
+        self.mark_changed(slot_of(key));
         Ok(before)
     }
 
@@ -115,7 +118,7 @@ impl<S: Space> World<S> {
         let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
         change(body);
         self.tags[slot_of(key) as usize] = Tag::of(body);
-        self.mark_dirty(slot_of(key));
+        self.mark_changed(slot_of(key));
         Ok(())
     }
 
@@ -125,7 +128,13 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    pub(crate) fn mark_dirty(&mut self, slot: u32) {
+    /// A body changed, and not by moving alone: all its pairs are asked about.
+    pub(crate) fn mark_changed(&mut self, slot: u32) {
+        self.odometers[slot as usize] = Odometer::CHANGED;
+        self.mark_dirty(slot);
+    }
+
+    fn mark_dirty(&mut self, slot: u32) {
         self.questions.told(slot);
         if !core::mem::replace(&mut self.is_dirty[slot as usize], true) {
             self.dirty.push(slot);

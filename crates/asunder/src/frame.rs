@@ -6,8 +6,9 @@
 //! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between
 //!    updates.
 //! 3. **collide**: an answer is a function of one job; batches are cut by count, never by thread, and are put together
-//!    in order. A hint can save work, and choose among features that are equally good up to rounding. Where neither
-//!    body moved, the answer is last update's.
+//!    in order. A hint can save work, and choose among features that are equally good up to rounding. Where the bodies
+//!    hardly drifted since their manifold was made, it is moved along, within its error. Where neither body moved, or
+//!    they were apart by more than they went since, the answer is last update's.
 //! 4. **merge**: two lists sorted by pair, walked side by side.
 //! 5. **report**: events in pair order.
 //!
@@ -16,6 +17,7 @@
 //!
 //! No stage walks a hash map, calls std's trigonometry or fuses a multiplication with an addition.
 
+mod ask;
 mod collide;
 mod impacts;
 mod merge;
@@ -23,6 +25,7 @@ mod refit;
 mod report;
 mod sweep;
 
+pub(crate) use ask::{Asked, Asking, manifolds_at};
 pub(crate) use impacts::Found;
 
 use crate::clock::Moment;
@@ -37,7 +40,8 @@ impl<S: Space> World<S> {
     ///
     /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where
     /// few bodies move, else in all bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow
-    /// phase of every candidate of which one body moved.
+    /// phase of every candidate of which one body moved, but for those that were apart by more than they went since.
+    /// Contacts of bodies that only tremble, by less than 2^-17 of the smaller, cost a fraction of new ones.
     pub fn update(&mut self) {
         self.update_with(&Hooks::new());
     }

@@ -6,6 +6,7 @@
 
 use crate::collider::Collider;
 use crate::contact::Record;
+use crate::frame::manifolds_at;
 use crate::space::{Plane, Space, Volume};
 use crate::world::World;
 use asunder_broad::PairId;
@@ -180,12 +181,12 @@ pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>
         world.edited = None;
         return;
     };
-    let World { bodies, records, manifolds, edited, scratch, .. } = world;
+    let World { bodies, records, askings, carried, edited, scratch, .. } = world;
     let edited = edited.get_or_insert_with(|| Edited { manifolds: Vec::new(), ends: Vec::new() });
     edited.manifolds.clear();
     edited.ends.clear();
-    for Record { keys, manifolds: range, overlapping, is_new, .. } in &*records {
-        let found = &manifolds[range.start as usize..range.end as usize];
+    for Record { keys, manifolds: place, overlapping, is_new, .. } in &*records {
+        let found = manifolds_at(place, askings, carried);
         if let (false, Some(a), Some(b)) = (found.is_empty(), bodies.get(keys.0), bodies.get(keys.1)) {
             scratch.editing.clear();
             scratch.editing.extend_from_slice(found);

@@ -67,7 +67,9 @@ mod event;
 mod frame;
 mod hooks;
 mod motion;
+mod odometer;
 mod query;
+mod slab;
 #[cfg(feature = "serde")]
 mod snapshot;
 mod space;

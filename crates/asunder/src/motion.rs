@@ -95,7 +95,7 @@ impl<S: Space> World<S> {
     pub(crate) fn set_motion_of(&mut self, key: S::Key, motion: S::Motion) -> Result<(), StaleKey> {
         self.bodies.get_mut(key).ok_or(StaleKey)?.asleep = false;
         self.motions.set(slot_of(key), motion);
-        self.mark_dirty(slot_of(key));
+        self.mark_changed(slot_of(key));
         Ok(())
     }
 
@@ -103,7 +103,7 @@ impl<S: Space> World<S> {
     pub(crate) fn forget_motions(&mut self) {
         while let Some(slot) = self.motions.slots.pop() {
             self.motions.forget(slot);
-            self.mark_dirty(slot);
+            self.mark_changed(slot);
         }
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! kept         bodies with their slots, versions and the order in which empty slots are filled again; shared shapes, once each
-//!              which bodies moved or changed since the last update; motions; candidates with hints; contacts; events;
-//!              impacts; counts
+//!              which bodies moved or changed since the last update, and how far they went; motions; candidates with hints,
+//!              and what is moved along or stays apart; contacts; events; impacts; counts
 //! worked out   boxes, filters, the contacts of each body: functions of the bodies and contacts
 //! dropped      the memory of the broad phase, whose list depends on the boxes alone, and of the questions; scratch; times
 //! ```

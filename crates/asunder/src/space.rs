@@ -3,8 +3,8 @@
 use crate::collider::Collider;
 use asunder_geometry::{Aabb2, Aabb3, Bounds, Motion2, Motion3, Pose2, Pose3, Shape2, Shape3};
 use asunder_narrow::{
-    Batch, Batch2, Batch3, Hint, Impact2, Impact3, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3, collide2,
-    collide3,
+    Answer, Batch, Batch2, Batch3, Hint, Impact2, Impact3, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3,
+    Persistent2, Persistent3, collide2, collide3,
 };
 use core::fmt::Debug;
 
@@ -42,6 +42,9 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     type Aabb: Bounds;
     /// How two convex parts touch.
     type Manifold: Clone + PartialEq + Debug + Send + Sync;
+    /// A manifold that is moved along while its bodies hardly drift.
+    #[doc(hidden)]
+    type Persistent: Clone + PartialEq + Debug + Send + Sync;
     /// How a body moves within a frame.
     type Motion: Copy + PartialEq + Debug + Send + Sync;
     /// When two bodies first touch.
@@ -74,6 +77,10 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     #[doc(hidden)]
     fn turn_speed(motion: &Self::Motion, from: &Self::Pose) -> f64;
 
+    /// How far the points of a shape go at most from one pose to another, in metres.
+    #[doc(hidden)]
+    fn travel(shape: &Self::Shape, from: &Self::Pose, to: &Self::Pose) -> f64;
+
     /// How far two motions move two positions against each other, in metres.
     #[doc(hidden)]
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
@@ -100,6 +107,29 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     /// Appends the answers to a slice of jobs.
     #[doc(hidden)]
     fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
+
+    /// What can be kept of an answer to bodies that went so far in the last frame, in metres.
+    #[doc(hidden)]
+    fn persistent(
+        job: &Self::Job<'_>,
+        answer: &Answer,
+        manifolds: &[Self::Manifold],
+        step: f64,
+    ) -> Option<Self::Persistent>;
+
+    /// Appends what was kept, moved along, unless it has to be made anew: bodies drifted, margins changed, or one has
+    /// become a sensor.
+    #[doc(hidden)]
+    fn carry_on(
+        persistent: &Self::Persistent,
+        bodies: [&Collider<Self>; 2],
+        margin: f32,
+        to: &mut Vec<Self::Manifold>,
+    ) -> bool;
+
+    /// Whether the bodies of what is kept overlap.
+    #[doc(hidden)]
+    fn overlapping(persistent: &Self::Persistent) -> bool;
 }
 
 impl Space for Plane {
@@ -108,6 +138,7 @@ impl Space for Plane {
     type Shape = Shape2;
     type Aabb = Aabb2;
     type Manifold = Manifold2;
+    type Persistent = Persistent2;
     type Motion = Motion2;
     type Impact = Impact2;
     type Job<'a> = Job2<'a>;
@@ -134,6 +165,10 @@ impl Space for Plane {
 
     fn turn_speed(motion: &Motion2, from: &Pose2) -> f64 {
         motion.turn_speed(from)
+    }
+
+    fn travel(shape: &Shape2, from: &Pose2, to: &Pose2) -> f64 {
+        from.travel(to, Self::arm(shape))
     }
 
     fn drift(motions: [Option<Motion2>; 2]) -> f64 {
@@ -170,6 +205,30 @@ impl Space for Plane {
     fn collide(jobs: &[Job2<'_>], batch: &mut Batch2) {
         collide2(jobs, batch);
     }
+
+    fn persistent(
+        job: &Job2<'_>,
+        answer: &Answer,
+        manifolds: &[Manifold2],
+        step: f64,
+    ) -> Option<Persistent2> {
+        let is_slow = step <= f64::from(Persistent2::reach(job));
+        if is_slow { Persistent2::of(job, answer, manifolds) } else { None }
+    }
+
+    fn carry_on(
+        persistent: &Persistent2,
+        [a, b]: [&Collider<Self>; 2],
+        margin: f32,
+        to: &mut Vec<Manifold2>,
+    ) -> bool {
+        let is_same = persistent.margin().to_bits() == margin.to_bits() && !a.sensor && !b.sensor;
+        is_same && persistent.carry_on([&a.pose, &b.pose], to)
+    }
+
+    fn overlapping(persistent: &Persistent2) -> bool {
+        persistent.overlapping()
+    }
 }
 
 impl Space for Volume {
@@ -178,6 +237,7 @@ impl Space for Volume {
     type Shape = Shape3;
     type Aabb = Aabb3;
     type Manifold = Manifold3;
+    type Persistent = Persistent3;
     type Motion = Motion3;
     type Impact = Impact3;
     type Job<'a> = Job3<'a>;
@@ -204,6 +264,10 @@ impl Space for Volume {
 
     fn turn_speed(motion: &Motion3, from: &Pose3) -> f64 {
         motion.turn_speed(from)
+    }
+
+    fn travel(shape: &Shape3, from: &Pose3, to: &Pose3) -> f64 {
+        from.travel(to, Self::arm(shape))
     }
 
     fn drift(motions: [Option<Motion3>; 2]) -> f64 {
@@ -239,5 +303,29 @@ impl Space for Volume {
 
     fn collide(jobs: &[Job3<'_>], batch: &mut Batch3) {
         collide3(jobs, batch);
+    }
+
+    fn persistent(
+        job: &Job3<'_>,
+        answer: &Answer,
+        manifolds: &[Manifold3],
+        step: f64,
+    ) -> Option<Persistent3> {
+        let is_slow = step <= f64::from(Persistent3::reach(job));
+        if is_slow { Persistent3::of(job, answer, manifolds) } else { None }
+    }
+
+    fn carry_on(
+        persistent: &Persistent3,
+        [a, b]: [&Collider<Self>; 2],
+        margin: f32,
+        to: &mut Vec<Manifold3>,
+    ) -> bool {
+        let is_same = persistent.margin().to_bits() == margin.to_bits() && !a.sensor && !b.sensor;
+        is_same && persistent.carry_on([&a.pose, &b.pose], to)
+    }
+
+    fn overlapping(persistent: &Persistent3) -> bool {
+        persistent.overlapping()
     }
 }

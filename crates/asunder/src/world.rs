@@ -3,14 +3,15 @@
 use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
-use crate::frame::Found;
+use crate::frame::{Asked, Asking, Found, manifolds_at};
 use crate::hooks::Edited;
 use crate::motion::{Hit, Motions};
+use crate::odometer::Odometer;
 use crate::query::Boxes;
+use crate::slab::Slab;
 use crate::space::Space;
 use crate::stats::Stats;
 use asunder_broad::{CoherentSweep, PairId};
-use asunder_narrow::{Batch, Hint};
 use slotmap::{Key, SlotMap};
 
 /// A key whose body is gone.
@@ -62,6 +63,8 @@ pub struct World<S: Space> {
     pub(crate) is_moved: Vec<bool>,
     /// Slots whose body got another shape since then: what was learnt with the one before does not count.
     pub(crate) reshaped: Vec<u32>,
+    /// How far the body in each slot went.
+    pub(crate) odometers: Vec<Odometer>,
     /// What bodies are about to do, until the next update.
     pub(crate) motions: Motions<S>,
     pub(crate) max_pairs: usize,
@@ -70,7 +73,12 @@ pub struct World<S: Space> {
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,
     pub(crate) records: Vec<Record<S::Key>>,
-    pub(crate) manifolds: Vec<S::Manifold>,
+    /// What came of the pairs that were asked about, with their manifolds; and the manifolds of those carried on.
+    pub(crate) askings: Vec<Asking<S>>,
+    pub(crate) carried: Vec<S::Manifold>,
+    /// Manifolds that can be moved along while their bodies hardly drift, as they were made: one a candidate at most,
+    /// each in a place that it keeps.
+    pub(crate) persistent: Slab<S::Persistent>,
     /// What a contact hook made of them at the last update; nothing without one.
     pub(crate) edited: Option<Edited<S>>,
     pub(crate) events: Vec<Event<S::Key>>,
@@ -88,13 +96,13 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) pairs: Vec<PairId>,
     /// For each pair, the candidate of last update that it carries on as it is, or [`ASKED`].
     pub(crate) carried: Vec<u32>,
-    /// The other pairs, with the hint of last update.
-    pub(crate) asked: Vec<(PairId, Hint)>,
+    /// The other pairs, with what last update left.
+    pub(crate) asked: Vec<Asked>,
     pub(crate) refitted: Vec<S::Aabb>,
-    pub(crate) batches: Vec<Batch<S::Manifold>>,
     pub(crate) last_candidates: Vec<Candidate<S::Key>>,
     pub(crate) last_records: Vec<Record<S::Key>>,
-    pub(crate) last_manifolds: Vec<S::Manifold>,
+    pub(crate) last_askings: Vec<Asking<S>>,
+    pub(crate) last_carried: Vec<S::Manifold>,
     pub(crate) ended: Vec<Record<S::Key>>,
     /// The manifolds that a contact hook is editing.
     pub(crate) editing: Vec<S::Manifold>,
@@ -129,12 +137,15 @@ impl<S: Space> World<S> {
             moved: Vec::new(),
             is_moved: Vec::new(),
             reshaped: Vec::new(),
+            odometers: Vec::new(),
             motions: Motions::NONE,
             max_pairs: 1 << 24,
             questions: Boxes::default(),
             candidates: Vec::new(),
             records: Vec::new(),
-            manifolds: Vec::new(),
+            askings: Vec::new(),
+            carried: Vec::new(),
+            persistent: Slab::new(),
             edited: None,
             events: Vec::new(),
             impacts: Vec::new(),
@@ -146,10 +157,10 @@ impl<S: Space> World<S> {
                 carried: Vec::new(),
                 asked: Vec::new(),
                 refitted: Vec::new(),
-                batches: Vec::new(),
                 last_candidates: Vec::new(),
                 last_records: Vec::new(),
-                last_manifolds: Vec::new(),
+                last_askings: Vec::new(),
+                last_carried: Vec::new(),
                 ended: Vec::new(),
                 editing: Vec::new(),
                 of_bullets: Vec::new(),
@@ -208,7 +219,7 @@ impl<S: Space> World<S> {
         let Record { keys: (a, b), sensor, overlapping, is_new, speculative, .. } = *record;
         let manifolds = match &self.edited {
             Some(edited) => edited.of(index),
-            None => &self.manifolds[record.manifolds.start as usize..record.manifolds.end as usize],
+            None => manifolds_at(&record.manifolds, &self.askings, &self.carried),
         };
         Contact { a, b, sensor, overlapping, is_new, speculative, manifolds }
     }

@@ -224,7 +224,42 @@ impl Pose2 {
     #[inline]
     pub fn same_bits(&self, other: &Self) -> bool {
         self.position.to_array().map(f64::to_bits) == other.position.to_array().map(f64::to_bits)
-            && self.rotation.cos.to_bits() == other.rotation.cos.to_bits()
+            && self.same_rotation(other)
+    }
+
+    /// How far the points within `arm` metres of the position go at most, on the way to another pose by the shortest
+    /// turn: no less than the distance between where any of them starts and ends. Rounded up.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rotation2};
+    /// let half = Pose2::new([3.0, 0.0], Rotation2::new(-1.0, 0.0)?)?;
+    /// let travel = Pose2::IDENTITY.travel(&half, 2.0);
+    /// assert!((7.0..7.0001).contains(&travel), "three, and across a circle of two");
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn travel(&self, to: &Self, arm: f64) -> f64 {
+        let straight = (to.position - self.position).length();
+        let step = DVec2::new(
+            f64::from(to.rotation.cos) - f64::from(self.rotation.cos),
+            f64::from(to.rotation.sin) - f64::from(self.rotation.sin),
+        );
+        let turned = if self.same_rotation(to) { 0.0 } else { step.length() * arm };
+        (straight + turned) * (1.0 + 64.0 * f64::EPSILON)
+    }
+
+    /// Whether every stored bit of the rotation is equal.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rotation2};
+    /// let turned = Pose2::new([1.0, 2.0], Rotation2::new(0.6, 0.8)?)?;
+    /// let moved = turned.shifted([1.0, 0.0])?;
+    /// assert!(turned.same_rotation(&moved) && !turned.same_bits(&moved));
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn same_rotation(&self, other: &Self) -> bool {
+        self.rotation.cos.to_bits() == other.rotation.cos.to_bits()
             && self.rotation.sin.to_bits() == other.rotation.sin.to_bits()
     }
 }

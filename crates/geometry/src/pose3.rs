@@ -214,7 +214,40 @@ impl Pose3 {
     #[inline]
     pub fn same_bits(&self, other: &Self) -> bool {
         self.position.to_array().map(f64::to_bits) == other.position.to_array().map(f64::to_bits)
-            && self.rotation.map(f32::to_bits) == other.rotation.map(f32::to_bits)
+            && self.same_rotation(other)
+    }
+
+    /// How far the points within `arm` metres of the position go at most, on the way to another pose by the shortest
+    /// turn: no less than the distance between where any of them starts and ends. Rounded up.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, glam::Quat};
+    /// let half = Pose3::new([3.0, 0.0, 0.0], Quat::from_xyzw(0.0, 0.0, 1.0, 0.0))?;
+    /// let travel = Pose3::IDENTITY.travel(&half, 2.0);
+    /// assert!((7.0..7.0001).contains(&travel), "three, and across a circle of two");
+    /// assert_eq!(half.travel(&half, f64::INFINITY), 0.0);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn travel(&self, to: &Self, arm: f64) -> f64 {
+        let straight = (to.position - self.position).length();
+        let turned =
+            if self.same_rotation(to) { 0.0 } else { to.basis_from(self).spin_from(&Basis3::UNIT) * arm };
+        (straight + turned) * (1.0 + 64.0 * f64::EPSILON)
+    }
+
+    /// Whether every stored bit of the rotation is equal.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, glam::Quat};
+    /// let turned = Pose3::new([1.0, 2.0, 3.0], Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))?;
+    /// let moved = turned.shifted([1.0, 0.0, 0.0])?;
+    /// assert!(turned.same_rotation(&moved) && !turned.same_bits(&moved));
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn same_rotation(&self, other: &Self) -> bool {
+        self.rotation.map(f32::to_bits) == other.rotation.map(f32::to_bits)
     }
 }
 
@@ -283,6 +316,25 @@ impl Basis3 {
             y: DVec3::new(xy - zw, 1.0 - (xx + zz), yz + xw),
             z: DVec3::new(xz + yw, yz - xw, 1.0 - (xx + yy)),
         }
+    }
+
+    /// No rotation.
+    pub const UNIT: Self = Self { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
+
+    /// How far the tips of unit vectors went from another rotation to this one, at most: of rotation matrices, the
+    /// Frobenius norm of the difference over the root of two. Right to some units of 2^-53.
+    ///
+    /// ```
+    /// use asunder_geometry::Basis3;
+    /// let half = Basis3::of_quaternion([0.0, 1.0, 0.0, 0.0]);
+    /// assert_eq!(half.spin_from(&Basis3::UNIT), 2.0);
+    /// ```
+    #[inline]
+    pub fn spin_from(&self, other: &Self) -> f64 {
+        let squared = (self.x - other.x).length_squared()
+            + (self.y - other.y).length_squared()
+            + (self.z - other.z).length_squared();
+        (squared * 0.5).sqrt()
     }
 
     /// A local vector turned into the outer frame.

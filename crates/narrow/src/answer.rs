@@ -12,6 +12,9 @@ pub enum Answer {
     Apart {
         /// For the next frame: the axis that separates them.
         hint: Hint,
+        /// By how much more than the margin they are apart at least, in metres; zero where that is not known. Until
+        /// points of theirs have moved that far against each other, they stay apart.
+        beyond: f32,
     },
     /// The shapes are within the margin of each other.
     Contact {

@@ -2,6 +2,7 @@
 
 use crate::answer::{Answer, Manifold2, Manifold3};
 use crate::feature::Hint;
+use crate::precision::rounded_down;
 
 /// Answers to a batch of jobs, and the manifolds they refer to. Keep one between frames: it is scratch memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +19,15 @@ pub type Batch2 = Batch<Manifold2>;
 /// Answers in space.
 pub type Batch3 = Batch<Manifold3>;
 
+/// Whether two shapes overlap, if they are within the margin; else by how many metres they are beyond it at least.
+pub(crate) type Met = Result<bool, f32>;
+
+/// By how much what is at least so far apart is further than the reach of a contact, in metres.
+#[inline]
+pub(crate) fn beyond(at_least: f64, reach: f64) -> f32 {
+    rounded_down(at_least - reach).max(0.0)
+}
+
 impl<M> Default for Batch<M> {
     fn default() -> Self {
         Self { answers: Vec::new(), manifolds: Vec::new() }
@@ -31,11 +41,11 @@ impl<M> Batch<M> {
         self.manifolds.clear();
     }
 
-    /// Appends an answer: whether the shapes overlap, if they are within the margin, and the manifolds from `first` on.
-    pub(crate) fn push(&mut self, hint: Hint, overlapping: Option<bool>, first: u32) {
-        self.answers.push(match overlapping {
-            None => Answer::Apart { hint },
-            Some(overlapping) => {
+    /// Appends an answer: how the shapes met, and the manifolds from `first` on.
+    pub(crate) fn push(&mut self, hint: Hint, met: Met, first: u32) {
+        self.answers.push(match met {
+            Err(beyond) => Answer::Apart { hint, beyond },
+            Ok(overlapping) => {
                 Answer::Contact { hint, overlapping, manifolds: first..self.manifolds.len() as u32 }
             }
         });

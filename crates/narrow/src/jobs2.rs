@@ -45,15 +45,15 @@ pub fn collide2(jobs: &[Job2<'_>], batch: &mut Batch2) {
         let pair = Pair2::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
         let first = batch.manifolds.len() as u32;
         let manifolds = &mut batch.manifolds;
-        let (hint, overlapping) = if pair.has_ground() {
+        let (hint, met) = if pair.has_ground() {
             let overlapping = pair.contact_on_ground(job.margin, manifolds);
             if job.sensor {
                 manifolds.truncate(first as usize);
             }
-            (Hint::NONE, overlapping)
+            (Hint::NONE, overlapping.ok_or(0.0))
         } else {
             pair.contact(job.margin, job.hint, !job.sensor, |manifold| manifolds.push(manifold))
         };
-        batch.push(hint, overlapping, first);
+        batch.push(hint, met, first);
     }
 }

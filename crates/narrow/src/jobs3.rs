@@ -66,7 +66,7 @@ pub fn collide3(jobs: &[Job3<'_>], batch: &mut Batch3) {
         for (job, way) in now.iter().zip(&run.ways) {
             match run.lane(*way) {
                 Some(lane) => job.answer_from(lane, batch),
-                None if matches!(way, Way::Far) => batch.push(job.hint, None, 0),
+                None if let Way::Far(beyond) = *way => batch.push(job.hint, Err(beyond), 0),
                 None => job.answer(batch),
             }
         }
@@ -118,8 +118,8 @@ const RUN: usize = 32;
 enum Way {
     /// By itself.
     Alone,
-    /// Its bounding spheres are too far apart.
-    Far,
+    /// Its bounding spheres are too far apart, by so many metres.
+    Far(f32),
     /// In a lane.
     Lane(u8),
 }
@@ -142,7 +142,7 @@ impl Run {
         for ((cuboids, reach), way) in pairs.zip(&mut self.ways) {
             *way = match cuboids {
                 None => Way::Alone,
-                Some(cuboids) if cuboids.are_far(reach) => Way::Far,
+                Some(cuboids) if cuboids.are_far(reach) => Way::Far(cuboids.beyond(reach)),
                 Some(cuboids) => {
                     self.eight.put(self.lanes, &cuboids, reach);
                     self.lanes += 1;
@@ -185,8 +185,8 @@ impl<'a> Job3<'a> {
     fn answer(&self, batch: &mut Batch3) {
         let first = batch.manifolds.len() as u32;
         let wanted = (!self.sensor).then_some(&mut batch.manifolds);
-        let (hint, overlapping) = self.pair().contact(self.margin, self.hint, wanted);
-        batch.push(hint, overlapping, first);
+        let (hint, met) = self.pair().contact(self.margin, self.hint, wanted);
+        batch.push(hint, met, first);
     }
 
     /// Two cuboids, from one of eight lanes.
@@ -194,7 +194,7 @@ impl<'a> Job3<'a> {
     fn answer_from(&self, lane: (&Eight, usize), batch: &mut Batch3) {
         let Some(cuboids) = self.cuboids() else { return self.answer(batch) };
         let (first, reach) = (batch.manifolds.len() as u32, reach_of(self.margin));
-        let contact = match Posed::clear_in(lane, self.hint, self.sensor) {
+        let contact = match cuboids.clear_in(lane, reach, self.hint, self.sensor) {
             Some(contact) => contact,
             None if self.sensor => cuboids.contact_in(lane, reach, self.hint, None),
             None => in_place(&mut batch.manifolds, |manifold| {
@@ -202,13 +202,13 @@ impl<'a> Job3<'a> {
             }),
         };
         match contact {
-            Contact::Apart(hint) => batch.push(hint, None, first),
-            Contact::Touching(hint) => batch.push(hint, Some(true), first),
-            Contact::Near(hint) => batch.push(hint, Some(false), first),
+            Contact::Apart(hint, beyond) => batch.push(hint, Err(beyond), first),
+            Contact::Touching(hint) => batch.push(hint, Ok(true), first),
+            Contact::Near(hint) => batch.push(hint, Ok(false), first),
             Contact::Unclear(hint) => {
                 let mut wanted = (!self.sensor).then_some(&mut batch.manifolds);
-                let (hint, overlapping) = self.pair().general_contact(self.margin, hint, &mut wanted);
-                batch.push(hint, overlapping, first);
+                let (hint, met) = self.pair().general_contact(self.margin, hint, &mut wanted);
+                batch.push(hint, met, first);
             }
         }
     }

@@ -4,6 +4,7 @@ mod compounds;
 mod ground;
 
 use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2, Tier, Verdict};
+use crate::batch::{Met, beyond};
 use crate::exact::Site2;
 use crate::feature::Hint;
 use crate::least::Least;
@@ -204,7 +205,7 @@ impl<'a> Pair2<'a> {
             return Some(manifolds.fold(first, deeper));
         }
         let mut best: Option<Manifold2> = None;
-        self.contact(margin, Hint::NONE, true, |next| {
+        let _ = self.contact(margin, Hint::NONE, true, |next| {
             if best.as_ref().is_none_or(|best| next.separation < best.separation) {
                 best = Some(next);
             }
@@ -234,12 +235,12 @@ impl<'a> Pair2<'a> {
         if self.has_ground() {
             self.contact_on_ground(margin, &mut manifolds);
         } else {
-            self.contact(margin, Hint::NONE, true, |manifold| manifolds.push(manifold));
+            let _ = self.contact(margin, Hint::NONE, true, |manifold| manifolds.push(manifold));
         }
         manifolds
     }
 
-    /// The hint for the next frame, and whether they overlap if they are within the margin. Manifolds go where they
+    /// The hint for the next frame, and how they met. Manifolds go where they
     /// are wanted.
     pub(crate) fn contact(
         &self,
@@ -247,7 +248,7 @@ impl<'a> Pair2<'a> {
         hint: Hint,
         is_wanted: bool,
         mut keep: impl FnMut(Manifold2),
-    ) -> (Hint, Option<bool>) {
+    ) -> (Hint, Met) {
         let margin = margin.max(0.0);
         // What rounds to the margin counts as within it: the number that is told decides.
         let reach = f64::from(margin.next_up());
@@ -256,14 +257,14 @@ impl<'a> Pair2<'a> {
         match self.bodies().answer(&asked) {
             Some(Probe::Near(near)) => {
                 if !is_near(&near) {
-                    return (near.hint, None);
+                    return (near.hint, Err(0.0));
                 }
                 if let Some(touch) = &near.touch {
                     keep(manifold(&near, touch, ([0, 0], [DVec2::ZERO, -self.between])));
                 }
-                return (near.hint, Some(near.verdict.overlapping));
+                return (near.hint, Ok(near.verdict.overlapping));
             }
-            Some(Probe::Beyond(_, hint)) => return (hint, None),
+            Some(Probe::Beyond(at_least, hint)) => return (hint, Err(beyond(at_least.into(), reach))),
             None => {}
         }
         if self.is_compound() {
@@ -388,25 +389,26 @@ fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>)
 }
 
 impl Parts<'_> {
-    /// The hint for the next frame; whether they overlap and how deep, if they are within the margin.
+    /// The hint for the next frame; whether they overlap and how deep, if they are within the margin, else by how much
+    /// they are beyond it.
     fn contact(
         &self,
         asked: &Asked,
         margin: f32,
         keep: &mut impl FnMut(Manifold2),
-    ) -> (Hint, Option<(bool, f32)>) {
+    ) -> (Hint, Result<(bool, f32), f32>) {
         let near = match self.convex.probe(asked) {
-            Probe::Beyond(_, hint) => return (hint, None),
+            Probe::Beyond(at_least, hint) => return (hint, Err(beyond(at_least.into(), asked.limit))),
             Probe::Near(near) => near,
         };
         let overlapping = near.verdict.overlapping;
         if !overlapping && near.separation > margin {
-            return (near.hint, None);
+            return (near.hint, Err(0.0));
         }
         if let Some(touch) = &near.touch {
             keep(manifold(&near, touch, (self.place.indices, self.place.shifts())));
         }
-        (near.hint, Some((overlapping, near.separation)))
+        (near.hint, Ok((overlapping, near.separation)))
     }
 }
 

@@ -6,6 +6,7 @@ mod compounds;
 mod part;
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
+use crate::batch::{Met, beyond};
 use crate::feature::Hint;
 use crate::ground3::{OnGround, contact_on_ground};
 use crate::least::Least;
@@ -219,13 +220,13 @@ impl<'a> Pair3<'a> {
         if let Some(cuboids) = self.cuboids() {
             let mut manifold = Manifold3::BLANK;
             match cuboids.contact(reach_of(margin), Hint::NONE, Some(&mut manifold)) {
-                Contact::Apart(_) => return None,
+                Contact::Apart(..) => return None,
                 Contact::Touching(_) | Contact::Near(_) => return Some(manifold),
                 Contact::Unclear(better) => hint = better,
             }
         }
         let mut deepest = Deepest(None);
-        self.general_contact(margin, hint, &mut deepest);
+        let _ = self.general_contact(margin, hint, &mut deepest);
         deepest.0
     }
 
@@ -247,11 +248,11 @@ impl<'a> Pair3<'a> {
     /// ```
     pub fn manifolds(&self, margin: f32) -> Vec<Manifold3> {
         let mut manifolds = Vec::new();
-        self.contact(margin, Hint::NONE, Some(&mut manifolds));
+        let _ = self.contact(margin, Hint::NONE, Some(&mut manifolds));
         manifolds
     }
 
-    /// The hint for the next frame, and whether they overlap if they are within the margin. Manifolds go where they
+    /// The hint for the next frame, and how they met. Manifolds go where they
     /// are wanted.
     #[inline]
     pub(crate) fn contact(
@@ -259,7 +260,7 @@ impl<'a> Pair3<'a> {
         margin: f32,
         hint: Hint,
         mut manifolds: Option<&mut Vec<Manifold3>>,
-    ) -> (Hint, Option<bool>) {
+    ) -> (Hint, Met) {
         let Some(cuboids) = self.cuboids() else {
             return self.general_contact(margin, hint, &mut manifolds);
         };
@@ -269,28 +270,24 @@ impl<'a> Pair3<'a> {
             Some(manifolds) => in_place(manifolds, |manifold| cuboids.contact(reach, hint, manifold)),
         };
         match contact {
-            Contact::Apart(hint) => (hint, None),
-            Contact::Touching(hint) => (hint, Some(true)),
-            Contact::Near(hint) => (hint, Some(false)),
+            Contact::Apart(hint, beyond) => (hint, Err(beyond)),
+            Contact::Touching(hint) => (hint, Ok(true)),
+            Contact::Near(hint) => (hint, Ok(false)),
             Contact::Unclear(hint) => self.general_contact(margin, hint, &mut manifolds),
         }
     }
 
-    pub(crate) fn general_contact(
-        &self,
-        margin: f32,
-        hint: Hint,
-        manifolds: &mut impl Room,
-    ) -> (Hint, Option<bool>) {
+    pub(crate) fn general_contact(&self, margin: f32, hint: Hint, manifolds: &mut impl Room) -> (Hint, Met) {
         if let Some(found) = self.contact_of_balls(margin, manifolds) {
-            return (Hint::NONE, found);
+            return (Hint::NONE, found.ok_or(0.0));
         }
         if let Some(found) = contact_on_ground(self, margin, manifolds) {
-            return (Hint::NONE, found);
+            return (Hint::NONE, found.ok_or(0.0));
         }
         let (margin, reach) = (margin.max(0.0), reach_of(margin));
-        if self.gap_of_spheres() > reach {
-            return (hint, None);
+        let gap = self.gap_of_spheres();
+        if gap > reach {
+            return (hint, Err(beyond(gap, reach)));
         }
         let wanted = if manifolds.is_wanted() { Wanted::Points } else { Wanted::Number };
         let asked = Asked { limit: reach, hint, wanted };
@@ -421,18 +418,18 @@ pub(crate) fn reach_of(margin: f32) -> f64 {
 }
 
 impl Parts<'_> {
-    /// The hint for the next frame, and how they touch if they are within the margin.
+    /// The hint for the next frame, and how they touch if they are within the margin; else by how much they are beyond it.
     #[inline(always)]
-    fn contact(&self, asked: Asked, margin: f32, manifolds: &mut impl Room) -> (Hint, Option<Found>) {
+    fn contact(&self, asked: Asked, margin: f32, manifolds: &mut impl Room) -> (Hint, Result<Found, f32>) {
         let mut touch = Touch::NONE;
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
         let accept = |near: &Near| asked.wanted == Wanted::Points && is_near(near);
         match self.convex.contact(asked, accept, &mut touch) {
-            (Probe::Beyond(_, hint), _) => (hint, None),
+            (Probe::Beyond(at_least, hint), _) => (hint, Err(beyond(at_least.into(), asked.limit))),
             (Probe::Near(near), has_points) => {
                 let found = Found { overlapping: near.verdict.overlapping, separation: near.separation };
                 let hint = if has_points { self.add_manifold(&near, &touch, manifolds) } else { near.hint };
-                (hint, is_near(&near).then_some(found))
+                (hint, if is_near(&near) { Ok(found) } else { Err(0.0) })
             }
         }
     }

@@ -46,7 +46,7 @@ pub(crate) fn in_place(
 ) -> Contact {
     manifolds.push(Manifold3::BLANK);
     let contact = ask(manifolds.last_mut());
-    if matches!(contact, Contact::Apart(_) | Contact::Unclear(_)) {
+    if matches!(contact, Contact::Apart(..) | Contact::Unclear(_)) {
         manifolds.pop();
     }
     contact

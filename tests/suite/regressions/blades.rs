@@ -18,7 +18,7 @@ fn collide((shape_a, pose_a): Posed, (shape_b, pose_b): Posed, hint: Hint) -> (H
     let mut batch = Batch3::default();
     collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }], &mut batch);
     match batch.answers[0] {
-        Answer::Apart { hint } => (hint, false),
+        Answer::Apart { hint, .. } => (hint, false),
         Answer::Contact { hint, overlapping, .. } => (hint, overlapping),
     }
 }

@@ -2,14 +2,13 @@
 
 use crate::contact::Record;
 use crate::event::Event;
-use crate::hooks::Edited;
 use crate::space::Space;
 use crate::world::World;
 use slotmap::Key;
 
 /// Writes the events in pair order, then the index of records by their second body.
 pub(super) fn report<S: Space>(world: &mut World<S>) {
-    let World { keys, candidates, records, manifolds, edited, events, by_second, stats, scratch, .. } = world;
+    let World { keys, candidates, records, edited, events, by_second, stats, scratch, .. } = world;
     events.clear();
     let mut ended = scratch.ended.iter().peekable();
     for began in records.iter().filter(|record| record.is_new) {
@@ -28,7 +27,10 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
     stats.candidates = candidates.len();
     stats.contacts = records.len();
     stats.touching = records.iter().filter(|record| record.overlapping).count();
-    stats.manifolds = edited.as_ref().map_or(manifolds.len(), Edited::len);
+    stats.manifolds = match edited {
+        Some(edited) => edited.len(),
+        None => records.iter().map(|record| record.manifolds.range.len()).sum(),
+    };
 }
 
 /// The records in order of their second body, then of the first, in which order they come.
@@ -69,6 +71,7 @@ fn end<K: Key>(gone: &Record<K>) -> Event<K> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::Place;
     use crate::space::BodyKey3;
     use asunder_broad::PairId;
 
@@ -78,7 +81,7 @@ mod tests {
             pair: PairId { a, b },
             keys: (BodyKey3::null(), BodyKey3::null()),
             user_data: (0, 0),
-            manifolds: 0..0,
+            manifolds: Place::NOWHERE,
             sensor: false,
             overlapping: true,
             begun: true,

@@ -5,14 +5,17 @@ use super::shapes::{Collected, Saved, ShapeRef, Table};
 use super::slots::{key_of, keys_to_come, version_of};
 use crate::contact::{Candidate, Record};
 use crate::event::Event;
+use crate::frame::manifolds_at;
 use crate::motion::Hit;
+use crate::odometer::Odometer;
+use crate::slab::Slab;
 use crate::stats::Stats;
 use crate::world::{World, slot_of};
 use asunder_narrow::Hint;
 use serde::{Deserialize, Serialize};
 
 /// The number of this format: another one whenever a field comes, goes or changes its meaning.
-pub(super) const FORMAT: u32 = 2;
+pub(super) const FORMAT: u32 = 3;
 
 /// A world, but for what can be worked out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,6 +34,8 @@ pub(super) struct Content<S: Saved> {
     pub(super) reshaped: Vec<u32>,
     /// Slots with a motion for the next update, or that lost one with their body. Ascending.
     pub(super) motions: Vec<(u32, Option<S::Motion>)>,
+    /// How far the body in a slot went, and in this frame: of those that did not change otherwise. Ascending.
+    pub(super) odometers: Vec<(u32, f64, f64)>,
     pub(super) max_pairs: u64,
     pub(super) candidates: Vec<CandidateForm<S>>,
     pub(super) contacts: Vec<ContactForm<S>>,
@@ -54,6 +59,10 @@ pub(super) struct SlotForm<S: Saved> {
 pub(super) struct CandidateForm<S: Saved> {
     pub(super) keys: (S::Key, S::Key),
     pub(super) hint: Hint,
+    /// The manifold that is moved along.
+    pub(super) persistent: Option<S::Persistent>,
+    /// Of bodies that are apart, until when they stay so.
+    pub(super) until: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -97,7 +106,10 @@ impl<S: Saved> Content<S> {
             max_pairs,
             candidates,
             records,
-            manifolds,
+            askings,
+            carried,
+            persistent,
+            odometers,
             edited,
             events,
             by_second: _,
@@ -132,9 +144,13 @@ impl<S: Saved> Content<S> {
             moved: ascending(moved),
             reshaped: ascending(reshaped),
             motions: motions.list(),
+            odometers: (0..).zip(odometers).filter_map(counted).collect(),
             max_pairs: *max_pairs as u64,
-            candidates: candidates.iter().map(CandidateForm::of).collect(),
-            contacts: records.iter().map(|record| ContactForm::of(record, manifolds)).collect(),
+            candidates: candidates.iter().map(|candidate| CandidateForm::of(candidate, persistent)).collect(),
+            contacts: records
+                .iter()
+                .map(|record| ContactForm::of(record, manifolds_at(&record.manifolds, askings, carried)))
+                .collect(),
             edited: edited.as_ref().map(|_| (0..records.len()).map(list).collect()),
             events: events.clone(),
             impacts: impacts.clone(),
@@ -151,6 +167,10 @@ fn ascending(slots: &[u32]) -> Vec<u32> {
     slots
 }
 
+fn counted((slot, odometer): (u32, &Odometer)) -> Option<(u32, f64, f64)> {
+    odometer.saved().map(|(travel, step)| (slot, travel, step))
+}
+
 impl<S: Saved> SlotForm<S> {
     /// The key of the body in this slot, or of the one to come.
     pub(super) fn key(&self, slot: usize) -> S::Key {
@@ -159,17 +179,27 @@ impl<S: Saved> SlotForm<S> {
 }
 
 impl<S: Saved> CandidateForm<S> {
-    fn of(candidate: &Candidate<S::Key>) -> Self {
-        // The pair is that of the keys' slots.
-        let Candidate { pair: _, keys, hint } = candidate;
-        Self { keys: *keys, hint: *hint }
+    fn of(candidate: &Candidate<S::Key>, all: &Slab<S::Persistent>) -> Self {
+        // The pair is that of the keys' slots; which place a persistent manifold has does not matter.
+        let Candidate { pair: _, keys, hint, persistent, until } = candidate;
+        let persistent = all.get(*persistent).cloned();
+        Self { keys: *keys, hint: *hint, persistent, until: Some(*until).filter(|until| until.is_finite()) }
     }
 }
 
 impl<S: Saved> ContactForm<S> {
-    fn of(record: &Record<S::Key>, all: &[S::Manifold]) -> Self {
-        let Record { pair: _, keys, user_data, manifolds, sensor, overlapping, begun, is_new, speculative } =
-            record;
+    fn of(record: &Record<S::Key>, found: &[S::Manifold]) -> Self {
+        let Record {
+            pair: _,
+            keys,
+            user_data,
+            manifolds: _,
+            sensor,
+            overlapping,
+            begun,
+            is_new,
+            speculative,
+        } = record;
         Self {
             keys: *keys,
             user_data: *user_data,
@@ -178,7 +208,7 @@ impl<S: Saved> ContactForm<S> {
             begun: *begun,
             is_new: *is_new,
             speculative: *speculative,
-            manifolds: all[manifolds.start as usize..manifolds.end as usize].to_vec(),
+            manifolds: found.to_vec(),
         }
     }
 }

@@ -63,6 +63,11 @@ pub enum SnapshotError {
         /// The place of its contact in the list.
         index: usize,
     },
+    /// What is kept of a pair has a number that is not finite, or a manifold as of [`Manifold`](Self::Manifold).
+    Candidate {
+        /// Its place in the list.
+        index: usize,
+    },
     /// The numbers are not those that were saved. Either the file was damaged, or the format does not keep every
     /// bit of a float: serde_json does with its feature `float_roundtrip`.
     Checksum {
@@ -88,6 +93,7 @@ impl core::fmt::Display for SnapshotError {
             Self::Order { list, index } => write!(f, "number {index} of the {list} is out of order"),
             Self::Contact { index } => write!(f, "contact {index} contradicts itself or the candidates"),
             Self::Manifold { index } => write!(f, "contact {index} has a manifold that is none"),
+            Self::Candidate { index } => write!(f, "candidate {index} keeps what cannot be kept"),
             Self::Checksum { stored, found } => write!(
                 f,
                 "checksum {found:016x} is not {stored:016x}: the file is damaged, or its format does not keep every bit of a float \

@@ -4,9 +4,10 @@ use super::content::{CandidateForm, ContactForm, SlotForm};
 use super::error::SnapshotError;
 use super::shapes::Saved;
 use super::slots::version_of;
-use crate::contact::{Candidate, Record};
+use crate::contact::{Candidate, Place, Record};
 use crate::event::Event;
 use crate::motion::Hit;
+use crate::slab::NOWHERE;
 use crate::world::slot_of;
 use asunder_broad::PairId;
 
@@ -14,6 +15,10 @@ use asunder_broad::PairId;
 pub(super) struct Judge<'a, S: Saved> {
     pub(super) slots: &'a [SlotForm<S>],
 }
+
+/// Candidates, and the persistent manifolds that they point into.
+type Candidates<S> =
+    (Vec<Candidate<<S as crate::space::Space>::Key>>, Vec<<S as crate::space::Space>::Persistent>);
 
 /// Contacts, and the manifolds that they point into.
 type Records<S> = (Vec<Record<<S as crate::space::Space>::Key>>, Vec<<S as crate::space::Space>::Manifold>);
@@ -65,20 +70,27 @@ impl<S: Saved> Judge<'_, S> {
         }
     }
 
-    pub(super) fn candidates(
-        &self,
-        forms: &[CandidateForm<S>],
-    ) -> Result<Vec<Candidate<S::Key>>, SnapshotError> {
+    /// Candidates, and the persistent manifolds that they point into.
+    pub(super) fn candidates(&self, forms: &[CandidateForm<S>]) -> Result<Candidates<S>, SnapshotError> {
         let list = "candidates";
+        let mut all = Vec::new();
         let mut candidates: Vec<Candidate<S::Key>> = Vec::with_capacity(forms.len());
         for (index, form) in forms.iter().enumerate() {
             let pair = self.pair(list, index, form.keys)?;
             if candidates.last().is_some_and(|last| last.pair >= pair) {
                 return Err(SnapshotError::Order { list, index });
             }
-            candidates.push(Candidate { pair, keys: form.keys, hint: form.hint });
+            if !form.persistent.iter().all(S::is_lasting)
+                || form.until.is_some_and(|until| !until.is_finite())
+            {
+                return Err(SnapshotError::Candidate { index });
+            }
+            let persistent = if form.persistent.is_some() { all.len() as u32 } else { NOWHERE };
+            all.extend(form.persistent.clone());
+            let until = form.until.unwrap_or(f64::NEG_INFINITY);
+            candidates.push(Candidate { pair, keys: form.keys, hint: form.hint, persistent, until });
         }
-        Ok(candidates)
+        Ok((candidates, all))
     }
 
     /// Each contact is that of a candidate: two sorted lists, walked once.
@@ -105,14 +117,14 @@ impl<S: Saved> Judge<'_, S> {
             if !manifolds.iter().all(S::is_sound) {
                 return Err(SnapshotError::Manifold { index });
             }
-            let start = all.len() as u32;
+            let start = all.len();
             all.extend_from_slice(manifolds);
-            let end = u32::try_from(all.len()).map_err(|_| SnapshotError::Contact { index })?;
+            u32::try_from(all.len()).map_err(|_| SnapshotError::Contact { index })?;
             records.push(Record {
                 pair: candidate.pair,
                 keys: *keys,
                 user_data: *user_data,
-                manifolds: start..end,
+                manifolds: Place::carried(start, &all),
                 sensor: *sensor,
                 overlapping: *overlapping,
                 begun: *begun,

@@ -8,7 +8,9 @@ use super::slots::slot_map;
 use crate::collider::{Collider, Tag};
 use crate::hooks::Edited;
 use crate::motion::Motions;
+use crate::odometer::Odometer;
 use crate::query::Boxes;
+use crate::slab::Slab;
 use crate::world::World;
 use asunder_geometry::Bounds;
 use slotmap::Key;
@@ -24,6 +26,7 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
         moved,
         reshaped,
         motions,
+        odometers,
         max_pairs,
         candidates,
         contacts,
@@ -43,8 +46,9 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
     let judge = Judge { slots };
     judge.events(events)?;
     judge.impacts(impacts)?;
-    let candidates = judge.candidates(candidates)?;
-    let (records, manifolds) = judge.records(contacts, &candidates)?;
+    let (candidates, persistent) = judge.candidates(candidates)?;
+    let odometers = revived_odometers(odometers, slots.len())?;
+    let (records, carried) = judge.records(contacts, &candidates)?;
     if let Some(index) = edited.as_ref().map(Vec::len).filter(|&lists| lists != records.len()) {
         return Err(SnapshotError::Contact { index });
     }
@@ -69,7 +73,10 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
         max_pairs: usize::try_from(*max_pairs).unwrap_or(usize::MAX),
         candidates,
         records,
-        manifolds,
+        askings: Vec::new(),
+        carried,
+        persistent: Slab::of(persistent),
+        odometers,
         edited: edited.as_deref().map(Edited::of_lists),
         questions: Boxes::default(),
         events: events.clone(),
@@ -80,10 +87,26 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
     })
 }
 
+/// Of slots that are not named, bodies that changed. Slot 0 is never used.
+fn revived_odometers(list: &[(u32, f64, f64)], slots: usize) -> Result<Vec<Odometer>, SnapshotError> {
+    let mut odometers = vec![Odometer::CHANGED; slots + 1];
+    for &(slot, travel, step) in list {
+        let odometer = odometers.get_mut(slot as usize).zip(Odometer::restored(travel, step));
+        let (odometer, restored) = odometer.ok_or(SnapshotError::Slot { slot: slot as usize })?;
+        *odometer = restored;
+    }
+    Ok(odometers)
+}
+
+/// Above this the version of a slot would soon begin again at 1, and keys of the past would look like keys to come. A slot
+/// gets there when it was filled two thousand million times.
+const MOST_VERSION: u32 = u32::MAX - (1 << 16);
+
 /// Versions are odd, as in keys, and the list of empty slots names each of them once.
 fn check_slots<S: Saved>(slots: &[SlotForm<S>], free: &[u32]) -> Result<(), SnapshotError> {
-    if let Some(even) = slots.iter().position(|slot| slot.version % 2 == 0) {
-        return Err(SnapshotError::Slot { slot: even + 1 });
+    let is_none = |slot: &SlotForm<S>| slot.version % 2 == 0 || slot.version > MOST_VERSION;
+    if let Some(none) = slots.iter().position(is_none) {
+        return Err(SnapshotError::Slot { slot: none + 1 });
     }
     let mut is_open: Vec<bool> = slots.iter().map(|slot| slot.body.is_none()).collect();
     for &slot in free {

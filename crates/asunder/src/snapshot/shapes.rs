@@ -25,8 +25,15 @@ type PosedShapes<'a, S> = Vec<(<S as Space>::Pose, &'a <S as Space>::Shape)>;
 
 /// A dimension whose worlds can be saved: both. Here is what differs between the shapes of the two.
 pub trait Saved:
-    Space<Key: Plain, Pose: Plain, Shape: Plain, Manifold: Plain, Motion: Plain, Impact: Plain>
-    + Clone
+    Space<
+        Key: Plain,
+        Pose: Plain,
+        Shape: Plain,
+        Manifold: Plain,
+        Persistent: Plain,
+        Motion: Plain,
+        Impact: Plain,
+    > + Clone
     + PartialEq
     + Debug
 {
@@ -69,6 +76,10 @@ pub trait Saved:
     /// Whether a manifold has points, finite numbers and a unit normal.
     #[doc(hidden)]
     fn is_sound(manifold: &Self::Manifold) -> bool;
+
+    /// Whether what is kept of a manifold is sound, and its other numbers are finite.
+    #[doc(hidden)]
+    fn is_lasting(persistent: &Self::Persistent) -> bool;
 }
 
 /// The shape of a body or of a compound's part.
@@ -257,6 +268,10 @@ impl Saved for Plane {
             && !manifold.points.is_empty()
             && points.into_iter().all(are_finite)
     }
+
+    fn is_lasting(persistent: &Self::Persistent) -> bool {
+        Self::is_sound(persistent.manifold()) && persistent.is_finite()
+    }
 }
 
 impl Saved for Volume {
@@ -312,6 +327,10 @@ impl Saved for Volume {
         is_number(manifold.separation, manifold.error, manifold.normal.as_dvec3().length_squared())
             && !manifold.points.is_empty()
             && points.into_iter().all(are_finite)
+    }
+
+    fn is_lasting(persistent: &Self::Persistent) -> bool {
+        Self::is_sound(persistent.manifold()) && persistent.is_finite()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Pair2, Part, for_parts};
 use crate::answer::Manifold2;
+use crate::batch::Met;
 use crate::feature::Hint;
 use crate::kept::Kept;
 use crate::polygon::measure::Asked;
@@ -17,7 +18,7 @@ impl Pair2<'_> {
         asked: &Asked,
         margin: f32,
         keep: &mut impl FnMut(Manifold2),
-    ) -> (Hint, Option<bool>) {
+    ) -> (Hint, Met) {
         let Bodies { shapes, turns, between } = self.bodies();
         let wholes = Wholes2 { shapes, turns, between };
         let sought = asked.hint.sought();
@@ -29,7 +30,7 @@ impl Pair2<'_> {
         let is_worth_it = is_due || is_many([self.shape_a, self.shape_b].map(part_count));
         let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
-            return (Hint::towards(from.extend(0.0)), None);
+            return (Hint::towards(from.extend(0.0)), Err(0.0));
         }
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
@@ -45,7 +46,7 @@ impl Pair2<'_> {
                 }
                 let parts = self.parts(a, b);
                 let asked = Asked { hint: kept.of(parts.place.indices), ..*asked };
-                if let (hint, Some((overlapping, separation))) = parts.contact(&asked, margin, keep) {
+                if let (hint, Ok((overlapping, separation))) = parts.contact(&asked, margin, keep) {
                     touch = Some(touch.unwrap_or(false) || overlapping);
                     kept.offer(parts.place.indices, hint, separation);
                 }
@@ -53,6 +54,7 @@ impl Pair2<'_> {
             })
         });
         let next = shadow.map_or(from, |(_, next)| next);
-        (if touch.is_some() { kept.hint() } else { asked.hint.seeking(next.extend(0.0)) }, touch)
+        let hint = if touch.is_some() { kept.hint() } else { asked.hint.seeking(next.extend(0.0)) };
+        (hint, touch.ok_or(0.0))
     }
 }

@@ -1,6 +1,7 @@
 //! Contacts of compounds in space, with what the last frame left.
 
 use super::{Pair3, Part, for_parts};
+use crate::batch::Met;
 use crate::feature::Hint;
 use crate::kept::Kept;
 use crate::polyhedron::convex::Asked;
@@ -16,7 +17,7 @@ impl Pair3<'_> {
         asked: Asked,
         margin: f32,
         manifolds: &mut impl Room,
-    ) -> (Hint, Option<bool>) {
+    ) -> (Hint, Met) {
         let bases = self.bases();
         let wholes = Wholes3 {
             shapes: [self.shape_a, self.shape_b],
@@ -32,7 +33,7 @@ impl Pair3<'_> {
         let is_worth_it = is_due || is_many([self.shape_a, self.shape_b].map(part_count));
         let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
-            return (Hint::towards(bases[0].turn_back(from)), None);
+            return (Hint::towards(bases[0].turn_back(from)), Err(0.0));
         }
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
@@ -48,7 +49,7 @@ impl Pair3<'_> {
                 }
                 let parts = self.parts(&bases, a, b);
                 let asked = Asked { hint: kept.of(parts.indices), ..asked };
-                if let (hint, Some(found)) = parts.contact(asked, margin, manifolds) {
+                if let (hint, Ok(found)) = parts.contact(asked, margin, manifolds) {
                     touch = Some(touch.unwrap_or(false) || found.overlapping);
                     kept.offer(parts.indices, hint, found.separation);
                 }
@@ -56,6 +57,7 @@ impl Pair3<'_> {
             })
         });
         let next = shadow.map_or(from, |(_, next)| next);
-        (if touch.is_some() { kept.hint() } else { asked.hint.seeking(bases[0].turn_back(next)) }, touch)
+        let hint = if touch.is_some() { kept.hint() } else { asked.hint.seeking(bases[0].turn_back(next)) };
+        (hint, touch.ok_or(0.0))
     }
 }

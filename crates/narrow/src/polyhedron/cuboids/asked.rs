@@ -7,6 +7,7 @@ use super::eight::Eight;
 use super::placed::{Placed, Posed};
 use super::settled::{Best, Settled};
 use crate::answer::{Manifold3, Measured3, Separation3};
+use crate::batch::beyond;
 use crate::feature::Hint;
 use crate::precision::{Precision, at_least, rounded_down, signed};
 use asunder_geometry::glam::DVec3;
@@ -14,8 +15,8 @@ use asunder_geometry::glam::DVec3;
 /// What two cuboids say of their contact.
 #[derive(Clone, Copy)]
 pub(crate) enum Contact {
-    /// Further apart than the margin.
-    Apart(Hint),
+    /// Further apart than the margin, by so many metres at least.
+    Apart(Hint, f32),
     /// Overlapping.
     Touching(Hint),
     /// Not overlapping, and no further apart than the margin.
@@ -68,11 +69,11 @@ impl Posed<'_> {
     #[inline]
     pub(crate) fn contact(&self, margin: f64, hint: Hint, manifold: Option<&mut Manifold3>) -> Contact {
         if self.are_far(margin) {
-            return Contact::Apart(hint);
+            return Contact::Apart(hint, self.beyond(margin));
         }
         let placed = self.placed();
         if let Some(of) = placed.parted(margin) {
-            return Contact::Apart(hint_to(of));
+            return Contact::Apart(hint_to(of), placed.beyond(of, margin));
         }
         if manifold.is_none() && placed.are_deep() {
             return Contact::Touching(hint);
@@ -83,9 +84,18 @@ impl Posed<'_> {
     /// What is clear at once of one of eight that were looked at, with the hint of its last frame. Whether they
     /// overlap is enough for a sensor.
     #[inline(always)]
-    pub(crate) fn clear_in((eight, lane): (&Eight, usize), hint: Hint, sensor: bool) -> Option<Contact> {
+    pub(crate) fn clear_in(
+        &self,
+        (eight, lane): (&Eight, usize),
+        margin: f64,
+        hint: Hint,
+        sensor: bool,
+    ) -> Option<Contact> {
         match eight.parted(lane) {
-            Some(of) => Some(Contact::Apart(hint_to(of))),
+            Some(of) => {
+                let by_face = eight.parted_by_face(lane, self);
+                Some(Contact::Apart(hint_to(of), by_face.map_or(0.0, |gap| beyond(gap.into(), margin))))
+            }
             None => (sensor && eight.is_deep(lane)).then_some(Contact::Touching(hint)),
         }
     }
@@ -113,7 +123,7 @@ impl Posed<'_> {
     ) -> Contact {
         match placed.settle(margin) {
             Settled::Unclear => Contact::Unclear(hint),
-            Settled::Beyond(axis) => Contact::Apart(hint_of(&axis)),
+            Settled::Beyond(axis) => Contact::Apart(hint_of(&axis), 0.0),
             Settled::Parted(best) => {
                 Touching { posed: self, placed, best: &best, margin, last: last_of(hint) }
                     .across(hint, manifold)

@@ -60,7 +60,7 @@ impl Touching<'_> {
         let separation = signed(least, false);
         // The margin is that of the caller and one ulp: what rounds to it counts.
         if f64::from(separation) >= self.margin {
-            return Some(Contact::Apart(hint_to(of)));
+            return Some(Contact::Apart(hint_to(of), 0.0));
         }
         if let Some(manifold) = manifold {
             if self.fill_over(patch, manifold).is_none() {

@@ -1,6 +1,7 @@
 //! Two cuboids in the frame of the first, with what may be lost to rounding there.
 
 use super::fifteen::Fifteen;
+use crate::batch::beyond;
 use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
@@ -51,6 +52,12 @@ impl Posed<'_> {
         let reach = f64::from(a.inner_radius()) + f64::from(b.inner_radius());
         // Roundings as in `are_far`.
         self.between().length_squared() * (1.0 + 8.0 * f64::EPSILON) < reach * reach
+    }
+
+    /// By how much the bounding spheres are further apart than this, in metres.
+    #[inline]
+    pub(crate) fn beyond(&self, reach: f64) -> f32 {
+        beyond(self.gap_of_spheres(), reach)
     }
 
     /// A lower bound on the separation, from the bounding spheres.

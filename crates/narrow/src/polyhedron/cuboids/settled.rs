@@ -13,6 +13,8 @@ use super::super::sat::{Axis, AxisOf};
 use super::fifteen::closed_form;
 use super::names;
 use super::placed::Placed;
+use crate::batch::beyond;
+use crate::precision::at_least;
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::PARALLEL_EDGES;
@@ -116,6 +118,17 @@ impl Placed {
     pub(super) fn parted(&self, limit: f64) -> Option<AxisOf> {
         let by = self.fifteen.parted(limit + self.radii, &self.precision);
         parted_by(by, |axis| self.offset[axis] >= 0.0, |axis| self.fifteen.ahead.0[axis] >= 0.0)
+    }
+
+    /// By how much more than `limit` metres a face parts the shapes, where one does.
+    #[inline(always)]
+    pub(super) fn beyond(&self, of: AxisOf, limit: f64) -> f32 {
+        let separation = match of {
+            AxisOf::FaceA(face) => self.fifteen.faces_a[face / 2],
+            AxisOf::FaceB(face) => self.fifteen.faces_b.0[face / 2],
+            AxisOf::Edges(..) => return 0.0,
+        };
+        beyond(at_least(separation - self.radii, &self.precision).into(), limit)
     }
 
     /// Whether the cores overlap for certain.

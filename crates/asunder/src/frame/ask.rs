@@ -1,0 +1,214 @@
+//! Asks the narrow phase about pairs, in batches.
+//!
+//! ```text
+//! for each batch, in parallel:
+//!   a pair whose bodies hardly drifted since its manifold was made: the manifold is moved along
+//!   else: it is asked about; what its manifold needs in order to be moved along is kept
+//! ```
+
+use crate::collider::Collider;
+use crate::contact::Place;
+use crate::motion::{Motions, approach};
+use crate::odometer::Odometer;
+use crate::slab::Slab;
+use crate::space::Space;
+use crate::world::World;
+use asunder_broad::PairId;
+use asunder_narrow::{Answer, ArrayVec, Batch, Hint};
+use slotmap::SlotMap;
+
+/// Pairs in one batch. Fixed, so that where batches are cut does not depend on the threads.
+const BATCH: usize = 256;
+
+/// Jobs handed to the narrow phase at once: enough to fill wide kernels, few enough to stay on the stack.
+const SLICE: usize = 64;
+
+/// A pair to be asked about, and what is known of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    pub(crate) pair: PairId,
+    pub(crate) hint: Hint,
+    /// Which of last update's persistent manifolds is its own; [`NOWHERE`](crate::slab::NOWHERE) without.
+    pub(crate) persistent: u32,
+}
+
+/// What came of a pair.
+#[derive(Clone, Copy, Debug)]
+enum Way {
+    /// An answer, with nothing to be kept of it.
+    Answered,
+    /// An answer, with a manifold that can be moved along from now on.
+    Kept,
+    /// Its manifold was moved along, and is now this one of the batch.
+    Moved(u32),
+}
+
+/// What came of the pairs of a batch, each list in their order; manifolds in the order in which they were made.
+#[derive(Clone, Debug)]
+pub(crate) struct Asking<S: Space> {
+    ways: Vec<Way>,
+    answered: Batch<S::Manifold>,
+    kept: Vec<S::Persistent>,
+}
+
+impl<S: Space> Default for Asking<S> {
+    fn default() -> Self {
+        Self { ways: Vec::new(), answered: Batch::default(), kept: Vec::new() }
+    }
+}
+
+impl<S: Space> Asking<S> {
+    fn clear(&mut self) {
+        self.ways.clear();
+        self.answered.clear();
+        self.kept.clear();
+    }
+}
+
+/// The manifolds that stand in a place.
+#[inline]
+pub(crate) fn manifolds_at<'a, S: Space>(
+    place: &Place,
+    askings: &'a [Asking<S>],
+    carried: &'a [S::Manifold],
+) -> &'a [S::Manifold] {
+    let list = askings.get(place.batch as usize).map_or(carried, |asking| &*asking.answered.manifolds);
+    &list[place.range.start as usize..place.range.end as usize]
+}
+
+/// Asks about all pairs that were chosen.
+pub(super) fn ask<S: Space>(world: &mut World<S>) {
+    let World { bodies, keys, motions, odometers, persistent, askings, scratch, .. } = world;
+    let asked = &*scratch.asked;
+    let batch_count = asked.len().div_ceil(BATCH);
+    if askings.len() < batch_count {
+        askings.resize_with(batch_count, Asking::default);
+    }
+    let (askings, spare) = askings.split_at_mut(batch_count);
+    spare.iter_mut().for_each(Asking::clear);
+    let asker = Asker { bodies, keys, motions, odometers, persistent };
+    #[cfg(feature = "parallel")]
+    if batch_count > 1 {
+        use rayon::prelude::*;
+        let both = asked.par_chunks(BATCH).zip(askings.par_iter_mut());
+        both.for_each(|(asked, asking)| asker.ask(asked, asking));
+        return;
+    }
+    asked.chunks(BATCH).zip(askings).for_each(|(asked, asking)| asker.ask(asked, asking));
+}
+
+/// What a batch needs to know, shared by all threads.
+struct Asker<'a, S: Space> {
+    bodies: &'a SlotMap<S::Key, Collider<S>>,
+    keys: &'a [S::Key],
+    motions: &'a Motions<S>,
+    odometers: &'a [Odometer],
+    persistent: &'a Slab<S::Persistent>,
+}
+
+impl<S: Space> Asker<'_, S> {
+    /// Answers the pairs of one batch.
+    fn ask(&self, asked: &[Asked], asking: &mut Asking<S>) {
+        asking.clear();
+        for slice in asked.chunks(SLICE) {
+            let mut jobs: ArrayVec<S::Job<'_>, SLICE> = ArrayVec::new();
+            let mut steps: ArrayVec<f64, SLICE> = ArrayVec::new();
+            let first = asking.answered.answers.len();
+            let first_way = asking.ways.len();
+            for asked in slice {
+                let Asked { pair, hint, persistent } = *asked;
+                let [a, b] = [pair.a, pair.b].map(|slot| self.bodies.get(self.keys[slot as usize]));
+                let Some((a, b)) = a.zip(b) else { continue };
+                let margin = a.margin + b.margin + self.approach(pair, [a, b]);
+                let persistent = self.persistent.get(persistent);
+                let at = asking.answered.manifolds.len() as u32;
+                let to = &mut asking.answered.manifolds;
+                let is_moved =
+                    persistent.is_some_and(|persistent| S::carry_on(persistent, [a, b], margin, to));
+                asking.ways.push(if is_moved { Way::Moved(at) } else { Way::Answered });
+                if !is_moved {
+                    jobs.push(S::job(a, b, margin, hint));
+                    steps.push(
+                        [pair.a, pair.b].iter().map(|&slot| self.odometers[slot as usize].step()).sum(),
+                    );
+                }
+            }
+            S::collide(&jobs, &mut asking.answered);
+            asking.keep((&jobs, &steps), first, first_way);
+        }
+    }
+
+    /// By how much the bodies' motions may bring them nearer. A sensor looks no further than it reaches.
+    #[inline]
+    fn approach(&self, pair: PairId, bodies: [&Collider<S>; 2]) -> f32 {
+        if self.motions.is_empty() || bodies[0].sensor || bodies[1].sensor {
+            return 0.0;
+        }
+        approach(bodies, [self.motions.of(pair.a), self.motions.of(pair.b)])
+    }
+}
+
+impl<S: Space> Asking<S> {
+    /// Keeps what can be moved along of the answers from `first` on, to these jobs of bodies that went so far; the ways
+    /// from `first_way` on are theirs.
+    fn keep(&mut self, (jobs, steps): (&[S::Job<'_>], &[f64]), first: usize, first_way: usize) {
+        let Batch { answers, manifolds } = &self.answered;
+        let asked = self.ways[first_way..].iter_mut().filter(|way| matches!(way, Way::Answered));
+        for (((job, &step), answer), way) in jobs.iter().zip(steps).zip(&answers[first..]).zip(asked) {
+            if let Some(persistent) = S::persistent(job, answer, manifolds, step) {
+                self.kept.push(persistent);
+                *way = Way::Kept;
+            }
+        }
+    }
+}
+
+/// What came of one pair.
+pub(super) enum Outcome<'a, S: Space> {
+    /// An answer, and what is to be kept of it.
+    Answered(&'a Answer, Option<&'a S::Persistent>),
+    /// Last update's manifold, moved along.
+    Moved,
+}
+
+/// The outcomes of all batches, one after the other.
+pub(super) struct Outcomes<'a, S: Space> {
+    askings: &'a [Asking<S>],
+    batch: usize,
+    /// The next of each of the batch's lists.
+    way: usize,
+    answer: usize,
+    kept: usize,
+}
+
+impl<'a, S: Space> Outcomes<'a, S> {
+    pub(super) fn new(askings: &'a [Asking<S>]) -> Self {
+        Self { askings, batch: 0, way: 0, answer: 0, kept: 0 }
+    }
+
+    /// The next outcome, and where its manifolds stand.
+    #[inline]
+    pub(super) fn next(&mut self) -> Option<(Outcome<'a, S>, Place)> {
+        loop {
+            let asking = self.askings.get(self.batch)?;
+            let batch = self.batch as u32;
+            let Some(way) = asking.ways.get(self.way) else {
+                *self = Self { batch: self.batch + 1, ..Self::new(self.askings) };
+                continue;
+            };
+            self.way += 1;
+            if let Way::Moved(at) = *way {
+                return Some((Outcome::Moved, Place { batch, range: at..at + 1 }));
+            }
+            let answer = asking.answered.answers.get(self.answer)?;
+            self.answer += 1;
+            let kept = if matches!(way, Way::Kept) { asking.kept.get(self.kept) } else { None };
+            self.kept += usize::from(kept.is_some());
+            let place = match answer {
+                Answer::Apart { .. } => Place::NOWHERE,
+                Answer::Contact { manifolds, .. } => Place { batch, range: manifolds.clone() },
+            };
+            return Some((Outcome::Answered(answer, kept), place));
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Things that keep their place while others come and go.
+
+/// A list with free places; places are handed out from the last that was given up.
+#[derive(Clone, Debug)]
+pub(crate) struct Slab<T> {
+    items: Vec<T>,
+    vacant: Vec<u32>,
+}
+
+/// The place of nothing.
+pub(crate) const NOWHERE: u32 = u32::MAX;
+
+impl<T> Slab<T> {
+    pub(crate) const fn new() -> Self {
+        Self { items: Vec::new(), vacant: Vec::new() }
+    }
+
+    /// Of things in places 0, 1, 2 and so on.
+    #[cfg(feature = "serde")]
+    pub(crate) const fn of(items: Vec<T>) -> Self {
+        Self { items, vacant: Vec::new() }
+    }
+
+    /// What is in a place; nothing of [`NOWHERE`].
+    #[inline]
+    pub(crate) fn get(&self, place: u32) -> Option<&T> {
+        self.items.get(place as usize)
+    }
+
+    /// Gives a place up, which may be [`NOWHERE`]. What is in it stays until the place is handed out again.
+    pub(crate) fn vacate(&mut self, place: u32) {
+        if place != NOWHERE {
+            self.vacant.push(place);
+        }
+    }
+}
+
+impl<T: Clone> Slab<T> {
+    /// Puts something in the place it had, or where there is one if it had none; or gives the place up where there is
+    /// nothing. Says where it is now.
+    pub(crate) fn put(&mut self, own: u32, item: Option<&T>) -> u32 {
+        let Some(item) = item else {
+            self.vacate(own);
+            return NOWHERE;
+        };
+        let place = if own == NOWHERE { self.vacant.pop().unwrap_or(NOWHERE) } else { own };
+        match self.items.get_mut(place as usize) {
+            Some(old) => {
+                old.clone_from(item);
+                place
+            }
+            None => {
+                self.items.push(item.clone());
+                self.items.len() as u32 - 1
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_stay_and_are_used_again() {
+        let mut slab = Slab::new();
+        assert_eq!([slab.put(NOWHERE, Some(&'a')), slab.put(NOWHERE, Some(&'b'))], [0, 1]);
+        assert_eq!((slab.put(0, Some(&'c')), slab.get(0), slab.get(1)), (0, Some(&'c'), Some(&'b')));
+        assert_eq!((slab.put(0, None), slab.put(NOWHERE, None)), (NOWHERE, NOWHERE));
+        assert_eq!((slab.put(NOWHERE, Some(&'d')), slab.get(0)), (0, Some(&'d')));
+        assert_eq!((slab.put(NOWHERE, Some(&'e')), slab.get(2), slab.get(NOWHERE)), (2, Some(&'e'), None));
+    }
+}

@@ -1,0 +1,71 @@
+//! How far two bodies may drift against each other until their manifold has to be made anew.
+//!
+//! ```text
+//! drift = by how much any point of one body moved, seen from the other, since the manifold was made
+//! every projection of either body, so the separation along any axis, changes by no more than the drift
+//!     so the true separation does
+//!     so whether they overlap, and are within the margin, is as it was while drift < how far off either is
+//! the points stay where they are on one body, above the face of the other that they are measured from:
+//!     their own separations are measured anew, and the normal turns with the face
+//!     what the faces share moves sideways under them by no more than the drift
+//! ```
+//! Bullet and PhysX keep manifolds too ("persistent contact manifold"), until points slip by centimetres. Here the limit
+//! is so low that what is kept is right to a share of 1e-5 of the pair's size, as everything else is, and the drift goes
+//! into the error that is reported. It counts from where the manifold was made, not from frame to frame, so that it
+//! does not pile up.
+
+use crate::answer::Answer;
+use crate::feature::{Feature, Hint, OnFace};
+
+/// Share of the smaller bounding radius by which two bodies may drift, 2^-17: of cubes of a metre, 7 micrometres. The
+/// reported error is up to twice that.
+const DRIFT: f32 = 7.629_394_5e-6;
+
+/// Up to which drift bodies of these bounding radii are told by what they were, in metres.
+pub(crate) fn reach_of(radii: [f32; 2]) -> f32 {
+    DRIFT * radii[0].min(radii[1])
+}
+
+/// Up to which drift an answer of this separation, and this error, stays what it is, in metres; nothing where it is too close to call.
+pub(crate) fn slack_of(
+    [separation, error]: [f32; 2],
+    overlapping: bool,
+    margin: f32,
+    radii: [f32; 2],
+) -> Option<f32> {
+    // Of what overlaps the margin does not matter.
+    let to_margin = if overlapping { f32::INFINITY } else { margin - separation };
+    let sure = separation.abs().min(to_margin) - error;
+    let slack = reach_of(radii).min(sure);
+    (slack > 0.0).then_some(slack)
+}
+
+/// Whether points are measured from a face of B (an edge, in the plane), by the hint that was left with them. Nothing
+/// where they are from neither: two edges that cross, corners across a gap.
+pub(crate) fn is_from_b(hint: Hint) -> Option<bool> {
+    let features = hint.features()?;
+    match (hint.points_on(), features.a(), features.b()) {
+        (Some(on), ..) => Some(matches!(on, OnFace::OfB(_))),
+        (None, Feature::Face(_), _) | (None, Feature::Edge(_), Feature::Vertex(_)) => Some(false),
+        (None, _, Feature::Face(_)) | (None, Feature::Vertex(_), Feature::Edge(_)) => Some(true),
+        _ => None,
+    }
+}
+
+/// The hint of a contact with one manifold, which manifold it is, and whether the shapes overlap.
+pub(crate) fn single(answer: &Answer) -> Option<(Hint, usize, bool)> {
+    match answer {
+        Answer::Contact { hint, overlapping, manifolds } if manifolds.len() == 1 => {
+            Some((*hint, manifolds.start as usize, *overlapping))
+        }
+        _ => None,
+    }
+}
+
+/// The error of a separation, which had this error, after a drift in which the deepest point rose by so much: the truth
+/// may have gone the other way. And what rounding costs it.
+#[inline(always)]
+pub(crate) fn error_after([separation, error]: [f32; 2], drift: f64, rise: f64) -> f32 {
+    let rounding = f64::from(f32::EPSILON) * (f64::from(separation).abs() + drift);
+    ((f64::from(error) + drift + rise.abs() + rounding) as f32).next_up()
+}

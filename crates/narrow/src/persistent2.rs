@@ -1,0 +1,249 @@
+//! Manifolds in the plane that are moved along: see `persistent`.
+
+use crate::answer::{Answer, ContactPoint2, Manifold2};
+use crate::jobs2::Job2;
+use crate::persistent::{error_after, is_from_b, reach_of, single, slack_of};
+use crate::precision::signed;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::{Pose2, Shape2};
+
+/// A manifold, and how its two bodies stood to each other when it was made: until they drift, it is moved along for a
+/// fraction of what a new one costs.
+///
+/// Bodies that rest are never quite still. As long as no point of one has moved against the other by more than 2^-17 of
+/// the smaller bounding radius, the manifold holds: the same points of the same features, with separations and a normal
+/// measured anew. Whether the shapes overlap, or are within the margin, is for certain what it was: where that is
+/// closer to call than the drift, there is nothing to be moved along.
+///
+/// ```
+/// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
+/// use asunder_narrow::{Batch2, Hint, Job2, Persistent2, collide2};
+/// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
+/// let (pose_a, pose_b) = (Pose2::IDENTITY, Pose2::at([0.5, 1.875])?);
+/// let job = Job2 {
+///     shape_a: &square, pose_a: &pose_a, shape_b: &square, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
+/// };
+/// let mut batch = Batch2::default();
+/// collide2(&[job], &mut batch);
+/// let persistent = Persistent2::of(&job, &batch.answers[0], &batch.manifolds).expect("an edge carries it");
+///
+/// let mut moved = Vec::new();
+/// let sunk = Pose2::at([0.5, 1.875 - 4e-6])?;
+/// assert!(persistent.carry_on([&pose_a, &sunk], &mut moved) && persistent.overlapping());
+/// assert!(Persistent2::reach(&job) > 4e-6 && Persistent2::reach(&job) < 4e-5);
+/// assert!((moved[0].points[0].separation + 0.125 + 4e-6).abs() < 1e-8);
+/// let gone = Pose2::at([0.5, 1.875 - 4e-5])?;
+/// assert!(!persistent.carry_on([&pose_a, &gone], &mut moved), "too far: it must be made anew");
+/// assert_eq!((persistent.manifold().points.len(), persistent.margin()), (2, 0.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Persistent2 {
+    manifold: Manifold2,
+    overlapping: bool,
+    /// Whether the points are measured from an edge of B.
+    is_from_b: bool,
+    margin: f32,
+    /// Up to which drift the answer holds, in metres.
+    slack: f32,
+    /// How far the bodies reach from their positions, in metres.
+    arms: [f32; 2],
+    /// Where the bodies were.
+    poses: [Pose2; 2],
+}
+
+impl Persistent2 {
+    /// What can be kept of an answer to a job, of the batch that these manifolds are from.
+    ///
+    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where they
+    /// touch in several parts; and where a point is on no edge, as of corners across a gap. Cost: a square root.
+    pub fn of(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2]) -> Option<Self> {
+        let (hint, index, overlapping) = single(answer)?;
+        let is_from_b = is_from_b(hint)?;
+        let manifold = manifolds.get(index)?;
+        let shapes = [job.shape_a, job.shape_b];
+        let found = [manifold.separation, manifold.error];
+        let slack = slack_of(found, overlapping, job.margin, shapes.map(Shape2::outer_radius))?;
+        let kept = Self {
+            manifold: manifold.clone(),
+            overlapping,
+            is_from_b,
+            margin: job.margin,
+            slack,
+            arms: shapes.map(|shape| (shape.center().length() + shape.outer_radius()).next_up()),
+            poses: [*job.pose_a, *job.pose_b],
+        };
+        kept.is_finite().then_some(kept)
+    }
+
+    /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
+    /// a frame, keeping one is no use.
+    pub fn reach(job: &Job2<'_>) -> f32 {
+        reach_of([job.shape_a, job.shape_b].map(Shape2::outer_radius))
+    }
+
+    /// The manifold as it was made.
+    pub const fn manifold(&self) -> &Manifold2 {
+        &self.manifold
+    }
+
+    /// Whether the shapes overlapped, and do for as long as the manifold is carried on.
+    pub const fn overlapping(&self) -> bool {
+        self.overlapping
+    }
+
+    /// The margin that the manifold was made for, in metres.
+    pub const fn margin(&self) -> f32 {
+        self.margin
+    }
+
+    /// Whether the numbers beside the manifold are finite: of what was read from a file.
+    pub fn is_finite(&self) -> bool {
+        self.margin.is_finite() && self.slack.is_finite() && self.arms.iter().all(|arm| arm.is_finite())
+    }
+
+    /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
+    /// must be those of its job. Its error holds the drift. Cost: constant, least where no body turned.
+    pub fn carry_on(&self, poses: [&Pose2; 2], to: &mut Vec<Manifold2>) -> bool {
+        let moved = if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
+            self.shifted(between(poses))
+        } else {
+            self.turned(poses)
+        };
+        // What is not a number is not close.
+        let is_close = moved.drift <= f64::from(self.slack);
+        if is_close {
+            to.push(self.filled(&moved));
+        }
+        is_close
+    }
+
+    /// Moved, by bodies that did not turn.
+    #[inline(always)]
+    fn shifted(&self, offset: DVec2) -> Moved {
+        let step = offset - between(self.poses.each_ref());
+        let normal = self.manifold.normal.as_dvec2();
+        let drift = step.length() + self.lost(offset);
+        Moved { drift, offset, normal, rise: normal.dot(step), turn: None }
+    }
+
+    /// Moved, by bodies of which one turned.
+    #[inline(never)]
+    fn turned(&self, poses: [&Pose2; 2]) -> Moved {
+        let (offset, offset_then) = (between(poses), between(self.poses.each_ref()));
+        let (now, then) = (poses.map(Axes::of), self.poses.each_ref().map(Axes::of));
+        let step = [0, 1].map(|body| now[body].turn_back(offset) - then[body].turn_back(offset_then));
+        // How B stands in A's axes, and A in B's: what either says of the drift is true.
+        let spin = (now[0].turn_back(now[1].x) - then[0].turn_back(then[1].x)).length();
+        let drift_of =
+            |seen_from: usize| step[seen_from].length() + spin * f64::from(self.arms[1 - seen_from]);
+        // Stored rotations are of unit length up to rounding, and scale their bodies by what they are off.
+        let scales = [0, 1].map(|body| {
+            let is_same = poses[body].same_rotation(&self.poses[body]);
+            if is_same { 0.0 } else { 2.0 * f64::from(f32::EPSILON * self.arms[body]) }
+        });
+        let drift = drift_of(0).min(drift_of(1)) + scales[0] + scales[1] + self.lost(offset);
+        let face = usize::from(self.is_from_b);
+        let local = then[face].turn_back(self.manifold.normal.as_dvec2());
+        let (normal, rise) = (now[face].turn(local), local.dot(step[face]));
+        Moved { drift, offset, normal, rise, turn: Some(Turn { then, now, local }) }
+    }
+
+    /// What rounding may cost in the differences of offsets and of unit vectors times arms.
+    #[inline(always)]
+    fn lost(&self, offset: DVec2) -> f64 {
+        64.0 * f64::EPSILON * (offset.abs().element_sum() + f64::from(self.arms[0].min(self.arms[1])))
+    }
+
+    fn filled(&self, moved: &Moved) -> Manifold2 {
+        let of = &self.manifold;
+        let mut to = Manifold2 { normal: moved.normal.as_vec2(), points: ArrayVec::new(), ..*of };
+        let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
+        for point in &of.points {
+            let held = if self.is_from_b { point.anchor_a } else { point.anchor_b };
+            let (held, own_rise) = moved.kept(held.as_dvec2(), self.is_from_b);
+            let then = f64::from(point.separation);
+            let height = then + (moved.rise + own_rise);
+            let out = moved.normal * height;
+            // Its foot on the face, from the other position.
+            let (on_a, on_b) = if self.is_from_b {
+                (held, held - moved.offset + out)
+            } else {
+                (held + moved.offset - out, held)
+            };
+            (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
+            let _ = to.points.try_push(ContactPoint2 {
+                separation: height as f32,
+                anchor_a: on_a.as_vec2(),
+                anchor_b: on_b.as_vec2(),
+                feature: point.feature,
+            });
+        }
+        let rise = deepest - deepest_then;
+        to.separation = signed(f64::from(of.separation) + rise, self.overlapping);
+        to.error = error_after([of.separation, of.error], moved.drift, rise);
+        to
+    }
+}
+
+/// How bodies moved since.
+struct Moved {
+    drift: f64,
+    /// From A's position to B's, now.
+    offset: DVec2,
+    /// From A to B, now.
+    normal: DVec2,
+    /// By how much the distance along the normal grew, of the positions.
+    rise: f64,
+    turn: Option<Turn>,
+}
+
+/// How bodies turned since: their axes then and now, and the normal in the axes of the body whose face it is.
+struct Turn {
+    then: [Axes; 2],
+    now: [Axes; 2],
+    local: DVec2,
+}
+
+impl Moved {
+    /// Where a point is now that its body holds, and by how much that alone raised it over the other's face.
+    #[inline(always)]
+    fn kept(&self, point: DVec2, is_from_b: bool) -> (DVec2, f64) {
+        let Some(Turn { then, now, local }) = &self.turn else { return (point, 0.0) };
+        let (face, holder) = if is_from_b { (1, 0) } else { (0, 1) };
+        let moved = now[holder].turn(then[holder].turn_back(point));
+        let along = local.dot(now[face].turn_back(moved) - then[face].turn_back(point));
+        (moved, if is_from_b { -along } else { along })
+    }
+}
+
+/// From A's position to B's.
+#[inline(always)]
+fn between([a, b]: [&Pose2; 2]) -> DVec2 {
+    b.position() - a.position()
+}
+
+/// The axes of a rotation, of unit length.
+#[derive(Clone, Copy)]
+struct Axes {
+    x: DVec2,
+}
+
+impl Axes {
+    fn of(pose: &Pose2) -> Self {
+        let (cos, sin) = (f64::from(pose.rotation().cos()), f64::from(pose.rotation().sin()));
+        Self { x: DVec2::new(cos, sin) / (cos * cos + sin * sin).sqrt() }
+    }
+
+    #[inline]
+    fn turn(&self, v: DVec2) -> DVec2 {
+        DVec2::new(self.x.x * v.x - self.x.y * v.y, self.x.y * v.x + self.x.x * v.y)
+    }
+
+    #[inline]
+    fn turn_back(&self, v: DVec2) -> DVec2 {
+        DVec2::new(self.x.x * v.x + self.x.y * v.y, self.x.x * v.y - self.x.y * v.x)
+    }
+}

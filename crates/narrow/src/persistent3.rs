@@ -1,0 +1,274 @@
+//! Manifolds in space that are moved along: see `persistent`.
+
+use crate::answer::{Answer, ContactPoint3, Manifold3};
+use crate::feature::{Feature, Hint};
+use crate::jobs3::Job3;
+use crate::persistent::{error_after, is_from_b, reach_of, single, slack_of};
+use crate::precision::signed;
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Basis3, Pose3, Shape3};
+
+/// A manifold, and how its two bodies stood to each other when it was made: until they drift, it is moved along for a
+/// fraction of what a new one costs.
+///
+/// Bodies that rest are never quite still. As long as no point of one has moved against the other by more than 2^-17 of
+/// the smaller bounding radius, the manifold holds: the same points of the same features, with separations and a normal
+/// measured anew. Whether the shapes overlap, or are within the margin, is for certain what it was: where that is
+/// closer to call than the drift, there is nothing to be moved along.
+///
+/// ```
+/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
+/// use asunder_narrow::{Batch3, Hint, Job3, Persistent3, collide3};
+/// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
+/// let (pose_a, pose_b) = (Pose3::IDENTITY, Pose3::at([0.5, 0.25, 1.875])?);
+/// let job = Job3 {
+///     shape_a: &cube, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
+/// };
+/// let mut batch = Batch3::default();
+/// collide3(&[job], &mut batch);
+/// let persistent = Persistent3::of(&job, &batch.answers[0], &batch.manifolds).expect("a face carries it");
+///
+/// let mut moved = Vec::new();
+/// let sunk = Pose3::at([0.5, 0.25, 1.875 - 4e-6])?;
+/// assert!(persistent.carry_on([&pose_a, &sunk], &mut moved) && persistent.overlapping());
+/// assert!(Persistent3::reach(&job) > 4e-6 && Persistent3::reach(&job) < 4e-5);
+/// assert!((moved[0].points[0].separation + 0.125 + 4e-6).abs() < 1e-8);
+/// assert_eq!(moved[0].points[0].feature, persistent.manifold().points[0].feature);
+/// let gone = Pose3::at([0.5, 0.25, 1.875 - 4e-5])?;
+/// assert!(!persistent.carry_on([&pose_a, &gone], &mut moved), "too far: it must be made anew");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Persistent3 {
+    manifold: Manifold3,
+    overlapping: bool,
+    /// Whether the points are measured from a face of B; two edges count as if they were from A.
+    is_from_b: bool,
+    /// The directions of two edges that cross, each in its body's axes.
+    edges: Option<[Vec3; 2]>,
+    margin: f32,
+    /// Up to which drift the answer holds, in metres.
+    slack: f32,
+    /// How far the bodies reach from their positions, in metres.
+    arms: [f32; 2],
+    /// Where the bodies were.
+    poses: [Pose3; 2],
+}
+
+impl Persistent3 {
+    /// What can be kept of an answer to a job, of the batch that these manifolds are from.
+    ///
+    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where they
+    /// touch in several parts; and where points are neither on a face nor where two edges cross. Cost: some square roots.
+    pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
+        let (hint, index, overlapping) = single(answer)?;
+        let manifold = manifolds.get(index)?;
+        let shapes = [job.shape_a, job.shape_b];
+        let is_from_b = is_from_b(hint);
+        let edges = if is_from_b.is_none() { Some(crossing(job, hint, manifold)?) } else { None };
+        let found = [manifold.separation, manifold.error];
+        let slack = slack_of(found, overlapping, job.margin, shapes.map(Shape3::outer_radius))?;
+        let kept = Self {
+            manifold: manifold.clone(),
+            overlapping,
+            is_from_b: is_from_b.unwrap_or(false),
+            edges,
+            margin: job.margin,
+            slack,
+            arms: shapes.map(|shape| (shape.center().length() + shape.outer_radius()).next_up()),
+            poses: [*job.pose_a, *job.pose_b],
+        };
+        kept.is_finite().then_some(kept)
+    }
+
+    /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
+    /// a frame, keeping one is no use.
+    pub fn reach(job: &Job3<'_>) -> f32 {
+        reach_of([job.shape_a, job.shape_b].map(Shape3::outer_radius))
+    }
+
+    /// The manifold as it was made.
+    pub const fn manifold(&self) -> &Manifold3 {
+        &self.manifold
+    }
+
+    /// Whether the shapes overlapped, and do for as long as the manifold is carried on.
+    pub const fn overlapping(&self) -> bool {
+        self.overlapping
+    }
+
+    /// The margin that the manifold was made for, in metres.
+    pub const fn margin(&self) -> f32 {
+        self.margin
+    }
+
+    /// Whether the numbers beside the manifold are finite: of what was read from a file.
+    pub fn is_finite(&self) -> bool {
+        self.margin.is_finite() && self.slack.is_finite() && self.arms.iter().all(|arm| arm.is_finite())
+    }
+
+    /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
+    /// must be those of its job. Its error holds the drift. Cost: constant, least where no body turned.
+    pub fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
+        let moved = if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
+            self.shifted(between(poses))
+        } else {
+            self.turned(poses)
+        };
+        // What is not a number is not close.
+        let is_close = moved.drift <= f64::from(self.slack);
+        if is_close {
+            to.push(Manifold3::BLANK);
+            if let Some(manifold) = to.last_mut() {
+                self.fill(&moved, manifold);
+            }
+        }
+        is_close
+    }
+
+    /// Moved, by bodies that did not turn.
+    #[inline(always)]
+    fn shifted(&self, offset: DVec3) -> Moved {
+        let step = offset - between(self.poses.each_ref());
+        let normal = self.manifold.normal.as_dvec3();
+        let drift = step.length() + self.lost(offset);
+        Moved { drift, offset, normal, rise: normal.dot(step), turn: None }
+    }
+
+    /// Moved, by bodies of which one turned.
+    #[inline(never)]
+    fn turned(&self, poses: [&Pose3; 2]) -> Moved {
+        let (offset, offset_then) = (between(poses), between(self.poses.each_ref()));
+        let (now, then) = (poses.map(Pose3::basis), self.poses.each_ref().map(Pose3::basis));
+        let step = [0, 1].map(|body| now[body].turn_back(offset) - then[body].turn_back(offset_then));
+        // How B stands in A's axes, and A in B's: what either says of the drift is true.
+        let spin = poses[1].basis_from(poses[0]).spin_from(&self.poses[1].basis_from(&self.poses[0]));
+        let drift_of =
+            |seen_from: usize| step[seen_from].length() + spin * f64::from(self.arms[1 - seen_from]);
+        let drift = drift_of(0).min(drift_of(1)) + self.lost(offset);
+        let face = usize::from(self.is_from_b);
+        let local_then = then[face].turn_back(self.manifold.normal.as_dvec3());
+        let local = match self.edges {
+            None => local_then,
+            Some([a, b]) => {
+                let cross = a.as_dvec3().cross(now[0].turn_back(now[1].turn(b.as_dvec3())));
+                let normal = cross.normalize_or(local_then);
+                if normal.dot(local_then) < 0.0 { -normal } else { normal }
+            }
+        };
+        let turn = Turn { then, now, local, local_then, offset_then };
+        Moved { drift, offset, normal: now[face].turn(local), rise: 0.0, turn: Some(turn) }
+    }
+
+    /// What rounding may cost in the differences of offsets and of unit vectors times arms.
+    #[inline(always)]
+    fn lost(&self, offset: DVec3) -> f64 {
+        64.0 * f64::EPSILON * (offset.abs().element_sum() + f64::from(self.arms[0].min(self.arms[1])))
+    }
+
+    #[inline(always)]
+    fn fill(&self, moved: &Moved, to: &mut Manifold3) {
+        let of = &self.manifold;
+        (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, moved.normal.as_vec3());
+        let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
+        for point in &of.points {
+            let then = f64::from(point.separation);
+            let (held, rise) = moved.held([point.anchor_a, point.anchor_b], self.is_from_b);
+            let height = then + rise;
+            let out = moved.normal * height;
+            // Its foot on the face, from the other position.
+            let (on_a, on_b) = if self.is_from_b {
+                (held, held - moved.offset + out)
+            } else {
+                (held + moved.offset - out, held)
+            };
+            (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
+            let _ = to.points.try_push(ContactPoint3 {
+                separation: height as f32,
+                anchor_a: on_a.as_vec3(),
+                anchor_b: on_b.as_vec3(),
+                feature: point.feature,
+            });
+        }
+        let rise = deepest - deepest_then;
+        to.separation = signed(f64::from(of.separation) + rise, self.overlapping);
+        to.error = error_after([of.separation, of.error], moved.drift, rise);
+    }
+}
+
+/// How bodies moved since.
+struct Moved {
+    drift: f64,
+    /// From A's position to B's, now.
+    offset: DVec3,
+    /// From A to B, now.
+    normal: DVec3,
+    /// By how much the bodies went apart along the normal, where none turned.
+    rise: f64,
+    turn: Option<Turn>,
+}
+
+/// How bodies turned since: their axes then and now, and the normal in the axes of the body whose face it is.
+struct Turn {
+    then: [Basis3; 2],
+    now: [Basis3; 2],
+    local: DVec3,
+    local_then: DVec3,
+    offset_then: DVec3,
+}
+
+impl Moved {
+    /// Where the point is now that is held by the body whose face it is not, and by how much it rose over the other's.
+    ///
+    /// What rose is the way from A's point to B's, along the normal, in the axes of the body whose face it is: short vectors,
+    /// whose rounding is nothing beside the drift.
+    #[inline(always)]
+    fn held(&self, anchors: [Vec3; 2], is_from_b: bool) -> (DVec3, f64) {
+        let [on_a, on_b] = anchors.map(Vec3::as_dvec3);
+        let Some(Turn { then, now, local, local_then, offset_then }) = &self.turn else {
+            return (if is_from_b { on_a } else { on_b }, self.rise);
+        };
+        let (face, holder) = if is_from_b { (1, 0) } else { (0, 1) };
+        let [of_face, of_holder] = if is_from_b { [on_b, on_a] } else { [on_a, on_b] };
+        let held = now[holder].turn(then[holder].turn_back(of_holder));
+        let still = then[face].turn_back(of_face);
+        let way = if is_from_b {
+            still + now[face].turn_back(self.offset - held)
+        } else {
+            now[face].turn_back(self.offset + held) - still
+        };
+        let way_then = then[face].turn_back(*offset_then + on_b - on_a);
+        (held, local.dot(way) - local_then.dot(way_then))
+    }
+}
+
+/// The directions of the edges that a hint names, in their bodies' axes, where they cross at more than half a degree and
+/// the normal of a manifold is theirs.
+fn crossing(job: &Job3<'_>, hint: Hint, manifold: &Manifold3) -> Option<[Vec3; 2]> {
+    let features = hint.features()?;
+    let (Feature::Edge(a), Feature::Edge(b)) = (features.a(), features.b()) else { return None };
+    let along = |shape: &Shape3, edge: u32| {
+        let core = shape.core();
+        core.topology().half_edges().get(edge as usize)?;
+        let (from, to) = core.topology().ends(edge as usize);
+        (*core.vertices().get(to)? - *core.vertices().get(from)?).try_normalize()
+    };
+    let edges = [along(job.shape_a, a)?, along(job.shape_b, b)?];
+    let turned =
+        [(job.pose_a, edges[0]), (job.pose_b, edges[1])].map(|(pose, edge)| pose.turn(edge.as_dvec3()));
+    let is_theirs = turned.iter().all(|edge| edge.dot(manifold.normal.as_dvec3()).abs() <= THEIRS);
+    (is_theirs && turned[0].cross(turned[1]).length() > LEAST_SINE).then_some(edges)
+}
+
+/// The least sine between edges whose normal is made anew: directions in f32 are off by 1e-7, a normal by 1e-5.
+const LEAST_SINE: f64 = 0.01;
+
+/// Cosine between an edge and its normal, up to the rounding of both to f32.
+const THEIRS: f64 = 1e-6;
+
+/// From A's position to B's.
+#[inline(always)]
+fn between([a, b]: [&Pose3; 2]) -> DVec3 {
+    b.position() - a.position()
+}

@@ -1,0 +1,221 @@
+//! Manifolds that are moved along: they say what the shapes do at their new poses, within the error that they state, or
+//! refuse.
+//!
+//! The judges are separations in double-double arithmetic, exact overlap, and drifts measured at the vertices.
+
+use asunder_geometry::{Pose2, Pose3, Rotation2, Shape3};
+use asunder_narrow::{
+    Batch2, Batch3, Hint, Job2, Job3, Pair2, Pair3, Persistent2, Persistent3, collide2, collide3,
+};
+use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, pairs2, pairs3};
+use asunder_scenes::random::Random;
+use asunder_tests::precise::{separation2, separation3};
+use glam::{DQuat, DVec2, DVec3};
+
+/// What a manifold may be off by, as a share of the pair's size: what the engine promises of any.
+const PROMISED: f64 = 1e-5;
+
+const SETS: [PairSet; 4] = [PairSet::Rest, PairSet::Touch, PairSet::Mixed, PairSet::Slide];
+
+fn kept(pair: &PosedPair3, margin: f32) -> Option<Persistent3> {
+    let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
+    let job = Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false };
+    let mut batch = Batch3::default();
+    collide3(&[job], &mut batch);
+    Persistent3::of(&job, &batch.answers[0], &batch.manifolds)
+}
+
+/// A small turn about any axis, and a small step.
+fn small(random: &mut Random, turn: f64, step: f64) -> (DQuat, DVec3) {
+    let axis = random.direction() * turn * 0.5;
+    (DQuat::from_xyzw(axis.x, axis.y, axis.z, 1.0).normalize(), random.direction() * step)
+}
+
+fn moved(pose: &Pose3, (turn, step): (DQuat, DVec3), around: DVec3) -> Pose3 {
+    let place = around + turn * (pose.position() - around) + step;
+    let rotation = if turn == DQuat::IDENTITY {
+        pose.rotation()
+    } else {
+        (turn * pose.rotation().as_dquat().normalize()).as_quat()
+    };
+    Pose3::new(place, rotation).unwrap()
+}
+
+/// How far the vertices of B went, seen from A, and those of A from B: the lesser of the two greatest.
+fn drift(before: &PosedPair3, now: &PosedPair3) -> f64 {
+    let seen = |pair: &PosedPair3, of: usize| -> Vec<DVec3> {
+        let (shape, pose, other): (&Shape3, _, _) = if of == 0 {
+            (&pair.shape_a, &pair.pose_a, &pair.pose_b)
+        } else {
+            (&pair.shape_b, &pair.pose_b, &pair.pose_a)
+        };
+        shape.core().vertices().iter().map(|v| other.transform_back(pose.transform(*v))).collect()
+    };
+    let greatest = |of: usize| {
+        let (one, other) = (seen(before, of), seen(now, of));
+        one.iter().zip(other).map(|(one, other)| (*one - other).length()).fold(0.0, f64::max)
+    };
+    greatest(0).min(greatest(1))
+}
+
+/// Fails unless what was moved along is true of the pair as it stands now.
+fn check(persistent: &Persistent3, pair: &PosedPair3, margin: f32, story: &str) {
+    let mut found = Vec::new();
+    assert!(persistent.carry_on([&pair.pose_a, &pair.pose_b], &mut found));
+    let manifold = &found[0];
+    let whole = Pair3::new(&pair.shape_a, &pair.pose_a, &pair.shape_b, &pair.pose_b);
+    assert_eq!(persistent.overlapping(), whole.overlaps(), "{story}: {manifold:?}");
+    assert_eq!(persistent.overlapping(), manifold.separation <= 0.0, "{story}: {manifold:?}");
+    assert!(persistent.overlapping() || manifold.separation <= margin, "{story}: {manifold:?}");
+    let truth = separation3((&pair.shape_a, &pair.pose_a), (&pair.shape_b, &pair.pose_b));
+    let size = f64::from(whole.size());
+    let off = (f64::from(manifold.separation) - truth.separation).abs();
+    assert!(off <= f64::from(manifold.error) + truth.bound, "{story}: off by {off}, {manifold:?}");
+    assert!(f64::from(manifold.error) <= PROMISED * size, "{story}: {manifold:?}");
+    assert!((f64::from(manifold.normal.as_dvec3().length()) - 1.0).abs() < 1e-6);
+    let then = persistent.manifold();
+    assert_eq!(manifold.points.len(), then.points.len());
+    let offset = pair.pose_b.position() - pair.pose_a.position();
+    for (point, before) in manifold.points.iter().zip(&then.points) {
+        assert_eq!(point.feature, before.feature, "{story}");
+        let apart = offset + point.anchor_b.as_dvec3() - point.anchor_a.as_dvec3();
+        let straight = manifold.normal.as_dvec3() * f64::from(point.separation);
+        assert!((apart - straight).length() <= 1e-6 * size, "{story}: one is not over the other, {point:?}");
+    }
+    let deepest =
+        manifold.points.iter().map(|point| f64::from(point.separation)).fold(f64::INFINITY, f64::min);
+    let steady = f64::from(manifold.error) + 2e-6 * size;
+    assert!((deepest - f64::from(manifold.separation)).abs() <= steady, "{story}: {manifold:?}");
+}
+
+#[test]
+fn what_is_moved_along_is_true_in_space() {
+    let mut random = Random::new(71);
+    let (mut carried, mut refused) = (0, 0);
+    for kind in [SolidKind::Box, SolidKind::Authored, SolidKind::Hull16] {
+        for set in SETS {
+            for (number, pair) in pairs3(kind, set, 120, 5).into_iter().enumerate() {
+                let size = f64::from(pair.shape_a.outer_radius() + pair.shape_b.outer_radius());
+                let margin = (0.02 * size) as f32;
+                let Some(persistent) = kept(&pair, margin) else { continue };
+                let story = format!("{} {} {number}", kind.name(), set.name());
+                for round in 0..6 {
+                    // Both go a long way together first, or not; then B a little by itself, turned or not.
+                    let spread = 10.0_f64.powi(-7 - round % 3) * size;
+                    let (together, alone) = match round {
+                        0..3 => (0.0, 0.0),
+                        _ => (random.range(0.0, 3.0), random.range(0.0, 2.0) * spread),
+                    };
+                    let both = small(&mut random, together, together);
+                    let step = random.range(0.0, 60.0) * spread;
+                    let one = small(&mut random, alone, step);
+                    let middle = pair.pose_a.position();
+                    let of_b = moved(&moved(&pair.pose_b, both, middle), one, middle + both.1);
+                    let now = PosedPair3 {
+                        pose_a: moved(&pair.pose_a, both, middle),
+                        pose_b: of_b,
+                        ..pair.clone()
+                    };
+                    let drift = drift(&pair, &now);
+                    let most = f64::from(asunder_narrow::Persistent3::reach(&job(&pair, margin)));
+                    if persistent.carry_on([&now.pose_a, &now.pose_b], &mut Vec::new()) {
+                        assert!(drift <= most + 1e-9 * size, "{story}: it drifted by {drift}");
+                        check(&persistent, &now, margin, &story);
+                        carried += 1;
+                    } else {
+                        // Rotations are stored in f32, and so moved by some 1e-7 of the size.
+                        refused += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(carried > 2000 && refused > 500, "{carried} carried, {refused} refused");
+}
+
+fn job(pair: &PosedPair3, margin: f32) -> Job3<'_> {
+    let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
+    Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false }
+}
+
+/// Contacts that rounding, or a drift, could decide either way are never kept.
+#[test]
+fn what_is_close_to_call_is_not_kept() {
+    let mut seen = 0;
+    for pair in pairs3(SolidKind::Box, PairSet::Rest, 60, 9) {
+        let Some(persistent) = kept(&pair, 0.0) else { continue };
+        let normal = persistent.manifold().normal.as_dvec3();
+        let depth = -f64::from(persistent.manifold().separation);
+        let lifted = |by: f64| {
+            let pose_b = Pose3::new(pair.pose_b.position() + normal * by, pair.pose_b.rotation()).unwrap();
+            PosedPair3 { pose_b, ..pair.clone() }
+        };
+        // A millionth of a millimetre of overlap, or of gap, and the same from the margin.
+        for (by, margin) in [(depth - 1e-9, 0.0), (depth + 1e-9, 0.01), (depth + 0.01 - 1e-9, 0.01)] {
+            if let Some(close) = kept(&lifted(by), margin) {
+                let step = 3e-9;
+                let mut moved = Vec::new();
+                let beyond = lifted(by + step);
+                assert!(!close.carry_on([&beyond.pose_a, &beyond.pose_b], &mut moved), "{by} of {depth}");
+            }
+            seen += 1;
+        }
+    }
+    assert!(seen > 100);
+}
+
+#[test]
+fn what_is_moved_along_is_true_in_the_plane() {
+    let mut random = Random::new(72);
+    let (mut carried, mut refused) = (0, 0);
+    for kind in [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly64] {
+        for set in SETS {
+            for pair in pairs2(kind, set, 120, 6) {
+                let PosedPair2 { shape_a, pose_a, shape_b, pose_b } = &pair;
+                let size = f64::from(shape_a.outer_radius() + shape_b.outer_radius());
+                let margin = (0.02 * size) as f32;
+                let job = Job2 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false };
+                let mut batch = Batch2::default();
+                collide2(&[job], &mut batch);
+                let Some(persistent) = Persistent2::of(&job, &batch.answers[0], &batch.manifolds) else {
+                    continue;
+                };
+                for round in 0..4 {
+                    let angle = if round < 2 { 0.0 } else { random.range(-1.0, 1.0) };
+                    let (sin, cos) = angle.sin_cos();
+                    let turn = |v: DVec2| DVec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+                    let step = random.direction().truncate() * 10.0_f64.powi(-6 + round % 2) * size;
+                    let turned = |pose: &Pose2, extra: DVec2| {
+                        let middle = pose_a.position();
+                        let facing =
+                            turn(DVec2::new(pose.rotation().cos().into(), pose.rotation().sin().into()));
+                        let rotation = Rotation2::new(facing.x as f32, facing.y as f32).unwrap();
+                        let rotation = if angle == 0.0 { pose.rotation() } else { rotation };
+                        Pose2::new(middle + turn(pose.position() - middle) + extra, rotation).unwrap()
+                    };
+                    let (now_a, now_b) = (turned(pose_a, DVec2::ZERO), turned(pose_b, step));
+                    let mut found = Vec::new();
+                    if !persistent.carry_on([&now_a, &now_b], &mut found) {
+                        refused += 1;
+                        continue;
+                    }
+                    carried += 1;
+                    let manifold = &found[0];
+                    let overlaps = Pair2::new(shape_a, &now_a, shape_b, &now_b).overlaps();
+                    assert_eq!(persistent.overlapping(), overlaps, "{manifold:?}");
+                    let truth = separation2((shape_a, &now_a), (shape_b, &now_b));
+                    let off = (f64::from(manifold.separation) - truth.separation).abs();
+                    assert!(off <= f64::from(manifold.error) + truth.bound, "off by {off}, {manifold:?}");
+                    assert!(f64::from(manifold.error) <= PROMISED * size, "{manifold:?}");
+                    let offset = now_b.position() - now_a.position();
+                    for point in &manifold.points {
+                        let apart = offset + point.anchor_b.as_dvec2() - point.anchor_a.as_dvec2();
+                        let straight = manifold.normal.as_dvec2() * f64::from(point.separation);
+                        assert!((apart - straight).length() <= 1e-6 * size, "{point:?}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(carried > 1000 && refused > 300, "{carried} carried, {refused} refused");
+}
