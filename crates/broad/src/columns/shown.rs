@@ -15,15 +15,23 @@ pub struct Column {
     pub bounds: Aabb3,
     /// Boxes that reach into it.
     pub boxes: usize,
+    /// Pairs of them that a sweep compares: of those that are near each other along the axis that it sweeps.
+    pub candidates: usize,
 }
 
 impl Column {
     /// Every column of a grid that holds a box, and what is in all parts of it.
     pub(crate) fn all<'a>(grid: &'a Grid, parts: &'a [Columns]) -> impl Iterator<Item = Self> + 'a {
         let of_y = grid.columns[1] as usize;
+        let mut gathered = Columns::default();
         (0..grid.count()).filter_map(move |index| {
-            let boxes = parts.iter().map(|part| part.column(grid, index).entries.len()).sum();
-            (boxes > 0).then(|| Self { bounds: grid.column_bounds(index / of_y, index % of_y), boxes })
+            let column = match parts {
+                [one] => one.column(grid, index),
+                several => gathered.gather(several, grid, index),
+            };
+            let (boxes, candidates) = (column.entries.len(), column.candidates(grid));
+            let bounds = || grid.column_bounds(index / of_y, index % of_y);
+            (boxes > 0).then(|| Self { bounds: bounds(), boxes, candidates })
         })
     }
 }
@@ -81,5 +89,36 @@ mod tests {
             assert!((count(-0.01)..=count(0.01)).contains(&column.boxes), "{column:?}");
         }
         assert!(columns.iter().map(|column| column.boxes).sum::<usize>() >= boxes.len());
+        let mut pairs = 0;
+        let _ = sweep.visit(
+            &boxes,
+            |_, _| true,
+            |_| {
+                pairs += 1;
+                core::ops::ControlFlow::Continue(())
+            },
+        );
+        let candidates = || sweep.columns().map(|column| column.candidates).sum::<usize>();
+        let compared = candidates();
+        // Every pair is compared, most pairs of boxes are not, and no two of a column more than once.
+        assert!(
+            (pairs..boxes.len() * boxes.len() / 20).contains(&compared),
+            "{pairs} pairs, {compared} compared"
+        );
+        assert!(columns.iter().all(|column| column.candidates <= column.boxes * (column.boxes - 1) / 2));
+    }
+
+    #[cfg(feature = "parallel")]
+    #[test]
+    fn columns_sorted_in_parts_are_shown_as_one() {
+        let low = |i: u32| Vec3::new((i % 40) as f32, (i / 40 % 40) as f32, (i / 1600) as f32) * 1.3;
+        let boxes: Vec<Aabb3> = (0..40_000).map(|i| Aabb3::new(low(i), low(i) + Vec3::splat(1.1))).collect();
+        let shown = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut sweep = Sweep::new();
+            pool.install(|| sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut Vec::new())).unwrap();
+            sweep.columns().collect::<Vec<_>>()
+        };
+        assert_eq!(shown(1), shown(3));
     }
 }

@@ -181,7 +181,7 @@ impl Sweep {
 
     /// The columns that the last sweep sorted boxes into, for debug views: those that hold any, in the order in which
     /// they are swept. None before the first sweep. What an overfull column was cut into is not told. Cost: linear in all
-    /// columns.
+    /// columns and in the boxes in them.
     ///
     /// ```
     /// use asunder_broad::Sweep;
