@@ -41,12 +41,11 @@ impl Engine {
         }
     }
 
-    /// Pairs of boxes that the last frame compared, at most: overfull columns are cut further. Nothing of what is kept
-    /// from frame to frame.
-    pub(super) fn compared(&self) -> usize {
+    /// Pairs of boxes that the last frame compared; nothing where columns were cut further, or what rests was kept.
+    pub(super) fn compared(&self) -> Option<usize> {
         match self {
             Self::Sweep(sweep) => sweep.columns().map(|column| column.candidates).sum(),
-            Self::Coherent(_) => 0,
+            Self::Coherent(_) => None,
         }
     }
 

@@ -34,7 +34,7 @@ pub struct BroadRow {
     pub ns_high: f64,
     /// Most memory held at the end of a frame, in bytes a box, the list of pairs included; 0 where nobody counted.
     pub bytes_per_box: f64,
-    /// Pairs of boxes that a frame compared to find its pairs, where that was counted, at most; else 0.
+    /// Pairs of boxes that a frame compared to find its pairs, where that was counted; else 0.
     #[serde(default)]
     pub compared: u64,
     /// The way took too long and was broken off in its first frame: its lower quartile is what that had taken, its
@@ -83,7 +83,7 @@ pub fn one_thread(case: &Case, effort: &Effort) -> Vec<BroadRow> {
     for variant in ours.variants() {
         let row = BroadRow::new(case, ("asunder", variant.engine.name()), &variant.samples);
         let bytes_per_box = variant.peak as f64 / case.1.max(1) as f64;
-        let compared = variant.engine.compared() as u64;
+        let compared = variant.engine.compared().unwrap_or(0) as u64;
         rows.extend(row.map(|row| BroadRow { bytes_per_box, compared, ..row }));
     }
     let cut = ours.cut();
@@ -155,7 +155,10 @@ mod tests {
         for scene in BoxScene::ALL {
             let rows = one_thread(&(scene, 3000), &effort);
             let ours = rows.iter().find(|row| row.variant == "sweep").unwrap();
-            assert!(ours.compared >= ours.pairs && ours.pairs > 0 && !ours.is_cut, "{ours:?}");
+            // Clumps are swept in columns of their own.
+            let is_told = scene != BoxScene::Islands;
+            assert!(ours.compared >= ours.pairs || !is_told, "{ours:?}");
+            assert!(ours.pairs > 0 && !ours.is_cut, "{ours:?}");
             assert!(rows.iter().all(|row| row.variant == "sweep" || row.compared == 0), "{rows:?}");
         }
     }

@@ -16,7 +16,7 @@ const THREADS: usize = 2;
 /// Says what is measured now, and how much of its section is done, in 0 to 1; nothing where nobody knows.
 pub type Progress<'a> = &'a (dyn Fn(&str, Option<f64>) + Sync);
 
-/// Measures one section in place of what the data had of it. Cost: one to four minutes; a tenth to a third of that if
+/// Measures one section in place of what the data had of it. Cost: one to five minutes; a tenth to a third of that if
 /// `quick`.
 ///
 /// # Errors

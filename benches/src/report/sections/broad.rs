@@ -17,9 +17,10 @@ pub(super) fn draft(rows: &[BroadRow], frames: &[FrameRow]) -> Draft {
     let scenes = distinct(rows, |row| row.scene.clone());
     let mut figures: Vec<Figure> = scenes.iter().map(|scene| over_sizes(scene, rows)).collect();
     if !figures.is_empty() {
+        // Those with the most rows last, beside each other.
+        figures.extend(false_pairs(frames));
         figures.extend(threads(&scenes, rows));
         figures.extend(compared(&scenes, rows));
-        figures.extend(false_pairs(frames));
     }
     Draft {
         heading: "Broad phase",
@@ -30,7 +31,7 @@ pub(super) fn draft(rows: &[BroadRow], frames: &[FrameRow]) -> Draft {
                  sweep that is broken off as too slow has a row that says so, and no point. A false pair is one that \
                  is handed over though its shapes do not touch; boxes alone have none, since those of a listed pair \
                  overlap, and there the ratio is how many pairs of boxes the sweep from scratch compares for each that \
-                 it hands over (at most: columns that are too full are cut further).",
+                 it hands over; where it cuts columns that are too full, nobody counts.",
         figures,
         findings: findings(&scenes, rows),
         losses: of_broad(rows),

@@ -41,7 +41,7 @@
 //! ns a pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
 //! %); codes and bins of a box by hand in AVX2, half the instructions (6 % slower).
 
-mod level;
+pub(crate) mod level;
 pub(crate) mod order;
 pub(crate) mod rows;
 mod settle;
