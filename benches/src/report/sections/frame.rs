@@ -15,7 +15,7 @@ use crate::world::rows::FrameRow;
 const NAMES: [&str; 6] = ["boxes", "pairs", "contacts", "old and new", "events", "poses in, points out"];
 
 pub(super) fn draft(rows: &[FrameRow]) -> Draft {
-    let figures = [stages(rows), alone(rows), memory(rows)].into_iter().flatten().collect();
+    let figures = [stages(rows), in_plane(rows), memory(rows)].into_iter().flatten().collect();
     Draft {
         heading: "Frame",
         method: "Poses in, all contact points walked: named scenes beside a lean pipeline straight over parry3d (its \
@@ -42,16 +42,14 @@ fn stages(rows: &[FrameRow]) -> Option<Figure> {
     (!groups.is_empty()).then(|| Figure { file: "frame-stages".to_string(), question, svg })
 }
 
-/// Scenes that it has not, those of the plane.
-fn alone(rows: &[FrameRow]) -> Option<Figure> {
-    let question = "Nobody beside us: where does the time go?".to_string();
+/// Scenes that it has not: those of the plane.
+fn in_plane(rows: &[FrameRow]) -> Option<Figure> {
+    let question = "In the plane: where does a frame's time go?".to_string();
     let title = Title::new(question.clone(), "In units of asunder's own frame on one thread.");
-    let groups = groups(rows, |here| {
-        let is_alone = here.iter().all(|row| row.method == "asunder");
-        here.iter().find(|row| is_alone && row.threads == 1).map(|row| row.ns)
-    });
+    let rows: Vec<FrameRow> = rows.iter().filter(|row| row.scene.starts_with("plane/")).cloned().collect();
+    let groups = groups(&rows, |here| here.iter().find(|row| row.threads == 1).map(|row| row.ns));
     let svg = bars(&title, "frame time over that on one thread", &parts_drawn(), &groups);
-    (!groups.is_empty()).then(|| Figure { file: "frame-stages-alone".to_string(), question, svg })
+    (!groups.is_empty()).then(|| Figure { file: "frame-stages-plane".to_string(), question, svg })
 }
 
 fn parts_drawn() -> Vec<(&'static str, plotters::style::RGBColor)> {
