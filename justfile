@@ -14,7 +14,7 @@ play:
 compare what="narrow":
     cargo run --release -p asunder-benches --bin compare -- {{ what }} --quick
 
-# Speed against error, in one page: target/report/index.html (six minutes; --quick: two).
+# Speed against error, in one page: target/report/index.html (eight minutes; --quick: two).
 report *options:
     cargo run --release -p asunder-benches --bin report -- {{ options }}
 

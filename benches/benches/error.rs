@@ -1,10 +1,11 @@
 //! Criterion's view of the report's first section: the separation of pairs, near and far, by our certain and our fast
 //! way. Eight boxes at a time stand in `vertices`.
 
+mod brief;
+
 use asunder_narrow::Pair3;
 use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, pairs3};
 use core::hint::black_box;
-use core::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 
 /// Pairs in a set: one iteration asks them all.
@@ -35,10 +36,7 @@ fn separations(criterion: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default()
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(100))
-        .measurement_time(Duration::from_millis(300));
+    config = brief::brief();
     targets = separations
 }
 criterion_main!(benches);

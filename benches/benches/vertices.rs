@@ -1,10 +1,11 @@
 //! Criterion's view of the report's last section: each question, of pairs of few and of many vertices, in space and in
 //! the plane.
 
+mod brief;
+
 use asunder_narrow::{Batch3, Hint, Job3, Pair2, Pair3, collide3, separations3};
 use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, pairs2, pairs3};
 use core::hint::black_box;
-use core::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 
 /// Pairs in a set: one iteration asks them all.
@@ -118,10 +119,7 @@ fn plane(criterion: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default()
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(100))
-        .measurement_time(Duration::from_millis(300));
+    config = brief::brief();
     targets = space, plane
 }
 criterion_main!(benches);

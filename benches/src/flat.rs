@@ -141,7 +141,7 @@ pub fn measure(case: &Case, effort: &Effort) -> Row {
         operation => fresh(operation, &pairs, effort, &mut row),
     };
     row.done = row.done.min(row.n);
-    row.ours_ns = samples.median();
+    row.tell(&samples);
     row.accuracy = Some(judged::judged(case, &pairs, effort));
     row.finish();
     row

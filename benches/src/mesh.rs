@@ -11,7 +11,8 @@ use crate::lean::{Lean, LeanBody};
 use crate::parry::{self, Shapes};
 use crate::race::Race;
 use crate::row::Row;
-use crate::world::{MARGIN, Ours, peer_frame};
+use crate::world::play::{Ours3, Play};
+use crate::world::{MARGIN, peer_frame};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, Sphere, TriMesh};
 use asunder_narrow::Pair3;
@@ -174,7 +175,7 @@ fn frames(
     mut row: Row,
 ) -> Result<Row, Box<dyn Error>> {
     let standing = Standing::new(terrain, bodies)?;
-    let mut ours = Ours::new(&standing.bodies)?;
+    let mut ours = Ours3::new(&standing.bodies)?;
     let mut shapes = Shapes::default();
     let convert = |body: &Body3| {
         let shape = shapes.convert(&body.shape)?;
@@ -182,7 +183,7 @@ fn frames(
     };
     let lean: Option<Vec<LeanBody>> = standing.bodies.iter().map(convert).collect();
     let mut peer = Lean::new(lean.ok_or("parry3d refuses a shape")?, MARGIN);
-    ours.world.update();
+    ours.update();
     peer.update();
     let mut race = Race::default();
     while !race.is_over(effort) {

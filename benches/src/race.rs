@@ -14,6 +14,7 @@ use crate::row::Row;
 /// }
 /// race.tell(&mut row, "what is known");
 /// assert!(row.done == 3 && row.ours_ns.is_some() && row.peer_ns.is_some());
+/// assert!(row.ours_quartiles.is_some_and(|[low, high]| low <= high) && row.peer_quartiles.is_some());
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Race {
@@ -50,8 +51,9 @@ impl Race {
 
     /// Fills in the row's figures.
     pub fn tell(&self, row: &mut Row, peer: &'static str) {
-        (row.ours_ns, row.done) = (self.ours.median(), self.ours.len());
-        (row.peer, row.peer_ns) = (Some(peer), self.peer.median());
+        row.tell(&self.ours);
+        row.done = self.ours.len();
+        row.tell_peer(peer, &self.peer);
         row.finish();
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::accuracy::Accuracy;
 use crate::broad::figures::Figures;
+use crate::clock::Samples;
 use crate::world;
 use serde::Serialize;
 
@@ -26,6 +27,12 @@ pub struct Row {
     pub peer: Option<&'static str>,
     /// The peer's time, in nanoseconds per [`Row::per`].
     pub peer_ns: Option<f64>,
+    /// Quartiles of our time, where it is a median of several rounds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ours_quartiles: Option<[f64; 2]>,
+    /// Quartiles of the peer's time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peer_quartiles: Option<[f64; 2]>,
     /// The peer's time over ours: above 1 we are faster.
     pub ratio: Option<f64>,
     /// What the times are for: a `frame` or a `pair`.
@@ -58,6 +65,16 @@ impl Row {
     /// A row without figures yet.
     pub fn new(row: impl Into<String>, per: &'static str, n: usize) -> Self {
         Self { row: row.into(), per, n, ..Self::default() }
+    }
+
+    /// Fills in our time and its quartiles.
+    pub fn tell(&mut self, ours: &Samples) {
+        (self.ours_ns, self.ours_quartiles) = (ours.median(), quartiles(ours));
+    }
+
+    /// Fills in who stands beside us, its time and its quartiles.
+    pub fn tell_peer(&mut self, name: &'static str, peer: &Samples) {
+        (self.peer, self.peer_ns, self.peer_quartiles) = (Some(name), peer.median(), quartiles(peer));
     }
 
     /// Fills in what follows from the figures.
@@ -108,6 +125,11 @@ impl Row {
         );
         line.trim_end().trim_end_matches(';').to_string()
     }
+}
+
+/// Quartiles of more than one sample.
+fn quartiles(samples: &Samples) -> Option<[f64; 2]> {
+    samples.spread().filter(|_| samples.len() > 1).map(|spread| [spread.low, spread.high])
 }
 
 /// The first line of a table.

@@ -19,7 +19,7 @@ static COUNTING: Counting = Counting;
 #[derive(Parser)]
 #[command(name = "report")]
 struct Options {
-    /// Two minutes in place of six: smaller sets, no million; a look, no figures to quote.
+    /// Two minutes in place of eight: smaller sets, no million; a look, no figures to quote.
     #[arg(long)]
     quick: bool,
     /// The folder of the page.

@@ -2,7 +2,7 @@
 
 use super::figures::Figures;
 use super::{Frame, forget, memory, object};
-use crate::clock::{Samples, time};
+use crate::clock::{Samples, Spread, time};
 use crate::row::Row;
 use asunder_broad::{CoherentSweep, PairId, Sweep};
 use asunder_geometry::Aabb3;
@@ -38,6 +38,14 @@ impl Engine {
         match self {
             Self::Sweep(sweep) => sweep.bytes(),
             Self::Coherent(sweep) => sweep.bytes(),
+        }
+    }
+
+    /// Pairs of boxes that the last frame compared; nothing where columns were cut further, or what rests was kept.
+    pub(super) fn compared(&self) -> Option<usize> {
+        match self {
+            Self::Sweep(sweep) => sweep.columns().map(|column| column.candidates).sum(),
+            Self::Coherent(_) => None,
         }
     }
 
@@ -83,23 +91,32 @@ struct Unordered {
     sweep: Sweep,
     pairs: Vec<PairId>,
     samples: Samples,
-    /// It took longer than a row may, and was broken off.
-    was_cut: bool,
+    /// It took longer than a row may.
+    cut: Option<Cut>,
+}
+
+/// A sweep that was broken off.
+#[derive(Clone, Copy)]
+pub(super) struct Cut {
+    /// What it had taken by then, and what all would have taken at that rate, in nanoseconds.
+    pub(super) time: Spread,
+    /// All pairs of the frame, if a peer has told; else those that were found.
+    pub(super) pairs: usize,
 }
 
 impl Ours {
     pub(super) fn new(few_move: bool) -> Self {
         let unordered =
-            Unordered { sweep: Sweep::new(), pairs: Vec::new(), samples: Samples::default(), was_cut: false };
+            Unordered { sweep: Sweep::new(), pairs: Vec::new(), samples: Samples::default(), cut: None };
         Self { variants: Engine::all(few_move).into_iter().map(Variant::new).collect(), unordered }
     }
 
     pub(super) fn is_done(&self, limit: f64) -> bool {
-        self.unordered.was_cut || self.variants.iter().all(|variant| variant.samples.spent() >= limit)
+        self.unordered.cut.is_some() || self.variants.iter().all(|variant| variant.samples.spent() >= limit)
     }
 
     pub(super) fn forget_samples(&mut self, limit: f64) {
-        if !self.unordered.was_cut {
+        if self.unordered.cut.is_none() {
             forget(&mut self.unordered.samples, limit);
             self.variants.iter_mut().for_each(|variant| forget(&mut variant.samples, limit));
         }
@@ -114,7 +131,7 @@ impl Ours {
         if !unordered_last {
             self.unordered.frame(frame, expected, limit, row);
         }
-        if self.unordered.was_cut {
+        if self.unordered.cut.is_some() {
             return;
         }
         let mut known: Option<&[PairId]> = None;
@@ -135,19 +152,25 @@ impl Ours {
 
     /// What was measured of each mode, unless the sweep was broken off.
     pub(super) fn variants(&self) -> &[Variant] {
-        if self.unordered.was_cut { &[] } else { &self.variants }
+        if self.unordered.cut.is_some() { &[] } else { &self.variants }
+    }
+
+    /// Where the sweep was broken off, if it was.
+    pub(super) fn cut(&self) -> Option<Cut> {
+        self.unordered.cut
     }
 
     pub(super) fn report(&self, row: &mut Row, figures: &mut Figures) {
-        if self.unordered.was_cut {
-            (row.ours_ns, row.done) = (self.unordered.samples.median(), 1);
+        if let Some(cut) = self.unordered.cut {
+            (row.ours_ns, row.done) = (Some(cut.time.median), 1);
             figures.mode = "sweep";
             figures.sweep_ns = row.ours_ns;
             return;
         }
         let medians = self.variants.iter().filter_map(|one| Some((one.samples.median()?, one)));
         let Some((ns, best)) = medians.min_by(|a, b| a.0.total_cmp(&b.0)) else { return };
-        (row.ours_ns, row.done) = (Some(ns), best.samples.len());
+        row.tell(&best.samples);
+        row.done = best.samples.len();
         figures.mode = best.engine.name();
         if matches!(best.engine, Engine::Sweep(_)) {
             figures.sweep_ns = self.unordered.samples.median();
@@ -164,15 +187,15 @@ impl Unordered {
         if self.samples.spent() >= limit {
             return;
         }
-        let ns = self.visit(frame, limit);
-        if !self.was_cut {
+        let (ns, flow) = self.visit(frame, limit);
+        if flow.is_continue() {
             self.samples.push(ns, ns);
             return;
         }
         let done = self.pairs.len();
-        let all = expected.unwrap_or(done).max(1);
-        self.samples = Samples::default();
-        self.samples.push(ns * all as f64 / done.max(1) as f64, limit);
+        let all = expected.unwrap_or(done).max(done).max(1);
+        let whole = ns * all as f64 / done.max(1) as f64;
+        self.cut = Some(Cut { time: Spread { low: ns, median: whole, high: whole }, pairs: all });
         row.remark(&format!(
             "stopped after {:.1} s at {:.0} % of {all} pairs: our time is extrapolated, without order",
             ns * 1e-9,
@@ -181,13 +204,13 @@ impl Unordered {
     }
 
     /// The sweep alone, into a list without order, broken off when its time is up. Returns its nanoseconds.
-    fn visit(&mut self, frame: &Frame, limit: f64) -> f64 {
+    fn visit(&mut self, frame: &Frame, limit: f64) -> (f64, ControlFlow<()>) {
         let start = Instant::now();
         let pairs = &mut self.pairs;
         pairs.clear();
         // Twice the time of a variant: so much more than that would not fit a second frame anyhow.
         let limit = 2e-9 * limit;
-        let (ns, flow) = time(|| {
+        time(|| {
             self.sweep.visit(
                 frame.boxes,
                 |a, b| frame.filter.admits(a, b),
@@ -197,8 +220,6 @@ impl Unordered {
                     if is_late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
                 },
             )
-        });
-        self.was_cut = flow.is_break();
-        ns
+        })
     }
 }

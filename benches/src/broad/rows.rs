@@ -34,26 +34,36 @@ pub struct BroadRow {
     pub ns_high: f64,
     /// Most memory held at the end of a frame, in bytes a box, the list of pairs included; 0 where nobody counted.
     pub bytes_per_box: f64,
+    /// Pairs of boxes that a frame compared to find its pairs, where that was counted; else 0.
+    #[serde(default)]
+    pub compared: u64,
+    /// The way took too long and was broken off in its first frame: its lower quartile is what that had taken, its
+    /// median and its upper quartile are extrapolated.
+    #[serde(default)]
+    pub is_cut: bool,
     /// Whether variants found different pairs, or one was broken off.
     pub note: String,
 }
 
 impl BroadRow {
-    fn new(&(scene, count): &Case, (method, variant): (&str, &str), samples: &Samples) -> Option<Self> {
-        let Spread { low: ns_low, median: ns, high: ns_high } = samples.spread()?;
-        Some(Self {
+    fn new(case: &Case, way: (&str, &str), samples: &Samples) -> Option<Self> {
+        Some(Self { frames: samples.len() as u64, ..Self::of(case, way, samples.spread()?) })
+    }
+
+    fn of(&(scene, count): &Case, (method, variant): (&str, &str), time: Spread) -> Self {
+        let Spread { low: ns_low, median: ns, high: ns_high } = time;
+        Self {
             scene: scene.name().to_string(),
             boxes: count as u64,
             method: method.to_string(),
             variant: variant.to_string(),
             threads: 1,
             clock: "thread".to_string(),
-            frames: samples.len() as u64,
             ns,
             ns_low,
             ns_high,
             ..Self::default()
-        })
+        }
     }
 }
 
@@ -73,12 +83,18 @@ pub fn one_thread(case: &Case, effort: &Effort) -> Vec<BroadRow> {
     for variant in ours.variants() {
         let row = BroadRow::new(case, ("asunder", variant.engine.name()), &variant.samples);
         let bytes_per_box = variant.peak as f64 / case.1.max(1) as f64;
-        rows.extend(row.map(|row| BroadRow { bytes_per_box, ..row }));
+        let compared = variant.engine.compared().unwrap_or(0) as u64;
+        rows.extend(row.map(|row| BroadRow { bytes_per_box, compared, ..row }));
     }
+    let cut = ours.cut();
+    rows.extend(
+        cut.map(|cut| BroadRow { is_cut: true, ..BroadRow::of(case, ("asunder", "sweep"), cut.time) }),
+    );
     for peer in &peers {
         rows.extend(BroadRow::new(case, ("parry3d", peer.name()), &peer.samples));
     }
-    let pairs = ours.variants().first().map_or(0, |variant| variant.pairs.len());
+    let found = ours.variants().first().map(|variant| variant.pairs.len());
+    let pairs = found.or(cut.map(|cut| cut.pairs)).unwrap_or(0);
     let mut bound = Samples::default();
     bound.push(least_traffic(case.1, pairs) / bandwidth(), 0.0);
     rows.extend(BroadRow::new(case, ("memory", "reads boxes, writes pairs"), &bound));
@@ -115,4 +131,35 @@ pub fn several_threads(
         Some(BroadRow { threads, clock, pairs, note, ..row })
     });
     Ok(rows.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asunder_scenes::boxes::BoxScene;
+
+    #[test]
+    fn a_sweep_that_is_broken_off_leaves_a_row_that_says_so() {
+        let effort = Effort { rounds: 1, seconds: 1e-9, ..Effort::quick() };
+        let rows = one_thread(&(BoxScene::Pile, 5000), &effort);
+        let ours: Vec<&BroadRow> = rows.iter().filter(|row| row.method == "asunder").collect();
+        assert!(ours.len() == 1 && ours[0].is_cut && ours[0].frames == 0, "{ours:?}");
+        assert!(0.0 < ours[0].ns_low && ours[0].ns_low < ours[0].ns, "{ours:?}");
+        assert!(ours[0].note.contains("extrapolated"), "{ours:?}");
+        assert!(rows.iter().all(|row| row.pairs > 5000), "the peer told how many there are: {rows:?}");
+    }
+
+    #[test]
+    fn a_sweep_compares_more_than_it_hands_over() {
+        let effort = Effort { rounds: 1, ..Effort::quick() };
+        for scene in BoxScene::ALL {
+            let rows = one_thread(&(scene, 3000), &effort);
+            let ours = rows.iter().find(|row| row.variant == "sweep").unwrap();
+            // Clumps are swept in columns of their own.
+            let is_told = scene != BoxScene::Islands;
+            assert!(ours.compared >= ours.pairs || !is_told, "{ours:?}");
+            assert!(ours.pairs > 0 && !ours.is_cut, "{ours:?}");
+            assert!(rows.iter().all(|row| row.variant == "sweep" || row.compared == 0), "{rows:?}");
+        }
+    }
 }

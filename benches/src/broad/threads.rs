@@ -65,7 +65,8 @@ pub(super) fn run(
 fn report(row: &mut Row, threads: usize, [one, many]: &[Side; 2]) {
     let (Some((one_ns, _)), Some((ns, best))) = (one.best(), many.best()) else { return };
     let mut figures = Figures { mode: best.engine.name(), threads: Some(threads), ..Figures::default() };
-    (row.ours_ns, row.done) = (Some(ns), best.samples.len());
+    row.tell(&best.samples);
+    row.done = best.samples.len();
     (figures.one_thread_ns, figures.speedup) = (Some(one_ns), Some(one_ns / ns));
     figures.pairs = Some(best.pairs.len());
     figures.ns_per_box = Some(ns / row.n.max(1) as f64);

@@ -1,8 +1,8 @@
-//! Rows of `compare` that were kept, and what README shows of them.
+//! Rows of `compare` that were kept, and what they say.
 
-use super::names::{count, duration, error};
+use super::names::{count, error};
 use super::origin::{commit, today};
-use super::table::Table;
+use crate::clock::Spread;
 use crate::row::Row;
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
@@ -20,6 +20,18 @@ pub struct KeptRow {
     pub ours_ns: Option<f64>,
     /// The peer's time, in nanoseconds.
     pub peer_ns: Option<f64>,
+    /// Quartiles of our time, where there were several rounds.
+    #[serde(default)]
+    pub ours_low_ns: Option<f64>,
+    /// The upper one.
+    #[serde(default)]
+    pub ours_high_ns: Option<f64>,
+    /// Quartiles of the peer's time.
+    #[serde(default)]
+    pub peer_low_ns: Option<f64>,
+    /// The upper one.
+    #[serde(default)]
+    pub peer_high_ns: Option<f64>,
     /// Answers that were held against the truth.
     pub judged: Option<u64>,
     /// Our largest error, as a share of size.
@@ -64,6 +76,10 @@ impl KeptRow {
             per: row.per.to_string(),
             ours_ns: row.ours_ns,
             peer_ns: row.peer_ns,
+            ours_low_ns: row.ours_quartiles.map(|[low, _]| low),
+            ours_high_ns: row.ours_quartiles.map(|[_, high]| high),
+            peer_low_ns: row.peer_quartiles.map(|[low, _]| low),
+            peer_high_ns: row.peer_quartiles.map(|[_, high]| high),
             judged: accuracy.map(|found| number(found.judged)),
             max_error: accuracy.map(|found| found.max_error),
             off: accuracy.map(|found| number(found.off)),
@@ -77,8 +93,18 @@ impl KeptRow {
         }
     }
 
+    /// Our time, and its quartiles where they are known.
+    pub(super) fn ours(&self) -> Option<Spread> {
+        self.ours_ns.map(|ns| spread(ns, self.ours_low_ns, self.ours_high_ns))
+    }
+
+    /// The peer's.
+    pub(super) fn peer(&self) -> Option<Spread> {
+        self.peer_ns.map(|ns| spread(ns, self.peer_low_ns, self.peer_high_ns))
+    }
+
     /// What both sides' answers were worth, or what the row says of itself.
-    fn found(&self) -> String {
+    pub(super) fn found(&self) -> String {
         let Some(max_error) = self.max_error else { return self.note.clone() };
         if self.row.ends_with("/boolean") && max_error == 0.0 {
             return match self.peer_off {
@@ -116,70 +142,15 @@ pub fn put(rows: &mut Vec<KeptRow>, new: Vec<KeptRow>) {
     }
 }
 
-/// Rows of the narrow phase that README shows, of more than two hundred; of the other parts it shows those whose names
-/// begin so.
-const SHOWN: [&str; 28] = [
-    "box/mixed/boolean",
-    "box/mixed/separation",
-    "box/mixed/manifold",
-    "box8/mixed/boolean",
-    "box/rest/manifold",
-    "box/rest/cached",
-    "box/slide/cached",
-    "authored/mixed/separation",
-    "authored/mixed/manifold",
-    "hull8/mixed/manifold",
-    "hull16/mixed/manifold",
-    "hull32/mixed/boolean",
-    "hull32/mixed/manifold",
-    "hull32/mixed/distance",
-    "hull32/deep/separation",
-    "hull32/far/boolean",
-    "hull32/rest/cached",
-    "hull32/slide/cached",
-    "hull32/tumble/cached",
-    "hull128/mixed/manifold",
-    "rect/mixed/boolean",
-    "rect/mixed/manifold",
-    "poly8/mixed/manifold",
-    "poly64/mixed/boolean",
-    "grown4096/apart/boolean",
-    "grown4096/light/boolean",
-    "query/gas/100k",
-    "query/city/100k",
-];
-
-fn is_shown(row: &KeptRow) -> bool {
-    match row.part.as_str() {
-        "narrow" => SHOWN.contains(&row.row.as_str()),
-        "broad" => SHOWN.iter().any(|shown| row.row.starts_with(shown)),
-        part => part == "mesh",
-    }
+fn spread(ns: f64, low: Option<f64>, high: Option<f64>) -> Spread {
+    Spread::new(ns, low.unwrap_or(ns), high.unwrap_or(ns))
 }
 
-/// README's table of them, and what all rows of the narrow phase say together. Nothing where none is kept.
-pub fn part(rows: &[KeptRow]) -> String {
-    let shown: Vec<&KeptRow> = rows.iter().filter(|row| is_shown(row)).collect();
-    if shown.is_empty() {
+/// What the judge found in all rows of the narrow phase, and where the rows come from. Nothing where none is kept.
+pub(super) fn together(rows: &[KeptRow]) -> String {
+    if rows.is_empty() {
         return String::new();
     }
-    let mut table =
-        Table::new("", &["row", "asunder", "parry3d", "ratio", "largest error of size; or what was found"]);
-    for row in &shown {
-        let time = |ns: Option<f64>| ns.map_or("-".to_string(), duration);
-        let ratio = row
-            .ours_ns
-            .zip(row.peer_ns)
-            .map_or("-".to_string(), |(ours, peer)| format!("{:.2}", peer / ours));
-        let part = if row.part == "mesh" { "mesh " } else { "" };
-        let name = format!("`{part}{}`", row.row);
-        table.rows.push(vec![name, time(row.ours_ns), time(row.peer_ns), ratio, row.found()]);
-    }
-    format!("\n### Rows of `compare`\n\n{}\n{}\n", table.to_markdown(), together(rows))
-}
-
-/// What the judge found in all rows of the narrow phase, and where the rows come from.
-fn together(rows: &[KeptRow]) -> String {
     let judged: Vec<&KeptRow> = rows.iter().filter(|row| row.judged.is_some()).collect();
     let sum = |of: fn(&KeptRow) -> Option<u64>| count(judged.iter().filter_map(|row| of(row)).sum());
     let largest = judged.iter().filter_map(|row| row.max_error).fold(0.0, f64::max);
@@ -187,7 +158,7 @@ fn together(rows: &[KeptRow]) -> String {
     origins.sort();
     origins.dedup();
     format!(
-        "In all {} rows of the narrow phase, {} answers: {} of ours are off by more than 1e-5 of size (the largest error is \
+        "\n\nIn all {} rows of `compare`'s narrow phase, {} answers: {} of ours are off by more than 1e-5 of size (the largest error is \
          {}) and {} contacts are missed; of parry3d's {} are off and {} missed. Time of one thread, medians, both sides in \
          turns; `mesh` rows are of 1,000 bodies a frame, a ray, a cast, a triangle. `cargo run --release -p asunder-benches \
          --bin compare -- narrow --save`, `-- mesh --save`, `-- broad --only query --save`; {}.",
@@ -219,19 +190,13 @@ mod tests {
             peer_missed: Some(2),
             ..Accuracy::default()
         });
-        let mut other = Row::new("query/gas/100k/ray first", "query", 10);
-        (other.ours_ns, other.note) = (Some(300.0), "same answers".to_string());
-        let hidden = Row::new("gas/10k", "frame", 10_000);
-        let rows =
-            [KeptRow::new("narrow", &row), KeptRow::new("broad", &other), KeptRow::new("broad", &hidden)];
-        let text = part(&rows);
-        assert!(text.contains(
-            "| `box/mixed/manifold` | 200 ns | 500 ns | 2.50 | 3e-8 against 2e-3; parry3d 7 of 4,000 off"
-        ));
-        assert!(text.contains("| `query/gas/100k/ray first` | 300 ns | - | - | same answers |"));
-        assert!(!text.contains("`gas/10k`"));
-        assert!(text.contains("In all 1 rows of the narrow phase, 4,000 answers: 0 of ours are off"));
+        (row.ours_quartiles, row.peer_quartiles) = (Some([190.0, 260.0]), Some([480.0, 505.0]));
+        let kept = KeptRow::new("narrow", &row);
+        assert!(kept.ours().is_some_and(Spread::is_wide) && !kept.peer().is_some_and(Spread::is_wide));
+        assert_eq!(kept.found(), "3e-8 against 2e-3; parry3d 7 of 4,000 off by more than 1e-5");
+        let text = together(&[kept, KeptRow::default()]);
+        assert!(text.contains("In all 1 rows of `compare`'s narrow phase, 4,000 answers: 0 of ours are off"));
         assert!(text.contains("of parry3d's 7 are off and 2 missed"));
-        assert_eq!(part(&[]), "");
+        assert_eq!(together(&[]), "");
     }
 }

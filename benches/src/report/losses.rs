@@ -1,5 +1,6 @@
 //! Where somebody else is ahead: found in the rows, sentence by sentence.
 
+use super::kept::KeptRow;
 use super::names::{count, dimension, duration, error, number, short, size, words};
 use super::palette::{is_ours, look};
 use crate::broad::rows::BroadRow;
@@ -140,7 +141,12 @@ pub fn of_broad(rows: &[BroadRow]) -> Vec<String> {
     let mut said = Vec::new();
     for (scene, boxes) in distinct(rows, |row| (row.scene.clone(), row.boxes)) {
         let of = |method| best(rows, (&scene, boxes, method), "thread", 1);
-        if let (Some(ours), Some(peer)) = (of("asunder"), of("parry3d"))
+        if let Some(ours) = of("asunder").filter(|row| row.is_cut) {
+            let peer = of("parry3d")
+                .map_or(String::new(), |peer| format!(" {} takes {}.", peer.variant, duration(peer.ns)));
+            let (boxes, spent) = (size(boxes), duration(ours.ns_low));
+            said.push(format!("{scene}, {boxes} boxes: asunder was broken off after {spent}.{peer}"));
+        } else if let (Some(ours), Some(peer)) = (of("asunder"), of("parry3d"))
             && peer.ns < ours.ns
         {
             let factor = short(ours.ns / peer.ns);
@@ -222,6 +228,29 @@ fn of_memory(rows: &[FrameRow]) -> Option<String> {
     (!scenes.is_empty()).then(|| format!("More memory a body than lean parry3d: {}.", scenes.join(", ")))
 }
 
+/// Rows of `compare` in which the peer takes less time, a sentence a part.
+///
+/// ```
+/// use asunder_benches::report::{KeptRow, losses::of_kept};
+/// let row = |part: &str, row: &str, ours, peer| KeptRow {
+///     part: part.into(), row: row.into(), ours_ns: Some(ours), peer_ns: Some(peer), ..KeptRow::default()
+/// };
+/// let said = of_kept(&[row("mesh", "rays/1k", 3.0, 2.0), row("mesh", "a", 1.0, 2.0), row("narrow", "b", 2.0, 1.0)]);
+/// assert_eq!(said, ["mesh: parry3d takes less time in `rays/1k` (1.5 times).", "narrow: parry3d takes less time in `b` (2.0 times)."]);
+/// ```
+pub fn of_kept(rows: &[KeptRow]) -> Vec<String> {
+    let of_part = |part: String| {
+        let here = rows.iter().filter(|row| row.part == part);
+        let ahead = here.filter_map(|row| {
+            let ratio = row.ours_ns? / row.peer_ns?;
+            (ratio > 1.0).then(|| format!("`{}` ({} times)", row.row, short(ratio)))
+        });
+        let ahead: Vec<String> = ahead.collect();
+        (!ahead.is_empty()).then(|| format!("{part}: parry3d takes less time in {}.", ahead.join(", ")))
+    };
+    distinct(rows, |row| row.part.clone()).into_iter().filter_map(of_part).collect()
+}
+
 /// Numbers of vertices at which another method answers sooner than the fastest of ours that is never wrong.
 pub fn of_vertices(rows: &[VertexRow]) -> Vec<String> {
     let mut said = Vec::new();
@@ -282,6 +311,14 @@ mod tests {
         let faster = boxes("parry3d", 0, [40.0, 50.0, 60.0]);
         let said = of_broad(&[&ours[..], &[faster]].concat());
         assert_eq!(said, ["gas, 1k boxes: parry3d is 2.0 times as fast."]);
+    }
+
+    #[test]
+    fn a_sweep_that_was_broken_off_is_a_loss_whatever_the_peer_takes() {
+        let cut = BroadRow { is_cut: true, ..boxes("asunder", 0, [90.0, 100.0, 100.0]) };
+        let slower = boxes("parry3d", 0, [140.0, 150.0, 160.0]);
+        let said = of_broad(&[cut, slower]);
+        assert_eq!(said, ["gas, 1k boxes: asunder was broken off after 90 ns. parry3d takes 150 ns."]);
     }
 
     #[test]

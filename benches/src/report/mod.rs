@@ -2,8 +2,8 @@
 //!
 //! [`measure`] fills [`Data`], [`data`] keeps it as plain rows. All that follows is a function of those rows and of
 //! nothing else, byte by byte: [`sections`] says in which plots, tables and sentences a section consists, [`page`] and
-//! [`markdown`] lay them out, [`readme`] puts some of them into README, beside rows of `compare` that were
-//! [`kept`]. So a test can draw README's figures again.
+//! [`markdown`] lay them out, [`readme`] puts some of them into README, with one table that also has rows of
+//! `compare` that were [`kept`]. So a test can draw README's figures again.
 //!
 //! [`losses`] looks for rows where somebody else is ahead. [`plots`] knows kinds of plots and no data; it draws on a
 //! [`sheet`], along [`axis`], in the looks of [`palette`].
@@ -24,6 +24,7 @@ pub mod readme;
 pub mod sections;
 pub mod sheet;
 pub mod spread;
+mod summary;
 pub mod table;
 
 pub use data::{Data, Section};

@@ -1,13 +1,10 @@
-//! README's part: four plots, one table, the losses, and kept rows of `compare`, between two marks, from saved data
-//! alone.
+//! README's part: four plots, one table and the losses, between two marks, from saved data alone.
 
 use super::data::{Data, Section};
-use super::losses::{best, distinct};
-use super::names::{dimension, error, size, words};
+use super::losses::of_kept;
 use super::origin::Origin;
-use super::sections::{Chapter, Figure, chapters};
-use super::spread::is_wide;
-use super::table::Table;
+use super::sections::{Figure, chapters};
+use super::summary;
 
 /// The plots, by their files.
 const PLOTS: [&str; 4] = ["error-3d-near-touching", "gap-3d-apart", "broad-gas", "frame-stages"];
@@ -55,130 +52,14 @@ pub fn part(data: &Data) -> String {
             format!("<img src=\"{FOLDER}/{file}.svg\" alt=\"{question}\" width=\"410\">\n")
         })
         .collect();
-    let table = table(data).to_markdown();
+    let table = summary::table(data).to_markdown();
     format!(
-        "<p>\n{plots}</p>\n\n{table}\n± marks medians whose quartiles are more than 20 % apart. {}\n\n{}{}",
+        "<p>\n{plots}</p>\n\n{table}\n{} {}{}\n\n{}",
+        summary::READING,
         origins(data),
-        behind(&chapters(data)),
-        super::kept::part(&data.kept)
+        super::kept::together(&data.kept),
+        behind(data)
     )
-}
-
-/// One table of both sides' times, and what they found.
-fn table(data: &Data) -> Table {
-    let mut table =
-        Table::new("", &["row", "asunder", "parry3d", "ratio", "error of size, 99 %; or what both found"]);
-    table.rows.extend(error_rows(data));
-    table.rows.extend(vertex_rows(data));
-    table.rows.extend(broad_rows(data));
-    table.rows.extend(frame_rows(data));
-    table
-}
-
-/// A time and its quartiles.
-type Time = [f64; 3];
-
-fn line(name: &str, ours: Time, peer: Option<Time>, found: String) -> Vec<String> {
-    let text = |[ns, low, high]: Time| {
-        let mark = if is_wide(ns, low, high) { " ±" } else { "" };
-        format!("{}{mark}", super::names::duration(ns))
-    };
-    let ratio = peer.map_or("-".to_string(), |peer| format!("{:.2}", peer[0] / ours[0]));
-    vec![format!("`{name}`"), text(ours), peer.map_or("-".to_string(), text), ratio, found]
-}
-
-fn error_rows(data: &Data) -> Vec<Vec<String>> {
-    let groups = distinct(&data.error, |row| (row.dimension.clone(), row.group.clone()));
-    let of_group = |(dim, group): &(String, String)| {
-        let of = |method: &str| {
-            data.error.iter().find(|row| row.dimension == *dim && row.group == *group && row.method == method)
-        };
-        let (ours, peer) = (of("certain")?, of("parry-f32"));
-        let said = |row: &crate::error::ErrorRow| {
-            let wrong = match row.wrong_per_100k {
-                0.0 => String::new(),
-                wrong => format!(", {} wrong in 100,000", super::names::count(libm::ceil(wrong) as u64)),
-            };
-            let refused = match row.refused {
-                0 => String::new(),
-                refused => format!(
-                    ", {} of {} refused",
-                    super::names::count(refused),
-                    super::names::count(row.pairs)
-                ),
-            };
-            format!("{}{wrong}{refused}", error(row.error_p99))
-        };
-        let against = peer.map_or(String::new(), |peer| format!(" against {}", said(peer)));
-        let found = format!("{}{against}", said(ours));
-        let peer = peer.map(|row| [row.ns, row.ns_low, row.ns_high]);
-        let name = format!("{}, {}", dimension(dim), words(group));
-        Some(line(&name, [ours.ns, ours.ns_low, ours.ns_high], peer, found))
-    };
-    groups.iter().filter_map(of_group).collect()
-}
-
-fn vertex_rows(data: &Data) -> Vec<Vec<String>> {
-    let is_shown = |vertices: u32| [4, 16, 64, 256].contains(&vertices);
-    let mut kinds =
-        distinct(&data.vertices, |row| (row.dimension.clone(), row.operation.clone(), row.vertices));
-    kinds.retain(|(dim, _, vertices)| dim == "3d" && is_shown(*vertices));
-    let of_kind = |(dim, operation, vertices): &(String, String, u32)| {
-        let of = |method: &str| {
-            let mut rows = data.vertices.iter();
-            rows.find(|row| {
-                row.method == method
-                    && row.dimension == *dim
-                    && row.operation == *operation
-                    && row.vertices == *vertices
-            })
-        };
-        let (ours, peer) = (of("certain").or_else(|| of("fast"))?, of("parry-f32"));
-        let peer = peer.map(|row| [row.ns, row.ns_low, row.ns_high]);
-        Some(line(
-            &format!("hull{vertices}/{operation}"),
-            [ours.ns, ours.ns_low, ours.ns_high],
-            peer,
-            String::new(),
-        ))
-    };
-    kinds.iter().filter_map(of_kind).collect()
-}
-
-fn broad_rows(data: &Data) -> Vec<Vec<String>> {
-    let cases = distinct(&data.broad, |row| (row.scene.clone(), row.boxes));
-    let of_case = |(scene, boxes): &(String, u64)| {
-        let of = |method| best(&data.broad, (scene, *boxes, method), "thread", 1);
-        let (ours, peer) = (of("asunder")?, of("parry3d"));
-        let found = if ours.note.is_empty() { "same pairs".to_string() } else { ours.note.clone() };
-        let peer = peer.map(|row| [row.ns, row.ns_low, row.ns_high]);
-        Some(line(&format!("{scene}/{}", size(*boxes)), [ours.ns, ours.ns_low, ours.ns_high], peer, found))
-    };
-    cases.iter().filter_map(of_case).collect()
-}
-
-fn frame_rows(data: &Data) -> Vec<Vec<String>> {
-    let scenes = distinct(&data.frame, |row| row.scene.clone());
-    let of_scene = |scene: &String| {
-        let of = |method: &str| {
-            data.frame.iter().find(|row| row.scene == *scene && row.method == method && row.threads == 1)
-        };
-        let (ours, peer) = (of("asunder")?, of("parry3d"));
-        let count = super::names::count;
-        let mut found = match peer {
-            Some(peer) if peer.contacts != ours.contacts => {
-                format!("{} contacts, parry3d {}", count(ours.contacts), count(peer.contacts))
-            }
-            _ => format!("{} contacts", count(ours.contacts)),
-        };
-        // Contacts that differ between numbers of threads must not go unseen.
-        if ours.note.contains("DIFFER") {
-            found = format!("{found}; {}", ours.note);
-        }
-        let peer = peer.map(|row| [row.ns, row.ns_low, row.ns_high]);
-        Some(line(scene, [ours.ns, ours.ns_low, ours.ns_high], peer, found))
-    };
-    scenes.iter().filter_map(of_scene).collect()
 }
 
 /// Machines, versions and days: once, where all sections have the same.
@@ -202,17 +83,15 @@ fn origins(data: &Data) -> String {
     format!("{}.", parts.join(". "))
 }
 
-/// All losses, folded away section by section under how many there are.
-fn behind(chapters: &[Chapter]) -> String {
-    let total: usize = chapters.iter().map(|chapter| chapter.losses.len()).sum();
-    let mut text = format!("**Where asunder is behind**, found in the same data, in {total} sentences.\n");
-    for chapter in chapters.iter().filter(|chapter| !chapter.losses.is_empty()) {
-        let items: String = chapter.losses.iter().map(|loss| format!("- {loss}\n")).collect();
-        text.push_str(&format!(
-            "\n<details><summary>{}: {}</summary>\n\n{items}\n</details>\n",
-            chapter.heading,
-            chapter.losses.len()
-        ));
+/// All losses, folded away section by section.
+fn behind(data: &Data) -> String {
+    let chapters = chapters(data);
+    let mut text = "**Where asunder is behind**, found in the same data:\n".to_string();
+    let of_kept = [("Rows of compare", &of_kept(&data.kept)[..])];
+    let all = chapters.iter().map(|chapter| (chapter.heading.as_str(), &chapter.losses[..])).chain(of_kept);
+    for (heading, losses) in all.filter(|(_, losses)| !losses.is_empty()) {
+        let items: String = losses.iter().map(|loss| format!("- {loss}\n")).collect();
+        text.push_str(&format!("\n<details><summary>{heading}</summary>\n\n{items}\n</details>\n"));
     }
     let without: Vec<&str> = Section::ALL
         .into_iter()

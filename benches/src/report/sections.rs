@@ -61,7 +61,7 @@ pub fn chapters(data: &Data) -> Vec<Chapter> {
             Section::Error => error::draft(&data.error),
             Section::Gap => gap::draft(&data.gap),
             Section::Stability => stability::draft(&data.stability),
-            Section::Broad => broad::draft(&data.broad),
+            Section::Broad => broad::draft(&data.broad, &data.frame),
             Section::Frame => frame::draft(&data.frame),
             Section::Vertices => vertices::draft(&data.vertices),
         };
@@ -84,6 +84,13 @@ fn marked(median: f64, low: f64, high: f64) -> String {
     if super::spread::is_wide(median, low, high) { format!("{time} ±") } else { time }
 }
 
+/// What rows say of themselves, each once, after the name of what they are about.
+fn remarks<'a>(notes: impl Iterator<Item = (String, &'a str)>) -> Vec<String> {
+    let said: Vec<String> =
+        notes.filter(|(_, note)| !note.is_empty()).map(|(of, note)| format!("{of}: {note}.")).collect();
+    super::losses::distinct(&said, String::clone)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,6 +98,29 @@ mod tests {
     #[test]
     fn no_rows_make_no_chapters() {
         assert!(chapters(&Data::default()).is_empty());
+    }
+
+    #[test]
+    fn what_rows_say_of_themselves_is_told_once() {
+        let said = [("a", "DIFFER"), ("a", "DIFFER"), ("b", ""), ("c", "DIFFER")];
+        let said = remarks(said.into_iter().map(|(of, note)| (of.to_string(), note)));
+        assert_eq!(said, ["a: DIFFER.", "c: DIFFER."]);
+    }
+
+    #[test]
+    fn contacts_that_differ_are_told_on_the_page() {
+        let frame = |threads, note: &str| crate::world::rows::FrameRow {
+            scene: "pile".to_string(),
+            method: "asunder".to_string(),
+            threads,
+            ns: 1.0,
+            note: note.to_string(),
+            ..Default::default()
+        };
+        let frames = vec![frame(1, "CONTACTS DIFFER in frame 3"), frame(2, "CONTACTS DIFFER in frame 3")];
+        let page = |frame| crate::report::page::to_html(&chapters(&Data { frame, ..Data::default() }));
+        assert!(page(frames).contains("<li>pile: CONTACTS DIFFER in frame 3.</li>"));
+        assert!(!page(vec![frame(1, "")]).contains("DIFFER"));
     }
 
     #[test]

@@ -1,12 +1,11 @@
 //! Whole frames as plain rows, for the report.
 
+use super::play::{Play, Replay};
 use super::threads::{Run, Side, run};
-use super::{Case, MARGIN, Ours, lean_bodies, name, peer_frame, poses_at};
+use super::{Case, MARGIN, name, peer_frame};
 use crate::clock::{Effort, Spread};
 use crate::lean::{Lean, Walked};
-use crate::parry;
-use asunder_geometry::Pose3;
-use asunder_scenes::worlds::Replay3;
+use asunder_scenes::worlds::{Replay2, Replay3};
 use asunder_tests::counting::{allocations, counted, live_bytes};
 use parry3d::math::Pose;
 use serde::{Deserialize, Serialize};
@@ -56,7 +55,22 @@ pub struct FrameRow {
     pub note: String,
 }
 
-/// Measures one scene in space: ours on one thread and on several, the peer's on one. Memory is counted where the
+impl FrameRow {
+    /// The part of the candidates that have no contact point: boxes overlap, shapes do not touch; margins included, here
+    /// as there.
+    ///
+    /// ```
+    /// use asunder_benches::world::rows::FrameRow;
+    /// let row = FrameRow { candidates: 4, contacts: 1, ..FrameRow::default() };
+    /// assert_eq!((row.false_pairs(), FrameRow::default().false_pairs()), (0.75, 0.0));
+    /// ```
+    pub fn false_pairs(&self) -> f64 {
+        let candidates = self.candidates.max(self.contacts).max(1) as f64;
+        (self.candidates.max(self.contacts) - self.contacts) as f64 / candidates
+    }
+}
+
+/// Measures one scene: ours on one thread and on several; in space the peer's on one. Memory is counted where the
 /// program's allocator is [`Counting`](asunder_tests::counting::Counting).
 ///
 /// # Errors
@@ -69,6 +83,8 @@ pub struct FrameRow {
 /// let threads: Vec<u64> = rows.iter().map(|row| row.threads).collect();
 /// assert_eq!(threads, [1, 2, 1]);
 /// assert!(rows.iter().all(|row| row.note.is_empty() && row.allocations < 0.0), "nobody counts here: {rows:?}");
+/// let rows = rows::frames(&(WorldScene::Mixed, true), 300, 2, &Effort { rounds: 2, ..Effort::quick() })?;
+/// assert_eq!(rows.iter().map(|row| row.threads).collect::<Vec<_>>(), [1, 2], "no peer in the plane");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn frames(
@@ -77,13 +93,25 @@ pub fn frames(
     threads: usize,
     effort: &Effort,
 ) -> Result<Vec<FrameRow>, Box<dyn Error>> {
-    let Some(run) = run(case, count, threads, effort)? else { return Ok(Vec::new()) };
-    let [ours, peer] = memory(case, count)?;
+    match case {
+        (_, true) => frames_of::<Replay2>(case, count, threads, effort),
+        (_, false) => frames_of::<Replay3>(case, count, threads, effort),
+    }
+}
+
+fn frames_of<R: Replay>(
+    case: &Case,
+    count: usize,
+    threads: usize,
+    effort: &Effort,
+) -> Result<Vec<FrameRow>, Box<dyn Error>> {
+    let run = run::<R>(case, count, threads, effort)?;
+    let [ours, peer] = memory::<R>(case, count)?;
     let [one, many] = &run.ours;
     let rows = [
         row(case, &run, (one, "asunder", 1), ours),
         row(case, &run, (many, "asunder", threads), None),
-        row(case, &run, (&run.peer, "parry3d", 1), peer),
+        run.peer.as_ref().and_then(|side| row(case, &run, (side, "parry3d", 1), peer)),
     ];
     Ok(rows.into_iter().flatten().collect())
 }
@@ -130,7 +158,7 @@ const CYCLE: u32 = 20;
 
 /// What our world and the peer's hold, and what a frame of theirs asks the allocator for once all buffers have grown:
 /// the third round of the same frames.
-fn memory(case: &Case, count: usize) -> Result<[Held; 2], Box<dyn Error>> {
+fn memory<R: Replay>(case: &Case, count: usize) -> Result<[Held; 2], Box<dyn Error>> {
     let is_counted = counted(1, || {
         let before = allocations();
         core::hint::black_box(vec![1_u8; 100]);
@@ -139,14 +167,14 @@ fn memory(case: &Case, count: usize) -> Result<[Held; 2], Box<dyn Error>> {
     if !is_counted {
         return Ok([None, None]);
     }
-    let replay = Replay3::new(case.0, count, 1);
+    let replay = R::of(case.0, count);
     let ours = counted(1, || -> Result<(f64, f64), String> {
         let (replay, before) = (replay.clone(), live_bytes());
-        let mut ours = Ours::new(&replay.bodies).map_err(|error| error.to_string())?;
+        let mut ours = replay.ours().map_err(|error| error.to_string())?;
         Ok(steady((replay, before), |poses, _| ours.frame(poses)))
     })?;
     // Shapes are made beforehand: their data is not the pipeline's, here as there.
-    let peer = lean_bodies(&replay.bodies).map(|bodies| {
+    let peer = replay.lean_bodies().map(|bodies| {
         counted(1, || {
             let (replay, before) = (replay.clone(), live_bytes());
             let mut peer = Lean::new(bodies.clone(), MARGIN);
@@ -157,19 +185,19 @@ fn memory(case: &Case, count: usize) -> Result<[Held; 2], Box<dyn Error>> {
 }
 
 /// Plays three rounds: allocations a frame of the last one, and bytes a body at its end.
-fn steady(
-    (mut replay, before): (Replay3, i64),
-    mut frame: impl FnMut(&[(u32, Pose3)], &[(u32, Pose)]) -> Walked,
+fn steady<R: Replay>(
+    (mut replay, before): (R, i64),
+    mut frame: impl FnMut(&[(u32, R::Pose)], &[(u32, Pose)]) -> Walked,
 ) -> (f64, f64) {
     let mut calls = 0;
     for number in 0..3 * CYCLE {
-        let poses = poses_at(&mut replay, number % CYCLE);
-        let converted: Vec<(u32, Pose)> = poses.iter().map(|(i, pose)| (*i, parry::pose(pose))).collect();
+        let poses = replay.poses_at(number % CYCLE);
+        let converted = R::converted(&poses);
         let start = allocations();
         core::hint::black_box(frame(&poses, &converted));
         if number >= 2 * CYCLE {
             calls += allocations() - start;
         }
     }
-    (calls as f64 / f64::from(CYCLE), (live_bytes() - before) as f64 / replay.bodies.len().max(1) as f64)
+    (calls as f64 / f64::from(CYCLE), (live_bytes() - before) as f64 / replay.count().max(1) as f64)
 }

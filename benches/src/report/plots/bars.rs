@@ -1,6 +1,7 @@
 //! Bars of parts, in groups, against a line that stands for the peer.
 
 use super::Title;
+use super::groups::{Group, height, rows, widest};
 use super::scatter::dark;
 use crate::report::palette::{GRID, INK, PALE};
 use crate::report::sheet::{Hang, Sheet, TEXT, WIDTH, draw, width_of};
@@ -21,31 +22,20 @@ pub struct Bar {
     pub label: String,
 }
 
-/// Bars under one heading.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Group {
-    /// The heading.
-    pub name: String,
-    /// Its bars.
-    pub bars: Vec<Bar>,
-}
-
 const TOP: f64 = 88.0;
 const ROW: f64 = 17.0;
 /// Bars end here, whatever they stand for: their label says how much that is.
 const LONGEST: f64 = 4.0;
-const HEADING: f64 = 19.0;
 
 /// Draws the groups; all lengths are parts of the line at 1, which the caption names. Parts have names and colours.
-pub fn bars(title: &Title, caption: &str, parts: &[(&str, RGBColor)], groups: &[Group]) -> String {
-    let all = || groups.iter().flat_map(|group| &group.bars);
-    let left = 20.0 + all().map(|bar| width_of(&bar.name, TEXT)).fold(0.0, f64::max);
-    let label = all().map(|bar| width_of(&bar.label, TEXT) + 8.0).fold(0.0, f64::max);
+pub fn bars(title: &Title, caption: &str, parts: &[(&str, RGBColor)], groups: &[Group<Bar>]) -> String {
+    let left = 20.0 + widest(groups, |bar| &bar.name);
+    let label = 8.0 + widest(groups, |bar| &bar.label);
+    let all = || groups.iter().flat_map(|group| &group.rows);
     let right = WIDTH - 18.0 - label;
     let longest = all().map(|bar| bar.parts.iter().sum::<f64>()).fold(1.0, f64::max).min(LONGEST);
     let at = |length: f64| left + (right - left) * (length / longest).min(1.0);
-    let height: f64 = groups.iter().map(|group| HEADING + ROW * group.bars.len() as f64).sum();
-    let bottom = TOP + height + 4.0;
+    let bottom = TOP + height(groups, ROW) + 4.0;
     draw(&title.question, bottom + 44.0, |sheet| {
         sheet.title(&title.lines());
         legend(sheet, parts);
@@ -62,15 +52,7 @@ pub fn bars(title: &Title, caption: &str, parts: &[(&str, RGBColor)], groups: &[
                 );
             }
         }
-        let mut y = TOP;
-        for group in groups {
-            sheet.bold(&group.name, (10.0, y + 0.5 * HEADING + 1.0), Hang::Start, (INK, TEXT));
-            y += HEADING;
-            for bar in &group.bars {
-                one(sheet, bar, parts, (y, left, &at));
-                y += ROW;
-            }
-        }
+        rows(sheet, groups, (TOP, ROW), |sheet, bar, y| one(sheet, bar, parts, (y, left, &at)));
         sheet.text(caption, (0.5 * WIDTH, bottom + 30.0), Hang::Middle, (PALE, TEXT));
     })
 }

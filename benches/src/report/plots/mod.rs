@@ -2,6 +2,7 @@
 
 pub mod bars;
 pub mod curves;
+pub mod groups;
 pub mod heat;
 pub mod labels;
 pub mod scatter;

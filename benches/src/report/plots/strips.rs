@@ -1,11 +1,12 @@
 //! Rows in groups, a value each on one logarithmic axis, with how far it goes: names stand beside their rows.
 
 use super::Title;
+use super::groups::{Group, height, rows, widest};
 use super::scatter::dark;
 use crate::report::axis::Axis;
 use crate::report::names::number;
 use crate::report::palette::{GRID, INK, Look, PALE};
-use crate::report::sheet::{Hang, TEXT, WIDTH, draw, width_of};
+use crate::report::sheet::{Hang, TEXT, WIDTH, draw};
 use plotters::style::RGBColor;
 
 /// How values lie along the axis.
@@ -32,33 +33,21 @@ pub struct Strip {
     pub is_noisy: bool,
 }
 
-/// Rows under one heading.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Group {
-    /// The heading.
-    pub name: String,
-    /// Its rows.
-    pub strips: Vec<Strip>,
-}
-
 const TOP: f64 = 50.0;
 const ROW: f64 = 16.0;
-const HEADING: f64 = 19.0;
 
 /// Draws the groups, one below the other; the figure beside a row is its value, and its end where that is another.
-pub fn strips(title: &Title, caption: &str, scale: Scale, groups: &[Group]) -> String {
-    let all = || groups.iter().flat_map(|group| &group.strips);
-    let left = 22.0 + all().map(|strip| width_of(&strip.look.name, TEXT)).fold(0.0, f64::max);
-    let widest = all().map(|strip| width_of(&figures(strip), TEXT)).fold(0.0, f64::max);
-    let right = WIDTH - 22.0 - widest;
+pub fn strips(title: &Title, caption: &str, scale: Scale, groups: &[Group<Strip>]) -> String {
+    let all = || groups.iter().flat_map(|group| &group.rows);
+    let left = 22.0 + widest(groups, |strip| &strip.look.name);
+    let right = WIDTH - 22.0 - widest(groups, figures);
     let values: Vec<f64> = all().flat_map(|s| [s.value, s.inner.0, s.inner.1, s.end]).collect();
     let axis = match scale {
         Scale::Linear => Axis::linear(&values, (left, right)),
         Scale::Logarithmic if values.contains(&0.0) => Axis::new(&values, (left, right)).with_zero(40.0),
         Scale::Logarithmic => Axis::new(&values, (left, right)),
     };
-    let height: f64 = groups.iter().map(|group| HEADING + ROW * group.strips.len() as f64).sum();
-    let bottom = TOP + height + 4.0;
+    let bottom = TOP + height(groups, ROW) + 4.0;
     draw(&title.question, bottom + 48.0, |sheet| {
         sheet.title(&title.lines());
         if let Some((place, end)) = axis.zero() {
@@ -77,21 +66,15 @@ pub fn strips(title: &Title, caption: &str, scale: Scale, groups: &[Group]) -> S
                 (INK, TEXT - 0.5),
             );
         }
-        let mut y = TOP;
-        for group in groups {
-            sheet.bold(&group.name, (10.0, y + 0.5 * HEADING + 1.0), Hang::Start, (INK, TEXT));
-            y += HEADING;
-            for strip in &group.strips {
-                let middle = y + 0.5 * ROW;
-                let color = strip.look.color;
-                sheet.text(&strip.look.name, (left - 6.0, middle), Hang::End, (dark(color), TEXT));
-                sheet.line(&[(axis.at(strip.value), middle), (axis.at(strip.end), middle)], color, 0.75);
-                sheet.line(&[(axis.at(strip.inner.0), middle), (axis.at(strip.inner.1), middle)], color, 2.5);
-                sheet.mark((axis.at(strip.value), middle), strip.look.mark, (color, strip.is_noisy));
-                sheet.text(&figures(strip), (right + 14.0, middle), Hang::Start, (INK, TEXT - 0.5));
-                y += ROW;
-            }
-        }
+        rows(sheet, groups, (TOP, ROW), |sheet, strip, y| {
+            let middle = y + 0.5 * ROW;
+            let color = strip.look.color;
+            sheet.text(&strip.look.name, (left - 6.0, middle), Hang::End, (dark(color), TEXT));
+            sheet.line(&[(axis.at(strip.value), middle), (axis.at(strip.end), middle)], color, 0.75);
+            sheet.line(&[(axis.at(strip.inner.0), middle), (axis.at(strip.inner.1), middle)], color, 2.5);
+            sheet.mark((axis.at(strip.value), middle), strip.look.mark, (color, strip.is_noisy));
+            sheet.text(&figures(strip), (right + 14.0, middle), Hang::Start, (INK, TEXT - 0.5));
+        });
         sheet.text(caption, (0.5 * WIDTH, bottom + 33.0), Hang::Middle, (PALE, TEXT));
     })
 }

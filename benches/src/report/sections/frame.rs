@@ -1,12 +1,13 @@
 //! Whole frames: where their time goes, what they hold.
 
-use super::{Draft, Figure, marked};
+use super::{Draft, Figure, marked, remarks};
 use crate::report::losses::{distinct, of_frame};
 use crate::report::names::{count, duration, number, short};
 use crate::report::palette::{STAGES, look};
 use crate::report::plots::Title;
-use crate::report::plots::bars::{self, Bar, bars};
-use crate::report::plots::strips::{Group, Scale, Strip, strips};
+use crate::report::plots::bars::{Bar, bars};
+use crate::report::plots::groups::Group;
+use crate::report::plots::strips::{Scale, Strip, strips};
 use crate::report::table::Table;
 use crate::world::rows::FrameRow;
 
@@ -14,37 +15,55 @@ use crate::world::rows::FrameRow;
 const NAMES: [&str; 6] = ["boxes", "pairs", "contacts", "old and new", "events", "poses in, points out"];
 
 pub(super) fn draft(rows: &[FrameRow]) -> Draft {
-    let mut figures = if rows.is_empty() { Vec::new() } else { vec![stages(rows)] };
-    figures.extend(memory(rows));
+    let figures = [stages(rows), in_plane(rows), memory(rows)].into_iter().flatten().collect();
     Draft {
         heading: "Frame",
         method: "Poses in, all contact points walked: named scenes beside a lean pipeline straight over parry3d (its \
-                 trees, its persistent manifolds, no events). By the clock on the wall, in turns, frame by frame. \
+                 trees, its persistent manifolds, no events); those of the plane stand alone. By the clock on the wall, in turns, frame by frame. \
                  Allocations are those of a steady frame, in the third round of the same frames; bytes are held beside \
                  the shapes' own data. False pairs are candidates without a contact point.",
         figures,
-        findings: allocations(rows),
+        findings: allocations(rows)
+            .into_iter()
+            .chain(remarks(rows.iter().map(|row| (row.scene.clone(), row.note.as_str()))))
+            .collect(),
         losses: of_frame(rows),
         tables: vec![table(rows)],
     }
 }
 
-fn stages(rows: &[FrameRow]) -> Figure {
+/// Scenes that the peer has too.
+fn stages(rows: &[FrameRow]) -> Option<Figure> {
     let question = "Where does a frame's time go?".to_string();
     let title =
         Title::new(question.clone(), "In units of lean parry3d's frame on one thread: shorter is better.");
-    let scenes = distinct(rows, |row| row.scene.clone());
-    let groups: Vec<bars::Group> = scenes
-        .iter()
-        .filter_map(|scene| {
-            let here = || rows.iter().filter(|row| row.scene == *scene);
-            let unit = here().find(|row| row.method == "parry3d")?.ns;
-            Some(bars::Group { name: scene.clone(), bars: here().map(|row| bar(row, unit)).collect() })
-        })
-        .collect();
-    let parts: Vec<(&str, plotters::style::RGBColor)> = NAMES.into_iter().zip(STAGES).collect();
-    let caption = "frame time over lean parry3d's, one thread";
-    Figure { file: "frame-stages".to_string(), question, svg: bars(&title, caption, &parts, &groups) }
+    let groups = groups(rows, |here| here.iter().find(|row| row.method == "parry3d").map(|row| row.ns));
+    let svg = bars(&title, "frame time over lean parry3d's, one thread", &parts_drawn(), &groups);
+    (!groups.is_empty()).then(|| Figure { file: "frame-stages".to_string(), question, svg })
+}
+
+/// Scenes that it has not: those of the plane.
+fn in_plane(rows: &[FrameRow]) -> Option<Figure> {
+    let question = "In the plane: where does a frame's time go?".to_string();
+    let title = Title::new(question.clone(), "In units of asunder's own frame on one thread.");
+    let rows: Vec<FrameRow> = rows.iter().filter(|row| row.scene.starts_with("plane/")).cloned().collect();
+    let groups = groups(&rows, |here| here.iter().find(|row| row.threads == 1).map(|row| row.ns));
+    let svg = bars(&title, "frame time over that on one thread", &parts_drawn(), &groups);
+    (!groups.is_empty()).then(|| Figure { file: "frame-stages-plane".to_string(), question, svg })
+}
+
+fn parts_drawn() -> Vec<(&'static str, plotters::style::RGBColor)> {
+    NAMES.into_iter().zip(STAGES).collect()
+}
+
+/// The bars of every scene that has a unit.
+fn groups(rows: &[FrameRow], unit: impl Fn(&[&FrameRow]) -> Option<f64>) -> Vec<Group<Bar>> {
+    let group = |scene: &String| {
+        let here: Vec<&FrameRow> = rows.iter().filter(|row| row.scene == *scene).collect();
+        let unit = unit(&here)?;
+        Some(Group { name: scene.clone(), rows: here.iter().map(|row| bar(row, unit)).collect() })
+    };
+    distinct(rows, |row| row.scene.clone()).iter().filter_map(group).collect()
 }
 
 /// What the worlds hold, where somebody counted.
@@ -54,11 +73,11 @@ fn memory(rows: &[FrameRow]) -> Option<Figure> {
         let value = row.bytes_per_body;
         Strip { look: look(&row.method), value, inner: (0.0, value), end: value, is_noisy: false }
     };
-    let groups: Vec<Group> = distinct(&counted, |row| row.scene.clone())
+    let groups: Vec<Group<Strip>> = distinct(&counted, |row| row.scene.clone())
         .into_iter()
         .map(|scene| {
-            let strips = counted.iter().filter(|row| row.scene == scene).map(strip).collect();
-            Group { name: scene, strips }
+            let rows = counted.iter().filter(|row| row.scene == scene).map(strip).collect();
+            Group { name: scene, rows }
         })
         .collect();
     let question = "What does a body take in memory?".to_string();
@@ -110,7 +129,7 @@ fn bar(row: &FrameRow, unit: f64) -> Bar {
 fn table(rows: &[FrameRow]) -> Table {
     let mut head = vec!["scene", "who", "threads", "bodies", "a frame"];
     head.extend(NAMES);
-    head.extend(["contacts", "points", "candidates", "false, %", "allocations", "bytes a body"]);
+    head.extend(["contacts", "points", "candidates", "false, %", "allocations", "bytes a body", "note"]);
     let mut table = Table::new("Every scene", &head);
     for row in rows {
         let counted =
@@ -123,14 +142,14 @@ fn table(rows: &[FrameRow]) -> Table {
             marked(row.ns, row.ns_low, row.ns_high),
         ];
         cells.extend(parts(row).map(duration));
-        let false_pairs = 100.0 * (1.0 - row.contacts as f64 / row.candidates.max(1) as f64);
         cells.extend([
             count(row.contacts),
             count(row.points),
             count(row.candidates),
-            format!("{:.0}", false_pairs.max(0.0)),
+            format!("{:.0}", 100.0 * row.false_pairs()),
             counted(row.allocations),
             counted(row.bytes_per_body),
+            row.note.clone(),
         ]);
         table.rows.push(cells);
     }

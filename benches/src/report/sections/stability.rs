@@ -6,7 +6,8 @@ use crate::report::losses::{distinct, of_stability};
 use crate::report::names::{count, error, words};
 use crate::report::palette::{look, rank};
 use crate::report::plots::Title;
-use crate::report::plots::strips::{Group, Scale, Strip, strips};
+use crate::report::plots::groups::Group;
+use crate::report::plots::strips::{Scale, Strip, strips};
 use crate::report::table::Table;
 
 pub(super) fn draft(rows: &[StabilityRow]) -> Draft {
@@ -39,7 +40,7 @@ fn question(measure: &str) -> String {
 
 fn of_measure(measure: &str, rows: &[StabilityRow]) -> Figure {
     let here: Vec<&StabilityRow> = rows.iter().filter(|row| row.measure == measure).collect();
-    let groups: Vec<Group> = distinct(&here, |row| row.shape.clone())
+    let groups: Vec<Group<Strip>> = distinct(&here, |row| row.shape.clone())
         .into_iter()
         .map(|shape| {
             let mut of: Vec<&&StabilityRow> = here.iter().filter(|row| row.shape == shape).collect();
@@ -51,7 +52,7 @@ fn of_measure(measure: &str, rows: &[StabilityRow]) -> Figure {
                 end: row.max,
                 is_noisy: false,
             };
-            Group { name: words(&shape), strips: of.iter().map(strip).collect() }
+            Group { name: words(&shape), rows: of.iter().map(strip).collect() }
         })
         .collect();
     let unit = here.first().map_or("", |row| row.unit.as_str());

@@ -2,6 +2,7 @@
 
 use super::Columns;
 use super::grid::Grid;
+use crate::sweep::level::{crowd, overfull};
 use asunder_geometry::Aabb3;
 use asunder_geometry::glam::Vec3;
 
@@ -15,15 +16,26 @@ pub struct Column {
     pub bounds: Aabb3,
     /// Boxes that reach into it.
     pub boxes: usize,
+    /// Pairs of them that a sweep compares: of those that are near each other along the axis that it sweeps. Not told of a
+    /// column that is so full that it may be swept in columns of its own.
+    pub candidates: Option<usize>,
 }
 
 impl Column {
     /// Every column of a grid that holds a box, and what is in all parts of it.
     pub(crate) fn all<'a>(grid: &'a Grid, parts: &'a [Columns]) -> impl Iterator<Item = Self> + 'a {
         let of_y = grid.columns[1] as usize;
+        let (mut gathered, crowd) = (Columns::default(), crowd(parts.iter().map(Columns::len).sum(), grid));
         (0..grid.count()).filter_map(move |index| {
-            let boxes = parts.iter().map(|part| part.column(grid, index).entries.len()).sum();
-            (boxes > 0).then(|| Self { bounds: grid.column_bounds(index / of_y, index % of_y), boxes })
+            let column = match parts {
+                [one] => one.column(grid, index),
+                several => gathered.gather(several, grid, index),
+            };
+            let boxes = column.entries.len();
+            let is_told = overfull(&column, grid, crowd).is_none();
+            let candidates = is_told.then(|| column.candidates(grid));
+            let bounds = || grid.column_bounds(index / of_y, index % of_y);
+            (boxes > 0).then(|| Self { bounds: bounds(), boxes, candidates })
         })
     }
 }
@@ -81,5 +93,53 @@ mod tests {
             assert!((count(-0.01)..=count(0.01)).contains(&column.boxes), "{column:?}");
         }
         assert!(columns.iter().map(|column| column.boxes).sum::<usize>() >= boxes.len());
+        let mut pairs = 0;
+        let _ = sweep.visit(
+            &boxes,
+            |_, _| true,
+            |_| {
+                pairs += 1;
+                core::ops::ControlFlow::Continue(())
+            },
+        );
+        let compared = sweep.columns().map(|column| column.candidates.unwrap()).sum::<usize>();
+        // Every pair is compared, most pairs of boxes are not, and no two of a column more than once.
+        assert!(
+            (pairs..boxes.len() * boxes.len() / 20).contains(&compared),
+            "{pairs} pairs, {compared} compared"
+        );
+        assert!(
+            columns.iter().all(|column| column.candidates.unwrap() <= column.boxes * (column.boxes - 1) / 2)
+        );
+    }
+
+    #[test]
+    fn a_column_that_is_cut_further_does_not_tell_what_it_compares() {
+        // Two clumps far apart: columns over both leave each in one.
+        let part = |i: u32, by: f64| (f64::from(i) * by).fract() as f32;
+        let place = |i| Vec3::new(part(i, 0.819_172_5), part(i, 0.671_043_6), part(i, 0.549_700_4));
+        let aside = |i: u32| Vec3::splat(if i.is_multiple_of(2) { 0.0 } else { 1e5 });
+        let boxes: Vec<Aabb3> = (0..4000)
+            .map(|i| place(i) * 60.0 + aside(i))
+            .map(|low| Aabb3::new(low, low + Vec3::splat(1.5)))
+            .collect();
+        let mut sweep = Sweep::new();
+        sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut Vec::new()).unwrap();
+        let full = sweep.columns().filter(|column| column.candidates.is_none()).map(|column| column.boxes);
+        assert!(full.sum::<usize>() > 2000, "{:?}", sweep.columns().collect::<Vec<_>>());
+    }
+
+    #[cfg(feature = "parallel")]
+    #[test]
+    fn columns_sorted_in_parts_are_shown_as_one() {
+        let low = |i: u32| Vec3::new((i % 40) as f32, (i / 40 % 40) as f32, (i / 1600) as f32) * 1.3;
+        let boxes: Vec<Aabb3> = (0..40_000).map(|i| Aabb3::new(low(i), low(i) + Vec3::splat(1.1))).collect();
+        let shown = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut sweep = Sweep::new();
+            pool.install(|| sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut Vec::new())).unwrap();
+            sweep.columns().collect::<Vec<_>>()
+        };
+        assert_eq!(shown(1), shown(3));
     }
 }

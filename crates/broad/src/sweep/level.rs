@@ -43,6 +43,21 @@ const GAIN: f64 = 2.0;
 /// 256 entries a box.
 const DEEPEST: usize = 24;
 
+/// Boxes that make a column crowded, where so many are in all columns of a grid.
+pub(crate) fn crowd(all: usize, grid: &Grid) -> usize {
+    CROWDED * all / grid.count()
+}
+
+/// Candidates a box of a column that is so full that it may be worth columns of its own.
+#[inline(always)]
+pub(crate) fn overfull(column: &ColumnEntries<'_>, grid: &Grid, crowd: usize) -> Option<usize> {
+    let count = column.entries.len();
+    if count <= MANY || (count <= crowd && column.fullest_bin() <= HEAP) {
+        return None;
+    }
+    Some(column.candidates(grid) / count).filter(|&full| full > FULL)
+}
+
 impl Scratch {
     pub(super) fn bytes(&self) -> usize {
         let nested = self.nested.as_ref().map_or(0, |nested| {
@@ -76,7 +91,7 @@ where
         let Level { parts, grid, range, question, scratch, around: (names, depth) } = self;
         let Scratch { strips, gathered, nested } = scratch;
         let all = parts.iter().map(Columns::len).sum::<usize>();
-        let crowd = CROWDED * all / grid.count();
+        let crowd = crowd(all, grid);
         let mut hits = [Hit::default(); HITS];
         let mut pairs = NO_PAIRS;
         for index in range {
@@ -87,18 +102,15 @@ where
             if column.entries.len() < 2 {
                 continue;
             }
-            let count = column.entries.len();
-            if count > MANY && depth < DEEPEST && (count > crowd || column.fullest_bin() > HEAP) {
-                let full = column.candidates(grid) / count;
-                if full > FULL {
-                    let nested = nested.get_or_insert_default();
-                    // Columns that leave most boxes in one were misled by what lies far outside.
-                    let over = if 2 * count > all { Over::Bulk } else { Over::All };
-                    if let Some(flow) = nested.sweep((&column, grid), (full, over), question, (names, depth))
-                    {
-                        flow?;
-                        continue;
-                    }
+            if depth < DEEPEST
+                && let Some(full) = overfull(&column, grid, crowd)
+            {
+                let nested = nested.get_or_insert_default();
+                // Columns that leave most boxes in one were misled by what lies far outside.
+                let over = if 2 * column.entries.len() > all { Over::Bulk } else { Over::All };
+                if let Some(flow) = nested.sweep((&column, grid), (full, over), question, (names, depth)) {
+                    flow?;
+                    continue;
                 }
             }
             strips.fill(column.entries);

@@ -41,7 +41,7 @@
 //! ns a pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
 //! %); codes and bins of a box by hand in AVX2, half the instructions (6 % slower).
 
-mod level;
+pub(crate) mod level;
 pub(crate) mod order;
 pub(crate) mod rows;
 mod settle;
@@ -181,7 +181,7 @@ impl Sweep {
 
     /// The columns that the last sweep sorted boxes into, for debug views: those that hold any, in the order in which
     /// they are swept. None before the first sweep. What an overfull column was cut into is not told. Cost: linear in all
-    /// columns.
+    /// columns and in the boxes in them.
     ///
     /// ```
     /// use asunder_broad::Sweep;
