@@ -1,5 +1,6 @@
 //! What a game needs of a dimension beyond what the engine gives: vectors, turning, mass.
 
+use asunder::glam::{DVec2, DVec3};
 use asunder::slotmap::Key;
 use asunder::{Collider, Event, Space, World};
 use core::ops::{Add, AddAssign, Mul, Sub, SubAssign};
@@ -17,17 +18,9 @@ pub trait Linear:
 {
 }
 
-impl<T> Linear for T where
-    T: Copy
-        + Default
-        + PartialEq
-        + Add<Output = T>
-        + Sub<Output = T>
-        + Mul<f64, Output = T>
-        + AddAssign
-        + SubAssign
-{
-}
+impl Linear for f64 {}
+impl Linear for DVec2 {}
+impl Linear for DVec3 {}
 
 /// A dimension that the game can be played in.
 pub trait Physics: Space {

@@ -97,7 +97,8 @@ impl<S: Physics> Game<S> {
             let spin = S::spin_energy(&inertia, motion.spin);
             0.5 * (S::dot(motion.velocity, motion.velocity) / body.inverse_mass + spin)
         };
-        self.awake.iter().map(energy).sum()
+        // Not `sum`: of nothing that is -0.
+        self.awake.iter().map(energy).fold(0.0, |sum, one| sum + one)
     }
 
     /// How many bodies that pushes can move are outside a room, or have left the level.
