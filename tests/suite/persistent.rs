@@ -3,14 +3,14 @@
 //!
 //! The judges are separations in double-double arithmetic, exact overlap, and drifts measured at the vertices.
 
-use asunder_geometry::{Pose2, Pose3, Rotation2, Shape3};
+use asunder_geometry::{Cuboid, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
 use asunder_narrow::{
     Batch2, Batch3, Hint, Job2, Job3, Pair2, Pair3, Persistent2, Persistent3, collide2, collide3,
 };
 use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, pairs2, pairs3};
 use asunder_scenes::random::Random;
 use asunder_tests::precise::{separation2, separation3};
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3, Vec2, Vec3};
 
 /// What a manifold may be off by, as a share of the pair's size: what the engine promises of any.
 const PROMISED: f64 = 1e-5;
@@ -162,6 +162,38 @@ fn what_is_close_to_call_is_not_kept() {
         }
     }
     assert!(seen > 100);
+}
+
+/// A corner across a gap from a corner, or beside a face, has a normal of its own, which no small turn of a face gives.
+#[test]
+fn corners_across_a_gap_are_not_kept() {
+    let square = Shape2::from(Rect::from_half_extents(Vec2::ONE).unwrap());
+    let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE).unwrap());
+    for gap in [1e-5, 1e-4, 1e-3, 5e-3] {
+        let (at_a, at_b) = (Pose2::IDENTITY, Pose2::at([2.0 + gap, 2.0 + gap]).unwrap());
+        let job = Job2 {
+            shape_a: &square,
+            pose_a: &at_a,
+            shape_b: &square,
+            pose_b: &at_b,
+            margin: 0.01,
+            hint: Hint::NONE,
+            sensor: false,
+        };
+        let mut batch = Batch2::default();
+        collide2(&[job], &mut batch);
+        assert_eq!(batch.manifolds.len(), 1, "{gap}");
+        assert_eq!(Persistent2::of(&job, &batch.answers[0], &batch.manifolds), None, "{gap}");
+        for place in [[2.0 + gap, 2.0 + gap, 0.3], [2.0 + gap, 2.0 + gap, 2.0 + gap]] {
+            let pair = PosedPair3 {
+                shape_a: cube.clone(),
+                pose_a: Pose3::IDENTITY,
+                shape_b: cube.clone(),
+                pose_b: Pose3::at(place).unwrap(),
+            };
+            assert_eq!(kept(&pair, 0.01), None, "{place:?}");
+        }
+    }
 }
 
 #[test]

@@ -89,6 +89,17 @@ enum Found {
     Answered(usize),
 }
 
+impl Kept {
+    /// How far both bodies went since the last frame, as a world's odometers have it.
+    fn went(&mut self, job: &Job3<'_>) -> f64 {
+        let arm = |shape: &Shape3| f64::from(shape.center().length() + shape.outer_radius());
+        let poses = [*job.pose_a, *job.pose_b];
+        let arms = [job.shape_a, job.shape_b].map(arm);
+        let last = self.poses.replace(poses);
+        last.map_or(f64::INFINITY, |last| (0..2).map(|i| last[i].travel(&poses[i], arms[i])).sum())
+    }
+}
+
 impl Memory {
     fn new(count: usize) -> Self {
         let manifolds = (0..count).map(|_| Vec::new()).collect();
@@ -100,13 +111,16 @@ impl Memory {
         batch.clear();
         moved.clear();
         let mut jobs: Vec<Job3<'_>> = Vec::with_capacity(block.len());
+        let mut steps: Vec<f64> = Vec::with_capacity(block.len());
         for (both, kept) in block.iter().zip(&mut *kept) {
             let job = both.borrow().job(kept.hint, false);
+            let step = kept.went(&job);
             let persistent = kept.persistent.as_ref();
             if persistent.is_some_and(|persistent| persistent.carry_on([job.pose_a, job.pose_b], moved)) {
                 kept.found = Found::Moved(moved.len() - 1);
             } else {
                 kept.found = Found::Answered(jobs.len());
+                steps.push(step);
                 jobs.push(job);
             }
         }
@@ -116,16 +130,8 @@ impl Memory {
             let (job, answer) = (&jobs[index], &batch.answers[index]);
             let (Answer::Apart { hint, .. } | Answer::Contact { hint, .. }) = answer;
             kept.hint = *hint;
-            let shapes = [job.shape_a, job.shape_b];
-            let poses = [*job.pose_a, *job.pose_b];
-            let went = |last: &[Pose3; 2]| -> f64 {
-                let arm = |shape: &Shape3| f64::from(shape.center().length() + shape.outer_radius());
-                (0..2).map(|i| last[i].travel(&poses[i], arm(shapes[i]))).sum()
-            };
-            let step = kept.poses.as_ref().map_or(f64::INFINITY, went);
-            let is_slow = step <= f64::from(Persistent3::reach(job));
+            let is_slow = steps[index] <= f64::from(Persistent3::reach(job));
             kept.persistent = if is_slow { Persistent3::of(job, answer, &batch.manifolds) } else { None };
-            kept.poses = Some(poses);
         }
         let found = batch.manifolds.iter().chain(&*moved);
         found.flat_map(|manifold| &manifold.points).map(|point| point.separation).sum()

@@ -95,6 +95,7 @@ impl<S: Space> World<S> {
         if is_reshaped {
             self.note_reshaped(slot_of(key));
         }
+        self.motions.forget(slot_of(key));
         self.mark_changed(slot_of(key));
         Ok(before)
     }

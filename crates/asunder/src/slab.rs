@@ -35,10 +35,10 @@ impl<T> Slab<T> {
     }
 }
 
-impl<T: Clone> Slab<T> {
+impl<T> Slab<T> {
     /// Puts something in the place it had, or where there is one if it had none; or gives the place up where there is
     /// nothing. Says where it is now.
-    pub(crate) fn put(&mut self, own: u32, item: Option<&T>) -> u32 {
+    pub(crate) fn put(&mut self, own: u32, item: Option<T>) -> u32 {
         let Some(item) = item else {
             self.vacate(own);
             return NOWHERE;
@@ -46,11 +46,11 @@ impl<T: Clone> Slab<T> {
         let place = if own == NOWHERE { self.vacant.pop().unwrap_or(NOWHERE) } else { own };
         match self.items.get_mut(place as usize) {
             Some(old) => {
-                old.clone_from(item);
+                *old = item;
                 place
             }
             None => {
-                self.items.push(item.clone());
+                self.items.push(item);
                 self.items.len() as u32 - 1
             }
         }
@@ -64,10 +64,10 @@ mod tests {
     #[test]
     fn places_stay_and_are_used_again() {
         let mut slab = Slab::new();
-        assert_eq!([slab.put(NOWHERE, Some(&'a')), slab.put(NOWHERE, Some(&'b'))], [0, 1]);
-        assert_eq!((slab.put(0, Some(&'c')), slab.get(0), slab.get(1)), (0, Some(&'c'), Some(&'b')));
+        assert_eq!([slab.put(NOWHERE, Some('a')), slab.put(NOWHERE, Some('b'))], [0, 1]);
+        assert_eq!((slab.put(0, Some('c')), slab.get(0), slab.get(1)), (0, Some(&'c'), Some(&'b')));
         assert_eq!((slab.put(0, None), slab.put(NOWHERE, None)), (NOWHERE, NOWHERE));
-        assert_eq!((slab.put(NOWHERE, Some(&'d')), slab.get(0)), (0, Some(&'d')));
-        assert_eq!((slab.put(NOWHERE, Some(&'e')), slab.get(2), slab.get(NOWHERE)), (2, Some(&'e'), None));
+        assert_eq!((slab.put(NOWHERE, Some('d')), slab.get(0)), (0, Some(&'d')));
+        assert_eq!((slab.put(NOWHERE, Some('e')), slab.get(2), slab.get(NOWHERE)), (2, Some(&'e'), None));
     }
 }

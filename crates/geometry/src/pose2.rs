@@ -244,7 +244,9 @@ impl Pose2 {
             f64::from(to.rotation.cos) - f64::from(self.rotation.cos),
             f64::from(to.rotation.sin) - f64::from(self.rotation.sin),
         );
-        let turned = if self.same_rotation(to) { 0.0 } else { step.length() * arm };
+        let spin = step.length();
+        // An endless arm that does not turn goes nowhere.
+        let turned = if spin > 0.0 { spin * arm } else { 0.0 };
         (straight + turned) * (1.0 + 64.0 * f64::EPSILON)
     }
 

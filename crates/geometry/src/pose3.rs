@@ -225,14 +225,16 @@ impl Pose3 {
     /// let half = Pose3::new([3.0, 0.0, 0.0], Quat::from_xyzw(0.0, 0.0, 1.0, 0.0))?;
     /// let travel = Pose3::IDENTITY.travel(&half, 2.0);
     /// assert!((7.0..7.0001).contains(&travel), "three, and across a circle of two");
-    /// assert_eq!(half.travel(&half, f64::INFINITY), 0.0);
+    /// let same = Pose3::new([3.0, 0.0, 0.0], Quat::from_xyzw(0.0, 0.0, -2.0, 0.0))?;
+    /// assert_eq!([half, same].map(|pose| half.travel(&pose, f64::INFINITY)), [0.0, 0.0]);
     /// # Ok::<(), asunder_geometry::PoseError>(())
     /// ```
     #[inline]
     pub fn travel(&self, to: &Self, arm: f64) -> f64 {
         let straight = (to.position - self.position).length();
-        let turned =
-            if self.same_rotation(to) { 0.0 } else { to.basis_from(self).spin_from(&Basis3::UNIT) * arm };
+        let spin = if self.same_rotation(to) { 0.0 } else { to.basis_from(self).spin_from(&Basis3::UNIT) };
+        // An endless arm that does not turn goes nowhere.
+        let turned = if spin > 0.0 { spin * arm } else { 0.0 };
         (straight + turned) * (1.0 + 64.0 * f64::EPSILON)
     }
 

@@ -35,22 +35,29 @@ pub(crate) fn slack_of(
 ) -> Option<f32> {
     // Of what overlaps the margin does not matter.
     let to_margin = if overlapping { f32::INFINITY } else { margin - separation };
-    let sure = separation.abs().min(to_margin) - error;
+    let sure = (separation.abs().min(to_margin) - error).next_down();
     let slack = reach_of(radii).min(sure);
     (slack > 0.0).then_some(slack)
 }
 
-/// Whether points are measured from a face of B (an edge, in the plane), by the hint that was left with them. Nothing
-/// where they are from neither: two edges that cross, corners across a gap.
-pub(crate) fn is_from_b(hint: Hint) -> Option<bool> {
+/// The face (edge, in the plane) that points may be measured from, by the hint that was left with them. Nothing where they
+/// are from none: two edges that cross, a direction. Corners across a gap may have one too: ask their normal.
+pub(crate) fn measured_from(hint: Hint) -> Option<OnFace> {
     let features = hint.features()?;
     match (hint.points_on(), features.a(), features.b()) {
-        (Some(on), ..) => Some(matches!(on, OnFace::OfB(_))),
-        (None, Feature::Face(_), _) | (None, Feature::Edge(_), Feature::Vertex(_)) => Some(false),
-        (None, _, Feature::Face(_)) | (None, Feature::Vertex(_), Feature::Edge(_)) => Some(true),
+        (Some(on), ..) => Some(on),
+        (None, Feature::Face(face), _) | (None, Feature::Edge(face), Feature::Vertex(_)) => {
+            Some(OnFace::OfA(face))
+        }
+        (None, _, Feature::Face(face)) | (None, Feature::Vertex(_), Feature::Edge(face)) => {
+            Some(OnFace::OfB(face))
+        }
         _ => None,
     }
 }
+
+/// What a normal may be off that of its face, up to the rounding of both.
+pub(crate) const THEIRS: f64 = 1e-6;
 
 /// The hint of a contact with one manifold, which manifold it is, and whether the shapes overlap.
 pub(crate) fn single(answer: &Answer) -> Option<(Hint, usize, bool)> {

@@ -1,8 +1,9 @@
 //! Manifolds in the plane that are moved along: see `persistent`.
 
 use crate::answer::{Answer, ContactPoint2, Manifold2};
+use crate::feature::OnFace;
 use crate::jobs2::Job2;
-use crate::persistent::{error_after, is_from_b, reach_of, single, slack_of};
+use crate::persistent::{THEIRS, error_after, measured_from, reach_of, single, slack_of};
 use crate::precision::signed;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
@@ -61,21 +62,21 @@ impl Persistent2 {
     /// touch in several parts; and where a point is on no edge, as of corners across a gap. Cost: a square root.
     pub fn of(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
-        let is_from_b = is_from_b(hint)?;
-        let manifold = manifolds.get(index)?;
+        let edge = measured_from(hint)?;
+        let manifold = manifolds.get(index).filter(|manifold| is_normal_of(job, edge, manifold))?;
         let shapes = [job.shape_a, job.shape_b];
         let found = [manifold.separation, manifold.error];
         let slack = slack_of(found, overlapping, job.margin, shapes.map(Shape2::outer_radius))?;
         let kept = Self {
             manifold: manifold.clone(),
             overlapping,
-            is_from_b,
+            is_from_b: matches!(edge, OnFace::OfB(_)),
             margin: job.margin,
             slack,
             arms: shapes.map(|shape| (shape.center().length() + shape.outer_radius()).next_up()),
             poses: [*job.pose_a, *job.pose_b],
         };
-        kept.is_finite().then_some(kept)
+        kept.is_sound().then_some(kept)
     }
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
@@ -99,14 +100,21 @@ impl Persistent2 {
         self.margin
     }
 
-    /// Whether the numbers beside the manifold are finite: of what was read from a file.
-    pub fn is_finite(&self) -> bool {
-        self.margin.is_finite() && self.slack.is_finite() && self.arms.iter().all(|arm| arm.is_finite())
+    /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
+    pub fn is_sound(&self) -> bool {
+        let most = reach_of(self.arms);
+        self.margin.is_finite()
+            && self.arms.iter().all(|arm| arm.is_finite() && *arm >= 0.0)
+            && (0.0..=most).contains(&self.slack)
     }
 
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
     /// must be those of its job. Its error holds the drift. Cost: constant, least where no body turned.
     pub fn carry_on(&self, poses: [&Pose2; 2], to: &mut Vec<Manifold2>) -> bool {
+        if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
+            to.push(self.manifold.clone());
+            return true;
+        }
         let moved = if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
             self.shifted(between(poses))
         } else {
@@ -223,6 +231,18 @@ impl Moved {
 #[inline(always)]
 fn between([a, b]: [&Pose2; 2]) -> DVec2 {
     b.position() - a.position()
+}
+
+/// Whether a manifold's normal is that of an edge. Corners across a gap are hinted to by the edge that all but parts them,
+/// and have a normal of their own.
+fn is_normal_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> bool {
+    let (shape, pose, edge, out) = match edge {
+        OnFace::OfA(edge) => (job.shape_a, job.pose_a, edge as usize, 1.0),
+        OnFace::OfB(edge) => (job.shape_b, job.pose_b, edge as usize, -1.0),
+    };
+    let normal = shape.core().normals().get(edge).copied();
+    let off = |normal: DVec2| pose.turn(normal * out) - manifold.normal.as_dvec2();
+    normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
 }
 
 /// The axes of a rotation, of unit length.

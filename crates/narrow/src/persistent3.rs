@@ -1,9 +1,9 @@
 //! Manifolds in space that are moved along: see `persistent`.
 
 use crate::answer::{Answer, ContactPoint3, Manifold3};
-use crate::feature::{Feature, Hint};
+use crate::feature::{Feature, Hint, OnFace};
 use crate::jobs3::Job3;
-use crate::persistent::{error_after, is_from_b, reach_of, single, slack_of};
+use crate::persistent::{THEIRS, error_after, measured_from, reach_of, single, slack_of};
 use crate::precision::signed;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
@@ -65,21 +65,24 @@ impl Persistent3 {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;
         let shapes = [job.shape_a, job.shape_b];
-        let is_from_b = is_from_b(hint);
-        let edges = if is_from_b.is_none() { Some(crossing(job, hint, manifold)?) } else { None };
+        let face = measured_from(hint);
+        let edges = match face {
+            Some(face) => is_normal_of(job, face, manifold).then_some(None)?,
+            None => Some(crossing(job, hint, manifold)?),
+        };
         let found = [manifold.separation, manifold.error];
         let slack = slack_of(found, overlapping, job.margin, shapes.map(Shape3::outer_radius))?;
         let kept = Self {
             manifold: manifold.clone(),
             overlapping,
-            is_from_b: is_from_b.unwrap_or(false),
+            is_from_b: matches!(face, Some(OnFace::OfB(_))),
             edges,
             margin: job.margin,
             slack,
             arms: shapes.map(|shape| (shape.center().length() + shape.outer_radius()).next_up()),
             poses: [*job.pose_a, *job.pose_b],
         };
-        kept.is_finite().then_some(kept)
+        kept.is_sound().then_some(kept)
     }
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
@@ -103,14 +106,21 @@ impl Persistent3 {
         self.margin
     }
 
-    /// Whether the numbers beside the manifold are finite: of what was read from a file.
-    pub fn is_finite(&self) -> bool {
-        self.margin.is_finite() && self.slack.is_finite() && self.arms.iter().all(|arm| arm.is_finite())
+    /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
+    pub fn is_sound(&self) -> bool {
+        let most = reach_of(self.arms);
+        self.margin.is_finite()
+            && self.arms.iter().all(|arm| arm.is_finite() && *arm >= 0.0)
+            && (0.0..=most).contains(&self.slack)
     }
 
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
     /// must be those of its job. Its error holds the drift. Cost: constant, least where no body turned.
     pub fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
+        if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
+            to.push(self.manifold.clone());
+            return true;
+        }
         let moved = if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
             self.shifted(between(poses))
         } else {
@@ -243,6 +253,22 @@ impl Moved {
     }
 }
 
+/// Whether a manifold's normal is that of a face. Corners across a gap are hinted to by the face that all but parts them, and
+/// have a normal of their own.
+fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
+    let (shape, pose, face, out) = match face {
+        OnFace::OfA(face) => (job.shape_a, job.pose_a, face as usize, 1.0),
+        OnFace::OfB(face) => (job.shape_b, job.pose_b, face as usize, -1.0),
+    };
+    let normal = match shape {
+        // A core of cuboids is made when it is asked for.
+        Shape3::Cuboid(_) if face < 6 => Some(DVec3::AXES[face / 2] * if face % 2 == 1 { 1.0 } else { -1.0 }),
+        _ => shape.core().normals().get(face).copied(),
+    };
+    let off = |normal: DVec3| pose.turn(normal * out) - manifold.normal.as_dvec3();
+    normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
+}
+
 /// The directions of the edges that a hint names, in their bodies' axes, where they cross at more than half a degree and
 /// the normal of a manifold is theirs.
 fn crossing(job: &Job3<'_>, hint: Hint, manifold: &Manifold3) -> Option<[Vec3; 2]> {
@@ -263,9 +289,6 @@ fn crossing(job: &Job3<'_>, hint: Hint, manifold: &Manifold3) -> Option<[Vec3; 2
 
 /// The least sine between edges whose normal is made anew: directions in f32 are off by 1e-7, a normal by 1e-5.
 const LEAST_SINE: f64 = 0.01;
-
-/// Cosine between an edge and its normal, up to the rounding of both to f32.
-const THEIRS: f64 = 1e-6;
 
 /// From A's position to B's.
 #[inline(always)]

@@ -3,13 +3,12 @@
 //! ```text
 //! for each batch, in parallel:
 //!   a pair whose bodies hardly drifted since its manifold was made: the manifold is moved along
-//!   else: it is asked about; what its manifold needs in order to be moved along is kept
+//!   else: it is asked about
 //! ```
 
 use crate::collider::Collider;
 use crate::contact::Place;
 use crate::motion::{Motions, approach};
-use crate::odometer::Odometer;
 use crate::slab::Slab;
 use crate::space::Space;
 use crate::world::World;
@@ -35,10 +34,8 @@ pub(crate) struct Asked {
 /// What came of a pair.
 #[derive(Clone, Copy, Debug)]
 enum Way {
-    /// An answer, with nothing to be kept of it.
+    /// An answer.
     Answered,
-    /// An answer, with a manifold that can be moved along from now on.
-    Kept,
     /// Its manifold was moved along, and is now this one of the batch.
     Moved(u32),
 }
@@ -48,12 +45,11 @@ enum Way {
 pub(crate) struct Asking<S: Space> {
     ways: Vec<Way>,
     answered: Batch<S::Manifold>,
-    kept: Vec<S::Persistent>,
 }
 
 impl<S: Space> Default for Asking<S> {
     fn default() -> Self {
-        Self { ways: Vec::new(), answered: Batch::default(), kept: Vec::new() }
+        Self { ways: Vec::new(), answered: Batch::default() }
     }
 }
 
@@ -61,7 +57,6 @@ impl<S: Space> Asking<S> {
     fn clear(&mut self) {
         self.ways.clear();
         self.answered.clear();
-        self.kept.clear();
     }
 }
 
@@ -78,7 +73,7 @@ pub(crate) fn manifolds_at<'a, S: Space>(
 
 /// Asks about all pairs that were chosen.
 pub(super) fn ask<S: Space>(world: &mut World<S>) {
-    let World { bodies, keys, motions, odometers, persistent, askings, scratch, .. } = world;
+    let World { bodies, keys, motions, persistent, askings, scratch, .. } = world;
     let asked = &*scratch.asked;
     let batch_count = asked.len().div_ceil(BATCH);
     if askings.len() < batch_count {
@@ -86,7 +81,7 @@ pub(super) fn ask<S: Space>(world: &mut World<S>) {
     }
     let (askings, spare) = askings.split_at_mut(batch_count);
     spare.iter_mut().for_each(Asking::clear);
-    let asker = Asker { bodies, keys, motions, odometers, persistent };
+    let asker = Asker { bodies, keys, motions, persistent };
     #[cfg(feature = "parallel")]
     if batch_count > 1 {
         use rayon::prelude::*;
@@ -102,7 +97,6 @@ struct Asker<'a, S: Space> {
     bodies: &'a SlotMap<S::Key, Collider<S>>,
     keys: &'a [S::Key],
     motions: &'a Motions<S>,
-    odometers: &'a [Odometer],
     persistent: &'a Slab<S::Persistent>,
 }
 
@@ -112,9 +106,6 @@ impl<S: Space> Asker<'_, S> {
         asking.clear();
         for slice in asked.chunks(SLICE) {
             let mut jobs: ArrayVec<S::Job<'_>, SLICE> = ArrayVec::new();
-            let mut steps: ArrayVec<f64, SLICE> = ArrayVec::new();
-            let first = asking.answered.answers.len();
-            let first_way = asking.ways.len();
             for asked in slice {
                 let Asked { pair, hint, persistent } = *asked;
                 let [a, b] = [pair.a, pair.b].map(|slot| self.bodies.get(self.keys[slot as usize]));
@@ -128,13 +119,9 @@ impl<S: Space> Asker<'_, S> {
                 asking.ways.push(if is_moved { Way::Moved(at) } else { Way::Answered });
                 if !is_moved {
                     jobs.push(S::job(a, b, margin, hint));
-                    steps.push(
-                        [pair.a, pair.b].iter().map(|&slot| self.odometers[slot as usize].step()).sum(),
-                    );
                 }
             }
             S::collide(&jobs, &mut asking.answered);
-            asking.keep((&jobs, &steps), first, first_way);
         }
     }
 
@@ -148,25 +135,10 @@ impl<S: Space> Asker<'_, S> {
     }
 }
 
-impl<S: Space> Asking<S> {
-    /// Keeps what can be moved along of the answers from `first` on, to these jobs of bodies that went so far; the ways
-    /// from `first_way` on are theirs.
-    fn keep(&mut self, (jobs, steps): (&[S::Job<'_>], &[f64]), first: usize, first_way: usize) {
-        let Batch { answers, manifolds } = &self.answered;
-        let asked = self.ways[first_way..].iter_mut().filter(|way| matches!(way, Way::Answered));
-        for (((job, &step), answer), way) in jobs.iter().zip(steps).zip(&answers[first..]).zip(asked) {
-            if let Some(persistent) = S::persistent(job, answer, manifolds, step) {
-                self.kept.push(persistent);
-                *way = Way::Kept;
-            }
-        }
-    }
-}
-
 /// What came of one pair.
 pub(super) enum Outcome<'a, S: Space> {
-    /// An answer, and what is to be kept of it.
-    Answered(&'a Answer, Option<&'a S::Persistent>),
+    /// An answer, and the manifolds that it is about.
+    Answered(&'a Answer, &'a [S::Manifold]),
     /// Last update's manifold, moved along.
     Moved,
 }
@@ -178,12 +150,11 @@ pub(super) struct Outcomes<'a, S: Space> {
     /// The next of each of the batch's lists.
     way: usize,
     answer: usize,
-    kept: usize,
 }
 
 impl<'a, S: Space> Outcomes<'a, S> {
     pub(super) fn new(askings: &'a [Asking<S>]) -> Self {
-        Self { askings, batch: 0, way: 0, answer: 0, kept: 0 }
+        Self { askings, batch: 0, way: 0, answer: 0 }
     }
 
     /// The next outcome, and where its manifolds stand.
@@ -202,13 +173,11 @@ impl<'a, S: Space> Outcomes<'a, S> {
             }
             let answer = asking.answered.answers.get(self.answer)?;
             self.answer += 1;
-            let kept = if matches!(way, Way::Kept) { asking.kept.get(self.kept) } else { None };
-            self.kept += usize::from(kept.is_some());
             let place = match answer {
                 Answer::Apart { .. } => Place::NOWHERE,
                 Answer::Contact { manifolds, .. } => Place { batch, range: manifolds.clone() },
             };
-            return Some((Outcome::Answered(answer, kept), place));
+            return Some((Outcome::Answered(answer, &asking.answered.manifolds), place));
         }
     }
 }

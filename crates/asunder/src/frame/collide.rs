@@ -110,11 +110,16 @@ fn gather<S: Space>(world: &mut World<S>) {
         let Some((asked, (outcome, place))) = asked.next().zip(outcomes.next()) else { break };
         let both = [pair.a, pair.b].map(|slot| odometers[slot as usize]);
         let keys = (keys[pair.a as usize], keys[pair.b as usize]);
-        let (candidate, overlapping) = candidate_of::<S>((asked, keys), &outcome, both, persistent);
+        let found = bodies.get(keys.0).zip(bodies.get(keys.1));
+        // What motions may bring is looked for within other margins in every frame.
+        let is_going = !motions.is_empty() && [pair.a, pair.b].iter().any(|&slot| motions.of(slot).is_some());
+        let lasting = found.filter(|_| !is_going);
+        let (candidate, overlapping) =
+            candidate_of::<S>((asked, keys), &outcome, (both, lasting), persistent);
         candidates.push(candidate);
-        if let (Some(overlapping), Some(a), Some(b)) = (overlapping, bodies.get(keys.0), bodies.get(keys.1)) {
-            // Only what motions may bring is beyond the margins: without any, no manifold need be read.
-            let is_sought = !overlapping && !motions.is_empty();
+        if let Some((overlapping, (a, b))) = overlapping.zip(found) {
+            // Only that is beyond the margins: else no manifold need be read.
+            let is_sought = !overlapping && lasting.is_none();
             let found = manifolds_at(&place, askings, carried);
             let is_beyond = is_sought && S::least_separation(found) > a.margin + b.margin;
             let speculative = is_beyond && !found.is_empty();
@@ -123,11 +128,15 @@ fn gather<S: Space>(world: &mut World<S>) {
     }
 }
 
-/// What is kept of a pair that was asked about; and whether its bodies overlap, if they are within the margin.
+/// Two bodies.
+type Both<'a, S> = (&'a Collider<S>, &'a Collider<S>);
+
+/// What is kept of a pair that was asked about, by how far its bodies went; and whether they overlap, if they are within
+/// the margin. Manifolds of bodies that last are kept to be moved along.
 fn candidate_of<S: Space>(
     (asked, keys): (&Asked, (S::Key, S::Key)),
     outcome: &Outcome<'_, S>,
-    both: [Odometer; 2],
+    (both, lasting): ([Odometer; 2], Option<Both<'_, S>>),
     persistent: &mut Slab<S::Persistent>,
 ) -> (Candidate<S::Key>, Option<bool>) {
     let Asked { pair, hint, persistent: place } = *asked;
@@ -136,7 +145,11 @@ fn candidate_of<S: Space>(
         Outcome::Answered(&Answer::Apart { hint, beyond }, _) => {
             (hint, persistent.put(place, None), Odometer::until(both, beyond), None)
         }
-        Outcome::Answered(&Answer::Contact { hint, overlapping, .. }, kept) => {
+        Outcome::Answered(answer @ &Answer::Contact { hint, overlapping, .. }, manifolds) => {
+            let step = both[0].step() + both[1].step();
+            let kept = lasting.and_then(|(a, b)| {
+                S::persistent(&S::job(a, b, a.margin + b.margin, hint), answer, manifolds, step)
+            });
             (hint, persistent.put(place, kept), f64::NEG_INFINITY, Some(overlapping))
         }
     };

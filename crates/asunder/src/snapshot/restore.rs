@@ -89,6 +89,8 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
 
 /// Of slots that are not named, bodies that changed. Slot 0 is never used.
 fn revived_odometers(list: &[(u32, f64, f64)], slots: usize) -> Result<Vec<Odometer>, SnapshotError> {
+    let named: Vec<u32> = list.iter().map(|&(slot, ..)| slot).collect();
+    flags("odometers", &named, slots)?;
     let mut odometers = vec![Odometer::CHANGED; slots + 1];
     for &(slot, travel, step) in list {
         let odometer = odometers.get_mut(slot as usize).zip(Odometer::restored(travel, step));
@@ -104,7 +106,7 @@ const MOST_VERSION: u32 = u32::MAX - (1 << 16);
 
 /// Versions are odd, as in keys, and the list of empty slots names each of them once.
 fn check_slots<S: Saved>(slots: &[SlotForm<S>], free: &[u32]) -> Result<(), SnapshotError> {
-    let is_none = |slot: &SlotForm<S>| slot.version % 2 == 0 || slot.version > MOST_VERSION;
+    let is_none = |slot: &SlotForm<S>| slot.version.is_multiple_of(2) || slot.version > MOST_VERSION;
     if let Some(none) = slots.iter().position(is_none) {
         return Err(SnapshotError::Slot { slot: none + 1 });
     }

@@ -270,7 +270,7 @@ impl Saved for Plane {
     }
 
     fn is_lasting(persistent: &Self::Persistent) -> bool {
-        Self::is_sound(persistent.manifold()) && persistent.is_finite()
+        Self::is_sound(persistent.manifold()) && persistent.is_sound()
     }
 }
 
@@ -330,7 +330,7 @@ impl Saved for Volume {
     }
 
     fn is_lasting(persistent: &Self::Persistent) -> bool {
-        Self::is_sound(persistent.manifold()) && persistent.is_finite()
+        Self::is_sound(persistent.manifold()) && persistent.is_sound()
     }
 }
 
