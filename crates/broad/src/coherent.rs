@@ -177,8 +177,8 @@ impl<B: Bounds> CoherentSweep<B> {
         self.idle = 0;
         self.movers.clear();
         self.sweep.pairs(boxes, admit, limit, pairs)?;
-        if keep && let Some((grid, parts)) = self.sweep.sorted() {
-            self.rest.settle(boxes, grid, parts);
+        if keep && let Some((grid, columns)) = self.sweep.put_together() {
+            self.rest.settle(boxes, grid, columns);
             self.kept.clear();
             self.kept.extend_from_slice(pairs);
             self.is_kept = true;
@@ -200,7 +200,7 @@ impl<B: Bounds> CoherentSweep<B> {
         self.sweep_of_movers.pairs(moving, |a, b| admit(place(a), place(b)), limit, among)?;
         fresh.clear();
         fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
-        if let Some(sorted) = self.sweep.sorted() {
+        if let Some(sorted) = self.sweep.whole() {
             self.rest.meet(sorted, boxes, movers, |pair| {
                 if admit(pair.a, pair.b) {
                     fresh.push(pair);
