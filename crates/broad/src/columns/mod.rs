@@ -7,6 +7,7 @@ mod shown;
 
 pub use shown::Column;
 
+use crate::width::{Kernel, Width};
 use asunder_geometry::Bounds;
 use codes::{Codes, Entry};
 use core::ops::Range;
@@ -29,22 +30,6 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Sorts `count` boxes, of which `pick` gives the one at a place. Returns the grid that they are sorted by:
-    /// coarser than the one asked for, should that give every box too many entries.
-    #[inline(always)]
-    pub(crate) fn fill<B: Bounds>(&mut self, grid: Grid, count: usize, pick: impl Fn(usize) -> B) -> Grid {
-        let mut grid = grid;
-        loop {
-            self.count(&grid, 0..count, &pick);
-            if !grid.is_too_fine(self.counted, count) {
-                break;
-            }
-            grid = grid.coarser();
-        }
-        self.scatter(&grid, 0);
-        grid
-    }
-
     /// The entries of a column, and where its bins end, counted from `start`.
     #[inline(always)]
     pub(crate) fn column(&self, grid: &Grid, index: usize) -> ColumnEntries<'_> {
@@ -180,6 +165,33 @@ impl Columns {
                 *end += 1;
             });
         }
+    }
+}
+
+/// Sorts `count` boxes, of which `pick` gives the one at a place. Returns the grid that they are sorted by: coarser
+/// than the one asked for, should that give every box too many entries.
+pub(crate) struct Fill<'a, P> {
+    pub(crate) columns: &'a mut Columns,
+    pub(crate) grid: Grid,
+    pub(crate) count: usize,
+    pub(crate) pick: P,
+}
+
+impl<B: Bounds, P: Fn(usize) -> B> Kernel for Fill<'_, P> {
+    type Output = Grid;
+
+    #[inline(always)]
+    fn run<W: Width>(self, _: W) -> Grid {
+        let Self { columns, mut grid, count, pick } = self;
+        loop {
+            columns.count(&grid, 0..count, &pick);
+            if !grid.is_too_fine(columns.counted, count) {
+                break;
+            }
+            grid = grid.coarser();
+        }
+        columns.scatter(&grid, 0);
+        grid
     }
 }
 

@@ -4,7 +4,7 @@ use super::rows::{HITS, Hit, Progress, Strips};
 use super::settle::{NO_PAIRS, Names, Question};
 use crate::columns::codes::Entry;
 use crate::columns::grid::{Grid, Over};
-use crate::columns::{ColumnEntries, Columns, PLACE};
+use crate::columns::{ColumnEntries, Columns, Fill, PLACE};
 use crate::pair::PairId;
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
@@ -152,7 +152,8 @@ impl Nested {
         if !is_gain || grid.is_like(around) {
             return None;
         }
-        let grid = columns.fill(grid, column.entries.len(), |place| pick(&column.entries[place]));
+        let pick = |place: usize| pick(&column.entries[place]);
+        let grid = widest(Fill { columns, grid, count: column.entries.len(), pick });
         let (before, after) = (column.entries.len(), columns.len());
         let candidates =
             || (0..grid.count()).map(|index| columns.column(&grid, index).candidates(&grid)).sum::<usize>();

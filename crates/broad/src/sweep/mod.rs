@@ -50,9 +50,9 @@ mod threads;
 pub(crate) mod wide;
 
 use crate::columns::grid::{Grid, Over};
-use crate::columns::{Column, Columns, MOST_BOXES};
+use crate::columns::{Column, Columns, Fill, MOST_BOXES};
 use crate::pair::{PairId, TooManyPairs};
-use crate::width::{Kernel, Width, widest};
+use crate::width::widest;
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 use level::{Level, Scratch};
@@ -158,7 +158,9 @@ impl Sweep {
         #[cfg(feature = "parallel")]
         self.team.forget();
         let Self { columns, scratch, .. } = self;
-        let grid = widest(Sort { boxes, columns });
+        let pick = |place: usize| boxes[place];
+        let grid = Grid::for_boxes(boxes.len(), Over::All, pick);
+        let grid = widest(Fill { columns, grid, count: boxes.len(), pick });
         self.grid = Some(grid);
         let level = Level::<_, _, _, false> {
             parts: core::slice::from_ref(columns),
@@ -228,22 +230,5 @@ impl Sweep {
         #[cfg(feature = "parallel")]
         let one = one + self.team.bytes();
         one
-    }
-}
-
-/// All boxes into columns.
-struct Sort<'a, B> {
-    boxes: &'a [B],
-    columns: &'a mut Columns,
-}
-
-impl<B: Bounds> Kernel for Sort<'_, B> {
-    type Output = Grid;
-
-    #[inline(always)]
-    fn run<W: Width>(self, _: W) -> Grid {
-        let Self { boxes, columns } = self;
-        let grid = Grid::for_boxes(boxes.len(), Over::All, |place| boxes[place]);
-        columns.fill(grid, boxes.len(), |place| boxes[place])
     }
 }
