@@ -89,3 +89,39 @@ fn put_together_in_halves(
         || put_together_in_halves(parts, middle..bins.end, (entries_high, ends_high), first + size),
     );
 }
+
+#[cfg(all(test, feature = "parallel"))]
+mod tests {
+    use crate::Sweep;
+    use asunder_geometry::{Aabb3, glam::Vec3};
+
+    #[test]
+    fn columns_put_together_hold_what_one_thread_sorts() {
+        let low = |i: u32| Vec3::new((i % 40) as f32, (i / 40 % 40) as f32, (i / 1600) as f32) * 1.3;
+        let mut boxes: Vec<Aabb3> =
+            (0..60_000).map(|i| Aabb3::new(low(i), low(i) + Vec3::splat(1.4))).collect();
+        boxes[77] = Aabb3::new(Vec3::ONE, Vec3::ZERO);
+        // Every bin: where it ends, and what is in it.
+        let sorted = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut sweep = Sweep::new();
+            pool.install(|| {
+                sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut Vec::new()).unwrap();
+                let (_, columns) = sweep.put_together().unwrap();
+                let mut start = 0;
+                let bins = columns.ends.iter().map(|&end| {
+                    let bin = &columns.entries[start..end as usize];
+                    start = end as usize;
+                    let mut bin: Vec<_> = bin.iter().map(|entry| (entry.place, entry.codes)).collect();
+                    bin.sort_unstable();
+                    bin
+                });
+                bins.take(columns.ends.len() - 1).collect::<Vec<_>>()
+            })
+        };
+        let one = sorted(1);
+        assert!(one.len() > 1000 && one.iter().map(Vec::len).sum::<usize>() > boxes.len());
+        assert_eq!(one, sorted(2));
+        assert_eq!(one, sorted(7));
+    }
+}
