@@ -139,8 +139,9 @@ impl<B: Bounds> CoherentSweep<B> {
         self.sweep.columns()
     }
 
-    /// Memory that is held for the next call, in bytes: some 80 a box and 16 a pair, and 28 for every column that a
-    /// mover reaches: thin walls that move as wide as the world take as much as a sweep of all, in memory as in time.
+    /// Memory that is held for the next call, in bytes: some 80 a box (30 to 60 more where several threads sort them) and
+    /// 16 a pair, and 28 for every column that a mover reaches: thin walls that move as wide as the world take as much as
+    /// a sweep of all, in memory as in time.
     ///
     /// ```
     /// assert_eq!(asunder_broad::CoherentSweep::<asunder_geometry::Aabb2>::new().bytes(), 0);
@@ -177,8 +178,8 @@ impl<B: Bounds> CoherentSweep<B> {
         self.idle = 0;
         self.movers.clear();
         self.sweep.pairs(boxes, admit, limit, pairs)?;
-        if keep && let Some((grid, parts)) = self.sweep.sorted() {
-            self.rest.settle(boxes, grid, parts);
+        if keep && let Some((grid, columns)) = self.sweep.put_together() {
+            self.rest.settle(boxes, grid, columns);
             self.kept.clear();
             self.kept.extend_from_slice(pairs);
             self.is_kept = true;
@@ -200,7 +201,7 @@ impl<B: Bounds> CoherentSweep<B> {
         self.sweep_of_movers.pairs(moving, |a, b| admit(place(a), place(b)), limit, among)?;
         fresh.clear();
         fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
-        if let Some(sorted) = self.sweep.sorted() {
+        if let Some(sorted) = self.sweep.whole() {
             self.rest.meet(sorted, boxes, movers, |pair| {
                 if admit(pair.a, pair.b) {
                     fresh.push(pair);

@@ -2,7 +2,7 @@
 
 use crate::columns::codes::Codes;
 use crate::columns::grid::Grid;
-use crate::columns::{Columns, Stretch, owned};
+use crate::columns::{Columns, Stretch, begins, owned};
 use crate::index::Index;
 use crate::pair::PairId;
 use crate::sweep::order::Order;
@@ -29,8 +29,8 @@ pub(super) struct Rest<B> {
     /// Bins that any box but those that reach far reaches beyond its first.
     longest: u32,
     far: Index<B>,
-    /// The entries of each part as strips.
-    strips: Vec<Strips>,
+    /// The entries of all columns as strips.
+    strips: Strips,
     asked: Vec<(u32, Codes, Stretch)>,
     /// Where each of them starts, and which it is.
     starts: Vec<PairId>,
@@ -49,7 +49,7 @@ impl<B: Bounds> Rest<B> {
             states: Vec::new(),
             longest: 0,
             far: Index::new(),
-            strips: Vec::new(),
+            strips: Strips::default(),
             asked: Vec::new(),
             starts: Vec::new(),
             order: Order::default(),
@@ -57,24 +57,23 @@ impl<B: Bounds> Rest<B> {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        let strips: usize = self.strips.iter().map(Strips::bytes).sum();
         self.states.capacity()
             + self.far.bytes()
-            + strips
+            + self.strips.bytes()
             + self.asked.capacity() * size_of::<(u32, Codes, Stretch)>()
             + self.starts.capacity() * size_of::<PairId>()
             + self.order.bytes()
     }
 
     /// All boxes rest, as they were just swept.
-    pub(super) fn settle(&mut self, boxes: &[B], grid: &Grid, parts: &[Columns]) {
+    pub(super) fn settle(&mut self, boxes: &[B], grid: &Grid, columns: &Columns) {
         let length = |codes: &Codes| {
             let [first, last] = [grid.sweep, grid.sweep + 3].map(|bound| grid.bin(codes[bound]));
             last.saturating_sub(first)
         };
         let mut counts = [0; BINS];
-        let all = || parts.iter().flat_map(Columns::codes);
-        for codes in all() {
+        let all = || columns.entries().iter().filter_map(|entry| Some((begins(entry.place)?, &entry.codes)));
+        for (_, codes) in all() {
             counts[length(codes).min(BINS - 1)] += 1;
         }
         // As few bins as leave only few boxes out.
@@ -85,17 +84,15 @@ impl<B: Bounds> Rest<B> {
         }
         // What is counted last is anything longer.
         self.longest = longest.saturating_sub(1) as u32;
-        let state = |codes: &Codes| {
-            if length(codes) > self.longest as usize { State::Reaches } else { State::Rests }
-        };
         self.states.clear();
-        self.states.extend(all().map(state));
         self.states.resize(boxes.len(), State::Rests);
-        let states = &self.states;
-        self.strips.resize_with(parts.len(), Strips::default);
-        for (strips, part) in self.strips.iter_mut().zip(parts) {
-            strips.fill(part.entries());
+        for (place, codes) in all() {
+            if length(codes) > self.longest as usize {
+                self.states[place as usize] = State::Reaches;
+            }
         }
+        let states = &self.states;
+        self.strips.fill(columns.entries());
         self.far.build_from(boxes, |place| states[place as usize] == State::Reaches);
     }
 
@@ -118,30 +115,29 @@ impl<B: Bounds> Rest<B> {
     /// Hands over each pair of a mover and a box at rest that overlap, until told to stop.
     pub(super) fn meet(
         &mut self,
-        (grid, parts): (&Grid, &[Columns]),
+        (grid, columns): (&Grid, &Columns),
         boxes: &[B],
         movers: &[u32],
         mut visit: impl FnMut(PairId) -> bool,
     ) {
         let Self { states, longest, far, strips, asked, starts, order } = self;
-        for (part, strips) in parts.iter().zip(strips) {
-            let longest = *longest;
-            let asking = Asking {
-                grid,
-                part,
-                strips,
-                boxes,
-                movers,
-                states,
-                longest,
-                asked,
-                starts,
-                order,
-                visit: &mut visit,
-            };
-            if !widest(asking) {
-                return;
-            }
+        let longest = *longest;
+        let visitor = &mut visit;
+        let asking = Asking {
+            grid,
+            columns,
+            strips,
+            boxes,
+            movers,
+            states,
+            longest,
+            asked,
+            starts,
+            order,
+            visit: visitor,
+        };
+        if !widest(asking) {
+            return;
         }
         if far.is_empty() {
             return;
@@ -158,13 +154,13 @@ impl<B: Bounds> Rest<B> {
     }
 }
 
-/// Looks movers up in the columns of one part.
+/// Looks movers up in the columns.
 ///
 /// First where to look, for all of them; then there, in the order of the columns: what one mover has brought from
 /// far memory, the next one finds at hand.
 struct Asking<'a, B, F> {
     grid: &'a Grid,
-    part: &'a Columns,
+    columns: &'a Columns,
     strips: &'a Strips,
     boxes: &'a [B],
     movers: &'a [u32],
@@ -181,24 +177,25 @@ impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
 
     #[inline(always)]
     fn run<W: Width>(self, width: W) -> bool {
-        let Self { grid, part, strips, boxes, movers, states, longest, asked, starts, order, visit } = self;
+        let Self { grid, columns, strips, boxes, movers, states, longest, asked, starts, order, visit } =
+            self;
         asked.clear();
         for &mover in movers {
             let bounds = &boxes[mover as usize];
             if bounds.is_valid() {
                 let (low, high) = bounds.corners();
                 let codes = grid.quantiser.codes(low, high);
-                part.stretches(grid, &codes, longest, |stretch| asked.push((mover, codes, stretch)));
+                columns.stretches(grid, &codes, longest, |stretch| asked.push((mover, codes, stretch)));
             }
         }
         starts.clear();
         starts.extend((0..).zip(&*asked).map(|(which, (.., stretch))| PairId { a: stretch.start, b: which }));
-        let most = part.entries().len().max(starts.len());
+        let most = columns.entries().len().max(starts.len());
         order.sort(starts, most + 1);
         let mut goes_on = true;
         for start in &*starts {
             let (mover, codes, stretch) = asked[start.b as usize];
-            let entries = part.entries();
+            let entries = columns.entries();
             let range = stretch.start as usize..stretch.end as usize;
             strips.meet(width, &codes, range, |index, is_close| {
                 let (place, _, is_ours) = owned(entries[index].place, stretch.home);

@@ -2,10 +2,12 @@
 
 pub(crate) mod codes;
 pub(crate) mod grid;
+mod parts;
 mod shown;
 
 pub use shown::Column;
 
+use crate::width::{Kernel, Width};
 use asunder_geometry::Bounds;
 use codes::{Codes, Entry};
 use core::ops::Range;
@@ -28,22 +30,6 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Sorts `count` boxes, of which `pick` gives the one at a place. Returns the grid that they are sorted by:
-    /// coarser than the one asked for, should that give every box too many entries.
-    #[inline(always)]
-    pub(crate) fn fill<B: Bounds>(&mut self, grid: Grid, count: usize, pick: impl Fn(usize) -> B) -> Grid {
-        let mut grid = grid;
-        loop {
-            self.count(&grid, 0..count, &pick);
-            if !grid.is_too_fine(self.counted, count) {
-                break;
-            }
-            grid = grid.coarser();
-        }
-        self.scatter(&grid, 0);
-        grid
-    }
-
     /// The entries of a column, and where its bins end, counted from `start`.
     #[inline(always)]
     pub(crate) fn column(&self, grid: &Grid, index: usize) -> ColumnEntries<'_> {
@@ -75,11 +61,6 @@ impl Columns {
         &self.entries[..self.len()]
     }
 
-    /// The codes of every box that was sorted, by place; those of boxes that are none mean nothing.
-    pub(crate) fn codes(&self) -> impl ExactSizeIterator<Item = &Codes> {
-        self.records.iter().map(|record| &record.codes)
-    }
-
     /// Entries that were counted, before they are sorted.
     #[cfg(feature = "parallel")]
     pub(crate) const fn counted(&self) -> usize {
@@ -90,30 +71,6 @@ impl Columns {
     pub(crate) fn len(&self) -> usize {
         // Boxes that are none stand behind the last column.
         self.ends.len().checked_sub(2).map_or(0, |last| self.ends[last] as usize)
-    }
-
-    /// Puts the parts of one column together, in order of the bins.
-    pub(crate) fn gather(&mut self, parts: &[Self], grid: &Grid, index: usize) -> ColumnEntries<'_> {
-        let bins = 1 << grid.bin_bits;
-        let count = parts.iter().map(|part| part.column(grid, index).entries.len()).sum();
-        if self.entries.len() < count {
-            self.entries.resize(count, Entry::default());
-        }
-        self.ends.clear();
-        let mut next = 0;
-        for bin in index * bins..(index + 1) * bins {
-            for part in parts {
-                let start = if bin == 0 { 0 } else { part.ends[bin - 1] };
-                // A few at a time: a loop is faster than a call that copies.
-                for entry in &part.entries[start as usize..part.ends[bin] as usize] {
-                    self.entries[next] = *entry;
-                    next += 1;
-                }
-            }
-            self.ends.push(next as u32);
-        }
-        let entries = &self.entries[..next];
-        ColumnEntries { start: 0, ends: &self.ends, entries }
     }
 
     /// Memory that is held, in bytes.
@@ -211,9 +168,42 @@ impl Columns {
     }
 }
 
+/// Sorts `count` boxes, of which `pick` gives the one at a place. Returns the grid that they are sorted by: coarser
+/// than the one asked for, should that give every box too many entries.
+pub(crate) struct Fill<'a, P> {
+    pub(crate) columns: &'a mut Columns,
+    pub(crate) grid: Grid,
+    pub(crate) count: usize,
+    pub(crate) pick: P,
+}
+
+impl<B: Bounds, P: Fn(usize) -> B> Kernel for Fill<'_, P> {
+    type Output = Grid;
+
+    #[inline(always)]
+    fn run<W: Width>(self, _: W) -> Grid {
+        let Self { columns, mut grid, count, pick } = self;
+        loop {
+            columns.count(&grid, 0..count, &pick);
+            if !grid.is_too_fine(columns.counted, count) {
+                break;
+            }
+            grid = grid.coarser();
+        }
+        columns.scatter(&grid, 0);
+        grid
+    }
+}
+
 /// In the place of an entry: the box begins in this column, on the first axis that columns lie over, and on the second.
 const HOME_Y: u32 = 1 << 30;
 const HOME_Z: u32 = 1 << 31;
+
+/// The place of the box of an entry, if it begins in this column: every box has one such entry.
+#[inline(always)]
+pub(crate) const fn begins(place: u32) -> Option<u32> {
+    if place >> 30 == 3 { Some(place & PLACE) } else { None }
+}
 
 /// What to write into a place.
 #[inline(always)]

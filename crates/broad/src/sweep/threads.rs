@@ -74,6 +74,13 @@ impl Team {
         Some((self.grid.as_ref()?, &self.parts))
     }
 
+    /// Puts the columns of all parts into one piece, and hands them over with their grid: they are another's then.
+    pub(super) fn put_together(&mut self, into: &mut Columns) -> Option<Grid> {
+        let grid = self.grid.take()?;
+        into.gather_all(&self.parts, &grid);
+        Some(grid)
+    }
+
     /// The last sweep was another's.
     pub(super) fn forget(&mut self) {
         self.grid = None;
