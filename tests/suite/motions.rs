@@ -280,3 +280,21 @@ fn every_number_of_threads_says_the_same() {
     let alone = run(1);
     assert!([2, 8].into_iter().all(|threads| run(threads) == alone));
 }
+
+/// What is replaced is another body, which was given no motion.
+#[test]
+fn a_body_that_is_replaced_forgets_its_motion() {
+    let ball = || Collider3::new(Sphere::new(0.5).unwrap());
+    let mut world = World3::new();
+    let bullet = world.insert(ball().bullet());
+    let wall = world.insert(ball().at(Pose3::at([3.0, 0.0, 0.0]).unwrap()).fixed());
+    for is_replaced in [false, true] {
+        world.set_motion(bullet, Motion3::shift([4.0, 0.0, 0.0]).unwrap()).unwrap();
+        if is_replaced {
+            world.replace(bullet, ball().bullet()).unwrap();
+        }
+        world.update();
+        assert_eq!(world.contact(bullet, wall).is_none(), is_replaced, "what the motion would bring");
+        assert_eq!(world.impacts().is_empty(), is_replaced, "what the bullet would run into");
+    }
+}
