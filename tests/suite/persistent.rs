@@ -12,8 +12,9 @@ use asunder_scenes::random::Random;
 use asunder_tests::precise::{separation2, separation3};
 use glam::{DQuat, DVec2, DVec3, Vec2, Vec3};
 
-/// What a manifold may be off by, as a share of the pair's size: what the engine promises of any.
-const PROMISED: f64 = 1e-5;
+/// What a manifold may say that it is off by, as a share of the pair's size: twice a drift of 2^-15 of the smaller radius, and
+/// next to nothing for rounding.
+const PROMISED: f64 = 3.1e-5;
 
 const SETS: [PairSet; 4] = [PairSet::Rest, PairSet::Touch, PairSet::Mixed, PairSet::Slide];
 
@@ -101,7 +102,7 @@ fn what_is_moved_along_is_true_in_space() {
                 let story = format!("{} {} {number}", kind.name(), set.name());
                 for round in 0..6 {
                     // Both go a long way together first, or not; then B a little by itself, turned or not.
-                    let spread = 10.0_f64.powi(-7 - round % 3) * size;
+                    let spread = 10.0_f64.powi(-6 - round % 3) * size;
                     let (together, alone) = match round {
                         0..3 => (0.0, 0.0),
                         _ => (random.range(0.0, 3.0), random.range(0.0, 2.0) * spread),
@@ -216,7 +217,7 @@ fn what_is_moved_along_is_true_in_the_plane() {
                     let angle = if round < 2 { 0.0 } else { random.range(-1.0, 1.0) };
                     let (sin, cos) = angle.sin_cos();
                     let turn = |v: DVec2| DVec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
-                    let step = random.direction().truncate() * 10.0_f64.powi(-6 + round % 2) * size;
+                    let step = random.direction().truncate() * 10.0_f64.powi(-5 + round % 2) * size;
                     let turned = |pose: &Pose2, extra: DVec2| {
                         let middle = pose_a.position();
                         let facing =

@@ -11,7 +11,7 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 /// A manifold, and how its two bodies stood to each other when it was made: until they drift, it is moved along for a
 /// fraction of what a new one costs.
 ///
-/// Bodies that rest are never quite still. As long as no point of one has moved against the other by more than 2^-17 of
+/// Bodies that rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of
 /// the smaller bounding radius, the manifold holds: the same points of the same features, with separations and a normal
 /// measured anew. Whether the shapes overlap, or are within the margin, is for certain what it was: where that is
 /// closer to call than the drift, there is nothing to be moved along.
@@ -31,10 +31,10 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 /// let mut moved = Vec::new();
 /// let sunk = Pose3::at([0.5, 0.25, 1.875 - 4e-6])?;
 /// assert!(persistent.carry_on([&pose_a, &sunk], &mut moved) && persistent.overlapping());
-/// assert!(Persistent3::reach(&job) > 4e-6 && Persistent3::reach(&job) < 4e-5);
+/// assert!(Persistent3::reach(&job) > 4e-5 && Persistent3::reach(&job) < 4e-4);
 /// assert!((moved[0].points[0].separation + 0.125 + 4e-6).abs() < 1e-8);
 /// assert_eq!(moved[0].points[0].feature, persistent.manifold().points[0].feature);
-/// let gone = Pose3::at([0.5, 0.25, 1.875 - 4e-5])?;
+/// let gone = Pose3::at([0.5, 0.25, 1.875 - 4e-4])?;
 /// assert!(!persistent.carry_on([&pose_a, &gone], &mut moved), "too far: it must be made anew");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
