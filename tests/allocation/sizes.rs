@@ -40,7 +40,7 @@ fn check<S: Recording>(name: &str, (scene, count): (WorldScene, usize), (a_body,
 fn memory_a_body_is_as_documented() {
     println!("colliders: {} and {} bytes", size_of::<Collider3>(), size_of::<Collider2>());
     println!("manifolds: {} and {} bytes", size_of::<Manifold3>(), size_of::<Manifold2>());
-    let (in_space, in_plane) = ((450.0, 1500.0), (400.0, 1100.0));
+    let (in_space, in_plane) = ((450.0, 1600.0), (400.0, 1300.0));
     check::<Volume>("mostly_static", (WorldScene::MostlyStatic, 101_001), in_space);
     check::<Volume>("boxes_pile", (WorldScene::BoxesPile, 100_005), in_space);
     check::<Plane>("plane/mixed", (WorldScene::Mixed, 100_000), in_plane);
