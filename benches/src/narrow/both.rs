@@ -3,6 +3,7 @@
 use super::Operation;
 use crate::accuracy::Said;
 use crate::parry::{self, Shapes};
+use asunder_geometry::Pose3;
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, Separation3, collide3, separations3};
 use asunder_scenes::pairs::PosedPair3;
 use core::hint::black_box;
@@ -41,6 +42,10 @@ impl Both {
     pub(super) fn job(&self, hint: Hint, sensor: bool) -> Job3<'_> {
         let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = &self.ours;
         Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor }
+    }
+
+    pub(super) fn poses(&self) -> [Pose3; 2] {
+        [self.ours.pose_a, self.ours.pose_b]
     }
 
     /// Our answer: something of it, so that none of it can be left out.

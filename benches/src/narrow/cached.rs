@@ -89,15 +89,11 @@ enum Found {
     Answered(usize),
 }
 
-impl Kept {
-    /// How far both bodies went since the last frame, as a world's odometers have it.
-    fn went(&mut self, job: &Job3<'_>) -> f64 {
-        let arm = |shape: &Shape3| f64::from(shape.center().length() + shape.outer_radius());
-        let poses = [*job.pose_a, *job.pose_b];
-        let arms = [job.shape_a, job.shape_b].map(arm);
-        let last = self.poses.replace(poses);
-        last.map_or(f64::INFINITY, |last| (0..2).map(|i| last[i].travel(&poses[i], arms[i])).sum())
-    }
+/// How far both bodies went since the last frame. A world asks that once a body, and not once a pair.
+fn went(last: Option<[Pose3; 2]>, job: &Job3<'_>) -> f64 {
+    let Some([a, b]) = last else { return f64::INFINITY };
+    let arm = |shape: &Shape3| f64::from(shape.center().length() + shape.outer_radius());
+    a.travel(job.pose_a, arm(job.shape_a)) + b.travel(job.pose_b, arm(job.shape_b))
 }
 
 impl Memory {
@@ -111,27 +107,26 @@ impl Memory {
         batch.clear();
         moved.clear();
         let mut jobs: Vec<Job3<'_>> = Vec::with_capacity(block.len());
-        let mut steps: Vec<f64> = Vec::with_capacity(block.len());
         for (both, kept) in block.iter().zip(&mut *kept) {
             let job = both.borrow().job(kept.hint, false);
-            let step = kept.went(&job);
             let persistent = kept.persistent.as_ref();
             if persistent.is_some_and(|persistent| persistent.carry_on([job.pose_a, job.pose_b], moved)) {
                 kept.found = Found::Moved(moved.len() - 1);
             } else {
                 kept.found = Found::Answered(jobs.len());
-                steps.push(step);
                 jobs.push(job);
             }
         }
         collide3(&jobs, batch);
-        for kept in kept {
+        for (both, kept) in block.iter().zip(kept) {
+            let last = kept.poses.replace(both.borrow().poses());
             let Found::Answered(index) = kept.found else { continue };
             let (job, answer) = (&jobs[index], &batch.answers[index]);
             let (Answer::Apart { hint, .. } | Answer::Contact { hint, .. }) = answer;
             kept.hint = *hint;
-            let is_slow = steps[index] <= f64::from(Persistent3::reach(job));
-            kept.persistent = if is_slow { Persistent3::of(job, answer, &batch.manifolds) } else { None };
+            let is_contact = matches!(answer, Answer::Contact { .. });
+            let is_kept = is_contact && went(last, job) <= f64::from(Persistent3::reach(job));
+            kept.persistent = if is_kept { Persistent3::of(job, answer, &batch.manifolds) } else { None };
         }
         let found = batch.manifolds.iter().chain(&*moved);
         found.flat_map(|manifold| &manifold.points).map(|point| point.separation).sum()
