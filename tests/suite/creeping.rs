@@ -51,7 +51,7 @@ fn ways(count: usize, random: &mut Random) -> Vec<Way> {
     (0..count)
         .map(|i| {
             // A third trembles, a third creeps, a third goes.
-            let speed = 10.0_f64.powi([-7, -5, -3][i % 3]) * random.range(0.3, 3.0);
+            let speed = [1e-7, 1e-5, 1e-3][i % 3] * random.range(0.3, 3.0);
             let turn = if i % 2 == 0 { DVec3::ZERO } else { random.direction() * speed };
             Way { step: random.direction() * speed, turn }
         })

@@ -73,7 +73,7 @@ fn check(persistent: &Persistent3, pair: &PosedPair3, margin: f32, story: &str) 
     let off = (f64::from(manifold.separation) - truth.separation).abs();
     assert!(off <= f64::from(manifold.error) + truth.bound, "{story}: off by {off}, {manifold:?}");
     assert!(f64::from(manifold.error) <= PROMISED * size, "{story}: {manifold:?}");
-    assert!((f64::from(manifold.normal.as_dvec3().length()) - 1.0).abs() < 1e-6);
+    assert!((manifold.normal.as_dvec3().length() - 1.0).abs() < 1e-6);
     let then = persistent.manifold();
     assert_eq!(manifold.points.len(), then.points.len());
     let offset = pair.pose_b.position() - pair.pose_a.position();
@@ -100,9 +100,9 @@ fn what_is_moved_along_is_true_in_space() {
                 let margin = (0.02 * size) as f32;
                 let Some(persistent) = kept(&pair, margin) else { continue };
                 let story = format!("{} {} {number}", kind.name(), set.name());
-                for round in 0..6 {
+                for round in 0..6_usize {
                     // Both go a long way together first, or not; then B a little by itself, turned or not.
-                    let spread = 10.0_f64.powi(-6 - round % 3) * size;
+                    let spread = [1e-6, 1e-7, 1e-8][round % 3] * size;
                     let (together, alone) = match round {
                         0..3 => (0.0, 0.0),
                         _ => (random.range(0.0, 3.0), random.range(0.0, 2.0) * spread),
@@ -213,11 +213,13 @@ fn what_is_moved_along_is_true_in_the_plane() {
                 let Some(persistent) = Persistent2::of(&job, &batch.answers[0], &batch.manifolds) else {
                     continue;
                 };
-                for round in 0..4 {
+                for round in 0..4_usize {
                     let angle = if round < 2 { 0.0 } else { random.range(-1.0, 1.0) };
-                    let (sin, cos) = angle.sin_cos();
+                    // A rotation by the half-angle's tangent.
+                    let (cos, sin) =
+                        ((1.0 - angle * angle) / (1.0 + angle * angle), 2.0 * angle / (1.0 + angle * angle));
                     let turn = |v: DVec2| DVec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
-                    let step = random.direction().truncate() * 10.0_f64.powi(-5 + round % 2) * size;
+                    let step = random.direction().truncate() * [1e-5, 1e-4][round % 2] * size;
                     let turned = |pose: &Pose2, extra: DVec2| {
                         let middle = pose_a.position();
                         let facing =

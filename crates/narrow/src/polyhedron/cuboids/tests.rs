@@ -52,7 +52,7 @@ fn side_by_side_or_one_by_one_the_points_are_the_same() {
         let (shapes, poses, margin) = pair(&mut random, round);
         let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
         let mut plain = Vec::new();
-        pair.general_contact(margin, Hint::NONE, &mut Some(&mut plain));
+        let _ = pair.general_contact(margin, Hint::NONE, &mut Some(&mut plain));
         let (found, plain) = (pair.manifold(margin), plain.pop());
         let (Some(found), Some(plain)) = (&found, &plain) else {
             assert_eq!(found.is_some(), plain.is_some(), "round {round}");
