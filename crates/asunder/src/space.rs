@@ -125,11 +125,7 @@ pub trait Space: sealed::Sealed + Sized + 'static {
         bodies: [&Collider<Self>; 2],
         margin: f32,
         to: &mut Vec<Self::Manifold>,
-    ) -> bool;
-
-    /// Whether the bodies of what is kept overlap.
-    #[doc(hidden)]
-    fn overlapping(persistent: &Self::Persistent) -> bool;
+    ) -> Option<bool>;
 }
 
 impl Space for Plane {
@@ -221,13 +217,9 @@ impl Space for Plane {
         [a, b]: [&Collider<Self>; 2],
         margin: f32,
         to: &mut Vec<Manifold2>,
-    ) -> bool {
+    ) -> Option<bool> {
         let is_same = persistent.margin().to_bits() == margin.to_bits() && !a.sensor && !b.sensor;
-        is_same && persistent.carry_on([&a.pose, &b.pose], to)
-    }
-
-    fn overlapping(persistent: &Persistent2) -> bool {
-        persistent.overlapping()
+        (is_same && persistent.carry_on([&a.pose, &b.pose], to)).then_some(persistent.overlapping())
     }
 }
 
@@ -320,12 +312,8 @@ impl Space for Volume {
         [a, b]: [&Collider<Self>; 2],
         margin: f32,
         to: &mut Vec<Manifold3>,
-    ) -> bool {
+    ) -> Option<bool> {
         let is_same = persistent.margin().to_bits() == margin.to_bits() && !a.sensor && !b.sensor;
-        is_same && persistent.carry_on([&a.pose, &b.pose], to)
-    }
-
-    fn overlapping(persistent: &Persistent3) -> bool {
-        persistent.overlapping()
+        (is_same && persistent.carry_on([&a.pose, &b.pose], to)).then_some(persistent.overlapping())
     }
 }

@@ -160,7 +160,7 @@ impl Pose3 {
     /// The rotation's matrix M(q)/|q|^2, in f64. Cost: one division.
     #[inline]
     pub fn basis(&self) -> Basis3 {
-        Basis3::of_quaternion(self.rotation.map(f64::from))
+        Basis3::of_quaternion(self.components())
     }
 
     /// The axes of this pose as seen from another one: right to 31 units of 2^-53, and exactly 1 where both are turned
@@ -176,7 +176,15 @@ impl Pose3 {
     /// ```
     #[inline]
     pub fn basis_from(&self, other: &Self) -> Basis3 {
-        Basis3::between(other.rotation.map(f64::from), self.rotation.map(f64::from))
+        Basis3::between(other.components(), self.components())
+    }
+
+    /// The rotation's x, y, z, w. Written out, as what follows is: `map` is not always inlined, and took a sixth of a frame
+    /// of boxes that rest (AMD EPYC, Zen 4, 2026-11-22).
+    #[inline(always)]
+    fn components(&self) -> [f64; 4] {
+        let [x, y, z, w] = self.rotation;
+        [x.into(), y.into(), z.into(), w.into()]
     }
 
     /// A local point, in metres, taken to the world.
@@ -213,7 +221,10 @@ impl Pose3 {
     /// Whether every stored bit is equal: `0.0` and `-0.0` differ. What a world asks before it calls a body moved.
     #[inline]
     pub fn same_bits(&self, other: &Self) -> bool {
-        self.position.to_array().map(f64::to_bits) == other.position.to_array().map(f64::to_bits)
+        let (here, there) = (self.position, other.position);
+        here.x.to_bits() == there.x.to_bits()
+            && here.y.to_bits() == there.y.to_bits()
+            && here.z.to_bits() == there.z.to_bits()
             && self.same_rotation(other)
     }
 
@@ -249,7 +260,11 @@ impl Pose3 {
     /// ```
     #[inline]
     pub fn same_rotation(&self, other: &Self) -> bool {
-        self.rotation.map(f32::to_bits) == other.rotation.map(f32::to_bits)
+        let ([x, y, z, w], [a, b, c, d]) = (self.rotation, other.rotation);
+        x.to_bits() == a.to_bits()
+            && y.to_bits() == b.to_bits()
+            && z.to_bits() == c.to_bits()
+            && w.to_bits() == d.to_bits()
     }
 }
 

@@ -88,7 +88,7 @@ impl Persistent3 {
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
     /// a frame, keeping one is no use.
     pub fn reach(job: &Job3<'_>) -> f32 {
-        reach_of([job.shape_a, job.shape_b].map(Shape3::outer_radius))
+        reach_of([job.shape_a.outer_radius(), job.shape_b.outer_radius()])
     }
 
     /// The manifold as it was made.
@@ -182,7 +182,7 @@ impl Persistent3 {
         let of = &self.manifold;
         (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, moved.normal.as_vec3());
         let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
-        for point in &of.points {
+        to.points.extend(of.points.iter().map(|point| {
             let then = f64::from(point.separation);
             let (held, rise) = moved.held([point.anchor_a, point.anchor_b], self.is_from_b);
             let height = then + rise;
@@ -194,13 +194,13 @@ impl Persistent3 {
                 (held + moved.offset - out, held)
             };
             (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
-            let _ = to.points.try_push(ContactPoint3 {
+            ContactPoint3 {
                 separation: height as f32,
                 anchor_a: on_a.as_vec3(),
                 anchor_b: on_b.as_vec3(),
                 feature: point.feature,
-            });
-        }
+            }
+        }));
         let rise = deepest - deepest_then;
         to.separation = signed(f64::from(of.separation) + rise, self.overlapping);
         to.error = error_after([of.separation, of.error], moved.drift, rise);
@@ -235,7 +235,7 @@ impl Moved {
     /// whose rounding is nothing beside the drift.
     #[inline(always)]
     fn held(&self, anchors: [Vec3; 2], is_from_b: bool) -> (DVec3, f64) {
-        let [on_a, on_b] = anchors.map(Vec3::as_dvec3);
+        let [on_a, on_b] = [anchors[0].as_dvec3(), anchors[1].as_dvec3()];
         let Some(Turn { then, now, local, local_then, offset_then }) = &self.turn else {
             return (if is_from_b { on_a } else { on_b }, self.rise);
         };

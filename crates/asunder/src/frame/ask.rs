@@ -36,8 +36,17 @@ pub(crate) struct Asked {
 enum Way {
     /// An answer.
     Answered,
-    /// Its manifold was moved along, and is now this one of the batch.
-    Moved(u32),
+    /// Its manifold was moved along.
+    Moved(Moved),
+}
+
+/// What came of a pair whose manifold was moved along, with what is told of its bodies: they have just been read.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moved {
+    /// Which manifold of the batch.
+    at: u32,
+    pub(super) overlapping: bool,
+    pub(super) user_data: (u64, u64),
 }
 
 /// What came of the pairs of a batch, each list in their order; manifolds in the order in which they were made.
@@ -108,17 +117,21 @@ impl<S: Space> Asker<'_, S> {
             let mut jobs: ArrayVec<S::Job<'_>, SLICE> = ArrayVec::new();
             for asked in slice {
                 let Asked { pair, hint, persistent } = *asked;
-                let [a, b] = [pair.a, pair.b].map(|slot| self.bodies.get(self.keys[slot as usize]));
-                let Some((a, b)) = a.zip(b) else { continue };
+                let body = |slot: u32| self.bodies.get(self.keys[slot as usize]);
+                let (Some(a), Some(b)) = (body(pair.a), body(pair.b)) else { continue };
                 let margin = a.margin + b.margin + self.approach(pair, [a, b]);
                 let persistent = self.persistent.get(persistent);
                 let at = asking.answered.manifolds.len() as u32;
                 let to = &mut asking.answered.manifolds;
-                let is_moved =
-                    persistent.is_some_and(|persistent| S::carry_on(persistent, [a, b], margin, to));
-                asking.ways.push(if is_moved { Way::Moved(at) } else { Way::Answered });
-                if !is_moved {
-                    jobs.push(S::job(a, b, margin, hint));
+                match persistent.and_then(|persistent| S::carry_on(persistent, [a, b], margin, to)) {
+                    Some(overlapping) => {
+                        let user_data = (a.user_data, b.user_data);
+                        asking.ways.push(Way::Moved(Moved { at, overlapping, user_data }));
+                    }
+                    None => {
+                        asking.ways.push(Way::Answered);
+                        jobs.push(S::job(a, b, margin, hint));
+                    }
                 }
             }
             S::collide(&jobs, &mut asking.answered);
@@ -140,7 +153,7 @@ pub(super) enum Outcome<'a, S: Space> {
     /// An answer, and the manifolds that it is about.
     Answered(&'a Answer, &'a [S::Manifold]),
     /// Last update's manifold, moved along.
-    Moved,
+    Moved(Moved),
 }
 
 /// The outcomes of all batches, one after the other.
@@ -168,8 +181,8 @@ impl<'a, S: Space> Outcomes<'a, S> {
                 continue;
             };
             self.way += 1;
-            if let Way::Moved(at) = *way {
-                return Some((Outcome::Moved, Place { batch, range: at..at + 1 }));
+            if let Way::Moved(moved) = *way {
+                return Some((Outcome::Moved(moved), Place { batch, range: moved.at..moved.at + 1 }));
             }
             let answer = asking.answered.answers.get(self.answer)?;
             self.answer += 1;

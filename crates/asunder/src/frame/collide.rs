@@ -9,7 +9,7 @@
 //! walk the pairs once more, and put what was carried and what was answered together
 //! ```
 
-use super::ask::{Asked, Outcome, Outcomes, ask, manifolds_at};
+use super::ask::{Asked, Moved, Outcome, Outcomes, ask, manifolds_at};
 use crate::collider::Collider;
 use crate::contact::{Candidate, Place, Record};
 use crate::odometer::Odometer;
@@ -108,22 +108,21 @@ fn gather<S: Space>(world: &mut World<S>) {
             continue;
         }
         let Some((asked, (outcome, place))) = asked.next().zip(outcomes.next()) else { break };
-        let both = [pair.a, pair.b].map(|slot| odometers[slot as usize]);
         let keys = (keys[pair.a as usize], keys[pair.b as usize]);
-        let found = bodies.get(keys.0).zip(bodies.get(keys.1));
+        // Bodies lie all over memory: of what is apart, or moved along, nobody reads them again.
+        let both = || bodies.get(keys.0).zip(bodies.get(keys.1));
         // What motions may bring is looked for within other margins in every frame.
-        let is_going = !motions.is_empty() && [pair.a, pair.b].iter().any(|&slot| motions.of(slot).is_some());
-        let lasting = found.filter(|_| !is_going);
-        let (candidate, overlapping) =
-            candidate_of::<S>((asked, keys), &outcome, (both, lasting), persistent);
-        candidates.push(candidate);
-        if let Some((overlapping, (a, b))) = overlapping.zip(found) {
+        let is_going = !motions.is_empty() && (motions.of(pair.a).is_some() || motions.of(pair.b).is_some());
+        let ways = [odometers[pair.a as usize], odometers[pair.b as usize]];
+        let lasting = || if is_going { None } else { both() };
+        candidates.push(candidate_of::<S>((asked, keys), &outcome, (ways, lasting), persistent));
+        if let Some(met) = met_of(&outcome, both) {
             // Only that is beyond the margins: else no manifold need be read.
-            let is_sought = !overlapping && lasting.is_none();
             let found = manifolds_at(&place, askings, carried);
-            let is_beyond = is_sought && S::least_separation(found) > a.margin + b.margin;
-            let speculative = is_beyond && !found.is_empty();
-            records.push(record_of::<S>((pair, keys), [a, b], (overlapping, speculative), place));
+            let is_beyond = |(a, b): Both<'_, S>| S::least_separation(found) > a.margin + b.margin;
+            let is_sought = is_going && !met.overlapping && !found.is_empty();
+            let speculative = is_sought && both().is_some_and(is_beyond);
+            records.push(record_of((pair, keys), met, speculative, place));
         }
     }
 }
@@ -131,44 +130,61 @@ fn gather<S: Space>(world: &mut World<S>) {
 /// Two bodies.
 type Both<'a, S> = (&'a Collider<S>, &'a Collider<S>);
 
-/// What is kept of a pair that was asked about, by how far its bodies went; and whether they overlap, if they are within
-/// the margin. Manifolds of bodies that last are kept to be moved along.
-fn candidate_of<S: Space>(
+/// What is kept of a pair that was asked about, by how far its bodies went. Manifolds of bodies that last are kept to be
+/// moved along.
+fn candidate_of<'a, S: Space>(
     (asked, keys): (&Asked, (S::Key, S::Key)),
     outcome: &Outcome<'_, S>,
-    (both, lasting): ([Odometer; 2], Option<Both<'_, S>>),
+    (ways, lasting): ([Odometer; 2], impl FnOnce() -> Option<Both<'a, S>>),
     persistent: &mut Slab<S::Persistent>,
-) -> (Candidate<S::Key>, Option<bool>) {
+) -> Candidate<S::Key> {
     let Asked { pair, hint, persistent: place } = *asked;
-    let (hint, place, until, overlapping) = match *outcome {
-        Outcome::Moved => (hint, place, f64::NEG_INFINITY, persistent.get(place).map(S::overlapping)),
+    let (hint, place, until) = match *outcome {
+        Outcome::Moved(_) => (hint, place, f64::NEG_INFINITY),
         Outcome::Answered(&Answer::Apart { hint, beyond }, _) => {
-            (hint, persistent.put(place, None), Odometer::until(both, beyond), None)
+            (hint, persistent.put(place, None), Odometer::until(ways, beyond))
         }
-        Outcome::Answered(answer @ &Answer::Contact { hint, overlapping, .. }, manifolds) => {
-            let step = both[0].step() + both[1].step();
-            let kept = lasting.and_then(|(a, b)| {
+        Outcome::Answered(answer @ &Answer::Contact { hint, .. }, manifolds) => {
+            let step = ways[0].step() + ways[1].step();
+            let kept = lasting().and_then(|(a, b)| {
                 S::persistent(&S::job(a, b, a.margin + b.margin, hint), answer, manifolds, step)
             });
-            (hint, persistent.put(place, kept), f64::NEG_INFINITY, Some(overlapping))
+            (hint, persistent.put(place, kept), f64::NEG_INFINITY)
         }
     };
-    (Candidate { pair, keys, hint, persistent: place, until }, overlapping)
+    Candidate { pair, keys, hint, persistent: place, until }
 }
 
-/// A contact, as the narrow phase alone knows it, by whether they overlap, and whether they are beyond the margins; its
-/// past is merged in later.
-fn record_of<S: Space>(
-    (pair, keys): (PairId, (S::Key, S::Key)),
-    [a, b]: [&Collider<S>; 2],
-    (overlapping, speculative): (bool, bool),
-    manifolds: Place,
-) -> Record<S::Key> {
+/// Two bodies within their margins.
+struct Met {
+    overlapping: bool,
+    sensor: bool,
+    user_data: (u64, u64),
+}
+
+/// How a pair that was asked about met, if it did.
+fn met_of<'a, S: Space>(outcome: &Outcome<'_, S>, both: impl FnOnce() -> Option<Both<'a, S>>) -> Option<Met> {
+    match *outcome {
+        Outcome::Moved(Moved { overlapping, user_data, .. }) => {
+            Some(Met { overlapping, sensor: false, user_data })
+        }
+        Outcome::Answered(Answer::Apart { .. }, _) => None,
+        Outcome::Answered(&Answer::Contact { overlapping, .. }, _) => both().map(|(a, b)| Met {
+            overlapping,
+            sensor: a.sensor || b.sensor,
+            user_data: (a.user_data, b.user_data),
+        }),
+    }
+}
+
+/// A contact, as the narrow phase alone knows it, and whether it is beyond the margins; its past is merged in later.
+fn record_of<K>((pair, keys): (PairId, (K, K)), met: Met, speculative: bool, manifolds: Place) -> Record<K> {
+    let Met { overlapping, sensor, user_data } = met;
     Record {
         pair,
         keys,
-        user_data: (a.user_data, b.user_data),
-        sensor: a.sensor || b.sensor,
+        user_data,
+        sensor,
         overlapping,
         begun: overlapping,
         is_new: false,

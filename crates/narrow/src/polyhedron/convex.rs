@@ -109,7 +109,7 @@ impl<'a> Convex<'a> {
     /// Two shapes, B's axes and position as A sees them. `summed` is how long the vectors were that the position is a
     /// sum of, in metres, where it is one of several.
     pub(crate) fn new(sites: [Site3<'a>; 2], relative: Basis3, offset: DVec3, summed: f64) -> Self {
-        let [shape_a, shape_b] = sites.map(|site| site.shape);
+        let (shape_a, shape_b) = (sites[0].shape, sites[1].shape);
         let radii = f64::from(shape_a.radius()) + f64::from(shape_b.radius());
         let planarity = |shape: &Shape3| match shape {
             Shape3::Hull(hull) => f64::from(Hull::planarity_error(hull)),

@@ -130,10 +130,9 @@ impl<'a> Solid<'a> {
     #[inline]
     pub(crate) fn out_of_edge(&self, half_edge: usize) -> DVec3 {
         let edges = self.topology.half_edges();
-        let faces = [half_edge, edges[half_edge].twin as usize].map(|edge| edges[edge].face as usize);
-        let [Some(&left), Some(&right)] = faces.map(|face| self.normals.get(face)) else {
-            return DVec3::ZERO;
-        };
+        let normal = |half_edge: usize| self.normals.get(edges[half_edge].face as usize);
+        let twin = edges[half_edge].twin as usize;
+        let (Some(&left), Some(&right)) = (normal(half_edge), normal(twin)) else { return DVec3::ZERO };
         if left.dot(right) < 0.0 {
             // Of faces that are all but back to back the sum is what rounding left of it, and the difference tells.
             return self.edge_direction(half_edge).cross(self.forth(left - right));
@@ -144,7 +143,7 @@ impl<'a> Solid<'a> {
     /// The other shape's axes as this one sees them.
     #[inline]
     pub(super) fn axes_of(&self, other: &Self) -> [DVec3; 3] {
-        [other.basis.x, other.basis.y, other.basis.z].map(|axis| self.back(axis))
+        [self.back(other.basis.x), self.back(other.basis.y), self.back(other.basis.z)]
     }
 
     /// The vertex furthest along a direction of unit length; ties go to the lowest index. Cost: linear in the vertices.

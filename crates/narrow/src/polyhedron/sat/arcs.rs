@@ -91,16 +91,15 @@ pub(super) fn for_edge_pairs(
     add_turned(a, (b, edges_b), &mut octets);
     for &edge_a in edges_a {
         let arc_a = &a.arcs[edge_a as usize];
+        let half_edge_a = a.topology.edges()[edge_a as usize].into();
         for (first, (octet, chunk)) in (0..).step_by(8).zip(octets.iter().zip(edges_b.chunks(8))) {
             let crossing = may_cross_eight(arc_a, octet);
             if crossing == [0; 8] {
                 continue;
             }
-            for (i, (&edge_b, may_cross)) in chunk.iter().zip(crossing).enumerate() {
-                let half_edges = [(a, edge_a), (b, edge_b)];
-                let half_edges = half_edges.map(|(solid, edge)| solid.topology.edges()[edge as usize].into());
+            for (i, (&edge_b, may_cross)) in (first..).zip(chunk.iter().zip(crossing)) {
                 if may_cross != 0 {
-                    visit(half_edges, first + i);
+                    visit([half_edge_a, b.topology.edges()[edge_b as usize].into()], i);
                 }
             }
         }
@@ -146,7 +145,8 @@ type ArcOctets = ArrayVec<ArcOctet, { MAX_EDGES.div_ceil(8) }>;
 /// The arcs of B's edges in A's axes.
 #[inline(always)]
 fn add_turned(a: &Solid, (b, edges_b): (&Solid, &[u16]), octets: &mut ArcOctets) {
-    let basis = a.axes_of(b).map(|axis| axis.as_vec3());
+    let [x, y, z] = a.axes_of(b);
+    let basis = [x.as_vec3(), y.as_vec3(), z.as_vec3()];
     for chunk in edges_b.chunks(8).take(octets.capacity()) {
         let mut octet = ArcOctet::NONE;
         for (i, &edge) in chunk.iter().enumerate() {
