@@ -66,7 +66,8 @@ impl Triangle3 {
         let mut triangle = Self { vertices, outer_radius: 0.0 };
         let center = triangle.center().as_dvec3();
         let squared = |corner: Vec3| (corner.as_dvec3() - center).length_squared();
-        let reach = vertices.map(squared).into_iter().fold(0.0, f64::max).sqrt();
+        let [a, b, c] = vertices;
+        let reach = squared(a).max(squared(b)).max(squared(c)).sqrt();
         triangle.outer_radius = round_up(reach * (1.0 + 8.0 * f64::EPSILON));
         triangle
     }

@@ -71,20 +71,21 @@ impl Ground<'_> {
         numbers: &[u32],
         visitor: &mut impl FnMut(&NearTriangle) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let blank =
-            NearTriangle { number: 0, corners: [Vec3::ZERO; 3], patch: 0, prominent: Prominent::NONE };
-        let mut read = [blank; AT_ONCE];
-        let mut vertices = [[0; 3]; AT_ONCE];
-        for ((&number, read), vertices) in numbers.iter().zip(&mut read).zip(&mut vertices) {
-            (read.number, read.patch, read.prominent) = (number, self.patch(number), self.prominent(number));
-            *vertices = self.vertex_numbers(number);
+        let (mut patches, mut prominent) = ([0; AT_ONCE], [Prominent::NONE; AT_ONCE]);
+        let (mut vertices, mut corners) = ([[0; 3]; AT_ONCE], [[Vec3::ZERO; 3]; AT_ONCE]);
+        for (i, &number) in numbers.iter().enumerate().take(AT_ONCE) {
+            (patches[i], prominent[i]) = (self.patch(number), self.prominent(number));
+            vertices[i] = self.vertex_numbers(number);
         }
-        for (read, vertices) in read.iter_mut().zip(vertices).take(numbers.len()) {
-            read.corners = match self {
-                Self::Mesh(mesh) => mesh.corners_by(vertices),
-                Self::Field(field) => field.corners(read.number),
+        for (i, &number) in numbers.iter().enumerate().take(AT_ONCE) {
+            corners[i] = match self {
+                Self::Mesh(mesh) => mesh.corners_by(vertices[i]),
+                Self::Field(field) => field.corners(number),
             };
         }
-        read.iter().take(numbers.len()).try_for_each(visitor)
+        (0..numbers.len().min(AT_ONCE)).try_for_each(|i| {
+            let (number, corners) = (numbers[i], corners[i]);
+            visitor(&NearTriangle { number, corners, patch: patches[i], prominent: prominent[i] })
+        })
     }
 }

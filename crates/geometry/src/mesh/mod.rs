@@ -183,7 +183,8 @@ impl TriMesh {
 
     #[inline]
     pub(crate) fn corners_by(&self, vertices: [u32; 3]) -> [Vec3; 3] {
-        vertices.map(|vertex| self.data.vertices.get(vertex as usize).copied().unwrap_or_default())
+        let at = |vertex: u32| self.data.vertices.get(vertex as usize).copied().unwrap_or_default();
+        [at(vertices[0]), at(vertices[1]), at(vertices[2])]
     }
 
     #[inline]

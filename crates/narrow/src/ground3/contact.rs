@@ -422,8 +422,9 @@ impl Seen<'_> {
             let separation = extent.low - standing.radius;
             let is_freed = heard.iter().any(|&(normal, least)| {
                 separation < least - standing.slack && !is_same(facet.normal, normal) && {
-                    let top = facet.corners.map(|corner| normal.dot(corner - facet.origin()));
-                    let top = top.into_iter().fold(f64::NEG_INFINITY, f64::max);
+                    let [a, b, c] = facet.corners;
+                    let height = |corner: DVec3| normal.dot(corner - facet.origin());
+                    let top = height(a).max(height(b)).max(height(c));
                     let low = standing.extent(normal, facet.origin()).low - standing.radius;
                     low - top >= least - standing.slack
                 }

@@ -62,7 +62,8 @@ impl Asking<'_> {
         let off = (f64::from(separation) - deepest.separation).abs();
         let error = precision.of_distance(deepest.separation, deepest.doubt + off);
         (manifold.separation, manifold.error) = (separation, error);
-        for pin in &group.pins {
+        let room = manifold.points.remaining_capacity();
+        manifold.points.extend(group.pins.iter().take(room).map(|pin| {
             let of_body = (on.basis.turn(pin.on_body) - on.to_body).as_vec3();
             let of_ground = on.basis.turn(pin.on_ground).as_vec3();
             let (anchor_a, anchor_b, feature) = if on.is_b {
@@ -71,8 +72,8 @@ impl Asking<'_> {
                 (of_ground, of_body, FeatureId::new(pin.of_ground, pin.of_body))
             };
             let separation = pin.separation as f32;
-            let _ = manifold.points.try_push(ContactPoint3 { separation, anchor_a, anchor_b, feature });
-        }
+            ContactPoint3 { separation, anchor_a, anchor_b, feature }
+        }));
         manifold.points.sort_unstable_by_key(|point| point.feature);
     }
 }

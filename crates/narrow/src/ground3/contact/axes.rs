@@ -12,14 +12,14 @@
 //! Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with depths.
 
 use super::prism::Prism;
-use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 
 /// The axes of a cuboid and a triangle.
 pub(super) struct Axes {
-    all: ArrayVec<Axis, 13>,
+    all: [Axis; 13],
+    count: usize,
     /// The greatest separation of the cores along any, in metres.
     pub(super) best: f64,
     /// By how much an axis that is left out, across edges that are all but parallel, may be better, in metres.
@@ -46,7 +46,7 @@ impl Prism<'_> {
         let own = |corner: DVec3| place.axes.turn_back(corner - place.origin);
         let corners = [own(facet.corners[0]), own(facet.corners[1]), own(facet.corners[2])];
         let normal = place.axes.turn_back(facet.normal);
-        let mut axes = Axes { all: ArrayVec::new_const(), best: f64::NEG_INFINITY, left_out: 0.0 };
+        let mut axes = Axes::NONE;
         axes.fill(corners, normal, (cuboid.half_extents().as_dvec3(), beyond)).then_some(axes)
     }
 
@@ -55,12 +55,15 @@ impl Prism<'_> {
         let (standing, facet) = (self.standing, self.facet);
         let size = 2.0 * (standing.outer_radius + facet.corners[0].distance(facet.corners[1]));
         let slack = self.doubt + 2.0 * FACE_PREFERENCE * size;
-        let mut rivals = axes.all.iter().filter(|axis| axis.0 >= axes.best - slack);
+        let mut rivals = axes.all[..axes.count].iter().filter(|axis| axis.0 >= axes.best - slack);
         rivals.all(|axis| !facet.lets_through(self.ground, standing.place.axes.turn(axis.1)))
     }
 }
 
 impl Axes {
+    const NONE: Self =
+        Self { all: [(0.0, DVec3::ZERO); 13], count: 0, best: f64::NEG_INFINITY, left_out: 0.0 };
+
     /// Whether the cores overlap by more than so many metres for certain.
     pub(super) fn do_overlap(&self, doubt: f64) -> bool {
         self.best < -(doubt + self.left_out)
@@ -112,7 +115,11 @@ impl Axes {
     fn offer(&mut self, axis: DVec3, (low, high): (f64, f64), half: f64) {
         let axis = if low + high > 0.0 { (low - half, -axis) } else { (-high - half, axis) };
         self.best = if axis.0 > self.best { axis.0 } else { self.best };
-        let _ = self.all.try_push(axis);
+        // A list's own way to push is a call.
+        if let Some(place) = self.all.get_mut(self.count) {
+            *place = axis;
+            self.count += 1;
+        }
     }
 }
 
@@ -124,7 +131,7 @@ mod tests {
     fn is_certain(depth: f64, turn: f64) -> bool {
         let (half, height) = (DVec3::new(1.0, 0.3, 0.3), 0.3 - depth);
         let corners = [[-1.0, height, -turn], [1.0, height, turn], [0.0, height, 2.0]].map(DVec3::from);
-        let mut axes = Axes { all: ArrayVec::new_const(), best: f64::NEG_INFINITY, left_out: 0.0 };
+        let mut axes = Axes::NONE;
         assert!(
             axes.fill(corners, DVec3::Y, (half, f64::INFINITY)),
             "no edges too near to parallel to be trusted"

@@ -53,8 +53,7 @@ impl Facet {
     /// A triangle as it is seen from its front. Nothing where it has no normal.
     #[inline]
     pub(super) fn front_of(number: u32, corners: [Vec3; 3]) -> Option<Self> {
-        // Not by `map`: a kernel's arrays stay in registers only without its calls.
-        let corners = [corners[0].as_dvec3(), corners[1].as_dvec3(), corners[2].as_dvec3()];
+        let corners = widened(corners);
         let sides = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
         let squares = [sides[0].length_squared(), sides[1].length_squared(), sides[2].length_squared()];
         let longest = if squares[0] >= squares[1] && squares[0] >= squares[2] {
@@ -84,7 +83,7 @@ impl Facet {
     /// Another triangle of the same flat patch, if it lies in this one's plane up to so many metres and has a point on
     /// the same side.
     pub(super) fn next(&self, ground: Ground, number: u32, slack: f64, center: DVec3) -> Option<Self> {
-        let corners = ground.corners(number).map(|corner| corner.as_dvec3());
+        let corners = widened(ground.corners(number));
         let is_on = corners.iter().all(|&corner| self.height(corner).abs() <= slack);
         let next = Self { number, corners, ..*self };
         (is_on && (ground.is_one_sided() || next.has_in_front(ground, center))).then_some(next)
@@ -211,12 +210,13 @@ impl Facet {
 
     /// The feature that reaches furthest in a unit direction; corners within the tolerance of it count as far.
     pub(super) fn furthest(&self, towards: DVec3) -> Furthest {
-        let is_level = [0, 1, 2].map(|edge| {
+        let is_level = |edge: usize| {
             let (_, along) = self.edge(edge);
             let rise = towards.dot(along);
             rise * rise <= SAME_NORMAL * SAME_NORMAL * along.length_squared()
-        });
-        let reaches = self.corners.map(|corner| towards.dot(corner - self.origin));
+        };
+        let reach = |corner: usize| towards.dot(self.corners[corner] - self.origin);
+        let reaches = [reach(0), reach(1), reach(2)];
         let top = if reaches[0] >= reaches[1] && reaches[0] >= reaches[2] {
             0
         } else if reaches[1] >= reaches[2] {
@@ -225,7 +225,7 @@ impl Facet {
             2
         };
         // Edge `top` leaves the corner, the one before leads to it.
-        match (is_level[top], is_level[(top + 2) % 3]) {
+        match (is_level(top), is_level((top + 2) % 3)) {
             (true, true) => Furthest::Face,
             (true, false) => Furthest::Edge(top),
             (false, true) => Furthest::Edge((top + 2) % 3),
@@ -301,7 +301,7 @@ impl Facet {
     /// is behind the top, and still in front of the wall.
     pub(super) fn sees_otherwise(&self, ground: Ground, corner: usize, point: DVec3) -> bool {
         let is_other = |number: u32| {
-            let [a, b, c] = ground.corners(number).map(|corner| corner.as_dvec3());
+            let [a, b, c] = widened(ground.corners(number));
             ((b - a).cross(c - a).dot(point - a) >= 0.0) != self.is_front
         };
         for way in [0, 2] {
@@ -332,11 +332,17 @@ impl Facet {
         if ground.patch(other) == ground.patch(self.number) {
             return true;
         }
-        let [a, b, c] = ground.corners(other).map(|corner| corner.as_dvec3());
+        let [a, b, c] = widened(ground.corners(other));
         let cross = (b - a).cross(c - a);
         let front = if self.is_front { self.normal } else { -self.normal };
         is_same(front, cross)
     }
+}
+
+/// Corners in f64. Not by `map`: a kernel's arrays stay in registers only without its calls.
+#[inline(always)]
+pub(super) fn widened([a, b, c]: [Vec3; 3]) -> [DVec3; 3] {
+    [a.as_dvec3(), b.as_dvec3(), c.as_dvec3()]
 }
 
 /// The number of an edge: of its two half-edges, the lower.
@@ -348,14 +354,14 @@ pub(super) fn edge_number(ground: Ground, triangle: u32, edge: usize) -> u32 {
 
 /// The unit normal of a triangle's front; zero where it has none.
 fn unit_normal(ground: Ground, triangle: u32) -> DVec3 {
-    let [a, b, c] = ground.corners(triangle).map(|corner| corner.as_dvec3());
+    let [a, b, c] = widened(ground.corners(triangle));
     (b - a).cross(c - a).normalize_or_zero()
 }
 
 /// The normal of a triangle's front, as long as the sine of its angle at a corner.
 fn at_corner(ground: Ground, triangle: u32, corner: usize) -> DVec3 {
-    let corners = ground.corners(triangle).map(|corner| corner.as_dvec3());
-    let [at, next, before] = [0, 1, 2].map(|i| corners[(corner + i) % 3]);
+    let corners = widened(ground.corners(triangle));
+    let [at, next, before] = [corners[corner % 3], corners[(corner + 1) % 3], corners[(corner + 2) % 3]];
     (next - at).normalize_or_zero().cross((before - at).normalize_or_zero())
 }
 
@@ -368,7 +374,7 @@ pub(super) fn is_same(normal: DVec3, other: DVec3) -> bool {
 
 /// From a half-edge of a triangle towards its third corner, square to the edge.
 fn across(ground: Ground, triangle: u32, edge: usize) -> DVec3 {
-    let corners = ground.corners(triangle).map(|corner| corner.as_dvec3());
+    let corners = widened(ground.corners(triangle));
     let from = corners[edge % 3];
     square_to(corners[(edge + 2) % 3] - from, corners[(edge + 1) % 3] - from)
 }

@@ -69,8 +69,8 @@ impl Incident {
 fn opposed_of_cuboid(normal: DVec3, cuboid: &Cuboid, slack: f64) -> usize {
     let (lean, half) = (normal.abs(), cuboid.half_extents().as_dvec3());
     // A face whose other side is as far up to the slack has but some of them.
-    let has_all = [0, 1, 2].map(|axis| 2.0 * half[axis] * lean[axis] > slack);
-    let is_better = |axis: usize, than: usize| (has_all[axis], lean[axis]) > (has_all[than], lean[than]);
+    let has_all = |axis: usize| 2.0 * half[axis] * lean[axis] > slack;
+    let is_better = |axis: usize, than: usize| (has_all(axis), lean[axis]) > (has_all(than), lean[than]);
     let axis = (1..3).fold(0, |best, axis| if is_better(axis, best) { axis } else { best });
     // Faces are two an axis, the one that looks along it second.
     2 * axis + usize::from(normal[axis] < 0.0)
@@ -236,7 +236,7 @@ impl Prism<'_> {
         let (from, along) = facet.edge(edge);
         let shift = outwards * standing.radius;
         if solid.is_slender() {
-            let [begin, end] = [0, solid.vertices.len() - 1].map(|vertex| standing.point(vertex) + shift);
+            let (begin, end) = (standing.point(0) + shift, standing.point(solid.vertices.len() - 1) + shift);
             let inwards = facet.inwards(along);
             let (out, over) = (inwards.dot(begin - from), inwards.dot(end - from));
             if (out < 0.0) == (over < 0.0) {

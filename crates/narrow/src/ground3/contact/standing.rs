@@ -91,8 +91,8 @@ impl<'s> Standing<'s> {
     ) -> Self {
         let axes = [place.axes.x.to_array(), place.axes.y.to_array(), place.axes.z.to_array()];
         let origin = place.origin.to_array();
-        let mut own = [[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]].map(|row| [row; 3]);
-        let mut turned = [[f64::INFINITY; 8], [f64::NEG_INFINITY; 8]].map(|row| [row; 3]);
+        let mut own = [[[f32::INFINITY; 8]; 3], [[f32::NEG_INFINITY; 8]; 3]];
+        let mut turned = [[[f64::INFINITY; 8]; 3], [[f64::NEG_INFINITY; 8]; 3]];
         for eight in core.vertex_octets() {
             let rows = [&eight.x, &eight.y, &eight.z];
             let mut octet = [[0.0; 8]; 3];
@@ -109,6 +109,7 @@ impl<'s> Standing<'s> {
             }
             let _ = octets.try_push(octet);
         }
+        let (own, turned) = (corners_of(&own), corners_of(&turned));
         let center = part.shape.center().as_dvec3();
         // A half-space has none, nor vertices that it would matter to.
         let outer_radius = match solid.vertices.len() {
@@ -120,8 +121,8 @@ impl<'s> Standing<'s> {
             part,
             place,
             solid,
-            around: corners_of(&own).map(|corner| Vec3::from_array(corner).as_dvec3()),
-            turned: corners_of(&turned).map(DVec3::from_array),
+            around: [Vec3::from_array(own[0]).as_dvec3(), Vec3::from_array(own[1]).as_dvec3()],
+            turned: [DVec3::from_array(turned[0]), DVec3::from_array(turned[1])],
             octets,
             center: place.point(center),
             radius: f64::from(part.shape.radius()),
@@ -153,7 +154,8 @@ impl<'s> Standing<'s> {
                 return axes.best > 0.0;
             }
         } else {
-            let own = facet.corners.map(|corner| self.place.axes.turn_back(corner - self.place.origin));
+            let own = |corner: usize| self.place.axes.turn_back(facet.corners[corner] - self.place.origin);
+            let own = [own(0), own(1), own(2)];
             let [low, high] = self.around;
             let above = own[0].min(own[1]).min(own[2]) - high;
             let below = low - own[0].max(own[1]).max(own[2]);
@@ -258,7 +260,7 @@ pub(super) fn doubt_of(lengths: f64, ground: DVec3) -> f64 {
 /// Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with a margin.
 fn is_apart_across(corners: &[DVec3; 3], [low, high]: [DVec3; 2], beyond: f64) -> bool {
     let (middle, half) = ((low + high) * 0.5, (high - low) * 0.5);
-    let corners = corners.map(|corner| corner - middle);
+    let corners = [corners[0] - middle, corners[1] - middle, corners[2] - middle];
     for (edge, third) in [(0, 2), (1, 0), (2, 1)] {
         let along = corners[(edge + 1) % 3] - corners[edge];
         let axes = [

@@ -55,7 +55,9 @@ impl Best {
         let topology = solid.topology;
         for &half_edge in topology.leaving(vertex) {
             let face = usize::from(topology.half_edges()[usize::from(half_edge)].face);
-            let Some(count) = far.count_on(solid, face, self.far) else { continue };
+            // Where the vertex is alone, nothing need be counted.
+            let count = if far.count == 1 { Some(1) } else { far.count_on(solid, face, self.far) };
+            let Some(count) = count else { continue };
             let known = self.face.filter(|_| count == self.far);
             (self.far, self.face) = match known {
                 Some(known) => (count, Some(self.more_opposed(solid, [known, face], normal))),
