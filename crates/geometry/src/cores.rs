@@ -318,9 +318,12 @@ impl<'a> Few<'a> {
         let topology = Triangle3::topology();
         let [a, b, c] = triangle.vertices();
         let (vertices, normals) = ([a, b, c, a, a, a, a, a], triangle.normals());
-        let reach =
-            |normal: DVec3| [a, b, c].map(|v| normal.dot(v.as_dvec3())).into_iter().fold(f64::MIN, f64::max);
-        let heights = normals.map(reach);
+        let reach = |normal: DVec3| {
+            let height = |vertex: Vec3| normal.dot(vertex.as_dvec3());
+            height(a).max(height(b)).max(height(c))
+        };
+        let heights = [reach(normals[0]), reach(normals[1])];
+        let arc = |edge: usize| EdgeArc::of(&vertices, &normals, topology, edge);
         let faces = FaceOctet::of_flat(normals[0], heights);
         Self {
             vertex_octets: Held::Few([VertexOctet::of_eight(&vertices)], 1),
@@ -330,7 +333,7 @@ impl<'a> Few<'a> {
             face_octets: Held::Few([faces], 1),
             // Flat: every edge is looked at.
             edge_octets: Held::Many(&[]),
-            arcs: Held::Few([0, 1, 2].map(|edge| EdgeArc::of(&vertices, &normals, topology, edge)), 3),
+            arcs: Held::Few([arc(0), arc(1), arc(2)], 3),
             center: shape.center(),
             inner_radius: beside_center(shape),
             extent: octets::extent(&vertices[..3]),

@@ -100,8 +100,9 @@ impl EdgeArc {
         let (from, to) = topology.ends(half_edge);
         let along = (vertices[to].as_dvec3() - vertices[from].as_dvec3()).normalize_or_zero();
         let edges = topology.half_edges();
-        let faces = [half_edge, edges[half_edge].twin as usize].map(|edge| edges[edge].face as usize);
-        let [Some(&left), Some(&right)] = faces.map(|face| normals.get(face)) else {
+        let normal = |half_edge: usize| normals.get(edges[half_edge].face as usize);
+        let twin = edges[half_edge].twin as usize;
+        let (Some(&left), Some(&right)) = (normal(half_edge), normal(twin)) else {
             return Self { along: along.as_vec3(), ..Self::NONE };
         };
         // Of faces that are all but back to back the sum is what rounding left of it, and the difference tells.
@@ -124,7 +125,12 @@ impl VertexOctet {
     /// Eight vertices, as they are.
     #[inline]
     pub(crate) fn of_eight(vertices: &[Vec3; 8]) -> Self {
-        Self { x: vertices.map(|v| v.x), y: vertices.map(|v| v.y), z: vertices.map(|v| v.z) }
+        // Not by `map`, which calls: every cuboid that is seen as a solid has one made.
+        let mut octet = Self { x: [0.0; 8], y: [0.0; 8], z: [0.0; 8] };
+        for (i, vertex) in vertices.iter().enumerate() {
+            (octet.x[i], octet.y[i], octet.z[i]) = (vertex.x, vertex.y, vertex.z);
+        }
+        octet
     }
 
     /// Any number of vertices, the last octet filled up with the first one.

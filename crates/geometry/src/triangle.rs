@@ -94,7 +94,8 @@ impl Triangle3 {
     /// The centre that the bounding radius is about: the centroid, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec3 {
-        let [a, b, c] = self.vertices.map(|vertex| vertex.as_dvec3());
+        let [a, b, c] = self.vertices;
+        let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
         ((a + b + c) / 3.0).as_vec3()
     }
 

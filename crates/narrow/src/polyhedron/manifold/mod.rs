@@ -269,7 +269,7 @@ fn add_aligned_faces<'a>(
         return false;
     }
     let [face_a, face_b] =
-        [(a, -normal), (b, normal)].map(|(solid, to)| opposed_face(solid, to, depths.slack).face);
+        [opposed_face(a, -normal, depths.slack).face, opposed_face(b, normal, depths.slack).face];
     let (facing_a, facing_b) = (a.normal(face_a), b.normal(face_b));
     if facing_a.dot(normal) < ALIGNED_FACES || facing_b.dot(normal) > -ALIGNED_FACES {
         return false;
