@@ -3,7 +3,7 @@
 //! Steps are from a ten-millionth of a body's size to a hundredth, so that pairs stay apart for many frames, manifolds are
 //! moved along for some, and both end within the run.
 
-use asunder::{Collider2, Collider3, Contact2, Contact3, World2, World3};
+use asunder::{Collider2, Collider3, Contact, Contact2, Contact3, World2, World3};
 use asunder_geometry::{
     Capsule3, Circle, Compound3, Cuboid, HalfSpace, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3, Sphere,
 };
@@ -74,17 +74,22 @@ fn compound() -> Compound3 {
     Compound3::new([(at(-0.3), part.clone()), (at(0.3), part)]).unwrap()
 }
 
-fn contacts3(contacts: &[Contact3<'_>], index: impl Fn(asunder::BodyKey3) -> usize) -> Vec<Seen> {
-    let seen = |contact: &Contact3<'_>| Seen {
+/// What is compared of a contact, its bodies by their places among all; `numbers` is a manifold's separation and error.
+fn seen<K: Copy + PartialEq, M>(
+    contact: &Contact<'_, K, M>,
+    keys: &[K],
+    numbers: impl Fn(&M) -> [f32; 2],
+) -> Seen {
+    let index = |key: K| keys.iter().position(|known| *known == key).unwrap();
+    let numbers = |manifold| {
+        let [separation, error] = numbers(manifold);
+        (separation.into(), error.into())
+    };
+    Seen {
         bodies: (index(contact.a), index(contact.b)),
         overlapping: contact.overlapping,
-        manifolds: contact
-            .manifolds
-            .iter()
-            .map(|found| (found.separation.into(), found.error.into()))
-            .collect(),
-    };
-    contacts.iter().map(seen).collect()
+        manifolds: contact.manifolds.iter().map(numbers).collect(),
+    }
 }
 
 #[test]
@@ -127,16 +132,10 @@ fn what_is_carried_on_is_what_a_new_world_finds_in_space() {
             let fresh_keys: Vec<_> =
                 bodies.iter().enumerate().map(|body| fresh.insert(collider(body))).collect();
             fresh.update();
-            let index =
-                |keys: &[asunder::BodyKey3], key| keys.iter().position(|known| *known == key).unwrap();
-            let carried: Vec<_> = world.contacts().collect();
-            let found: Vec<_> = fresh.contacts().collect();
-            check_alike(
-                &contacts3(&carried, |key| index(&keys, key)),
-                &contacts3(&found, |key| index(&fresh_keys, key)),
-                margin.into(),
-                &format!("seed {seed}, frame {frame}"),
-            );
+            let told = |contact: Contact3<'_>, keys: &[_]| seen(&contact, keys, |m| [m.separation, m.error]);
+            let carried: Vec<_> = world.contacts().map(|contact| told(contact, &keys)).collect();
+            let found: Vec<_> = fresh.contacts().map(|contact| told(contact, &fresh_keys)).collect();
+            check_alike(&carried, &found, margin.into(), &format!("seed {seed}, frame {frame}"));
         }
     }
 }
@@ -182,19 +181,9 @@ fn what_is_carried_on_is_what_a_new_world_finds_in_the_plane() {
             let mut fresh = World2::new();
             let fresh_keys: Vec<_> = bodies.iter().map(|body| fresh.insert(collider(body))).collect();
             fresh.update();
-            let index =
-                |keys: &[asunder::BodyKey2], key| keys.iter().position(|known| *known == key).unwrap();
-            let seen = |contact: Contact2<'_>, keys: &[asunder::BodyKey2]| Seen {
-                bodies: (index(keys, contact.a), index(keys, contact.b)),
-                overlapping: contact.overlapping,
-                manifolds: contact
-                    .manifolds
-                    .iter()
-                    .map(|found| (found.separation.into(), found.error.into()))
-                    .collect(),
-            };
-            let carried: Vec<_> = world.contacts().map(|contact| seen(contact, &keys)).collect();
-            let found: Vec<_> = fresh.contacts().map(|contact| seen(contact, &fresh_keys)).collect();
+            let told = |contact: Contact2<'_>, keys: &[_]| seen(&contact, keys, |m| [m.separation, m.error]);
+            let carried: Vec<_> = world.contacts().map(|contact| told(contact, &keys)).collect();
+            let found: Vec<_> = fresh.contacts().map(|contact| told(contact, &fresh_keys)).collect();
             check_alike(&carried, &found, margin.into(), &format!("seed {seed}, frame {frame}"));
         }
     }

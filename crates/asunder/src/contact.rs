@@ -55,7 +55,7 @@ pub(crate) struct Candidate<K> {
 
 /// Where the manifolds of a contact stand: in the list of the batch that made them, or of what was carried on.
 ///
-/// Nobody moves them from there: to bring those of heaps together took a sixth of a frame (AMD EPYC, Zen 4, 2026-11-22).
+/// Nobody moves them from there: see `frame::collide` for what that bought.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     pub(crate) batch: u32,

@@ -29,6 +29,9 @@
 //!
 //! `docs/accuracy.md` derives the bounds.
 //!
+//! Who asks about the same pairs frame after frame hands back the [`Hint`] that each answer left. Of bodies that hardly
+//! move, a [`Persistent2`] or [`Persistent3`] moves last frame's manifold along, for a fraction of what a new one costs.
+//!
 //! ```
 //! use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
 //! use asunder_narrow::{Pair3, Separation3};
@@ -61,6 +64,8 @@ mod jobs3;
 mod kept;
 mod lanes;
 mod least;
+#[cfg(test)]
+mod numbers;
 mod pair2;
 mod pair3;
 mod persistent;

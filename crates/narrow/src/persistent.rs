@@ -24,6 +24,38 @@ use crate::feature::{Feature, Hint, OnFace};
 /// reported error is up to twice that.
 const DRIFT: f32 = 1.0 / 32_768.0;
 
+/// What holds a manifold that is moved along to its bodies, in either dimension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Terms {
+    pub(crate) overlapping: bool,
+    /// Whether the points are measured from a face of B (an edge, in the plane); two edges that cross count as if they were
+    /// from A.
+    pub(crate) is_from_b: bool,
+    pub(crate) margin: f32,
+    /// Up to which drift the answer holds, in metres.
+    pub(crate) slack: f32,
+    /// How far the bodies reach from their positions, in metres.
+    pub(crate) arms: [f32; 2],
+}
+
+impl Terms {
+    /// Whether they can be those of a manifold.
+    pub(crate) fn are_sound(&self) -> bool {
+        let most = reach_of(self.arms);
+        self.margin.is_finite()
+            && self.arms.iter().all(|arm| arm.is_finite() && *arm >= 0.0)
+            && (0.0..=most).contains(&self.slack)
+    }
+
+    /// What rounding may cost in the differences of offsets, by the sum of their coordinates, and of unit vectors times
+    /// arms.
+    #[inline(always)]
+    pub(crate) fn lost(&self, summed: f64) -> f64 {
+        64.0 * f64::EPSILON * (summed + f64::from(self.arms[0].min(self.arms[1])))
+    }
+}
+
 /// Up to which drift bodies of these bounding radii are told by what they were, in metres.
 pub(crate) fn reach_of(radii: [f32; 2]) -> f32 {
     DRIFT * radii[0].min(radii[1])

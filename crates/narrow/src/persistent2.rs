@@ -3,7 +3,7 @@
 use crate::answer::{Answer, ContactPoint2, Manifold2};
 use crate::feature::OnFace;
 use crate::jobs2::Job2;
-use crate::persistent::{THEIRS, error_after, measured_from, reach_of, single, slack_of};
+use crate::persistent::{THEIRS, Terms, error_after, measured_from, reach_of, single, slack_of};
 use crate::precision::signed;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
@@ -43,14 +43,7 @@ use asunder_geometry::{Pose2, Shape2};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Persistent2 {
     manifold: Manifold2,
-    overlapping: bool,
-    /// Whether the points are measured from an edge of B.
-    is_from_b: bool,
-    margin: f32,
-    /// Up to which drift the answer holds, in metres.
-    slack: f32,
-    /// How far the bodies reach from their positions, in metres.
-    arms: [f32; 2],
+    terms: Terms,
     /// Where the bodies were.
     poses: [Pose2; 2],
 }
@@ -64,25 +57,29 @@ impl Persistent2 {
         let (hint, index, overlapping) = single(answer)?;
         let edge = measured_from(hint)?;
         let manifold = manifolds.get(index).filter(|manifold| is_normal_of(job, edge, manifold))?;
-        let shapes = [job.shape_a, job.shape_b];
         let found = [manifold.separation, manifold.error];
-        let slack = slack_of(found, overlapping, job.margin, shapes.map(Shape2::outer_radius))?;
-        let kept = Self {
-            manifold: manifold.clone(),
+        let slack = slack_of(
+            found,
+            overlapping,
+            job.margin,
+            [job.shape_a.outer_radius(), job.shape_b.outer_radius()],
+        )?;
+        let arm = |shape: &Shape2| (shape.center().length() + shape.outer_radius()).next_up();
+        let terms = Terms {
             overlapping,
             is_from_b: matches!(edge, OnFace::OfB(_)),
             margin: job.margin,
             slack,
-            arms: shapes.map(|shape| (shape.center().length() + shape.outer_radius()).next_up()),
-            poses: [*job.pose_a, *job.pose_b],
+            arms: [arm(job.shape_a), arm(job.shape_b)],
         };
-        kept.is_sound().then_some(kept)
+        let poses = [*job.pose_a, *job.pose_b];
+        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, poses })
     }
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
     /// a frame, keeping one is no use.
     pub fn reach(job: &Job2<'_>) -> f32 {
-        reach_of([job.shape_a, job.shape_b].map(Shape2::outer_radius))
+        reach_of([job.shape_a.outer_radius(), job.shape_b.outer_radius()])
     }
 
     /// The manifold as it was made.
@@ -92,20 +89,17 @@ impl Persistent2 {
 
     /// Whether the shapes overlapped, and do for as long as the manifold is carried on.
     pub const fn overlapping(&self) -> bool {
-        self.overlapping
+        self.terms.overlapping
     }
 
     /// The margin that the manifold was made for, in metres.
     pub const fn margin(&self) -> f32 {
-        self.margin
+        self.terms.margin
     }
 
     /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
     pub fn is_sound(&self) -> bool {
-        let most = reach_of(self.arms);
-        self.margin.is_finite()
-            && self.arms.iter().all(|arm| arm.is_finite() && *arm >= 0.0)
-            && (0.0..=most).contains(&self.slack)
+        self.terms.are_sound()
     }
 
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
@@ -121,7 +115,7 @@ impl Persistent2 {
             self.turned(poses)
         };
         // What is not a number is not close.
-        let is_close = moved.drift <= f64::from(self.slack);
+        let is_close = moved.drift <= f64::from(self.terms.slack);
         if is_close {
             to.push(self.filled(&moved));
         }
@@ -133,7 +127,7 @@ impl Persistent2 {
     fn shifted(&self, offset: DVec2) -> Moved {
         let step = offset - between(self.poses.each_ref());
         let normal = self.manifold.normal.as_dvec2();
-        let drift = step.length() + self.lost(offset);
+        let drift = step.length() + self.terms.lost(offset.abs().element_sum());
         Moved { drift, offset, normal, rise: normal.dot(step), turn: None }
     }
 
@@ -146,23 +140,20 @@ impl Persistent2 {
         // How B stands in A's axes, and A in B's: what either says of the drift is true.
         let spin = (now[0].turn_back(now[1].x) - then[0].turn_back(then[1].x)).length();
         let drift_of =
-            |seen_from: usize| step[seen_from].length() + spin * f64::from(self.arms[1 - seen_from]);
+            |seen_from: usize| step[seen_from].length() + spin * f64::from(self.terms.arms[1 - seen_from]);
         // Stored rotations are of unit length up to rounding, and scale their bodies by what they are off.
         let scales = [0, 1].map(|body| {
             let is_same = poses[body].same_rotation(&self.poses[body]);
-            if is_same { 0.0 } else { 2.0 * f64::from(f32::EPSILON * self.arms[body]) }
+            if is_same { 0.0 } else { 2.0 * f64::from(f32::EPSILON * self.terms.arms[body]) }
         });
-        let drift = drift_of(0).min(drift_of(1)) + scales[0] + scales[1] + self.lost(offset);
-        let face = usize::from(self.is_from_b);
+        let drift = drift_of(0).min(drift_of(1))
+            + scales[0]
+            + scales[1]
+            + self.terms.lost(offset.abs().element_sum());
+        let face = usize::from(self.terms.is_from_b);
         let local = then[face].turn_back(self.manifold.normal.as_dvec2());
         let (normal, rise) = (now[face].turn(local), local.dot(step[face]));
         Moved { drift, offset, normal, rise, turn: Some(Turn { then, now, local }) }
-    }
-
-    /// What rounding may cost in the differences of offsets and of unit vectors times arms.
-    #[inline(always)]
-    fn lost(&self, offset: DVec2) -> f64 {
-        64.0 * f64::EPSILON * (offset.abs().element_sum() + f64::from(self.arms[0].min(self.arms[1])))
     }
 
     fn filled(&self, moved: &Moved) -> Manifold2 {
@@ -170,13 +161,13 @@ impl Persistent2 {
         let mut to = Manifold2 { normal: moved.normal.as_vec2(), points: ArrayVec::new(), ..*of };
         let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
         for point in &of.points {
-            let held = if self.is_from_b { point.anchor_a } else { point.anchor_b };
-            let (held, own_rise) = moved.kept(held.as_dvec2(), self.is_from_b);
+            let held = if self.terms.is_from_b { point.anchor_a } else { point.anchor_b };
+            let (held, own_rise) = moved.kept(held.as_dvec2(), self.terms.is_from_b);
             let then = f64::from(point.separation);
             let height = then + (moved.rise + own_rise);
             let out = moved.normal * height;
             // Its foot on the face, from the other position.
-            let (on_a, on_b) = if self.is_from_b {
+            let (on_a, on_b) = if self.terms.is_from_b {
                 (held, held - moved.offset + out)
             } else {
                 (held + moved.offset - out, held)
@@ -190,7 +181,7 @@ impl Persistent2 {
             });
         }
         let rise = deepest - deepest_then;
-        to.separation = signed(f64::from(of.separation) + rise, self.overlapping);
+        to.separation = signed(f64::from(of.separation) + rise, self.terms.overlapping);
         to.error = error_after([of.separation, of.error], moved.drift, rise);
         to
     }

@@ -3,7 +3,7 @@
 use crate::answer::{Answer, ContactPoint3, Manifold3};
 use crate::feature::{Feature, Hint, OnFace};
 use crate::jobs3::Job3;
-use crate::persistent::{THEIRS, error_after, measured_from, reach_of, single, slack_of};
+use crate::persistent::{THEIRS, Terms, error_after, measured_from, reach_of, single, slack_of};
 use crate::precision::signed;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
@@ -42,16 +42,9 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Persistent3 {
     manifold: Manifold3,
-    overlapping: bool,
-    /// Whether the points are measured from a face of B; two edges count as if they were from A.
-    is_from_b: bool,
+    terms: Terms,
     /// The directions of two edges that cross, each in its body's axes.
     edges: Option<[Vec3; 2]>,
-    margin: f32,
-    /// Up to which drift the answer holds, in metres.
-    slack: f32,
-    /// How far the bodies reach from their positions, in metres.
-    arms: [f32; 2],
     /// Where the bodies were.
     poses: [Pose3; 2],
 }
@@ -64,25 +57,28 @@ impl Persistent3 {
     pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;
-        let shapes = [job.shape_a, job.shape_b];
         let face = measured_from(hint);
         let edges = match face {
             Some(face) => is_normal_of(job, face, manifold).then_some(None)?,
             None => Some(crossing(job, hint, manifold)?),
         };
         let found = [manifold.separation, manifold.error];
-        let slack = slack_of(found, overlapping, job.margin, shapes.map(Shape3::outer_radius))?;
-        let kept = Self {
-            manifold: manifold.clone(),
+        let slack = slack_of(
+            found,
+            overlapping,
+            job.margin,
+            [job.shape_a.outer_radius(), job.shape_b.outer_radius()],
+        )?;
+        let arm = |shape: &Shape3| (shape.center().length() + shape.outer_radius()).next_up();
+        let terms = Terms {
             overlapping,
             is_from_b: matches!(face, Some(OnFace::OfB(_))),
-            edges,
             margin: job.margin,
             slack,
-            arms: shapes.map(|shape| (shape.center().length() + shape.outer_radius()).next_up()),
-            poses: [*job.pose_a, *job.pose_b],
+            arms: [arm(job.shape_a), arm(job.shape_b)],
         };
-        kept.is_sound().then_some(kept)
+        let poses = [*job.pose_a, *job.pose_b];
+        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, edges, poses })
     }
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
@@ -98,20 +94,17 @@ impl Persistent3 {
 
     /// Whether the shapes overlapped, and do for as long as the manifold is carried on.
     pub const fn overlapping(&self) -> bool {
-        self.overlapping
+        self.terms.overlapping
     }
 
     /// The margin that the manifold was made for, in metres.
     pub const fn margin(&self) -> f32 {
-        self.margin
+        self.terms.margin
     }
 
     /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
     pub fn is_sound(&self) -> bool {
-        let most = reach_of(self.arms);
-        self.margin.is_finite()
-            && self.arms.iter().all(|arm| arm.is_finite() && *arm >= 0.0)
-            && (0.0..=most).contains(&self.slack)
+        self.terms.are_sound()
     }
 
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
@@ -127,7 +120,7 @@ impl Persistent3 {
             self.turned(poses)
         };
         // What is not a number is not close.
-        let is_close = moved.drift <= f64::from(self.slack);
+        let is_close = moved.drift <= f64::from(self.terms.slack);
         if is_close {
             to.push(Manifold3::BLANK);
             if let Some(manifold) = to.last_mut() {
@@ -142,7 +135,7 @@ impl Persistent3 {
     fn shifted(&self, offset: DVec3) -> Moved {
         let step = offset - between(self.poses.each_ref());
         let normal = self.manifold.normal.as_dvec3();
-        let drift = step.length() + self.lost(offset);
+        let drift = step.length() + self.terms.lost(offset.abs().element_sum());
         Moved { drift, offset, normal, rise: normal.dot(step), turn: None }
     }
 
@@ -155,9 +148,9 @@ impl Persistent3 {
         // How B stands in A's axes, and A in B's: what either says of the drift is true.
         let spin = poses[1].basis_from(poses[0]).spin_from(&self.poses[1].basis_from(&self.poses[0]));
         let drift_of =
-            |seen_from: usize| step[seen_from].length() + spin * f64::from(self.arms[1 - seen_from]);
-        let drift = drift_of(0).min(drift_of(1)) + self.lost(offset);
-        let face = usize::from(self.is_from_b);
+            |seen_from: usize| step[seen_from].length() + spin * f64::from(self.terms.arms[1 - seen_from]);
+        let drift = drift_of(0).min(drift_of(1)) + self.terms.lost(offset.abs().element_sum());
+        let face = usize::from(self.terms.is_from_b);
         let local_then = then[face].turn_back(self.manifold.normal.as_dvec3());
         let local = match self.edges {
             None => local_then,
@@ -171,12 +164,6 @@ impl Persistent3 {
         Moved { drift, offset, normal: now[face].turn(local), rise: 0.0, turn: Some(turn) }
     }
 
-    /// What rounding may cost in the differences of offsets and of unit vectors times arms.
-    #[inline(always)]
-    fn lost(&self, offset: DVec3) -> f64 {
-        64.0 * f64::EPSILON * (offset.abs().element_sum() + f64::from(self.arms[0].min(self.arms[1])))
-    }
-
     #[inline(always)]
     fn fill(&self, moved: &Moved, to: &mut Manifold3) {
         let of = &self.manifold;
@@ -184,11 +171,11 @@ impl Persistent3 {
         let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
         to.points.extend(of.points.iter().map(|point| {
             let then = f64::from(point.separation);
-            let (held, rise) = moved.held([point.anchor_a, point.anchor_b], self.is_from_b);
+            let (held, rise) = moved.held([point.anchor_a, point.anchor_b], self.terms.is_from_b);
             let height = then + rise;
             let out = moved.normal * height;
             // Its foot on the face, from the other position.
-            let (on_a, on_b) = if self.is_from_b {
+            let (on_a, on_b) = if self.terms.is_from_b {
                 (held, held - moved.offset + out)
             } else {
                 (held + moved.offset - out, held)
@@ -202,7 +189,7 @@ impl Persistent3 {
             }
         }));
         let rise = deepest - deepest_then;
-        to.separation = signed(f64::from(of.separation) + rise, self.overlapping);
+        to.separation = signed(f64::from(of.separation) + rise, self.terms.overlapping);
         to.error = error_after([of.separation, of.error], moved.drift, rise);
     }
 }

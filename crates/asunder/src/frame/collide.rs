@@ -8,6 +8,13 @@
 //! ask about batches of pairs, in parallel: see `ask`
 //! walk the pairs once more, and put what was carried and what was answered together
 //! ```
+//! Most of a frame of bodies that rest is waiting for memory. What bought what, of 8,000 boxes in a heap and of 10,080 in
+//! pyramids, milliseconds a frame (AMD EPYC, Zen 4, 2026-11-22, a busy machine, so the least of 30 frames):
+//!
+//! 1. manifolds stay in the list of the batch that made them: 17 % of the time was copying, and 3 % is;
+//! 2. poses are compared without `map` on arrays, whose calls are not always inlined: 16.2 to 13.3, and 8.8 to 5.6;
+//! 3. bodies are read once, while a pair is asked about: what is told of them then stands beside the answer. 13.3 to 10.9,
+//!    and 5.6 to 4.9.
 
 use super::ask::{Asked, Moved, Outcome, Outcomes, ask, manifolds_at};
 use crate::collider::Collider;

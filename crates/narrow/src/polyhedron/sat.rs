@@ -290,20 +290,26 @@ impl Found {
 
     /// Pairs of edges that may bear the best axis, as far as the other's spheres tell, and whose arcs may cross.
     fn by_edges(&mut self, sights: &mut [Sight; 2], search: &Search) {
-        let mut edges = [const { ArrayVec::<u16, MAX_EDGES>::new_const() }; 2];
-        for (edges, sight) in edges.iter_mut().zip(sights.iter_mut()) {
-            sight.edges(self.floor - search.keep(), edges);
-            if edges.is_empty() {
-                return;
-            }
+        // Not an array of two: it would be blanked.
+        let mut edges_a = ArrayVec::<u16, MAX_EDGES>::new();
+        let mut edges_b = ArrayVec::<u16, MAX_EDGES>::new();
+        let least = self.floor - search.keep();
+        let [in_a, in_b] = sights;
+        in_a.edges(least, &mut edges_a);
+        if edges_a.is_empty() {
+            return;
         }
-        let [a, b] = sights.each_ref().map(|sight| sight.solid);
-        if edges[1].len() > MANY {
-            return self.by_many_edges((a, &edges[0]), (b, &edges[1]), search);
+        in_b.edges(least, &mut edges_b);
+        if edges_b.is_empty() {
+            return;
+        }
+        let (a, b) = (in_a.solid, in_b.solid);
+        if edges_b.len() > MANY {
+            return self.by_many_edges((a, &edges_a), (b, &edges_b), search);
         }
         // One edge of A comes with some of B.
         let (mut at_a, mut out_of_a) = (EdgeAt::NONE, DVec3::ZERO);
-        for_edge_pairs((a, &edges[0]), (b, &edges[1]), |[edge_a, edge_b], _| {
+        for_edge_pairs((a, &edges_a), (b, &edges_b), |[edge_a, edge_b], _| {
             if edge_a != at_a.half_edge {
                 (at_a, out_of_a) = (EdgeAt::new(a, edge_a), a.out_of_edge(edge_a));
             }

@@ -79,21 +79,39 @@ impl Tree {
             }
             let node = &self.nodes[slot as usize];
             let places = ask.places(&node.sides, limit);
-            let first = waiting;
-            for (&place, &slot) in places.iter().zip(&node.slots) {
-                if place <= limit && slot != EMPTY {
-                    // The nearest goes on top; of equals, the one in the earlier place.
-                    let mut at = waiting;
-                    while at > first && stack[at - 1].0 <= place {
-                        stack[at] = stack[at - 1];
-                        at -= 1;
-                    }
-                    stack[at] = (place, slot);
-                    waiting += 1;
+            let (first, mut bits) = (waiting, within(&places, &node.slots, limit));
+            while bits != 0 {
+                let lane = bits.trailing_zeros() as usize % WIDTH;
+                bits &= bits - 1;
+                let place = places[lane];
+                // The nearest goes on top; of equals, the one in the earlier place.
+                let mut at = waiting;
+                while at > first && stack[at - 1].0 <= place {
+                    stack[at] = stack[at - 1];
+                    at -= 1;
                 }
+                stack[at] = (place, node.slots[lane]);
+                waiting += 1;
             }
         }
     }
+}
+
+/// Which of eight boxes are within a limit.
+#[inline(always)]
+fn within(places: &[f32; WIDTH], slots: &[u32; WIDTH], limit: f32) -> u32 {
+    let mut bits: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];
+    for lane in 0..WIDTH {
+        let is_within = (places[lane] <= limit) & (slots[lane] != EMPTY);
+        bits[lane] = if is_within { bits[lane] } else { 0 };
+    }
+    all_of(bits)
+}
+
+/// All bits of eight lanes.
+#[inline(always)]
+fn all_of([a, b, c, d, e, f, g, h]: [u32; WIDTH]) -> u32 {
+    ((a | e) | (b | f)) | ((c | g) | (d | h))
 }
 
 /// Which of the eight boxes a box overlaps.
@@ -108,8 +126,7 @@ fn overlapping(node: &Node, one: &Sides) -> u32 {
             bits[lane] = if meets { bits[lane] } else { 0 };
         }
     }
-    let [a, b, c, d, e, f, g, h] = bits;
-    ((a | e) | (b | f)) | ((c | g) | (d | h))
+    all_of(bits)
 }
 
 /// A box that moves on a line, or a ray. Places are times, in lengths of the direction after it was made about as long
@@ -146,8 +163,8 @@ impl Line {
         let mut line = Self {
             near: [0, 1, 2],
             far: [3, 4, 5],
-            from_near: high.to_array().map(round_up),
-            from_far: low.to_array().map(round_down),
+            from_near: [round_up(high.x), round_up(high.y), round_up(high.z)],
+            from_far: [round_down(low.x), round_down(low.y), round_down(low.z)],
             per_near: [0.0; 3],
             per_far: [0.0; 3],
             unit,

@@ -34,7 +34,7 @@ impl Cast<'_> {
         let size = f64::from(self.shape.outer_radius()) + length(self.shape.center().as_dvec3());
         let pace = length(self.way);
         // Twice what any triangle takes for itself.
-        let doubt = [length(self.from) + size, pace].map(|length| 128.0 * f64::EPSILON * length);
+        let doubt = [128.0 * f64::EPSILON * (length(self.from) + size), 128.0 * f64::EPSILON * pace];
         let local = Local {
             origin: basis.turn_back(self.from),
             way: basis.turn_back(self.way),
@@ -70,7 +70,7 @@ impl Local {
     /// Whether the ray certainly passes by a triangle, or through it from behind where that is no hindrance.
     #[inline(always)]
     fn passes(&self, corners: [Vec3; 3], limit: f64) -> bool {
-        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+        let (a, b, c) = (corners[0].as_dvec3(), corners[1].as_dvec3(), corners[2].as_dvec3());
         let (u, v, from) = (b - a, c - a, self.origin - a);
         let normal = u.cross(v);
         let (height, pace) = (normal.dot(from), normal.dot(self.way));

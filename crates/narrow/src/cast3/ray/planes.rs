@@ -86,7 +86,8 @@ pub(super) fn half_space(line: &Line, basis: &Basis3, half_space: &HalfSpace) ->
 
 /// Where it meets the triangle's plane, if that is on the inner side of all edges up to rounding.
 pub(super) fn triangle(line: &Line, basis: &Basis3, triangle: &Triangle3) -> Meeting {
-    let [a, b, c] = triangle.vertices().map(|vertex| basis.turn(vertex.as_dvec3()));
+    let [a, b, c] = triangle.vertices();
+    let (a, b, c) = (basis.turn(a.as_dvec3()), basis.turn(b.as_dvec3()), basis.turn(c.as_dvec3()));
     let normal = basis.turn(triangle.normals()[0]);
     let (height, pace) = (normal.dot(line.origin - a), normal.dot(line.way));
     if height.abs() <= line.doubt || pace * pace < EDGE_ON * EDGE_ON * line.squared {

@@ -2,27 +2,11 @@
 
 use super::*;
 use crate::answer::Manifold3;
+use crate::numbers::Numbers;
 use asunder_geometry::glam::{Quat, Vec3};
 use asunder_geometry::{Cuboid, Hull, Sphere, TriMesh};
-use oorandom::Rand64;
-
-/// Seeded numbers.
-struct Numbers(Rand64);
 
 impl Numbers {
-    fn below(&mut self, end: u64) -> u64 {
-        self.0.rand_range(0..end)
-    }
-
-    /// From -1 to 1.
-    fn number(&mut self) -> f64 {
-        2.0 * self.0.rand_float() - 1.0
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.number(), self.number(), self.number())
-    }
-
     /// Bumps of some height over cells of a metre, flat ground among them; solid from one side, or from both.
     fn patch(&mut self) -> Shape3 {
         let height = [0.0, 0.05, 0.3, 1.5][self.below(4) as usize];
@@ -65,7 +49,7 @@ fn asked(pair: &Pair3, is_plain: bool) -> (Option<bool>, Vec<Manifold3>) {
 
 #[test]
 fn short_ways_say_what_the_general_way_says() {
-    let mut numbers = Numbers(Rand64::new(8));
+    let mut numbers = Numbers::new(8);
     let (mut touching, mut apart, mut points) = (0, 0, 0);
     for round in 0..6000 {
         let (ground, body) = (numbers.patch(), numbers.body());

@@ -1,28 +1,10 @@
 use super::*;
 use crate::answer::{Closest3, Measured3, Separation3};
 use crate::feature::Hint;
+use crate::numbers::Numbers;
 use crate::polyhedron::convex::{Asked, Probe, Wanted};
 use asunder_geometry::Sphere;
 use asunder_geometry::glam::Quat;
-use oorandom::Rand64;
-
-/// Seeded numbers.
-struct Numbers(Rand64);
-
-impl Numbers {
-    fn below(&mut self, end: u64) -> u64 {
-        self.0.rand_range(0..end)
-    }
-
-    /// From -1 to 1.
-    fn number(&mut self) -> f64 {
-        2.0 * self.0.rand_float() - 1.0
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.number(), self.number(), self.number())
-    }
-}
 
 /// A cuboid, a sphere, and how they stand.
 #[derive(Debug)]
@@ -88,7 +70,7 @@ impl Case {
 }
 
 fn cases() -> impl Iterator<Item = Case> {
-    let mut numbers = Numbers(Rand64::new(7));
+    let mut numbers = Numbers::new(7);
     (0..12_000).map(move |_| Case::new(&mut numbers))
 }
 
