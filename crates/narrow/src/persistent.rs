@@ -47,13 +47,6 @@ impl Terms {
             && self.arms.iter().all(|arm| arm.is_finite() && *arm >= 0.0)
             && (0.0..=most).contains(&self.slack)
     }
-
-    /// What rounding may cost in the differences of offsets, by the sum of their coordinates, and of unit vectors times
-    /// arms.
-    #[inline(always)]
-    pub(crate) fn lost(&self, summed: f64) -> f64 {
-        64.0 * f64::EPSILON * (summed + f64::from(self.arms[0].min(self.arms[1])))
-    }
 }
 
 /// Up to which drift bodies of these bounding radii are told by what they were, in metres.
@@ -102,6 +95,13 @@ pub(crate) fn single(answer: &Answer) -> Option<(Hint, usize, bool)> {
         }
         _ => None,
     }
+}
+
+/// What rounding may cost in the difference of two offsets, by the sum of one's coordinates, and of unit vectors times an
+/// arm, in metres.
+#[inline(always)]
+pub(crate) fn lost(summed: f64, arm: f64) -> f64 {
+    64.0 * f64::EPSILON * (summed + arm)
 }
 
 /// The error of a separation, which had this error, after a drift in which the deepest point rose by so much: the truth

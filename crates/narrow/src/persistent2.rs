@@ -3,10 +3,10 @@
 use crate::answer::{Answer, ContactPoint2, Manifold2};
 use crate::feature::OnFace;
 use crate::jobs2::Job2;
-use crate::persistent::{THEIRS, Terms, error_after, measured_from, reach_of, single, slack_of};
+use crate::persistent::{THEIRS, Terms, error_after, lost, measured_from, reach_of, single, slack_of};
 use crate::precision::signed;
 use arrayvec::ArrayVec;
-use asunder_geometry::glam::DVec2;
+use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
 /// A manifold, and how its two bodies stood to each other when it was made: until they drift, it is moved along for a
@@ -127,7 +127,8 @@ impl Persistent2 {
     fn shifted(&self, offset: DVec2) -> Moved {
         let step = offset - between(self.poses.each_ref());
         let normal = self.manifold.normal.as_dvec2();
-        let drift = step.length() + self.terms.lost(offset.abs().element_sum());
+        let arm = f64::from(self.terms.arms[0].min(self.terms.arms[1]));
+        let drift = step.length() + lost(offset.abs().element_sum(), arm);
         Moved { drift, offset, normal, rise: normal.dot(step), turn: None }
     }
 
@@ -135,25 +136,25 @@ impl Persistent2 {
     #[inline(never)]
     fn turned(&self, poses: [&Pose2; 2]) -> Moved {
         let (offset, offset_then) = (between(poses), between(self.poses.each_ref()));
-        let (now, then) = (poses.map(Axes::of), self.poses.each_ref().map(Axes::of));
-        let step = [0, 1].map(|body| now[body].turn_back(offset) - then[body].turn_back(offset_then));
-        // How B stands in A's axes, and A in B's: what either says of the drift is true.
-        let spin = (now[0].turn_back(now[1].x) - then[0].turn_back(then[1].x)).length();
-        let drift_of =
-            |seen_from: usize| step[seen_from].length() + spin * f64::from(self.terms.arms[1 - seen_from]);
+        let normal_then = self.manifold.normal.as_dvec2();
+        let of_a = Turned::since(&self.poses[0], poses[0]);
+        let of_b = Turned::since(&self.poses[1], poses[1]);
+        let spin = (of_b.x - of_a.x).length();
+        // As seen from a body that does not turn: what either says of the drift is true.
+        let drift_from = |seen_from: &Turned, arm: f32| {
+            let step = (offset - seen_from.turn(offset_then)).length();
+            step + spin * f64::from(arm) + lost(offset.abs().element_sum(), arm.into())
+        };
         // Stored rotations are of unit length up to rounding, and scale their bodies by what they are off.
-        let scales = [0, 1].map(|body| {
+        let scale = |body: usize| {
             let is_same = poses[body].same_rotation(&self.poses[body]);
             if is_same { 0.0 } else { 2.0 * f64::from(f32::EPSILON * self.terms.arms[body]) }
-        });
-        let drift = drift_of(0).min(drift_of(1))
-            + scales[0]
-            + scales[1]
-            + self.terms.lost(offset.abs().element_sum());
-        let face = usize::from(self.terms.is_from_b);
-        let local = then[face].turn_back(self.manifold.normal.as_dvec2());
-        let (normal, rise) = (now[face].turn(local), local.dot(step[face]));
-        Moved { drift, offset, normal, rise, turn: Some(Turn { then, now, local }) }
+        };
+        let [arm_a, arm_b] = self.terms.arms;
+        let drift = drift_from(&of_a, arm_b).min(drift_from(&of_b, arm_a)) + scale(0) + scale(1);
+        let normal = if self.terms.is_from_b { of_b.turn(normal_then) } else { of_a.turn(normal_then) };
+        let turn = Turn { of_a, of_b, offset_then, normal_then };
+        Moved { drift, offset, normal, rise: 0.0, turn: Some(turn) }
     }
 
     fn filled(&self, moved: &Moved) -> Manifold2 {
@@ -161,10 +162,9 @@ impl Persistent2 {
         let mut to = Manifold2 { normal: moved.normal.as_vec2(), points: ArrayVec::new(), ..*of };
         let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
         for point in &of.points {
-            let held = if self.terms.is_from_b { point.anchor_a } else { point.anchor_b };
-            let (held, own_rise) = moved.kept(held.as_dvec2(), self.terms.is_from_b);
             let then = f64::from(point.separation);
-            let height = then + (moved.rise + own_rise);
+            let (held, rise) = moved.held([point.anchor_a, point.anchor_b], self.terms.is_from_b);
+            let height = then + rise;
             let out = moved.normal * height;
             // Its foot on the face, from the other position.
             let (on_a, on_b) = if self.terms.is_from_b {
@@ -194,27 +194,30 @@ struct Moved {
     offset: DVec2,
     /// From A to B, now.
     normal: DVec2,
-    /// By how much the distance along the normal grew, of the positions.
+    /// By how much the bodies went apart along the normal, where none turned.
     rise: f64,
     turn: Option<Turn>,
 }
 
-/// How bodies turned since: their axes then and now, and the normal in the axes of the body whose face it is.
+/// How bodies turned since, in world axes, and what was then.
 struct Turn {
-    then: [Axes; 2],
-    now: [Axes; 2],
-    local: DVec2,
+    of_a: Turned,
+    of_b: Turned,
+    offset_then: DVec2,
+    normal_then: DVec2,
 }
 
 impl Moved {
-    /// Where a point is now that its body holds, and by how much that alone raised it over the other's face.
+    /// Where the point is now that is held by the body whose edge it is not, and by how much it rose over the other's.
     #[inline(always)]
-    fn kept(&self, point: DVec2, is_from_b: bool) -> (DVec2, f64) {
-        let Some(Turn { then, now, local }) = &self.turn else { return (point, 0.0) };
-        let (face, holder) = if is_from_b { (1, 0) } else { (0, 1) };
-        let moved = now[holder].turn(then[holder].turn_back(point));
-        let along = local.dot(now[face].turn_back(moved) - then[face].turn_back(point));
-        (moved, if is_from_b { -along } else { along })
+    fn held(&self, [on_a, on_b]: [Vec2; 2], is_from_b: bool) -> (DVec2, f64) {
+        let (on_a, on_b) = (on_a.as_dvec2(), on_b.as_dvec2());
+        let Some(Turn { of_a, of_b, offset_then, normal_then }) = &self.turn else {
+            return (if is_from_b { on_a } else { on_b }, self.rise);
+        };
+        let (a, b) = (of_a.turn(on_a), of_b.turn(on_b));
+        let rise = self.normal.dot(self.offset + b - a) - normal_then.dot(*offset_then + on_b - on_a);
+        (if is_from_b { a } else { b }, rise)
     }
 }
 
@@ -236,25 +239,23 @@ fn is_normal_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> bool {
     normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
 }
 
-/// The axes of a rotation, of unit length.
+/// A turn: where it takes the x axis, of unit length.
 #[derive(Clone, Copy)]
-struct Axes {
+struct Turned {
     x: DVec2,
 }
 
-impl Axes {
-    fn of(pose: &Pose2) -> Self {
-        let (cos, sin) = (f64::from(pose.rotation().cos()), f64::from(pose.rotation().sin()));
-        Self { x: DVec2::new(cos, sin) / (cos * cos + sin * sin).sqrt() }
+impl Turned {
+    /// From one pose to another: exactly none where both are turned alike.
+    fn since(then: &Pose2, now: &Pose2) -> Self {
+        let axis = |pose: &Pose2| DVec2::new(pose.rotation().cos().into(), pose.rotation().sin().into());
+        let (then, now) = (axis(then), axis(now));
+        let turn = DVec2::new(then.dot(now), then.perp_dot(now));
+        Self { x: turn / turn.length() }
     }
 
     #[inline]
     fn turn(&self, v: DVec2) -> DVec2 {
         DVec2::new(self.x.x * v.x - self.x.y * v.y, self.x.y * v.x + self.x.x * v.y)
-    }
-
-    #[inline]
-    fn turn_back(&self, v: DVec2) -> DVec2 {
-        DVec2::new(self.x.x * v.x + self.x.y * v.y, self.x.x * v.y - self.x.y * v.x)
     }
 }

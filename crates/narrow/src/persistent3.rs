@@ -3,7 +3,7 @@
 use crate::answer::{Answer, ContactPoint3, Manifold3};
 use crate::feature::{Feature, Hint, OnFace};
 use crate::jobs3::Job3;
-use crate::persistent::{THEIRS, Terms, error_after, measured_from, reach_of, single, slack_of};
+use crate::persistent::{THEIRS, Terms, error_after, lost, measured_from, reach_of, single, slack_of};
 use crate::precision::signed;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
@@ -43,7 +43,7 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 pub struct Persistent3 {
     manifold: Manifold3,
     terms: Terms,
-    /// The directions of two edges that cross, each in its body's axes.
+    /// The directions that two edges which cross had, in world axes.
     edges: Option<[Vec3; 2]>,
     /// Where the bodies were.
     poses: [Pose3; 2],
@@ -135,7 +135,8 @@ impl Persistent3 {
     fn shifted(&self, offset: DVec3) -> Moved {
         let step = offset - between(self.poses.each_ref());
         let normal = self.manifold.normal.as_dvec3();
-        let drift = step.length() + self.terms.lost(offset.abs().element_sum());
+        let arm = f64::from(self.terms.arms[0].min(self.terms.arms[1]));
+        let drift = step.length() + lost(offset.abs().element_sum(), arm);
         Moved { drift, offset, normal, rise: normal.dot(step), turn: None }
     }
 
@@ -143,25 +144,28 @@ impl Persistent3 {
     #[inline(never)]
     fn turned(&self, poses: [&Pose3; 2]) -> Moved {
         let (offset, offset_then) = (between(poses), between(self.poses.each_ref()));
-        let (now, then) = (poses.map(Pose3::basis), self.poses.each_ref().map(Pose3::basis));
-        let step = [0, 1].map(|body| now[body].turn_back(offset) - then[body].turn_back(offset_then));
-        // How B stands in A's axes, and A in B's: what either says of the drift is true.
-        let spin = poses[1].basis_from(poses[0]).spin_from(&self.poses[1].basis_from(&self.poses[0]));
-        let drift_of =
-            |seen_from: usize| step[seen_from].length() + spin * f64::from(self.terms.arms[1 - seen_from]);
-        let drift = drift_of(0).min(drift_of(1)) + self.terms.lost(offset.abs().element_sum());
-        let face = usize::from(self.terms.is_from_b);
-        let local_then = then[face].turn_back(self.manifold.normal.as_dvec3());
-        let local = match self.edges {
-            None => local_then,
+        let normal_then = self.manifold.normal.as_dvec3();
+        let of_a = poses[0].turn_since(&self.poses[0]);
+        let of_b = poses[1].turn_since(&self.poses[1]);
+        let spin = of_b.spin_from(&of_a);
+        // As seen from a body that does not turn: what either says of the drift is true.
+        let drift_from = |seen_from: &Basis3, arm: f32| {
+            let step = (offset - seen_from.turn(offset_then)).length();
+            step + spin * f64::from(arm) + lost(offset.abs().element_sum(), arm.into())
+        };
+        let [arm_a, arm_b] = self.terms.arms;
+        let drift = drift_from(&of_a, arm_b).min(drift_from(&of_b, arm_a));
+        let normal = match self.edges {
+            None if self.terms.is_from_b => of_b.turn(normal_then),
+            None => of_a.turn(normal_then),
             Some([a, b]) => {
-                let cross = a.as_dvec3().cross(now[0].turn_back(now[1].turn(b.as_dvec3())));
-                let normal = cross.normalize_or(local_then);
-                if normal.dot(local_then) < 0.0 { -normal } else { normal }
+                let cross = of_a.turn(a.as_dvec3()).cross(of_b.turn(b.as_dvec3()));
+                let normal = cross.normalize_or(normal_then);
+                if normal.dot(normal_then) < 0.0 { -normal } else { normal }
             }
         };
-        let turn = Turn { then, now, local, local_then, offset_then };
-        Moved { drift, offset, normal: now[face].turn(local), rise: 0.0, turn: Some(turn) }
+        let turn = Turn { of_a, of_b, offset_then, normal_then };
+        Moved { drift, offset, normal, rise: 0.0, turn: Some(turn) }
     }
 
     #[inline(always)]
@@ -206,37 +210,28 @@ struct Moved {
     turn: Option<Turn>,
 }
 
-/// How bodies turned since: their axes then and now, and the normal in the axes of the body whose face it is.
+/// How bodies turned since, in world axes, and what was then.
 struct Turn {
-    then: [Basis3; 2],
-    now: [Basis3; 2],
-    local: DVec3,
-    local_then: DVec3,
+    of_a: Basis3,
+    of_b: Basis3,
     offset_then: DVec3,
+    normal_then: DVec3,
 }
 
 impl Moved {
     /// Where the point is now that is held by the body whose face it is not, and by how much it rose over the other's.
     ///
-    /// What rose is the way from A's point to B's, along the normal, in the axes of the body whose face it is: short vectors,
-    /// whose rounding is nothing beside the drift.
+    /// What rose is the way from A's point to B's, along the normal: short vectors, whose rounding is nothing beside the
+    /// drift.
     #[inline(always)]
-    fn held(&self, anchors: [Vec3; 2], is_from_b: bool) -> (DVec3, f64) {
-        let [on_a, on_b] = [anchors[0].as_dvec3(), anchors[1].as_dvec3()];
-        let Some(Turn { then, now, local, local_then, offset_then }) = &self.turn else {
+    fn held(&self, [on_a, on_b]: [Vec3; 2], is_from_b: bool) -> (DVec3, f64) {
+        let (on_a, on_b) = (on_a.as_dvec3(), on_b.as_dvec3());
+        let Some(Turn { of_a, of_b, offset_then, normal_then }) = &self.turn else {
             return (if is_from_b { on_a } else { on_b }, self.rise);
         };
-        let (face, holder) = if is_from_b { (1, 0) } else { (0, 1) };
-        let [of_face, of_holder] = if is_from_b { [on_b, on_a] } else { [on_a, on_b] };
-        let held = now[holder].turn(then[holder].turn_back(of_holder));
-        let still = then[face].turn_back(of_face);
-        let way = if is_from_b {
-            still + now[face].turn_back(self.offset - held)
-        } else {
-            now[face].turn_back(self.offset + held) - still
-        };
-        let way_then = then[face].turn_back(*offset_then + on_b - on_a);
-        (held, local.dot(way) - local_then.dot(way_then))
+        let (a, b) = (of_a.turn(on_a), of_b.turn(on_b));
+        let rise = self.normal.dot(self.offset + b - a) - normal_then.dot(*offset_then + on_b - on_a);
+        (if is_from_b { a } else { b }, rise)
     }
 }
 
@@ -256,22 +251,23 @@ fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
     normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
 }
 
-/// The directions of the edges that a hint names, in their bodies' axes, where they cross at more than half a degree and
-/// the normal of a manifold is theirs.
+/// The directions of the edges that a hint names, in world axes, where they cross at more than half a degree and the
+/// normal of a manifold is theirs.
 fn crossing(job: &Job3<'_>, hint: Hint, manifold: &Manifold3) -> Option<[Vec3; 2]> {
     let features = hint.features()?;
     let (Feature::Edge(a), Feature::Edge(b)) = (features.a(), features.b()) else { return None };
-    let along = |shape: &Shape3, edge: u32| {
+    let along = |(shape, pose): (&Shape3, &Pose3), edge: u32| {
         let core = shape.core();
         core.topology().half_edges().get(edge as usize)?;
         let (from, to) = core.topology().ends(edge as usize);
-        (*core.vertices().get(to)? - *core.vertices().get(from)?).try_normalize()
+        let along =
+            (core.vertices().get(to)?.as_dvec3() - core.vertices().get(from)?.as_dvec3()).try_normalize()?;
+        Some(pose.turn(along))
     };
-    let edges = [along(job.shape_a, a)?, along(job.shape_b, b)?];
-    let turned =
-        [(job.pose_a, edges[0]), (job.pose_b, edges[1])].map(|(pose, edge)| pose.turn(edge.as_dvec3()));
-    let is_theirs = turned.iter().all(|edge| edge.dot(manifold.normal.as_dvec3()).abs() <= THEIRS);
-    (is_theirs && turned[0].cross(turned[1]).length() > LEAST_SINE).then_some(edges)
+    let (a, b) = (along((job.shape_a, job.pose_a), a)?, along((job.shape_b, job.pose_b), b)?);
+    let is_theirs = |edge: DVec3| edge.dot(manifold.normal.as_dvec3()).abs() <= THEIRS;
+    let do_cross = a.cross(b).length() > LEAST_SINE;
+    (is_theirs(a) && is_theirs(b) && do_cross).then(|| [a.as_vec3(), b.as_vec3()])
 }
 
 /// The least sine between edges whose normal is made anew: directions in f32 are off by 1e-7, a normal by 1e-5.
