@@ -85,11 +85,18 @@ impl Cuboid {
     /// The eight corners; of a rounded cuboid, those of its core.
     #[inline]
     pub fn vertices(&self) -> [Vec3; 8] {
-        let h = self.half_extents;
-        core::array::from_fn(|i| {
-            let side = |bit: usize, extent: f32| if i >> bit & 1 == 1 { extent } else { -extent };
-            Vec3::new(side(0, h.x), side(1, h.y), side(2, h.z))
-        })
+        // Written out: kernels ask for them a pair, and `from_fn` calls.
+        let Vec3 { x, y, z } = self.half_extents;
+        [
+            Vec3::new(-x, -y, -z),
+            Vec3::new(x, -y, -z),
+            Vec3::new(-x, y, -z),
+            Vec3::new(x, y, -z),
+            Vec3::new(-x, -y, z),
+            Vec3::new(x, -y, z),
+            Vec3::new(-x, y, z),
+            Vec3::new(x, y, z),
+        ]
     }
 
     /// The half-edges that every cuboid shares.

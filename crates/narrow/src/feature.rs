@@ -162,14 +162,14 @@ impl Hint {
 
     /// A direction that parts the shapes: in A's axes in space, in the world's in the plane.
     pub(crate) fn towards(direction: DVec3) -> Self {
-        Self(Known::Direction(direction.as_vec3().to_array().map(f32::to_bits)))
+        Self(Known::Direction(bits_of(direction)))
     }
 
     /// Of compounds that are apart: the direction to try next, after one more frame in which none parted them as
     /// wholes.
     pub(crate) fn seeking(self, direction: DVec3) -> Self {
         let frames = if let Known::Sought(frames, _) = self.0 { frames.wrapping_add(1) } else { 0 };
-        Self(Known::Sought(frames, direction.as_vec3().to_array().map(f32::to_bits)))
+        Self(Known::Sought(frames, bits_of(direction)))
     }
 
     /// The direction that parted compounds as wholes, or the one to try next, and whether this frame is to try it: the
@@ -180,7 +180,7 @@ impl Hint {
             Known::Sought(frames, bits) => (bits, frames < TRIES || frames.is_multiple_of(PAUSE)),
             _ => return None,
         };
-        Vec3::from_array(bits.map(f32::from_bits)).as_dvec3().try_normalize().map(|sought| (sought, is_due))
+        direction_of(bits).try_normalize().map(|sought| (sought, is_due))
     }
 
     /// What was kept of two pairs of parts, of 48 bits each.
@@ -209,10 +209,23 @@ impl Hint {
     /// Of unit length, in the axes it was given in.
     pub(crate) fn direction(self) -> Option<DVec3> {
         match self.0 {
-            Known::Direction(bits) => Vec3::from_array(bits.map(f32::from_bits)).as_dvec3().try_normalize(),
+            Known::Direction(bits) => direction_of(bits).try_normalize(),
             _ => None,
         }
     }
+}
+
+/// A direction as a hint holds it.
+#[inline]
+fn bits_of(direction: DVec3) -> [u32; 3] {
+    let Vec3 { x, y, z } = direction.as_vec3();
+    [x.to_bits(), y.to_bits(), z.to_bits()]
+}
+
+/// The same back.
+#[inline]
+fn direction_of([x, y, z]: [u32; 3]) -> DVec3 {
+    Vec3::new(f32::from_bits(x), f32::from_bits(y), f32::from_bits(z)).as_dvec3()
 }
 
 #[cfg(test)]

@@ -233,7 +233,10 @@ impl Simplex {
     /// the weights' sum lost to rounding shrinks with them.
     fn weighted(&self, solid: &Solid, which: usize) -> DVec3 {
         let first = solid.point(self.corners[0].0[which]);
-        let terms = self.corners.iter().zip(self.weights);
-        terms.fold(first, |sum, ((corner, _), weight)| sum + (solid.point(corner[which]) - first) * weight)
+        let mut sum = first;
+        for (i, (corner, _)) in self.corners.iter().enumerate() {
+            sum += (solid.point(corner[which]) - first) * self.weights[i];
+        }
+        sum
     }
 }

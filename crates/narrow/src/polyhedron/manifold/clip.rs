@@ -125,12 +125,12 @@ impl<const N: usize> Polygon<N> {
         let [from_x, from_y] = side.from;
         let mut furthest = f64::NEG_INFINITY;
         self.beyond.clear();
-        for &i in &self.rings[self.turn] {
+        self.beyond.extend(self.rings[self.turn].iter().map(|&i| {
             let [x, y] = self.corners[usize::from(i)].at;
             let beyond = dy * (x - from_x) - dx * (y - from_y);
             furthest = if beyond > furthest { beyond } else { furthest };
-            self.beyond.push(beyond);
-        }
+            beyond
+        }));
         if furthest > slack {
             self.rings[1 - self.turn].clear();
             if let Some(kept) = self.run_within(furthest, slack) {

@@ -75,8 +75,8 @@ impl<'a, 'b> Sight<'a, 'b> {
         let mut top = [f32::NEG_INFINITY; 8];
         for faces in self.solid.face_octets.iter().take(MAX_OCTETS) {
             let over = self.sphere.over(faces);
-            for (top, &over) in top.iter_mut().zip(&over) {
-                *top = if over > *top { over } else { *top };
+            for (i, top) in top.iter_mut().enumerate() {
+                *top = if over[i] > *top { over[i] } else { *top };
             }
             self.over.push(over);
         }
@@ -263,8 +263,8 @@ impl Ball {
 #[inline]
 fn above(over: &[f32; 8], least: f32) -> Open {
     let mut open = NONE_OPEN;
-    for (open, &over) in open.iter_mut().zip(over) {
-        *open = u32::from(over > least);
+    for (i, open) in open.iter_mut().enumerate() {
+        *open = u32::from(over[i] > least);
     }
     open
 }
