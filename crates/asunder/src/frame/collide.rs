@@ -114,7 +114,7 @@ fn gather<S: Space>(world: &mut World<S>) {
             }
             continue;
         }
-        let Some((asked, (outcome, place))) = asked.next().zip(outcomes.next()) else { break };
+        let (Some(asked), Some((outcome, place))) = (asked.next(), outcomes.next()) else { break };
         let keys = (keys[pair.a as usize], keys[pair.b as usize]);
         // Bodies lie all over memory: of what is apart, or moved along, nobody reads them again.
         let both = || bodies.get(keys.0).zip(bodies.get(keys.1));
