@@ -49,19 +49,18 @@ impl<const N: usize> Few<N> {
         let (c, s) = (turn.axes()[0].x, turn.axes()[0].y);
         let unit = turn.unit();
         let (last, last_edge) = (core.0.len().min(N).wrapping_sub(1), core.1.len().min(N).wrapping_sub(1));
-        let local: [DVec2; N] =
-            core::array::from_fn(|i| core.0.get(i.min(last)).map_or(DVec2::ZERO, |v| v.as_dvec2()));
-        let normal: [DVec2; N] =
-            core::array::from_fn(|i| core.1.get(i.min(last_edge)).copied().unwrap_or(DVec2::ZERO));
-        Self {
-            x: local.map(|v| position.x + (c * v.x - s * v.y)),
-            y: local.map(|v| position.y + (s * v.x + c * v.y)),
-            normal_x: normal.map(|n| (c * n.x - s * n.y) * unit),
-            normal_y: normal.map(|n| (s * n.x + c * n.y) * unit),
-            vertices: core.0.len().min(N),
-            edges: core.1.len().min(N),
-            radius,
+        let (vertices, edges) = (core.0.len().min(N), core.1.len().min(N));
+        let blank = [0.0; N];
+        let mut few = Self { x: blank, y: blank, normal_x: blank, normal_y: blank, vertices, edges, radius };
+        // By loops: `map` and `from_fn` are not always inlined, and were half of all instructions for octagons.
+        for i in 0..N {
+            let v = core.0.get(i.min(last)).map_or(DVec2::ZERO, |v| v.as_dvec2());
+            (few.x[i], few.y[i]) = (position.x + (c * v.x - s * v.y), position.y + (s * v.x + c * v.y));
+            let n = core.1.get(i.min(last_edge)).copied().unwrap_or(DVec2::ZERO);
+            few.normal_x[i] = (c * n.x - s * n.y) * unit;
+            few.normal_y[i] = (s * n.x + c * n.y) * unit;
         }
+        few
     }
 
     /// The separation along each edge's normal; only those of edges mean anything.
@@ -90,7 +89,11 @@ impl<const N: usize> Few<N> {
     /// How far the core reaches along a direction.
     #[inline]
     fn reach(&self, direction: DVec2) -> f64 {
-        top::<N>(&core::array::from_fn(|i| direction.x * self.x[i] + direction.y * self.y[i]))
+        let mut reaches = [0.0; N];
+        for (i, reach) in reaches.iter_mut().enumerate() {
+            *reach = direction.x * self.x[i] + direction.y * self.y[i];
+        }
+        top(&reaches)
     }
 
     /// The unit normal of an edge.

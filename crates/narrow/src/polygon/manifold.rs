@@ -181,7 +181,7 @@ impl Reference {
     fn of(outline: &impl Placed, edge: usize, normal: DVec2, is_b: bool) -> Self {
         let ends = [outline.point(edge), outline.point(outline.after(edge))];
         // Polygons are convex by exact predicates: nothing reaches further along an edge's normal than its ends.
-        let [from, to] = ends.map(|end| normal.dot(end));
+        let (from, to) = (normal.dot(ends[0]), normal.dot(ends[1]));
         let reach = (if to > from { to } else { from }) + outline.radius();
         Self { ends, normal, reach, is_b }
     }
@@ -243,9 +243,10 @@ fn on_edge(
         // The edge there may be parallel, and beside the other all the same.
         let second = incident.facing(deepest, normal);
         let vertices = [second, incident.after(second)];
-        let ends = vertices.map(|vertex| incident.point(vertex));
+        let ends = [incident.point(vertices[0]), incident.point(vertices[1])];
         let clipped = clip(&reference.ends, ends, [(edge, next), (vertices[0], vertices[1])])?;
-        let [one, other] = clipped.map(|(point, _)| (normal.dot(point), point));
+        let ends = [clipped[0].0, clipped[1].0];
+        let (one, other) = ((normal.dot(ends[0]), ends[0]), (normal.dot(ends[1]), ends[1]));
         let (height, point) = if other.0 < one.0 { other } else { one };
         if height - normal.dot(vertex) > tiny {
             return None;
@@ -274,9 +275,9 @@ pub(crate) fn over_edge(
     if incident.edge_count() > 0 {
         let second = incident.facing_edge(normal);
         let vertices = [second, incident.after(second)];
-        let clipped = clip(&ends, vertices.map(|vertex| incident.point(vertex)), [(0, 0); 2]);
-        let heights = clipped.map(|clipped| clipped.map(|(point, _)| height(point)));
-        deep = heights.map_or(f64::INFINITY, |[one, other]| one.min(other) + preference);
+        let lowest = [incident.point(vertices[0]), incident.point(vertices[1])];
+        let clipped = clip(&ends, lowest, [(0, 0); 2]);
+        deep = clipped.map_or(f64::INFINITY, |[one, other]| height(one.0).min(height(other.0)) + preference);
     }
     let of = if is_b { AxisOf::EdgeB(edge) } else { AxisOf::EdgeA(edge) };
     let axis = Axis { separation: deep, normal: if is_b { -normal } else { normal }, of };
@@ -331,7 +332,7 @@ fn edge_points(
     }
     if points.len() < 2 {
         let outwards = incident.outward(second) * radius;
-        let clipped = clip(&reference.ends, ends.map(|end| end + outwards), edges);
+        let clipped = clip(&reference.ends, [ends[0] + outwards, ends[1] + outwards], edges);
         add_tilted(&mut points, &reference, clipped, depths);
     }
     if let [first, second] = points.as_mut_slice()

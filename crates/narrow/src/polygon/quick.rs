@@ -59,7 +59,7 @@ impl Bodies<'_> {
         if let [Shape2::Rect(a), Shape2::Rect(b)] = self.shapes
             && a.radius() + b.radius() == 0.0
         {
-            let halves = [a.half_extents(), b.half_extents()].map(Vec2::as_dvec2);
+            let halves = [a.half_extents().as_dvec2(), b.half_extents().as_dvec2()];
             let size = f64::from(a.outer_radius()) + f64::from(b.outer_radius());
             let reach = size + self.between.abs().element_sum();
             let precision = Precision { size, reach, planarity: 0.0, roundings: IN_PLANE[0] };
@@ -91,7 +91,7 @@ impl Bodies<'_> {
 
     fn few<const N: usize>(&self, cores: [(&[Vec2], &[DVec2]); 2], asked: &Asked) -> Option<Probe> {
         let measure = Measure::new(self.shapes, self.between, None);
-        let [radius_a, radius_b] = self.shapes.map(|shape| f64::from(shape.radius()));
+        let (radius_a, radius_b) = (self.shapes[0].radius().into(), self.shapes[1].radius().into());
         let a = Few::<N>::new(cores[0], self.turns[0], DVec2::ZERO, radius_a);
         let b = Few::<N>::new(cores[1], self.turns[1], self.between, radius_b);
         let kept = named([cores[0].1.len(), cores[1].1.len()], asked.hint).and_then(Named::edge);
@@ -113,7 +113,7 @@ impl Bodies<'_> {
     /// From A's centre to B's, and more than is lost to rounding by it, its length, and what that is compared with.
     #[inline]
     fn centers(&self, centers: [Vec2; 2]) -> (DVec2, f64) {
-        let [a, b] = centers.map(Vec2::as_dvec2);
+        let (a, b) = (centers[0].as_dvec2(), centers[1].as_dvec2());
         let sum = |v: DVec2| v.abs().element_sum();
         let lost = 16.0 * f64::EPSILON * (sum(self.between) + sum(a) + sum(b));
         (self.between + (self.turns[1].turn(b) - self.turns[0].turn(a)), lost)
@@ -124,7 +124,7 @@ impl Bodies<'_> {
 fn of_rects([a, b]: [&Rect; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked) -> Option<Probe> {
     let measure = Measure::of_rects([a, b], between);
     let wanted = measure.wanted(asked, between);
-    let halves = [a, b].map(|rect| rect.half_extents().as_dvec2());
+    let halves = [a.half_extents().as_dvec2(), b.half_extents().as_dvec2()];
     let kept = named([4, 4], asked.hint).and_then(Named::edge);
     let axes = match rects::best_axes(halves, turns, between, (kept, &wanted)) {
         Ok(axes) => axes,
@@ -143,7 +143,7 @@ fn of_others(shapes: [&Shape2; 2], turns: [&Turn; 2], between: DVec2, asked: &As
     }
     let (core_a, core_b) = (shapes[0].core(), shapes[1].core());
     let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
-    let [a, b] = cores.map(|core| core.0.len());
+    let (a, b) = (cores[0].0.len(), cores[1].0.len());
     // A circle has no edges, a half-plane and a compound have no vertices.
     if a.min(b) == 0 || a + b == 2 || a.max(b) > FEW_VERTICES {
         return None;
