@@ -140,23 +140,23 @@ impl Touching<'_> {
         if !patch.is_clear || count > 8 {
             return None;
         }
-        let (mut slots, mut rest) = ([0; 8], patch.held);
+        let (mut slots, mut rest, mut deepest) = ([0; 8], patch.held, f64::INFINITY);
         for slot in &mut slots[..count] {
             *slot = patch.slot(rest.trailing_zeros());
             rest &= rest.wrapping_sub(1);
-        }
-        let slots = match count {
-            0..=4 => [slots[0], slots[1], slots[2], slots[3]],
-            _ => four_of(patch, &slots, count, self.placed.preference),
-        };
-        let count = count.min(4);
-        let (mut order, mut deepest) = ([u32::MAX; 4], f64::INFINITY);
-        for (place, &slot) in order.iter_mut().zip(&slots[..count]) {
-            *place = patch.names(slot).0 << 4 | slot as u32;
-            deepest = deepest.min(patch.height[slot % SLOTS]);
+            deepest = deepest.min(patch.height[*slot % SLOTS]);
         }
         if deepest > self.deep() {
             return None;
+        }
+        let slots = match count {
+            0..=4 => [slots[0], slots[1], slots[2], slots[3]],
+            _ => four_of(patch, &slots, count, deepest + self.placed.even),
+        };
+        let count = count.min(4);
+        let mut order = [u32::MAX; 4];
+        for (place, &slot) in order.iter_mut().zip(&slots[..count]) {
+            *place = patch.names(slot).0 << 4 | slot as u32;
         }
         sort(&mut order);
         Over::new(self, &patch.reference).write(patch, &order[..count], manifold);
