@@ -130,7 +130,7 @@ fn corners_in(mut four: u32) -> [usize; 4] {
 
 /// Four of many that hold a deep one, by walks around the patch.
 ///
-/// The walks set out from the first corner, and towards the neighbour that comes first: where several fours are worth as
+/// The walks set out from the first corner by its features, and towards the neighbour that comes first: where several fours are worth as
 /// much, so are found the same, whichever corner the list begins with and from whichever side the patch is seen.
 fn pick_of_many(
     count: usize,
@@ -141,7 +141,10 @@ fn pick_of_many(
     let first = |is_it: &dyn Fn(usize) -> bool| {
         (0..count).filter(|&i| is_it(i)).min_by_key(|&i| rank(id(i))).unwrap_or(0)
     };
-    let root = first(&|_| true);
+    let mut deep = (0..count).filter(|&i| is_deep(i));
+    // One that is deeper than all others must be kept, and is where to set out from.
+    let alone = deep.next().filter(|_| deep.next().is_none());
+    let root = alone.unwrap_or_else(|| first(&|_| true));
     let (next, before) = ((root + 1) % count, (root + count - 1) % count);
     let is_back = rank(id(before)) < rank(id(next));
     let turned = |i: usize| if is_back { count - 1 - i } else { i };
@@ -152,6 +155,9 @@ fn pick_of_many(
             if is_back { [y, x] } else { [x, y] }
         },
     };
+    if alone.is_some() {
+        return around.holding(turned(root)).corners.map(turned);
+    }
     let mut best = around.best_from(turned(root), |_| true);
     let holds_deep = |four: &Four| four.corners.iter().any(|&i| is_deep(turned(i)));
     if !holds_deep(&best) {
@@ -160,26 +166,45 @@ fn pick_of_many(
     best.corners.map(turned)
 }
 
+/// Twice the area of the triangle of a root and two corners as seen from it, which is positive clockwise.
+fn area([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
+    y0 * x1 - x0 * y1
+}
+
 /// Corners around a patch.
 struct Around<F> {
     count: usize,
     at: F,
 }
 
-/// Four corners in order around a patch, and twice the area between them.
+/// Four corners in order around a patch.
 #[derive(Clone, Copy)]
 struct Four {
+    /// The first that are even with the best.
     corners: [usize; 4],
+    /// The best themselves.
+    furthest: [usize; 4],
+    /// Twice the area between these.
     area: f64,
 }
 
 impl<F: Fn(usize) -> [f64; 2]> Around<F> {
+    /// The best four that hold a root.
+    fn holding(&self, root: usize) -> Four {
+        self.rooted(root, [(1, self.count - 3), (2, self.count - 2), (3, self.count - 1)])
+    }
+
     /// The best four that hold a root, or others, of those that some filter allows, if they are better than even.
     fn best_from(&self, root: usize, is_allowed: impl Fn(&Four) -> bool) -> Four {
-        let mut best = self.rooted(root, [(1, self.count - 3), (2, self.count - 2), (3, self.count - 1)]);
-        self.for_others(best.corners, |found| {
-            if found.area > best.area * (1.0 + EVEN_AREA) && is_allowed(&found) {
-                best = found;
+        let mut best = self.holding(root);
+        self.for_others(best.furthest, |mut found| {
+            if found.area > best.area * (1.0 + EVEN_AREA) {
+                if !is_allowed(&found) {
+                    found.corners = found.furthest;
+                }
+                if is_allowed(&found) {
+                    best = found;
+                }
             }
         });
         best
@@ -191,17 +216,10 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
         root: usize,
         [(b_least, b_most), (c_least, c_most), (d_least, d_most)]: [(usize, usize); 3],
     ) -> Four {
-        let index = |offset: usize| {
-            if root + offset < self.count { root + offset } else { root + offset - self.count }
-        };
-        let from = (self.at)(root);
-        let place = |offset: usize| {
-            let [x, y] = (self.at)(index(offset));
-            [x - from[0], y - from[1]]
-        };
-        // Twice the area of the triangle of the root and two more, which is positive clockwise.
-        let area = |[x0, y0]: [f64; 2], [x1, y1]: [f64; 2]| y0 * x1 - x0 * y1;
-        let (mut best, mut most) = ([0, 1, 2, 3], f64::NEG_INFINITY);
+        let place = self.seen_from(root);
+        // The first that is even with the best, and the best.
+        let (mut first, mut enough) = ([0, 1, 2, 3], f64::NEG_INFINITY);
+        let (mut best, mut most) = (first, f64::NEG_INFINITY);
         let (mut b, mut d) = (b_least.max(1), d_least.max(3));
         let (mut at_b, mut at_d) = (place(b), place(d.min(self.count - 1)));
         for c in c_least.max(b + 1)..=c_most.min(self.count - 2) {
@@ -227,21 +245,44 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
                 }
                 (d, at_d, far) = (d + 1, at_next, next);
             }
-            if near + far > most * (1.0 + EVEN_AREA) || most == f64::NEG_INFINITY {
+            if near + far > most {
                 (best, most) = ([0, b, c, d], near + far);
+                if most > enough * (1.0 + EVEN_AREA) || enough == f64::NEG_INFINITY {
+                    (first, enough) = (best, most);
+                }
             }
         }
-        // Corners nearer to the root that are worth as much, on either side of the diagonal.
-        let [_, mut b, c, mut d] = best;
+        let first = self.nearer(root, first, [b_least.max(1), d_least]);
+        let index = |offset: usize| self.index(root, offset);
+        Four { corners: first.map(index), furthest: best.map(index), area: most }
+    }
+
+    /// Of corners on either side of a diagonal that are worth as much, those nearer to the root, but no nearer than some.
+    fn nearer(&self, root: usize, [_, mut b, c, mut d]: [usize; 4], least: [usize; 2]) -> [usize; 4] {
+        let place = self.seen_from(root);
         let at_c = place(c);
         let (near, far) = (area(place(b), at_c), area(at_c, place(d)));
-        while b > b_least.max(1) && area(place(b - 1), at_c) >= near - near.abs() * EVEN_AREA {
+        while b > least[0] && area(place(b - 1), at_c) >= near - near.abs() * EVEN_AREA {
             b -= 1;
         }
-        while d > d_least.max(c + 1) && area(at_c, place(d - 1)) >= far - far.abs() * EVEN_AREA {
+        while d > least[1].max(c + 1) && area(at_c, place(d - 1)) >= far - far.abs() * EVEN_AREA {
             d -= 1;
         }
-        Four { corners: [root, index(b), index(c), index(d)], area: most }
+        [0, b, c, d]
+    }
+
+    /// The corner so many further on than a root.
+    fn index(&self, root: usize, offset: usize) -> usize {
+        if root + offset < self.count { root + offset } else { root + offset - self.count }
+    }
+
+    /// Where corners are, by how many further on than a root they come.
+    fn seen_from(&self, root: usize) -> impl Fn(usize) -> [f64; 2] {
+        let from = (self.at)(root);
+        move |offset| {
+            let [x, y] = (self.at)(self.index(root, offset));
+            [x - from[0], y - from[1]]
+        }
     }
 
     /// Visits the best four that lie between four and hold another corner of their shortest arc, for each such corner.

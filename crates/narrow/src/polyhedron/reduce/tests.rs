@@ -189,3 +189,35 @@ fn ties_go_the_same_way_whatever_rounding_says() {
     assert_eq!(seen.len(), 1, "{seen:?}");
     assert!(seen.contains(&[0, 3, 6, 9]), "the square of the lowest id: {seen:?}");
 }
+
+/// Caps with fours of the same area, which tremble: the same four, wherever the list begins and from either side.
+#[test]
+fn which_four_is_a_matter_of_features_and_not_of_the_list() {
+    let mut random = Rand64::new(6);
+    for count in 5..40 {
+        let cap = regular(count);
+        // Of a feature of the one shape and one of the other, whichever is asked for first.
+        let feature = |i: usize| [Feature::Face(3), Feature::Vertex((41 * i % count) as u32)];
+        let mut seen = std::collections::BTreeSet::new();
+        for round in 0..6 * count {
+            let (begin, is_mirrored) = (round / 2 % count, round % 2 == 1);
+            let corner = |place: usize| (begin + if is_mirrored { count - place } else { place }) % count;
+            let mut jitter = |size: f64| (random.rand_float() - 0.5) * size;
+            let spots: Vec<Spot> = (0..count)
+                .map(|place| {
+                    let ([x, y], _) = cap[corner(place)];
+                    let at = [if is_mirrored { -x } else { x } + jitter(2e-6), y + jitter(2e-6)];
+                    Spot { at, separation: jitter(1e-4) }
+                })
+                .collect();
+            let named = |place: usize| {
+                let [one, other] = feature(corner(place));
+                if is_mirrored { FeatureId::new(other, one) } else { FeatureId::new(one, other) }
+            };
+            let mut chosen = pick_four(count, |place| spots[place], named, 1e-4).map(corner);
+            chosen.sort_unstable();
+            seen.insert(chosen);
+        }
+        assert_eq!(seen.len(), 1, "{count}: {seen:?}");
+    }
+}
