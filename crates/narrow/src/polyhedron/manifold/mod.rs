@@ -23,7 +23,7 @@
 //!    what is cut away comes back to space;
 //! 3. a side that no corner is beyond copies nothing, and where it does, places of corners and not corners;
 //! 4. the axis has told how deep the deepest vertex is, so that the reference plane needs no support search;
-//! 5. of five to eight corners the best four are found by trying all, without a branch that depends on where they are.
+//! 5. of five to eight corners the best four are found by trying all.
 //!
 //! Every corner of the clipped polygon carries the features it comes from, which is what makes its id.
 
