@@ -2,7 +2,9 @@
 
 mod faces;
 mod frames;
+mod trembling;
 
+use asunder_geometry::tolerance::EVEN_DEPTH;
 use asunder_geometry::{Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
 use asunder_narrow::{ContactPoint3, Pair2, Pair3};
 use asunder_tests::answers::{Asked, Asked2, Asked3, Manifold};
@@ -42,7 +44,11 @@ fn check_manifold(asked: &impl Asked, manifold: &Manifold, margin: f64) {
         assert!(contact.separation <= margin.max(0.0) + slack, "beyond {margin}: {contact:?} of {asked:?}");
     }
     let least = contacts.iter().map(|contact| contact.separation).fold(f64::INFINITY, f64::min);
-    assert!((least - measured.separation).abs() <= slack, "deepest {least}, {measured:?}: {asked:?}");
+    // Four of more corners hold one that is as deep as any up to what counts as even, of the smaller shape's diameter:
+    // which is no more than the pair's size.
+    let even = if contacts.len() == 4 { EVEN_DEPTH * size } else { 0.0 };
+    let beyond = least - measured.separation;
+    assert!((-slack..=slack + even).contains(&beyond), "deepest {least}, {measured:?}: {asked:?}");
 }
 
 /// Asks without a margin and with one; returns the number of points without.

@@ -7,6 +7,7 @@ mod points;
 mod shapes;
 
 use asunder::{BodyKey3, Collider3, World3};
+use asunder_geometry::tolerance::EVEN_DEPTH;
 use asunder_geometry::{Cuboid, Hull, Pose3, Shape3};
 use asunder_narrow::{Pair3, Separation3};
 use glam::{DVec3, Quat, Vec3};
@@ -80,7 +81,11 @@ fn a_slightly_tilted_box_stands_on_a_patch() {
         let doubled = (area[1] - area[0]).cross(area[2] - area[0]).length();
         assert!(doubled > 0.05, "step {step}: the points are all but in line");
         let deepest = manifold.points.iter().map(|point| point.separation).fold(f32::INFINITY, f32::min);
-        assert!((deepest - manifold.separation).abs() <= manifold.error + 1e-6, "step {step}");
+        // Of a patch of more corners than four, one that is as deep as the deepest but for trembling.
+        let even =
+            if manifold.points.len() == 4 { 2.0 * EVEN_DEPTH as f32 * cube.outer_radius() } else { 0.0 };
+        let (beyond, error) = (deepest - manifold.separation, manifold.error + 1e-6);
+        assert!((-error..=error + even).contains(&beyond), "step {step}: {beyond}");
         // Neither box has a face with this normal: two edges decide the depth.
         let is_face = manifold.normal == Vec3::Y
             || above.basis().turn(DVec3::Y).dot(manifold.normal.as_dvec3()) > 1.0 - 1e-13;

@@ -39,6 +39,22 @@ pub const ARC_SLACK: f64 = 1e-6;
 /// apart, for which it is raised where positions are far apart and shapes small.
 pub const FACE_PREFERENCE: f64 = 5e-7;
 
+/// Share of the smaller shape's diameter within which corners of a patch count as equally deep, where four of more are
+/// chosen to hold it.
+///
+/// A body that a solver holds at rest leans now here and now there, by up to some 1e-4 rad, which lifts one side of its
+/// face by as much of its width. With a smaller value the deepest corner changes with every lean, and with it which four
+/// are told; with a larger one, what leans more may be held beside its deepest corner by as much. Only the choice of
+/// corners depends on it: what is told of the pair, and of each corner, is exact.
+pub const EVEN_DEPTH: f64 = 1.0 / 4096.0;
+
+/// Share of their area within which four corners of a patch hold it as well as the four that hold it best.
+///
+/// A regular face of many corners has several fours of the same area, and a body that trembles by 1e-4 rad changes areas
+/// by some 2e-4, where sides of two faces cross. A smaller value leaves it to that which four are told; a larger one takes a
+/// worse four of faces of more than sixty corners, and brings nearer the 5 % that may be lost in all.
+pub const EVEN_AREA: f64 = 1.0 / 1024.0;
+
 /// Cosine of the angle up to which two faces beside a pair of touching edges count as resting on each other: 0.1 rad.
 ///
 /// Only the choice of contact points depends on it, never an axis or a depth. A smaller angle leaves slightly tilted

@@ -69,6 +69,12 @@ impl FeatureId {
         Feature::from_bits(self.0 as u32)
     }
 
+    /// Both features, the lower first: the same for the other order of the shapes.
+    pub(crate) const fn in_any_order(self) -> [u32; 2] {
+        let (a, b) = ((self.0 >> 32) as u32, self.0 as u32);
+        if a < b { [a, b] } else { [b, a] }
+    }
+
     /// All 64 bits, for storage.
     pub const fn to_bits(self) -> u64 {
         self.0

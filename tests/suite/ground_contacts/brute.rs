@@ -2,6 +2,7 @@
 
 use super::scenes::{BODIES, Random, body, flat, grid, mesh, sees, stick, triangle};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
+use asunder_geometry::tolerance::EVEN_DEPTH;
 use asunder_geometry::{Compound3, Cuboid, HalfSpace, Pose3, Shape3, Sphere, TriMesh};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, Separation3, collide3};
 
@@ -120,7 +121,11 @@ fn check(scene: &Scene, what: &str) -> Option<bool> {
         assert!(manifold.error >= 0.0 && !manifold.points.is_empty() && manifold.part_a < parts.len() as u32);
         let part = &parts[manifold.part_a as usize].0;
         let least = manifold.points.iter().map(|p| p.separation).fold(f32::INFINITY, f32::min);
-        assert!((least - manifold.separation).abs() <= manifold.error, "{what}: {manifold:?}");
+        // Of more than four corners, one that is as deep as the deepest but for trembling.
+        let is_full = manifold.points.len() == 4;
+        let even = if is_full { 2.0 * EVEN_DEPTH as f32 * part.outer_radius() } else { 0.0 };
+        let (beyond, error) = (least - manifold.separation, manifold.error);
+        assert!((-error..=error + even).contains(&beyond), "{what}: {manifold:?}");
         for point in &manifold.points {
             let on_body = scene.pose.position() + point.anchor_a.as_dvec3();
             let on_ground = scene.ground_pose.position() + point.anchor_b.as_dvec3();

@@ -2,6 +2,7 @@
 //! four of them by trying all.
 
 use super::{check_manifold, pair3};
+use asunder_geometry::tolerance::{EVEN_AREA, EVEN_DEPTH};
 use asunder_geometry::{Pose3, Shape3};
 use asunder_narrow::{ContactPoint3, FeatureId, Manifold3};
 use asunder_tests::answers::{Asked, Asked3};
@@ -10,6 +11,9 @@ use glam::{DVec2, DVec3, Quat, Vec2};
 
 /// Rounding of poses and anchors, which are f32, as a share of areas of about 1.
 const ROUNDING: f64 = 2e-6;
+
+/// Share of the best area that counts as all of it: the first of what is even is taken, up to three times.
+const ALL: f64 = 1.0 - 3.0 * EVEN_AREA;
 
 /// A strictly convex outline of some corners, counter-clockwise: sorted angles on an ellipse.
 fn outline(random: &mut Random, corners: usize, size: f64) -> Vec<Vec2> {
@@ -99,7 +103,7 @@ fn face_to_face(
 }
 
 /// Places on A, seen from above.
-fn places(manifold: &Manifold3) -> Vec<DVec2> {
+pub(super) fn places(manifold: &Manifold3) -> Vec<DVec2> {
     manifold.points.iter().map(|point| point.anchor_a.as_dvec3().truncate()).collect()
 }
 
@@ -151,8 +155,9 @@ fn of_tilted_faces_the_deepest_corner_is_kept_with_the_best_three_others() {
             let center = case.pose_b.position() + towards * 0.25;
             center.z - (at - center.truncate()).dot(towards.truncate()) / towards.z
         };
-        // What differs by less than a face is preferred by is as deep.
-        let least = exact.iter().map(|&corner| depth(corner)).fold(f64::INFINITY, f64::min) + 2e-6;
+        // What trembling may change is as deep: 4e-4 here, where depths differ by up to 2e-3.
+        let even = EVEN_DEPTH * 2.0 * f64::from(case.shape_a.outer_radius().min(case.shape_b.outer_radius()));
+        let least = exact.iter().map(|&corner| depth(corner)).fold(f64::INFINITY, f64::min) + even + 2e-6;
         let deepest: Vec<DVec2> = exact.iter().copied().filter(|&corner| depth(corner) <= least).collect();
         let with = |corner: &DVec2| best_four(&exact, |other| other == *corner);
         let best = deepest.iter().map(with).fold(f64::INFINITY, f64::min);
@@ -161,7 +166,7 @@ fn of_tilted_faces_the_deepest_corner_is_kept_with_the_best_three_others() {
         let is_kept = |at: &DVec2| deepest.iter().any(|corner| (at - corner).length() < 2e-3);
         assert!(places(&manifold).iter().any(is_kept), "{deepest:?} of {manifold:?}: {case:?}");
         // A normal that is tilted by up to 1.2e-3 moves what is sunk by 0.05 by up to 6e-5, along a rim of up to 5.
-        assert!(found >= best - 3e-4, "{found} of {best}: {case:?}");
+        assert!(found >= best * ALL - 3e-4, "{found} of {best}: {case:?}");
         check_manifold(&asked, &asked.manifold(0.0).unwrap(), 0.0);
         judged += 1;
     }

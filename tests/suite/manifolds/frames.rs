@@ -12,7 +12,7 @@ fn cuboid(half: Vec3) -> Shape3 {
 }
 
 /// One frame: the manifold, and the hint for the next.
-fn frame(case: &Case3, hint: Hint, margin: f32) -> (Manifold3, Hint) {
+pub(super) fn frame(case: &Case3, hint: Hint, margin: f32) -> (Manifold3, Hint) {
     let Case3 { shape_a, pose_a, shape_b, pose_b } = case;
     let mut batch = Batch3::default();
     collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor: false }], &mut batch);

@@ -210,7 +210,7 @@ impl<'a> Asking<'a> {
         let meeting = Meeting::new(self.on, part, self.poses);
         let is_ball = matches!(part.shape, Shape3::Sphere(_));
         let seen = Seen { asking: self, standing: &standing, meeting, bounds, is_ball };
-        let mut known = Known::new(standing.slack);
+        let mut known = Known::new([standing.slack, standing.even]);
         if let Shape3::HalfSpace(half_space) = part.shape {
             seen.look_at_all(place.axes.turn(half_space.unit_normal()), &mut known);
         } else {
@@ -228,9 +228,9 @@ impl<'a> Asking<'a> {
 
 impl Known {
     #[inline(always)]
-    fn new(slack: f64) -> Self {
+    fn new([slack, even]: [f64; 2]) -> Self {
         Self {
-            groups: Groups::new(slack),
+            groups: Groups::new(slack, even),
             overlapping: false,
             shown_by: None,
             unclear: ArrayVec::new(),

@@ -39,7 +39,7 @@ use crate::exact::Site3;
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::FACE_PREFERENCE;
+use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE};
 use asunder_geometry::{Basis3, Hull, Shape3};
 use told::Ball;
 
@@ -273,12 +273,13 @@ impl<'a> Convex<'a> {
         match &near.evidence {
             Evidence::Axes(axes, witness) => {
                 let last = last_of(asked.hint);
-                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, last };
+                let even = self.even_depth();
+                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, even, last };
                 touch_into(a, b, &ask, touch);
             }
             Evidence::Slender(nearest) => *touch = slender::touch(a, b, nearest, margin, preference),
             Evidence::HalfSpace(plane) => {
-                *touch = plane.touch(if plane.is_b { a } else { b }, margin, preference);
+                *touch = plane.touch(if plane.is_b { a } else { b }, margin, [preference, self.even_depth()]);
             }
             Evidence::HalfSpaces(..) | Evidence::Ball(_) => {}
         }
@@ -317,8 +318,18 @@ impl<'a> Convex<'a> {
     /// How much another axis must beat a face of A by, in metres. Relative to the smaller shape: what is nothing to a
     /// floor may be all of a pebble. Never below rounding.
     fn preference(&self) -> f64 {
+        self.of_smaller(FACE_PREFERENCE)
+    }
+
+    /// How much deeper a corner must be to be told for its depth alone, in metres.
+    fn even_depth(&self) -> f64 {
+        self.of_smaller(EVEN_DEPTH)
+    }
+
+    /// So much of the smaller shape's diameter, and never less than rounding.
+    fn of_smaller(&self, share: f64) -> f64 {
         let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
-        (FACE_PREFERENCE * 2.0 * smaller).max(self.precision.projection())
+        (share * 2.0 * smaller).max(self.precision.projection())
     }
 }
 

@@ -56,8 +56,8 @@ impl Plane {
     }
 
     /// The corners, at most four, of the face that looks at the plane, and no more than `margin` above it. Corners
-    /// that are no higher than the lowest, up to `preference`, are as deep as any.
-    pub(crate) fn touch(&self, core: &Solid, margin: f64, preference: f64) -> Touch {
+    /// that are no higher than the lowest, up to `preference`, are as deep as any; up to `even`, for the choice of four.
+    pub(crate) fn touch(&self, core: &Solid, margin: f64, [preference, even]: [f64; 2]) -> Touch {
         let opposed = opposed_face(core, self.normal, preference);
         let (face, lowest) = (opposed.face, opposed.deepest);
         let deep = self.height(core.point(lowest)) + preference;
@@ -82,11 +82,11 @@ impl Plane {
                 Point { separation, on_a: foot, on_b: point, feature: FeatureId::new(of_plane, of_core) }
             });
         }
-        Touch { normal: self.axis(), points: self.kept(&points, preference), of: None }
+        Touch { normal: self.axis(), points: self.kept(&points, even), of: None }
     }
 
     /// At most four of the corners of a face, in order of their ids.
-    fn kept(&self, points: &[Point], slack: f64) -> ArrayVec<Point, 4> {
+    fn kept(&self, points: &[Point], even: f64) -> ArrayVec<Point, 4> {
         let mut kept: ArrayVec<Point, 4> = ArrayVec::new();
         if points.len() <= 4 {
             kept.extend(points.iter().copied());
@@ -95,7 +95,7 @@ impl Plane {
             let spot =
                 |i: usize| Spot { at: frame.place(points[i].on_a).0, separation: points[i].separation };
             kept.extend(
-                pick_four(points.len(), spot, |i| points[i].feature, slack).into_iter().map(|i| points[i]),
+                pick_four(points.len(), spot, |i| points[i].feature, even).into_iter().map(|i| points[i]),
             );
         }
         kept.sort_unstable_by_key(|point| point.feature);

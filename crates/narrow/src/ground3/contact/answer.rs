@@ -23,8 +23,8 @@ impl Asking<'_> {
             return None;
         }
         if manifolds.is_wanted() {
-            groups.finish();
             let least = groups.least();
+            groups.finish();
             for group in groups.iter() {
                 self.add_manifold(part.index, group, (*overlapping, is_settled, least), manifolds);
             }
@@ -40,18 +40,12 @@ impl Asking<'_> {
         to: &mut impl Room,
     ) {
         let on = self.on;
-        let Some(deepest) = group
-            .pins
-            .iter()
-            .reduce(|least, next| if next.separation < least.separation { next } else { least })
-        else {
-            return;
-        };
+        let [deepest, doubt] = group.told;
         // The deepest of all has the sign of the decision.
         let separation = match overlapping {
-            true if deepest.separation <= least => signed(deepest.separation, true),
-            false if !is_settled => signed(deepest.separation, false),
-            _ => deepest.separation as f32,
+            true if deepest <= least => signed(deepest, true),
+            false if !is_settled => signed(deepest, false),
+            _ => deepest as f32,
         };
         let Some(manifold) = to.room(separation) else { return };
         let sides = [part, group.base.patch];
@@ -59,8 +53,8 @@ impl Asking<'_> {
         let towards = on.basis.turn(group.base.normal);
         manifold.normal = if on.is_b { -towards } else { towards }.as_vec3();
         let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE[1] };
-        let off = (f64::from(separation) - deepest.separation).abs();
-        let error = precision.of_distance(deepest.separation, deepest.doubt + off);
+        let off = (f64::from(separation) - deepest).abs();
+        let error = precision.of_distance(deepest, doubt + off);
         (manifold.separation, manifold.error) = (separation, error);
         let room = manifold.points.remaining_capacity();
         manifold.points.extend(group.pins.iter().take(room).map(|pin| {

@@ -49,6 +49,8 @@ pub(super) struct Base {
 pub(super) struct Group {
     pub(super) base: Base,
     pub(super) pins: ArrayVec<Pin, MOST_POINTS>,
+    /// Once it is reduced, the least separation of all that it had, and by how much that may be off.
+    pub(super) told: [f64; 2],
 }
 
 /// All normals of a part.
@@ -56,6 +58,8 @@ pub(super) struct Groups {
     groups: ArrayVec<Group, MOST_GROUPS>,
     /// Places that differ by no more are the same, in metres.
     slack: f64,
+    /// Points no further above the deepest are as deep as any where four of more are chosen, in metres.
+    even: f64,
 }
 
 impl Pin {
@@ -78,8 +82,8 @@ impl Pin {
 
 impl Groups {
     #[inline(always)]
-    pub(super) fn new(slack: f64) -> Self {
-        Self { groups: ArrayVec::new(), slack }
+    pub(super) fn new(slack: f64, even: f64) -> Self {
+        Self { groups: ArrayVec::new(), slack, even }
     }
 
     pub(super) fn iter(&self) -> core::slice::Iter<'_, Group> {
@@ -99,7 +103,7 @@ impl Groups {
                 (group.base.normal, group.base.weight) = (base.normal, base.weight);
             }
             group.base.patch = group.base.patch.min(base.patch);
-            group.add(pin, slack);
+            group.add(pin, [slack, self.even]);
             return;
         }
         if self.groups.is_full() {
@@ -115,7 +119,7 @@ impl Groups {
             return;
         }
         // Made empty and filled where it stays: it is large.
-        self.groups.push(Group { base: *base, pins: ArrayVec::new_const() });
+        self.groups.push(Group { base: *base, pins: ArrayVec::new_const(), told: [f64::INFINITY, 0.0] });
         if let Some(group) = self.groups.last_mut() {
             group.pins.push(pin);
         }
@@ -136,9 +140,9 @@ impl Groups {
 
     /// Reduces each group to what a manifold holds, and puts them in the order of their patches.
     pub(super) fn finish(&mut self) {
-        let slack = self.slack;
+        let sizes = [self.slack, self.even];
         for group in &mut self.groups {
-            group.reduce(slack);
+            group.reduce(sizes);
         }
         self.groups.sort_by_key(|group| group.base.patch);
     }
@@ -150,7 +154,7 @@ impl Group {
         self.pins.iter().map(|pin| pin.separation).fold(f64::INFINITY, f64::min)
     }
 
-    fn add(&mut self, pin: Pin, slack: f64) {
+    fn add(&mut self, pin: Pin, [slack, even]: [f64; 2]) {
         if let Some(known) = self.pins.iter_mut().find(|known| known.is_same_as(&pin, slack)) {
             let is_deeper = pin.separation < known.separation - slack;
             let is_as_deep = pin.separation <= known.separation + slack;
@@ -162,39 +166,55 @@ impl Group {
         if self.pins.is_full() {
             let mut around = self.around(slack);
             if around.len() > MOST_POINTS / 2 {
-                around = self.four_of(&around, slack);
+                around = self.four_of(&around, even);
             }
-            self.keep(around, slack);
+            // There is room for the deepest beside them, which is told whatever is kept at last.
+            if let Some(deepest) = self.deepest().filter(|deepest| !around.contains(deepest)) {
+                let _ = around.try_push(deepest);
+            }
+            self.keep(around);
         }
         let _ = self.pins.try_push(pin);
     }
 
-    fn reduce(&mut self, slack: f64) {
+    /// Keeps four of the points around the patch at most, and one that is as deep as any.
+    fn reduce(&mut self, [slack, even]: [f64; 2]) {
+        for pin in &self.pins {
+            if pin.separation < self.told[0] {
+                self.told = [pin.separation, pin.doubt];
+            }
+        }
         if self.pins.len() < 3 {
             return;
         }
         let mut around = self.around(slack);
         if around.len() > 4 {
-            around = self.four_of(&around, slack);
+            around = self.four_of(&around, even);
         }
-        self.keep(around, slack);
-    }
-
-    /// Keeps points by their places in the list, and one that is as deep as any.
-    fn keep(&mut self, mut kept: ArrayVec<usize, MOST_POINTS>, slack: f64) {
-        let least = self.least();
-        if !kept.iter().any(|&i| self.pins[i].separation <= least + slack)
-            && let Some(deepest) = self.pins.iter().position(|pin| pin.separation == least)
+        let least = self.least() + even;
+        if !around.iter().any(|&i| self.pins[i].separation <= least)
+            && let Some(deepest) = self.deepest()
         {
             let at = self.pins[deepest].on_body;
             let distance = |i: usize| (self.pins[i].on_body - at).length_squared();
-            let nearest =
-                (0..kept.len()).reduce(|a, b| if distance(kept[b]) < distance(kept[a]) { b } else { a });
+            let nearest = (0..around.len())
+                .reduce(|a, b| if distance(around[b]) < distance(around[a]) { b } else { a });
             match nearest {
-                Some(nearest) if kept.len() > 3 => kept[nearest] = deepest,
-                _ => kept.push(deepest),
+                Some(nearest) if around.len() > 3 => around[nearest] = deepest,
+                _ => around.push(deepest),
             }
         }
+        self.keep(around);
+    }
+
+    /// The place of the deepest point in the list.
+    fn deepest(&self) -> Option<usize> {
+        let least = self.least();
+        self.pins.iter().position(|pin| pin.separation == least)
+    }
+
+    /// Keeps points by their places in the list.
+    fn keep(&mut self, mut kept: ArrayVec<usize, MOST_POINTS>) {
         kept.sort_unstable();
         // Where they stay: moved as a whole, they are large.
         for (to, &from) in kept.iter().enumerate() {
@@ -254,10 +274,10 @@ impl Group {
     }
 
     /// Four of those around.
-    fn four_of(&self, around: &[usize], slack: f64) -> ArrayVec<usize, MOST_POINTS> {
+    fn four_of(&self, around: &[usize], even: f64) -> ArrayVec<usize, MOST_POINTS> {
         let places = self.places();
         let spot = |i: usize| Spot { at: places[around[i]], separation: self.pins[around[i]].separation };
-        let four = pick_four(around.len(), spot, |i| self.pins[around[i]].id(), slack);
+        let four = pick_four(around.len(), spot, |i| self.pins[around[i]].id(), even);
         four.into_iter().map(|i| around[i]).collect()
     }
 }

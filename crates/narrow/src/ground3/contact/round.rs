@@ -50,7 +50,7 @@ impl Round {
     ) -> Option<Option<bool>> {
         let bounds = asking.on.bounds(&part, self.reach);
         let slack = self.slack();
-        let mut known = Known::new(slack);
+        let mut known = Known::new([slack; 2]);
         if !self.look(asking.on.ground, &bounds, !manifolds.is_wanted(), &mut known) {
             return None;
         }

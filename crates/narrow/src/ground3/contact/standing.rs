@@ -9,7 +9,7 @@ use crate::polyhedron::solid::Solid;
 use crate::precision::IN_SPACE;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::tolerance::{FACE_PREFERENCE, MAX_HULL_VERTICES};
+use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, MAX_HULL_VERTICES};
 use asunder_geometry::{Basis3, Core3, Pose3, Shape3};
 
 /// Where a part is and how it is turned, in the ground's axes.
@@ -43,6 +43,8 @@ pub(super) struct Standing<'s> {
     pub(super) planarity: f64,
     /// Places that differ by no more are the same, in metres.
     pub(super) slack: f64,
+    /// Points no further above the deepest are as deep as any where four of more are chosen, in metres.
+    pub(super) even: f64,
     /// Lengths that enter a coordinate, in metres.
     lengths: f64,
 }
@@ -132,9 +134,12 @@ impl<'s> Standing<'s> {
                 _ => 0.0,
             },
             slack: 0.0,
+            even: 0.0,
             lengths,
         };
-        standing.slack = (2.0 * FACE_PREFERENCE * outer_radius).max(standing.doubt(standing.center));
+        let doubt = standing.doubt(standing.center);
+        standing.slack = (2.0 * FACE_PREFERENCE * outer_radius).max(doubt);
+        standing.even = (2.0 * EVEN_DEPTH * outer_radius).max(doubt);
         standing
     }
 

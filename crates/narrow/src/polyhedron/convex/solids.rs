@@ -365,7 +365,10 @@ impl Convex<'_> {
         let best = axes.best();
         let separation = best.separation.max(0.0) - self.radii;
         let preference = self.preference();
-        let touch = touch(a, b, &Ask { axes: &axes, witness: None, margin: 0.0, preference, last: None });
+        // The deepest corner is what is wanted here: none that is only nearly so.
+        let even = preference;
+        let ask = Ask { axes: &axes, witness: None, margin: 0.0, preference, even, last: None };
+        let touch = touch(a, b, &ask);
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         Probe::Near(Near {
             verdict,

@@ -18,6 +18,7 @@
 use super::names::{self, Name, Names};
 use super::placed::Placed;
 use crate::lanes::Lanes;
+use asunder_geometry::glam::DVec3;
 
 /// Slots of a patch: the starts of the incident face's four edges within the rectangle, their ends, the four
 /// corners of the rectangle, and four that are never used, so that an index costs no division.
@@ -165,6 +166,19 @@ impl Slab {
 }
 
 impl Faces {
+    /// The same as seen along a unit axis that leans: heights are along it, and what is higher lies further aside.
+    #[inline(always)]
+    pub(super) fn leaning(self, reference: &Reference, normal: DVec3) -> Self {
+        let [i, u, v] = axes_of(reference.face);
+        let by_height = 1.0 / (normal[i] * sign_of(reference.face));
+        let (aside_u, aside_v) = (normal[u], normal[v]);
+        let seen = |[u, v, height]: [f64; 3]| {
+            let height = height * by_height;
+            [u - aside_u * height, v - aside_v * height, height]
+        };
+        Self { half: self.half, center: seen(self.center), p: seen(self.p), q: seen(self.q) }
+    }
+
     /// The common patch: of its corners, those no higher than `within`.
     #[inline(never)]
     pub(super) fn patch(&self, reference: Reference, within: f64, slack: f64) -> Patch {

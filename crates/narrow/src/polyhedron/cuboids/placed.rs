@@ -4,7 +4,7 @@ use super::fifteen::Fifteen;
 use crate::batch::beyond;
 use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::FACE_PREFERENCE;
+use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE};
 use asunder_geometry::{Basis3, Cuboid, Pose3};
 
 /// Two cuboids as their bodies stand.
@@ -32,6 +32,8 @@ pub(super) struct Placed {
     pub(super) radii: f64,
     /// How much another axis must beat a face of A by, in metres.
     pub(super) preference: f64,
+    /// Corners no further above the deepest are as deep as any where four of more are chosen, in metres.
+    pub(super) even: f64,
     pub(super) fifteen: Fifteen,
 }
 
@@ -137,9 +139,10 @@ impl Placed {
         let Size { cores, radii, smaller } = Size::of(posed);
         let precision = Size::precision(cores, cores + radii, offset);
         let preference = (FACE_PREFERENCE * 2.0 * smaller).max(precision.projection());
+        let even = (EVEN_DEPTH * 2.0 * smaller).max(precision.projection());
         let Basis3 { x, y, z } = relative;
         let turn = [x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z];
-        Self { half, relative, turn, offset, basis, precision, radii, preference, fifteen }
+        Self { half, relative, turn, offset, basis, precision, radii, preference, even, fifteen }
     }
 
     /// One of B's axes.

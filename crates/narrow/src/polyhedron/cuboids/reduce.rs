@@ -62,23 +62,18 @@ const fn corners(shape: usize, begin: usize) -> [usize; 4] {
     [begin % 8, (begin + second) % 8, (begin + third) % 8, (begin + second + fourth) % 8]
 }
 
-/// Slots of four of some corners of a patch, which are listed clockwise: more than four, and no more than eight.
+/// Slots of four of some corners of a patch, which are listed clockwise: more than four, and no more than eight. Those no
+/// higher than `even` are as deep as any.
 #[inline(always)]
-pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, slack: f64) -> [usize; 4] {
-    let height = |i: usize| patch.height[slots[i % MOST] % SLOTS];
-    let (mut deepest, mut root) = (height(0), 0);
-    for i in 1..count {
-        let is_deeper = height(i) < deepest;
-        deepest = if is_deeper { height(i) } else { deepest };
-        root = if is_deeper { i } else { root };
-    }
+pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, even: f64) -> [usize; 4] {
+    let is_deep = |slot: usize| patch.height[slot % SLOTS] <= even;
     let mut deep = 0_u32;
     for i in 0..count {
-        deep |= u32::from(height(i) <= deepest + slack) << i;
+        deep |= u32::from(is_deep(slots[i % MOST])) << i;
     }
     // One corner that is deeper than all others must be kept, and comes first.
     let is_alone = deep.count_ones() == 1;
-    let first = if is_alone { root } else { 0 };
+    let first = if is_alone { deep.trailing_zeros() as usize } else { 0 };
     let mut around = [0; MOST];
     for (place, slot) in around.iter_mut().enumerate() {
         let i = if place < count { place } else { count - 1 } + first;
@@ -86,8 +81,7 @@ pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, slack:
     }
     let found = largest(patch, &around, if is_alone { &ROOTED } else { &WEIGHTS });
     let four = found.map(|place| around[place % MOST]);
-    let is_deep = |slot: usize| patch.height[slot % SLOTS] <= deepest + slack;
-    if four.iter().any(|&slot| is_deep(slot)) { four } else { walk(patch, &slots[..count.min(MOST)], slack) }
+    if four.iter().any(|&slot| is_deep(slot)) { four } else { walk(patch, &slots[..count.min(MOST)], even) }
 }
 
 /// The largest quadrilateral by its weighted area.
@@ -178,9 +172,10 @@ fn fill_best(areas: &[[f32; 8]; 10], best: &mut [f32; 8]) {
 /// As everywhere.
 #[cold]
 #[inline(never)]
-fn walk(patch: &Patch, slots: &[usize], slack: f64) -> [usize; 4] {
+fn walk(patch: &Patch, slots: &[usize], even: f64) -> [usize; 4] {
     let Patch { u, v, height, .. } = patch;
     let slot = |i: usize| slots[i] % SLOTS;
     let spot = |i: usize| Spot { at: [u[slot(i)], v[slot(i)]], separation: height[slot(i)] };
-    pick_four(slots.len(), spot, |i| patch.names(slot(i)).id(), slack).map(slot)
+    let deepest = slots.iter().map(|&slot| height[slot % SLOTS]).fold(f64::INFINITY, f64::min);
+    pick_four(slots.len(), spot, |i| patch.names(slot(i)).id(), even - deepest).map(slot)
 }

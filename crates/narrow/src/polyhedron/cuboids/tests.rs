@@ -3,7 +3,7 @@
 use super::super::sat::tests::Random;
 use super::asked::Contact;
 use crate::pair3::reach_of;
-use crate::{ContactPoint3, FeatureId, Hint, Manifold3, Pair3};
+use crate::{ContactPoint3, Feature, FeatureId, Hint, Manifold3, Pair3};
 use asunder_geometry::glam::{Quat, Vec3};
 use asunder_geometry::{Cuboid, Pose3, Shape3};
 
@@ -47,7 +47,7 @@ fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
 #[test]
 fn side_by_side_or_one_by_one_the_points_are_the_same() {
     let mut random = Random(0x9E6D_62D0_6F6A_3B1F);
-    let (mut compared, mut reduced, mut same_four, mut across) = ([0; 5], 0, 0, 0);
+    let (mut compared, mut reduced, mut same_four, mut across, mut leaning) = ([0; 5], 0, 0, 0, 0);
     for round in 0..8000 {
         let (shapes, poses, margin) = pair(&mut random, round);
         let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
@@ -65,6 +65,10 @@ fn side_by_side_or_one_by_one_the_points_are_the_same() {
         let mut room = Manifold3::BLANK;
         let contact = pair.cuboids().unwrap().contact(reach_of(margin), Hint::NONE, Some(&mut room));
         across += usize::from(matches!(contact, Contact::Near(_)));
+        let of_edges = |hint: Hint| hint.features().is_some_and(|of| matches!(of.a(), Feature::Edge(_)));
+        leaning += usize::from(
+            matches!(contact, Contact::Touching(hint) if of_edges(hint)) && room.points.len() > 2,
+        );
         // Faces and edges that are even but for rounding may be chosen otherwise.
         if found.normal.dot(plain.normal) < 0.999_999 {
             let even = f64::from(found.separation - plain.separation).abs();
@@ -92,5 +96,6 @@ fn side_by_side_or_one_by_one_the_points_are_the_same() {
     }
     assert!(compared[1..].iter().all(|&count| count > 200), "{compared:?}");
     assert!(across > 200, "{across} told by a face");
+    assert!(leaning > 200, "{leaning} told by faces along an axis of edges");
     assert!(same_four > 3500 && reduced * 50 < same_four, "{reduced} kept others, {same_four} the same");
 }

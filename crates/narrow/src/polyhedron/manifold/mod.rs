@@ -23,7 +23,7 @@
 //!    what is cut away comes back to space;
 //! 3. a side that no corner is beyond copies nothing, and where it does, places of corners and not corners;
 //! 4. the axis has told how deep the deepest vertex is, so that the reference plane needs no support search;
-//! 5. of five to eight corners the best four are found by trying all, without a branch that depends on where they are.
+//! 5. of five to eight corners the best four are found by trying all.
 //!
 //! Every corner of the clipped polygon carries the features it comes from, which is what makes its id.
 
@@ -98,6 +98,8 @@ pub(crate) struct Ask<'a> {
     pub(crate) margin: f64,
     /// How much another axis must beat a face of A by, in metres.
     pub(crate) preference: f64,
+    /// Corners no further above the deepest are as deep as any where four of more are chosen, in metres.
+    pub(crate) even: f64,
     /// What [`Touch::of`] was in the last frame. It keeps its role until another axis beats it by more than two
     /// preferences; one that is stale, or not of these shapes, changes nothing.
     pub(crate) last: Option<AxisOf>,
@@ -127,7 +129,7 @@ impl Ask<'_> {
         let least = deep - a.radius - b.radius;
         // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
         // deeper than zero: a body that rests exactly on a face rests on all of its corners.
-        Depths { deep, least, within: self.margin.max(least), slack: self.preference }
+        Depths { deep, least, within: self.margin.max(least), slack: self.preference, even: self.even }
     }
 
     /// The separation of the cores.
@@ -158,17 +160,19 @@ impl Ask<'_> {
 
     /// Points on an axis; whether one is as deep as any.
     fn along_axis(&self, a: &Solid, b: &Solid, axis: &Axis, depths: &Depths, touch: &mut Touch) -> bool {
-        match axis.of {
+        let is_deep = match axis.of {
             AxisOf::FaceA(face) => add_face_points((a, face), b, axis, depths, &mut touch.points),
             AxisOf::FaceB(face) => add_face_points((b, face), a, axis, depths, &mut touch.points),
-            AxisOf::Edges(..) if self.witness.is_some() => {}
+            AxisOf::Edges(..) if self.witness.is_some() => false,
             AxisOf::Edges(edge_a, edge_b) => {
-                if !add_aligned_faces((a, b), axis.normal, depths, &mut touch.points) {
-                    touch.points.push(edge_point(a, b, (edge_a, edge_b), axis, self.preference));
+                add_aligned_faces((a, b), axis.normal, depths, &mut touch.points) || {
+                    let point = edge_point(a, b, (edge_a, edge_b), axis, self.preference);
+                    touch.points.push(point);
+                    point.separation <= depths.least
                 }
             }
-        }
-        if depths.has_deep(&touch.points) {
+        };
+        if is_deep {
             (touch.normal, touch.of) = (axis.normal, Some(axis.of));
             return true;
         }
@@ -228,29 +232,25 @@ struct Depths {
     within: f64,
     /// Places and heights that differ by no more are the same.
     slack: f64,
+    /// Points of the shapes no further above the deepest are as deep as any where four of more are chosen.
+    even: f64,
 }
 
-impl Depths {
-    fn has_deep(&self, points: &Points) -> bool {
-        points.iter().any(|point| point.separation <= self.least)
-    }
-}
-
-/// Adds contact points of a face that an axis is normal to, and the other shape.
+/// Adds contact points of a face that an axis is normal to, and the other shape; whether there is one as deep as any.
 fn add_face_points<'a>(
     reference: (&'a Solid<'a>, usize),
     incident: &'a Solid<'a>,
     axis: &Axis,
     depths: &Depths,
     points: &mut Points,
-) {
+) -> bool {
     let is_b = matches!(axis.of, AxisOf::FaceB(_));
     let along = if is_b { -axis.normal } else { axis.normal };
     let opposed = opposed_face(incident, along, depths.slack);
     // The axis has told how far the deepest vertex is from the plane.
     let origin = incident.point(opposed.deepest) - along * axis.separation;
     let faces = Faces { reference, incident: (incident, opposed.face), is_b };
-    faces.add_points(&Frame::level(along, origin), depths, points);
+    faces.add_points(&Frame::level(along, origin), depths, points)
 }
 
 /// Adds contact points of two faces that look at each other along an axis that is neither's own, if they nearly do and
@@ -279,8 +279,7 @@ fn add_aligned_faces<'a>(
     let higher = |one: DVec3, other: DVec3| if facing_a.dot(other) > facing_a.dot(one) { other } else { one };
     let Some(origin) = corners.reduce(higher) else { return false };
     let faces = Faces { reference: (a, face_a), incident: (b, face_b), is_b: false };
-    faces.add_points(&Frame::leaning(normal, facing_a, origin), depths, points);
-    let are_deep = depths.has_deep(points);
+    let are_deep = faces.add_points(&Frame::leaning(normal, facing_a, origin), depths, points);
     if !are_deep {
         points.clear();
     }

@@ -36,24 +36,25 @@ pub(super) struct Faces<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// Adds contacts at corners of what both faces share as seen along the frame's direction, in order of their ids.
-    pub(super) fn add_points(&self, frame: &Frame, depths: &Depths, points: &mut Points) {
+    /// Adds contacts at corners of what both faces share as seen along the frame's direction, in order of their ids;
+    /// whether any corner is as deep as any, of those that were kept or not.
+    pub(super) fn add_points(&self, frame: &Frame, depths: &Depths, points: &mut Points) -> bool {
         let corners =
             |(solid, face): (&Solid, usize)| ExactSizeIterator::len(&solid.topology.face_half_edges(face));
         if 2 * corners(self.reference) + corners(self.incident) <= FEW_CORNERS {
-            self.add::<FEW_CORNERS>(frame, depths, points);
+            self.add::<FEW_CORNERS>(frame, depths, points)
         } else {
-            self.add_of_many(frame, depths, points);
+            self.add_of_many(frame, depths, points)
         }
     }
 
     /// Apart, so that those with few corners never touch the memory of those with many.
     #[inline(never)]
-    fn add_of_many(&self, frame: &Frame, depths: &Depths, points: &mut Points) {
-        self.add::<MAX_CORNERS>(frame, depths, points);
+    fn add_of_many(&self, frame: &Frame, depths: &Depths, points: &mut Points) -> bool {
+        self.add::<MAX_CORNERS>(frame, depths, points)
     }
 
-    fn add<const N: usize>(&self, frame: &Frame, depths: &Depths, points: &mut Points) {
+    fn add<const N: usize>(&self, frame: &Frame, depths: &Depths, points: &mut Points) -> bool {
         let [radius, incident_radius] = self.radii();
         let is_sharp = radius + incident_radius == 0.0;
         let mut polygon = Polygon::<N>::new();
@@ -73,7 +74,8 @@ impl<'a> Faces<'a> {
         if !is_whole && let Some(moved) = self.outwards(frame) {
             self.add_higher(frame, moved, &mut polygon, &mut spots);
         }
-        self.add_kept(frame, &spots.list, depths.slack, points);
+        self.add_kept(frame, &spots.list, depths.even, points);
+        spots.list.iter().any(|spot| spot.spot.separation <= depths.least)
     }
 
     fn radii(&self) -> [f64; 2] {
@@ -142,13 +144,13 @@ impl<'a> Faces<'a> {
     }
 
     /// At most four of the spots as contacts, in order of their ids.
-    fn add_kept(&self, frame: &Frame, spots: &[NamedSpot], slack: f64, points: &mut Points) {
+    fn add_kept(&self, frame: &Frame, spots: &[NamedSpot], even: f64, points: &mut Points) {
         let id = |i: usize| self.id(spots[i].name);
         let mut kept: ArrayVec<(FeatureId, usize), 4> = ArrayVec::new();
         if spots.len() <= 4 {
             kept.extend((0..spots.len()).map(|i| (id(i), i)));
         } else {
-            let chosen = pick_four(spots.len(), |i| spots[i].spot, id, slack);
+            let chosen = pick_four(spots.len(), |i| spots[i].spot, id, even);
             kept.extend(chosen.iter().map(|&i| (id(i), i)));
         }
         kept.sort_unstable();
