@@ -117,11 +117,11 @@ pub(super) fn of_answer(answer: &Answer, is_sensor: bool, manifolds: &[Manifold3
 
 /// What manifolds say, to be judged.
 pub(super) fn of_manifolds(manifolds: &[Manifold3]) -> Said {
-    of_points(manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.separation))
+    of_depths(manifolds.iter().map(|manifold| manifold.separation))
 }
 
-/// As deep as the deepest point.
-fn of_points(separations: impl Iterator<Item = f32>) -> Said {
+/// As deep as the deepest of them.
+fn of_depths(separations: impl Iterator<Item = f32>) -> Said {
     let deepest = separations.map(f64::from).reduce(f64::min);
     Said { touching: deepest.is_some(), separation: deepest }
 }
@@ -185,7 +185,7 @@ impl Peer {
 
 /// What parry3d's manifolds say, to be judged.
 pub(super) fn of_peer(manifolds: &Manifolds) -> Said {
-    of_points(manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.dist))
+    of_depths(manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.dist))
 }
 
 impl Both {

@@ -198,8 +198,7 @@ impl Pose3 {
         Basis3::between([-x, -y, -z, w], [-a, -b, -c, d])
     }
 
-    /// The rotation's x, y, z, w. Written out, as what follows is: `map` is not always inlined, and took a sixth of a frame
-    /// of boxes that rest (AMD EPYC, Zen 4, 2026-11-22).
+    /// The rotation's x, y, z, w. Written out, as what follows is: without link-time optimisation `map` is a call.
     #[inline(always)]
     fn components(&self) -> [f64; 4] {
         let [x, y, z, w] = self.rotation;

@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 const SIDES: [usize; 6] = [5, 6, 8, 12, 16, 24];
 
 /// How far a post leans at most, in radians.
-const LEANS: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
+const LEANS: [f64; 3] = [1e-7, 1e-6, 1e-5];
 
 const FRAMES: usize = 60;
 
