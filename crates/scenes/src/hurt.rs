@@ -28,7 +28,7 @@ pub enum HurtScene {
     Thousandths,
     /// Cubes as near the middle as far away: the logarithm of every coordinate is spread evenly over twelve decades.
     Scattered,
-    /// Piles on a square, of which every other one has no end upwards.
+    /// Lines without end along each axis, and as many crumbs, in a cube.
     Unbounded,
     /// Floors of all widths above each other, each of which meets about sixty others.
     Floors,
@@ -88,15 +88,14 @@ impl HurtScene {
                 around(center, DVec3::splat(random.log_range(1e-8, 1e-6)))
             }
             Self::Unbounded => {
-                let width = count.sqrt() * 2.0;
-                let mut pile = around(
-                    random.within(DVec3::ZERO, DVec3::new(width, 10.0, width)),
-                    DVec3::new(0.25, 1.0, 0.25),
-                );
-                if place.is_multiple_of(2) {
-                    pile.max.y = f32::INFINITY;
+                // What has ends is of no size and in no column's way: a grid that looks at it alone is too fine.
+                let is_line = place.is_multiple_of(2);
+                let mut one = needle(place / 2, if is_line { 0.0 } else { 0.1 / count }, count, random);
+                if is_line {
+                    one.min[place / 2 % 3] = f32::NEG_INFINITY;
+                    one.max[place / 2 % 3] = f32::INFINITY;
                 }
-                pile
+                one
             }
             Self::Floors => {
                 let center = random.within(DVec3::NEG_ONE, DVec3::ONE);

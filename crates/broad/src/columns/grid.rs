@@ -41,7 +41,7 @@ pub(crate) enum Over {
 const BOXES_A_BIN: f64 = 4.0;
 
 /// Most entries that boxes may have on average.
-pub(crate) const MOST_ENTRIES: usize = 4;
+const MOST_ENTRIES: usize = 4;
 
 /// Columns are at least so many boxes wide,
 const NARROWEST: f64 = 0.75;

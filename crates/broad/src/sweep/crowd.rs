@@ -2,7 +2,7 @@
 
 use super::segments::worth;
 use super::trial::{Way, way};
-use crate::columns::grid::{Grid, MOST_ENTRIES};
+use crate::columns::grid::Grid;
 use crate::columns::{ColumnEntries, Columns};
 
 /// What some columns hold.
@@ -18,9 +18,9 @@ pub(super) struct Crowd {
 const CROWDED: usize = 8;
 
 /// Whether columns hold so many boxes on average that candidates may be worth counting: where all columns are like each
-/// other, there are no more of them for a box than it has entries, times the boxes of a column.
+/// other, half of what is compared here is all that there are.
 pub(super) fn may_be_crowded(boxes: usize, entries: usize, grid: &Grid) -> bool {
-    way() == Way::Segments || MOST_ENTRIES * entries > worth(boxes) * grid.count()
+    way() == Way::Segments || entries * entries > worth(boxes) * boxes * grid.count()
 }
 
 impl Crowd {

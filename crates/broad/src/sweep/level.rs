@@ -51,8 +51,8 @@ const MISLED: usize = 20;
 
 /// Columns within columns at most, for clumps of clumps of clumps: each costs twice as much of this as boxes get
 /// entries in it on average, so that there are six where few straddle, two where all do, and never more than 16
-/// entries a box. What is a heap after them is for segments (24 in place of 12: 1.1 to 1.5 times as long where clumps
-/// shrink by halves or quarters, Zen 4, 2026-11-22).
+/// entries a box. What is a heap after them is for segments (24 in place of 12: up to 1.5 times as long where clumps
+/// shrink by halves; 8: 0.8 to 1.3 times there, and up to 1.4 where they shrink by thousandths; Zen 4, 2026-11-22).
 const DEEPEST: usize = 12;
 
 /// Boxes that make a column crowded, where so many are in all columns of a grid.
@@ -158,8 +158,6 @@ where
                 continue;
             }
             if let Some(full) = overfull(&column, grid, crowd) {
-                let overlap = |one: &Entry, other: &Entry| question.overlap(one, other, names);
-                let is_hard = is_hard(full, &column, grid, overlap);
                 if depth < DEEPEST && way() != Way::SegmentsInColumns {
                     let nested = nested.get_or_insert_default();
                     // Columns that leave most boxes in one were misled by what lies far outside.
@@ -170,7 +168,8 @@ where
                         continue;
                     }
                 }
-                if is_hard {
+                let overlap = |one: &Entry, other: &Entry| question.overlap(one, other, names);
+                if is_hard(full, &column, grid, overlap) {
                     question.ask_column(segments, (column.entries, grid.sweep), names, &mut pairs)?;
                     continue;
                 }

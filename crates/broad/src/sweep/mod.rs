@@ -44,17 +44,23 @@
 //!
 //! 8. Segments, where the candidates that columns count cost more. It costs nothing elsewhere. ns a box, and in how many
 //!    budgets of 80 ns a box and 20 a pair, by `compare -- broad --hurt` (AMD EPYC, Zen 4, 2 virtual cores, one thread,
-//!    2026-11-22):
+//!    2026-11-22; quarters, and halves of 300,000, before: in a run of their own):
 //!
 //! | boxes | 30,000 before | after | 100,000 before | after | 300,000 before | after |
 //! |---|---|---|---|---|---|---|
-//! TABLE
+//! | needles along all axes | 473 (5.8) | 401 (4.9) | 1,967 (24) | 943 (12) | 3,912 (48) | 1,337 (16) |
+//! | needles of all lengths | 65 (0.8) | 68 (0.9) | 112 (1.4) | 113 (1.4) | 191 (2.4) | 191 (2.4) |
+//! | clumps shrinking by halves | 1,026 (6.5) | 911 (5.8) | 1,948 (16) | 633 (5.2) | 5,732 (41) | 950 (6.8) |
+//! | by quarters | 15,422 (100) | 408 (2.7) | 63,259 (562) | 414 (3.7) | - | 748 (5.7) |
+//! | by thousandths | 359 (3.7) | 295 (3.1) | 270 (3.0) | 310 (3.5) | 360 (3.7) | 440 (4.6) |
+//! | scattered by logarithms | 1,107 (14) | 113 (1.4) | 408 (5.1) | 157 (2.0) | 640 (8.0) | 224 (2.8) |
+//! | lines without end | 280 (3.5) | 191 (2.4) | 430 (5.3) | 413 (5.1) | 770 (9.6) | 430 (5.3) |
+//! | floors, 44 pairs a box | 1,085 (1.1) | 1,096 (1.1) | 1,377 (1.4) | 1,703 (1.8) | 1,737 (1.8) | 1,820 (1.9) |
 //!
 //! Tried: segments from the start, without columns (needles of 30,000 1.7 times as long as in columns, floors 2.5 times);
-//! segments at once in any column that is full (thousandths 1.6 times as long); columns of a column only where they
-//! leave an eighth of the candidates (1.3 times). Where clumps are a thousand times smaller than what is around them,
-//! and where needles are of all lengths, columns of columns as deep as they go were faster up to 300,000: they do not
-//! stay so.
+//! segments at once in any column that is full (thousandths 1.6 times as long). Where clumps are a thousand times smaller
+//! than what is around them, columns of columns as deep as they go take 0.8 times as long up to 300,000. Needles stay
+//! beyond their budget: a logarithm an axis is what they cost. The machine was under load, both ways in turns.
 
 mod crowd;
 pub(crate) mod level;
