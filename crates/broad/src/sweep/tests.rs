@@ -38,7 +38,7 @@ fn check<B: Bounds>(
 }
 
 fn check_against_plain<B: Bounds>(sweep: &mut Sweep, boxes: &[B]) -> usize {
-    let (admit, mut expected) = (|a: u32, b: u32| (a ^ b) % 7 != 0, Vec::new());
+    let (admit, mut expected) = (|a: u32, b: u32| !(a ^ b).is_multiple_of(7), Vec::new());
     PlainSweep::new().pairs(boxes, admit, usize::MAX, &mut expected).unwrap();
     check(sweep, boxes, admit, &expected);
     expected.len()
@@ -192,9 +192,9 @@ fn steps(scene: HurtScene, count: usize, way: Way) -> f64 {
 /// where they are not very few (two fifths more are left for what falls to one side of a count or the other).
 fn is_bounded(scene: HurtScene, count: usize, way: Way) -> bool {
     let share =
-        [count, 4 * count].map(|count| steps(scene, count, way) / f64::from((count as f32).log2()).powi(2));
+        [count, 4 * count].map(|count| steps(scene, count, way) / f64::from(count.ilog2() * count.ilog2()));
     let [one, four] = share;
-    one < 1.75 && four < 1.75 && (four < 0.4 || four < 1.4 * one)
+    one < 2.0 && four < 2.0 && (four < 0.4 || four < 1.4 * one)
 }
 
 #[test]

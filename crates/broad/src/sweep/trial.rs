@@ -1,5 +1,10 @@
 //! What tests ask of a sweep that no caller can: one way in place of that which counts choose, and what it compared.
 
+#[cfg(test)]
+pub(crate) use counted::{note, steps_of, way};
+#[cfg(not(test))]
+pub(crate) use plain::{note, way};
+
 /// How boxes are swept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(not(test), allow(dead_code))]
@@ -27,9 +32,6 @@ mod plain {
     #[inline(always)]
     pub(crate) const fn note(_steps: usize) {}
 }
-
-#[cfg(not(test))]
-pub(crate) use plain::{note, way};
 
 #[cfg(test)]
 mod counted {
@@ -59,6 +61,3 @@ mod counted {
         STEPS.get()
     }
 }
-
-#[cfg(test)]
-pub(crate) use counted::{note, steps_of, way};
