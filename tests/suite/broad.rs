@@ -3,6 +3,7 @@
 use asunder_broad::{CoherentSweep, PairId, PlainSweep, Sweep, TooManyPairs};
 use asunder_geometry::{Aabb2, Aabb3, Bounds};
 use asunder_scenes::boxes::{BoxScene, MovingBoxes};
+use asunder_scenes::hurt::HurtScene;
 use asunder_tests::brute_pairs::{Sides, brute_pairs};
 use asunder_tests::cases::{NASTY, Random};
 use core::ops::ControlFlow;
@@ -341,8 +342,12 @@ fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
 
 #[test]
 fn the_list_is_the_same_on_1_2_8_and_16_threads() {
-    for scene in [BoxScene::Pile, BoxScene::Islands, BoxScene::Sizes] {
-        let boxes = MovingBoxes::new(scene, 35_000, 6).boxes;
+    let named = [BoxScene::Pile, BoxScene::Islands, BoxScene::Sizes]
+        .map(|scene| (scene.name(), MovingBoxes::new(scene, 35_000, 6).boxes));
+    // Some are so laid out that columns are of no use: in one of them, or in all.
+    let hurting =
+        [HurtScene::Needles, HurtScene::Quarters].map(|scene| (scene.name(), scene.boxes(100_000, 6)));
+    for (name, boxes) in named.into_iter().chain(hurting) {
         let on = |threads: usize, limit: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
@@ -355,9 +360,9 @@ fn the_list_is_the_same_on_1_2_8_and_16_threads() {
             })
         };
         let one = on(1, usize::MAX);
-        assert!(one.1.len() > 10_000 && one.1.is_sorted());
+        assert!(one.1.len() > 5_000 && one.1.is_sorted());
         for threads in [2, 8, 16] {
-            assert!(on(threads, usize::MAX) == one, "{threads} threads, {}", scene.name());
+            assert!(on(threads, usize::MAX) == one, "{threads} threads, {name}");
         }
         let short = one.1.len() - 1;
         assert_eq!(on(1, short), (Err(TooManyPairs { limit: short }), vec![]));

@@ -1,6 +1,7 @@
 //! Prints our times beside parry3d's: `compare broad|narrow|world|mesh|certain [--json] [--quick]
 //! [--save]`.
 
+use asunder_benches::broad::growth::{self, GrowthRow};
 use asunder_benches::broad::queries;
 use asunder_benches::clock::Effort;
 use asunder_benches::judge::Judge;
@@ -44,6 +45,9 @@ struct BroadOptions {
     /// Our own wall-clock time on so many threads beside one, in place of the peer.
     #[arg(long, value_parser = at_least_one, value_name = "COUNT")]
     threads: Option<usize>,
+    /// Boxes laid out to hurt, without the peer: how our time a box grows with their number.
+    #[arg(long, conflicts_with_all = ["threads", "save"])]
+    hurt: bool,
 }
 
 #[derive(Args)]
@@ -105,6 +109,12 @@ impl Part {
 fn main() -> Result<(), Box<dyn Error>> {
     let part = Cli::parse().part;
     let options = part.options();
+    // One thread, so that its CPU time is all the time there is.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    if let Part::Broad(BroadOptions { hurt: true, large, .. }) = part {
+        pool.install(|| compare_growth(large, options));
+        return Ok(());
+    }
     if !options.json {
         println!("{}", part.heading());
     }
@@ -114,8 +124,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     if let Part::World(WorldOptions { threads: Some(threads), .. }) = part {
         return compare_frames_on_threads(threads, options);
     }
-    // One thread, so that its CPU time is all the time there is.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     pool.install(|| compare(&part).map_err(|error| error.to_string())).map_err(Into::into)
 }
 
@@ -135,6 +143,17 @@ fn compare_threads(threads: usize, large: bool, options: &Options) -> Result<(),
         }
     }
     Ok(())
+}
+
+/// Rows of boxes that are laid out to hurt.
+fn compare_growth(large: bool, options: &Options) {
+    if !options.json {
+        println!("{}", GrowthRow::heading());
+    }
+    for case in growth::cases(large).iter().filter(|case| growth::name(case).contains(&options.only)) {
+        let row = growth::measure(case, &options.effort());
+        println!("{}", if options.json { row.to_json() } else { row.to_text() });
+    }
 }
 
 /// Rows of whole frames with several threads.

@@ -7,7 +7,8 @@
 //!   sweep the movers among themselves
 //!   look up each in the columns that the sweep of all left behind         rest
 //!   sort these pairs, and merge them with the kept ones
-//! sweep all again: when a fifth has moved by now, or when looking up movers that have come to rest has cost as much
+//! sweep all again: when a fifth has moved by now, when looking up movers that have come to rest has cost as much, or
+//!   when movers reach so many boxes at rest that looking them up would
 //! ```
 //! A frame costs some 100 ns a mover and a copy of the kept pairs (0.3 ns each); boxes that rest cost nothing. The
 //! list is that of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
@@ -127,7 +128,9 @@ impl<B: Bounds> CoherentSweep<B> {
         }
         pairs.clear();
         let room = limit.checked_sub(self.kept.len()).ok_or(TooManyPairs { limit })?;
-        self.pairs_of_movers(boxes, &admit, room).map_err(|_| TooManyPairs { limit })?;
+        if !self.pairs_of_movers(boxes, &admit, room).map_err(|_| TooManyPairs { limit })? {
+            return self.sweep_all(boxes, few, admit, limit, pairs);
+        }
         self.order.sort(&mut self.fresh, boxes.len());
         merge(&self.kept, &self.fresh, pairs);
         Ok(())
@@ -140,8 +143,7 @@ impl<B: Bounds> CoherentSweep<B> {
     }
 
     /// Memory that is held for the next call, in bytes: some 80 a box (30 to 60 more where several threads sort them) and
-    /// 16 a pair, and 28 for every column that a mover reaches: thin walls that move as wide as the world take as much as
-    /// a sweep of all, in memory as in time.
+    /// 16 a pair, and 28 for every column that a mover reaches, of which there are at most four for every box.
     ///
     /// ```
     /// assert_eq!(asunder_broad::CoherentSweep::<asunder_geometry::Aabb2>::new().bytes(), 0);
@@ -187,13 +189,13 @@ impl<B: Bounds> CoherentSweep<B> {
         Ok(())
     }
 
-    /// The pairs of which one box moved at least, in no order.
+    /// The pairs of which one box moved at least, in no order; or false, if a sweep of all costs less.
     fn pairs_of_movers(
         &mut self,
         boxes: &[B],
         admit: &(impl Fn(u32, u32) -> bool + Sync),
         limit: usize,
-    ) -> Result<(), TooManyPairs> {
+    ) -> Result<bool, TooManyPairs> {
         let Self { movers, moving, among, fresh, .. } = self;
         moving.clear();
         moving.extend(movers.iter().map(|&place| boxes[place as usize]));
@@ -202,14 +204,17 @@ impl<B: Bounds> CoherentSweep<B> {
         fresh.clear();
         fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
         if let Some(sorted) = self.sweep.whole() {
-            self.rest.meet(sorted, boxes, movers, |pair| {
+            let has_met = self.rest.meet(sorted, boxes, movers, |pair| {
                 if admit(pair.a, pair.b) {
                     fresh.push(pair);
                 }
                 fresh.len() <= limit
             });
+            if !has_met {
+                return Ok(false);
+            }
         }
-        if fresh.len() > limit { Err(TooManyPairs { limit }) } else { Ok(()) }
+        if fresh.len() > limit { Err(TooManyPairs { limit }) } else { Ok(true) }
     }
 }
 

@@ -5,6 +5,7 @@
 //!
 //! - [`boxes`]: moving boxes for a broad phase.
 //! - [`hard`]: pairs on which collision tests go wrong, family by family.
+//! - [`hurt`]: boxes laid out to make a broad phase slow.
 //! - [`level`]: scene files.
 //! - [`pairs`]: posed pairs of shapes for a narrow phase.
 //! - [`stages`]: scenes with masses, speeds and things that are driven, for a solver to play.
@@ -14,6 +15,7 @@
 
 pub mod boxes;
 pub mod hard;
+pub mod hurt;
 pub mod level;
 pub mod pairs;
 pub mod random;

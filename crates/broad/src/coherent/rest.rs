@@ -43,6 +43,13 @@ const BINS: usize = 32;
 /// One box of so many may be kept out of the columns.
 const FAR: usize = 256;
 
+/// Most candidates that movers may have in the columns, for every box: about what a sweep of all takes where columns
+/// are of no use.
+const MOST_A_BOX: usize = 1024;
+
+/// What a column counts as that a mover reaches, in candidates: so that there are at most four for every box.
+const A_STRETCH: usize = 256;
+
 impl<B: Bounds> Rest<B> {
     pub(super) fn new() -> Self {
         Self {
@@ -112,14 +119,15 @@ impl<B: Bounds> Rest<B> {
         core::mem::replace(&mut self.states[place], State::Moves) != State::Moves
     }
 
-    /// Hands over each pair of a mover and a box at rest that overlap, until told to stop.
+    /// Hands over each pair of a mover and a box at rest that overlap, until told to stop. Returns false, and has handed
+    /// over none, if there is so much to look at that a sweep of all boxes costs less.
     pub(super) fn meet(
         &mut self,
         (grid, columns): (&Grid, &Columns),
         boxes: &[B],
         movers: &[u32],
         mut visit: impl FnMut(PairId) -> bool,
-    ) {
+    ) -> bool {
         let Self { states, longest, far, strips, asked, starts, order } = self;
         let longest = *longest;
         let visitor = &mut visit;
@@ -136,11 +144,10 @@ impl<B: Bounds> Rest<B> {
             order,
             visit: visitor,
         };
-        if !widest(asking) {
-            return;
-        }
-        if far.is_empty() {
-            return;
+        match widest(asking) {
+            Looked::AtAll if !far.is_empty() => {}
+            Looked::AtAll | Looked::UntilTold => return true,
+            Looked::AtNone => return false,
         }
         for &mover in movers {
             let flow = far.visit_overlapping(&boxes[mover as usize], |place| {
@@ -148,10 +155,19 @@ impl<B: Bounds> Rest<B> {
                 if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             });
             if flow.is_break() {
-                return;
+                break;
             }
         }
+        true
     }
+}
+
+/// How far movers were looked up.
+enum Looked {
+    AtAll,
+    UntilTold,
+    /// It would have cost too much.
+    AtNone,
 }
 
 /// Looks movers up in the columns.
@@ -173,19 +189,26 @@ struct Asking<'a, B, F> {
 }
 
 impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
-    type Output = bool;
+    type Output = Looked;
 
     #[inline(always)]
-    fn run<W: Width>(self, width: W) -> bool {
+    fn run<W: Width>(self, width: W) -> Looked {
         let Self { grid, columns, strips, boxes, movers, states, longest, asked, starts, order, visit } =
             self;
         asked.clear();
+        let (mut cost, most) = (0, MOST_A_BOX * boxes.len());
         for &mover in movers {
+            if cost > most {
+                return Looked::AtNone;
+            }
             let bounds = &boxes[mover as usize];
             if bounds.is_valid() {
                 let (low, high) = bounds.corners();
                 let codes = grid.quantiser.codes(low, high);
-                columns.stretches(grid, &codes, longest, |stretch| asked.push((mover, codes, stretch)));
+                columns.stretches(grid, &codes, longest, |stretch| {
+                    cost += A_STRETCH + (stretch.end - stretch.start) as usize;
+                    asked.push((mover, codes, stretch));
+                });
             }
         }
         starts.clear();
@@ -208,6 +231,6 @@ impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
                 break;
             }
         }
-        goes_on
+        if goes_on { Looked::AtAll } else { Looked::UntilTold }
     }
 }

@@ -75,6 +75,11 @@ pub(crate) const fn rank(code: i16) -> u32 {
     (code as u16 ^ 0x8000) as u32
 }
 
+/// Whether codes leave it open that two boxes overlap.
+pub(crate) fn may_overlap(one: &Codes, other: &Codes) -> bool {
+    (0..3).all(|axis| one[axis] <= other[axis + 3] && other[axis] <= one[axis + 3])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -146,9 +146,9 @@ impl Grid {
         Self { columns, across, ..self }
     }
 
-    /// Whether so many entries are more than the boxes are worth, whatever the sample said.
-    pub(crate) const fn is_too_fine(&self, entries: usize, boxes: usize) -> bool {
-        entries > MOST_ENTRIES * boxes && self.count() > 1
+    /// Most entries that so many boxes are worth, whatever the sample said: where there are more, columns are too fine.
+    pub(crate) const fn most_entries(&self, boxes: usize) -> usize {
+        if self.count() > 1 { MOST_ENTRIES * boxes } else { usize::MAX }
     }
 
     /// The same with a quarter of the columns.

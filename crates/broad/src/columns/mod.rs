@@ -7,6 +7,7 @@ mod shown;
 
 pub use shown::Column;
 
+use crate::sweep::trial::note;
 use crate::width::{Kernel, Width};
 use asunder_geometry::Bounds;
 use codes::{Codes, Entry};
@@ -73,6 +74,11 @@ impl Columns {
         self.ends.len().checked_sub(2).map_or(0, |last| self.ends[last] as usize)
     }
 
+    /// Candidates in all rows of all columns.
+    pub(crate) fn candidates(&self, grid: &Grid) -> usize {
+        (0..grid.count()).map(|index| self.column(grid, index).candidates(grid)).sum()
+    }
+
     /// Memory that is held, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         (self.records.capacity() + self.entries.capacity()) * size_of::<Entry>()
@@ -83,8 +89,16 @@ impl Columns {
     ///
     /// Nothing here depends on where a box is but three lists and one addition: a branch on whether a box straddles
     /// would be guessed wrong for every fifth box (1.5 ns a box, Zen 4, 2026-11-21).
+    ///
+    /// Once there are more than `most` entries, those that are left are not counted: giants that no sample has seen would
+    /// have one in every column.
     #[inline(always)]
-    pub(crate) fn count<B: Bounds>(&mut self, grid: &Grid, places: Range<usize>, pick: impl Fn(usize) -> B) {
+    pub(crate) fn count<B: Bounds>(
+        &mut self,
+        grid: &Grid,
+        (places, most): (Range<usize>, usize),
+        pick: impl Fn(usize) -> B,
+    ) {
         let cells = grid.count() << grid.bin_bits;
         let no_box = cells as u32;
         self.ends.clear();
@@ -126,9 +140,13 @@ impl Columns {
             }
         }
         for &place in &*over_more {
+            if total > most {
+                break;
+            }
             let codes = self.records[place as usize].codes;
             total += for_others(&codes, grid, |cell, _| self.ends[cell as usize] += 1);
         }
+        note(total);
         self.counted = total;
     }
 
@@ -184,8 +202,9 @@ impl<B: Bounds, P: Fn(usize) -> B> Kernel for Fill<'_, P> {
     fn run<W: Width>(self, _: W) -> Grid {
         let Self { columns, mut grid, count, pick } = self;
         loop {
-            columns.count(&grid, 0..count, &pick);
-            if !grid.is_too_fine(columns.counted, count) {
+            let most = grid.most_entries(count);
+            columns.count(&grid, (0..count, most), &pick);
+            if columns.counted <= most {
                 break;
             }
             grid = grid.coarser();

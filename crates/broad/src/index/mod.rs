@@ -37,7 +37,7 @@
 
 mod build;
 mod cast;
-mod node;
+pub(crate) mod node;
 mod order;
 mod queue;
 mod reach;

@@ -1,8 +1,10 @@
 //! The columns of a grid, one after the other; those that are too full, in columns of their own.
 
 use super::rows::{HITS, Hit, Progress, Strips};
-use super::settle::{NO_PAIRS, Names, Question};
-use crate::columns::codes::Entry;
+use super::segments::{Segments, worth};
+use super::settle::{NO_PAIRS, Names, Question, outermost};
+use super::trial::{Way, way};
+use crate::columns::codes::{Entry, may_overlap};
 use crate::columns::grid::{Grid, Over};
 use crate::columns::{ColumnEntries, Columns, Fill, PLACE};
 use crate::pair::PairId;
@@ -17,6 +19,8 @@ pub(super) struct Scratch {
     /// A column of several parts, put together.
     gathered: Columns,
     nested: Option<Box<Nested>>,
+    /// What boxes are swept with where columns are of no use.
+    pub(super) segments: Segments,
 }
 
 /// What a column that is too full is swept with.
@@ -40,32 +44,81 @@ const FULL: usize = 128;
 /// and is expected to have so many times fewer then.
 const GAIN: f64 = 2.0;
 
+/// Candidates that are looked at before a walk by segments.
+const LOOKS: usize = 128;
+/// What a candidate costs that codes cannot part and the boxes do, in those that codes part.
+const MISLED: usize = 20;
+
 /// Columns within columns at most, for clumps of clumps of clumps: each costs twice as much of this as boxes get
-/// entries in it on average, so that there are twelve where few straddle, four where all do, and never more than
-/// 256 entries a box.
-const DEEPEST: usize = 24;
+/// entries in it on average, so that there are six where few straddle, two where all do, and never more than 16
+/// entries a box. What is a heap after them is for segments (24 in place of 12: up to 1.5 times as long where clumps
+/// shrink by halves; 8: 0.8 to 1.3 times there, and up to 1.4 where they shrink by thousandths; Zen 4, 2026-11-22).
+const DEEPEST: usize = 12;
 
 /// Boxes that make a column crowded, where so many are in all columns of a grid.
 pub(crate) fn crowd(all: usize, grid: &Grid) -> usize {
     CROWDED * all / grid.count()
 }
 
-/// Candidates a box of a column that is so full that it may be worth columns of its own.
+/// Candidates a box of a column that is so full that it may be worth columns of its own, or segments.
 #[inline(always)]
 pub(crate) fn overfull(column: &ColumnEntries<'_>, grid: &Grid, crowd: usize) -> Option<usize> {
     let count = column.entries.len();
-    if count <= MANY || (count <= crowd && column.fullest_bin() <= HEAP) {
+    if way() == Way::SegmentsInColumns {
+        return Some(count);
+    }
+    let is_crowd = count > MANY && (count > crowd || column.fullest_bin() > HEAP);
+    // However evenly they lie.
+    let least = if is_crowd { FULL } else { worth(count).max(FULL) };
+    if count <= least {
         return None;
     }
-    Some(column.candidates(grid) / count).filter(|&full| full > FULL)
+    Some(column.candidates(grid) / count).filter(|&full| full > least)
+}
+
+/// Whether a column that is swept as it is takes longer than a walk by segments.
+///
+/// Candidates that codes cannot part cost more, by far: clumps far smaller than a code take 3 ns a candidate in place of
+/// 0.17 (Zen 4, 2026-11-22). So some candidates are looked at.
+#[inline(never)]
+fn is_hard(
+    full: usize,
+    column: &ColumnEntries<'_>,
+    grid: &Grid,
+    overlap: impl Fn(&Entry, &Entry) -> bool,
+) -> bool {
+    let entries = column.entries;
+    let misleads = |number: usize| {
+        let row = number * entries.len() / LOOKS;
+        let end = column.row_end(&entries[row].codes, grid).min(entries.len());
+        let candidates = &entries[(row + 1).min(end)..end];
+        let one = &entries[row];
+        // In no step with the rows.
+        let other = candidates.get(candidates.len() * (number * 37 % LOOKS) / LOOKS);
+        other.is_some_and(|other| may_overlap(&one.codes, &other.codes) && !overlap(one, other))
+    };
+    let misled = (0..LOOKS).filter(|&number| misleads(number)).count();
+    way() == Way::SegmentsInColumns || full * (LOOKS + MISLED * misled) > LOOKS * worth(entries.len())
 }
 
 impl Scratch {
+    /// A column of several parts, put together.
+    #[cfg(feature = "parallel")]
+    pub(super) fn gather(&mut self, parts: &[Columns], grid: &Grid, index: usize) -> ColumnEntries<'_> {
+        self.gathered.gather(parts, grid, index)
+    }
+
+    /// What was swept by segments, in columns of columns too.
+    #[cfg(test)]
+    pub(super) fn bytes_of_segments(&self) -> usize {
+        self.segments.bytes() + self.nested.as_ref().map_or(0, |nested| nested.scratch.bytes_of_segments())
+    }
+
     pub(super) fn bytes(&self) -> usize {
         let nested = self.nested.as_ref().map_or(0, |nested| {
             nested.columns.bytes() + nested.members.capacity() * 4 + nested.scratch.bytes()
         });
-        self.strips.bytes() + self.gathered.bytes() + nested
+        self.strips.bytes() + self.gathered.bytes() + self.segments.bytes() + nested
     }
 }
 
@@ -91,7 +144,7 @@ where
     #[inline(always)]
     fn run<W: Width>(self, width: W) -> ControlFlow<()> {
         let Level { parts, grid, range, question, scratch, around: (names, depth) } = self;
-        let Scratch { strips, gathered, nested } = scratch;
+        let Scratch { strips, gathered, nested, segments } = scratch;
         let all = parts.iter().map(Columns::len).sum::<usize>();
         let crowd = crowd(all, grid);
         let mut hits = [Hit::default(); HITS];
@@ -104,14 +157,20 @@ where
             if column.entries.len() < 2 {
                 continue;
             }
-            if depth < DEEPEST
-                && let Some(full) = overfull(&column, grid, crowd)
-            {
-                let nested = nested.get_or_insert_default();
-                // Columns that leave most boxes in one were misled by what lies far outside.
-                let over = if 2 * column.entries.len() > all { Over::Bulk } else { Over::All };
-                if let Some(flow) = nested.sweep((&column, grid), (full, over), question, (names, depth)) {
-                    flow?;
+            if let Some(full) = overfull(&column, grid, crowd) {
+                if depth < DEEPEST && way() != Way::SegmentsInColumns {
+                    let nested = nested.get_or_insert_default();
+                    // Columns that leave most boxes in one were misled by what lies far outside.
+                    let over = if 2 * column.entries.len() > all { Over::Bulk } else { Over::All };
+                    if let Some(flow) = nested.sweep((&column, grid), (full, over), question, (names, depth))
+                    {
+                        flow?;
+                        continue;
+                    }
+                }
+                let overlap = |one: &Entry, other: &Entry| question.overlap(one, other, names);
+                if is_hard(full, &column, grid, overlap) {
+                    question.ask_column(segments, (column.entries, grid.sweep), names, &mut pairs)?;
                     continue;
                 }
             }
@@ -155,10 +214,9 @@ impl Nested {
         let pick = |place: usize| pick(&column.entries[place]);
         let grid = widest(Fill { columns, grid, count: column.entries.len(), pick });
         let (before, after) = (column.entries.len(), columns.len());
-        let candidates =
-            || (0..grid.count()).map(|index| columns.column(&grid, index).candidates(&grid)).sum::<usize>();
-        // Unless nearly all straddle, what is a heap still is told apart further down.
-        if after > 3 * before && candidates() as f64 * GAIN > (full * before) as f64 {
+        // Unless many straddle, what is a heap still is told apart further down.
+        let straddle = after > before + before / 2;
+        if straddle && columns.candidates(&grid) as f64 * GAIN > (full * before) as f64 {
             return None;
         }
         let depth = depth + 2 * after / before.max(1);
@@ -175,15 +233,4 @@ impl Nested {
         };
         Some(widest(level))
     }
-}
-
-/// The place of a box in what is swept, by its place in a column of columns.
-fn outermost(place: u32, names: Option<&Names<'_>>) -> u32 {
-    let mut place = place;
-    let mut around = names;
-    while let Some(&Names { members, outer }) = around {
-        place = members[place as usize] & PLACE;
-        around = outer;
-    }
-    place
 }

@@ -7,6 +7,7 @@
 //! sort the boxes into columns and, in a column, into bins along the sweep axis,
 //!   by counting; a box that straddles columns goes into each                         columns
 //! for each column that is far too full: the same for its boxes alone                 level
+//! where that is of no use, in a column or in all: a walk with a bound on its cost    crowd, segments
 //! for each column: for each box, in order: sixteen boxes at a time, until the bin
 //!   in which it ends: which overlap it on all three axes, by their codes?            rows
 //! for each such pair: is this the column that has the greater of both minima, on
@@ -20,7 +21,7 @@
 //! Baraff's sweep and prune (1992) in the cells of a regular grid, after Terdiman, "Box pruning revisited" (2017),
 //! for the wide tests on integers; Tracy, Buss & Woods, "Efficient large-scale sweep and prune methods with AABB
 //! insertion and removal" (2009), for the segmentation. Cost: linear in boxes and pairs, for boxes of like size; a
-//! scene of all sizes costs more entries.
+//! scene of all sizes costs more entries, and no scene more than n log^3 n + pairs, by [`segments`].
 //!
 //! # What each technique bought
 //! At 10,000 boxes of `gas` and `pile`, ns a box in all, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep
@@ -40,13 +41,38 @@
 //! Tried without gain: bins for a quarter or for all of the boxes (1 %); runs of pairs by rank in eight lanes (15
 //! ns a pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
 //! %); codes and bins of a box by hand in AVX2, half the instructions (6 % slower).
+//!
+//! 8. Segments, where the candidates that columns count cost more. It costs nothing elsewhere. ns a box, and in how many
+//!    budgets of 80 ns a box and 20 a pair, by `compare -- broad --hurt` (AMD EPYC, Zen 4, 2 virtual cores, one thread,
+//!    2026-11-22; quarters, and halves of 300,000, before: in a run of their own):
+//!
+//! | boxes | 30,000 before | after | 100,000 before | after | 300,000 before | after |
+//! |---|---|---|---|---|---|---|
+//! | needles along all axes | 473 (5.8) | 401 (4.9) | 1,967 (24) | 943 (12) | 3,912 (48) | 1,337 (16) |
+//! | needles of all lengths | 65 (0.8) | 68 (0.9) | 112 (1.4) | 113 (1.4) | 191 (2.4) | 191 (2.4) |
+//! | clumps shrinking by halves | 1,026 (6.5) | 911 (5.8) | 1,948 (16) | 633 (5.2) | 5,732 (41) | 950 (6.8) |
+//! | by quarters | 15,422 (100) | 408 (2.7) | 63,259 (562) | 414 (3.7) | - | 748 (5.7) |
+//! | by thousandths | 359 (3.7) | 295 (3.1) | 270 (3.0) | 310 (3.5) | 360 (3.7) | 440 (4.6) |
+//! | scattered by logarithms | 1,107 (14) | 113 (1.4) | 408 (5.1) | 157 (2.0) | 640 (8.0) | 224 (2.8) |
+//! | lines without end | 280 (3.5) | 191 (2.4) | 430 (5.3) | 413 (5.1) | 770 (9.6) | 430 (5.3) |
+//! | floors, 44 pairs a box | 1,085 (1.1) | 1,096 (1.1) | 1,377 (1.4) | 1,703 (1.8) | 1,737 (1.8) | 1,820 (1.9) |
+//!
+//! Tried: segments from the start, without columns (needles of 30,000 1.7 times as long as in columns, floors 2.5 times);
+//! segments at once in any column that is full (thousandths 1.6 times as long). Where clumps are a thousand times smaller
+//! than what is around them, columns of columns as deep as they go take 0.8 times as long up to 300,000. Needles stay
+//! beyond their budget: a logarithm an axis is what they cost. The machine was under load, both ways in turns.
 
+mod crowd;
 pub(crate) mod level;
 pub(crate) mod order;
 pub(crate) mod rows;
+mod segments;
 mod settle;
+#[cfg(test)]
+mod tests;
 #[cfg(feature = "parallel")]
 mod threads;
+pub(crate) mod trial;
 pub(crate) mod wide;
 
 use crate::columns::grid::{Grid, Over};
@@ -55,10 +81,14 @@ use crate::pair::{PairId, TooManyPairs};
 use crate::width::widest;
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
+use crowd::{Crowd, may_be_crowded};
 use level::{Level, Scratch};
+use segments::Slab;
 use settle::Question;
 
 /// All overlapping pairs of boxes. Keep one between frames: a steady scene then allocates nothing.
+///
+/// However the boxes lie, the cost is in O(n log^3 n + pairs).
 ///
 /// It holds no history: the list depends on the boxes and the filter alone, and is the same at any thread count and
 /// vector width. In [`Sweep::pairs`], from 30,000 boxes on, the threads of the current rayon pool share the work
@@ -162,11 +192,17 @@ impl Sweep {
         let grid = Grid::for_boxes(boxes.len(), Over::All, pick);
         let grid = widest(Fill { columns, grid, count: boxes.len(), pick });
         self.grid = Some(grid);
+        let question = &mut Question { boxes, admit, sink };
+        if may_be_crowded(boxes.len(), columns.len(), &grid)
+            && Crowd::of(columns, &grid).is_worth_segments(boxes.len(), &grid)
+        {
+            return question.ask_all(&mut scratch.segments, (grid.sweep, Slab::ALL));
+        }
         let level = Level::<_, _, _, false> {
             parts: core::slice::from_ref(columns),
             grid: &grid,
             range: 0..grid.count(),
-            question: &mut Question { boxes, admit, sink },
+            question,
             scratch,
             around: (None, 0),
         };

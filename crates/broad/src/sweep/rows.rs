@@ -1,5 +1,6 @@
 //! One column, swept sixteen boxes at a time.
 
+use super::trial::note;
 use crate::columns::ColumnEntries;
 use crate::columns::codes::{Codes, Entry};
 use crate::columns::grid::Grid;
@@ -113,6 +114,7 @@ impl Strips {
                 found += usize::from(lanes & MAY != 0);
                 next += LANES;
             }
+            note(1 + end.saturating_sub(row + 1).div_ceil(LANES));
             *progress = Progress { row: row + 1, next: 0 };
         }
         found
@@ -130,6 +132,7 @@ impl Strips {
         mut visit: impl FnMut(usize, bool),
     ) {
         let [a, b, c, d, e, f] = &self.strips;
+        note(range.len().div_ceil(LANES));
         for first in range.clone().step_by(LANES) {
             let Some(strips) = lanes([a, b, c, d, e, f], first) else { break };
             let mut hit = Hit { row: 0, first: first as u32, lanes: overlapping(width, codes, strips) };

@@ -1,8 +1,10 @@
 //! Hits to pairs: whose they are, where codes cannot tell, and whether the caller wants them.
 
 use super::rows::{HITS, Hit, LANES};
+use super::segments::{Item, Segments, Slab, axes_from};
+use super::trial::note;
 use crate::columns::codes::Entry;
-use crate::columns::owned;
+use crate::columns::{PLACE, owned};
 use crate::pair::PairId;
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
@@ -23,6 +25,30 @@ pub(super) struct Names<'a> {
     /// The entries' places in the column around.
     pub(super) members: &'a [u32],
     pub(super) outer: Option<&'a Names<'a>>,
+}
+
+/// The place of a box in what is swept, by its place in a column of columns.
+pub(super) fn outermost(place: u32, names: Option<&Names<'_>>) -> u32 {
+    let mut place = place;
+    let mut around = names;
+    while let Some(&Names { members, outer }) = around {
+        place = members[place as usize] & PLACE;
+        around = outer;
+    }
+    place
+}
+
+/// What two boxes of a column are called in the end, and whether all columns around own the pair.
+#[inline(always)]
+fn outside(mut one: u32, mut other: u32, names: Option<&Names<'_>>) -> (u32, u32, bool) {
+    let (mut is_ours, mut around) = (true, names);
+    while let Some(&Names { members, outer }) = around {
+        let is_owned;
+        (one, other, is_owned) = owned(members[one as usize], members[other as usize]);
+        is_ours &= is_owned;
+        around = outer;
+    }
+    (one, other, is_ours)
 }
 
 /// What a sweep asks and whom it tells.
@@ -48,6 +74,12 @@ where
         pairs: &mut Pairs,
     ) -> ControlFlow<()> {
         let count = self.settle::<NESTED>(hits, entries, names, pairs);
+        self.hand(count, pairs)
+    }
+
+    /// Hands over the first pairs, so far as they are admitted.
+    #[inline(always)]
+    fn hand(&mut self, count: usize, pairs: &mut Pairs) -> ControlFlow<()> {
         let mut admitted = 0;
         for place in 0..count.min(PAIRS) {
             let pair = pairs[place];
@@ -71,18 +103,17 @@ where
     ) -> usize {
         let (mut count, mut left) = (0, hits.len());
         while left > 0 {
+            note(left);
             let mut more = 0;
             for place in 0..left {
                 let hit = hits[place];
                 let (index, is_close, rest) = hit.next();
                 let (mut one, mut other, mut is_ours) =
                     owned(entries[hit.row as usize].place, entries[index as usize].place);
-                let mut around = if NESTED { names } else { None };
-                while let Some(&Names { members, outer }) = around {
+                if NESTED {
                     let is_owned;
-                    (one, other, is_owned) = owned(members[one as usize], members[other as usize]);
+                    (one, other, is_owned) = outside(one, other, names);
                     is_ours &= is_owned;
-                    around = outer;
                 }
                 let pair = PairId::new(one, other);
                 if is_close {
@@ -96,5 +127,65 @@ where
             left = more;
         }
         count
+    }
+
+    /// Hands over the pairs of some boxes by segments: the cost is bounded, however they lie. `name` says what two of
+    /// them are called outside, and whether the pair is asked for.
+    pub(super) fn ask_segments(
+        &mut self,
+        segments: &mut Segments,
+        items: impl Iterator<Item = Item>,
+        (sweep, slab): (usize, Slab),
+        name: impl Fn(u32, u32) -> (u32, u32, bool),
+        pairs: &mut Pairs,
+    ) -> ControlFlow<()> {
+        let mut count = 0;
+        let (axes, most) = axes_from::<B>(sweep);
+        segments.sweep(items, (&axes[..most], slab), &mut |one, other| {
+            let (one, other, is_ours) = name(one, other);
+            pairs[count] = PairId::new(one, other);
+            count += usize::from(is_ours);
+            if count < PAIRS {
+                return ControlFlow::Continue(());
+            }
+            self.hand(core::mem::take(&mut count), pairs)
+        })?;
+        self.hand(count, pairs)
+    }
+
+    /// Whether two boxes of a column overlap.
+    pub(super) fn overlap(&self, one: &Entry, other: &Entry, names: Option<&Names<'_>>) -> bool {
+        let pick = |entry: &Entry| &self.boxes[outermost(entry.place & PLACE, names) as usize];
+        pick(one).overlaps(pick(other))
+    }
+
+    /// The pairs of a column by segments.
+    pub(super) fn ask_column(
+        &mut self,
+        segments: &mut Segments,
+        (entries, sweep): (&[Entry], usize),
+        names: Option<&Names<'_>>,
+        pairs: &mut Pairs,
+    ) -> ControlFlow<()> {
+        let boxes = self.boxes;
+        let pick = |entry: &Entry| &boxes[outermost(entry.place & PLACE, names) as usize];
+        let items = (0..).zip(entries).filter_map(|(place, entry)| Item::new(pick(entry), place));
+        let name = |one: u32, other: u32| {
+            let (one, other, is_ours) = owned(entries[one as usize].place, entries[other as usize].place);
+            let (one, other, is_owned) = outside(one, other, names);
+            (one, other, is_ours & is_owned)
+        };
+        self.ask_segments(segments, items, (sweep, Slab::ALL), name, pairs)
+    }
+
+    /// The pairs of all boxes by segments.
+    pub(super) fn ask_all(
+        &mut self,
+        segments: &mut Segments,
+        (sweep, slab): (usize, Slab),
+    ) -> ControlFlow<()> {
+        let boxes = self.boxes;
+        let items = (0..).zip(boxes).filter_map(|(place, one)| Item::new(one, place));
+        self.ask_segments(segments, items, (sweep, slab), |one, other| (one, other, true), &mut { NO_PAIRS })
     }
 }

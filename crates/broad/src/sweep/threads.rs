@@ -6,13 +6,17 @@
 //! cut the columns into groups of equal weight;
 //!   sweep each, its columns put together from the parts  threads take groups
 //!   and throw its pairs into ranges of the first number
+//!   (or, where columns are of no use, walk through a slab of
+//!   space by segments in place of a group)
 //! put each range together from the groups and sort it    threads take ranges
 //! ```
 //! Which part, group or range a thread works at changes nothing: the ranges follow each other in the list, and each
 //! is sorted.
 
+use super::crowd::{Crowd, may_be_crowded};
 use super::level::{Level, Scratch};
 use super::order::Order;
+use super::segments::{Item, Key, Slab, axes_from, in_order};
 use super::settle::Question;
 use crate::columns::Columns;
 use crate::columns::grid::{Grid, Over};
@@ -43,6 +47,8 @@ pub(super) struct Team {
     parts: Vec<Columns>,
     groups: Vec<Group>,
     orders: Vec<Order>,
+    /// Where slabs end, if the boxes are swept in such.
+    cuts: Vec<Key>,
 }
 
 /// Columns that one thread sweeps in one go.
@@ -68,6 +74,7 @@ impl Team {
         self.parts.iter().map(Columns::bytes).sum::<usize>()
             + groups.sum::<usize>()
             + self.orders.iter().map(Order::bytes).sum::<usize>()
+            + self.cuts.capacity() * size_of::<Key>()
     }
 
     pub(super) fn sorted(&self) -> Option<(&Grid, &[Columns])> {
@@ -100,12 +107,19 @@ impl Team {
         let grid = sort(&mut self.parts, boxes);
         self.grid = Some(grid);
         share_out(&mut self.groups, &self.parts, &grid);
+        let cuts = &mut self.cuts;
+        cuts.clear();
+        if is_crowded(&mut self.groups, &self.parts, boxes.len(), &grid) {
+            cut_into_slabs(cuts, boxes, (axes_from::<B>(grid.sweep).0[0], self.groups.len()));
+        }
 
         let total = AtomicUsize::new(0);
         let parts = &self.parts;
-        self.groups
-            .par_iter_mut()
-            .for_each(|group| group.sweep((parts, &grid), boxes, admit, (&total, limit)));
+        let cuts = &self.cuts;
+        self.groups.par_iter_mut().enumerate().for_each(|(number, group)| {
+            let slab = cuts.get(number..number + 2).map(|ends| Slab { start: ends[0], end: ends[1] });
+            group.sweep((parts, &grid), slab, (boxes, admit), (&total, limit));
+        });
         let total = total.into_inner();
         pairs.clear();
         if total > limit {
@@ -133,8 +147,8 @@ fn sort<B: Bounds>(parts: &mut [Columns], boxes: &[B]) -> Grid {
             widest(Count { part, grid: &grid, boxes, places: places(index) });
         };
         parts.par_iter_mut().enumerate().for_each(count);
-        let entries = parts.iter().map(Columns::counted).sum();
-        if !grid.is_too_fine(entries, boxes.len()) {
+        let entries: usize = parts.iter().map(Columns::counted).sum();
+        if entries <= grid.most_entries(boxes.len()) {
             break;
         }
         grid = grid.coarser();
@@ -159,7 +173,8 @@ impl<B: Bounds> Kernel for Count<'_, B> {
 
     #[inline(always)]
     fn run<W: Width>(self, _: W) {
-        self.part.count(self.grid, self.places, |place| self.boxes[place]);
+        let most = self.grid.most_entries(self.boxes.len());
+        self.part.count(self.grid, (self.places, most), |place| self.boxes[place]);
     }
 }
 
@@ -194,12 +209,43 @@ fn share_out(groups: &mut [Group], parts: &[Columns], grid: &Grid) {
     }
 }
 
+/// Whether all columns are so full that the boxes are swept without them.
+fn is_crowded(groups: &mut [Group], parts: &[Columns], boxes: usize, grid: &Grid) -> bool {
+    let entries = parts.iter().map(Columns::len).sum();
+    let count = |group: &mut Group| {
+        let columns = group.columns.clone();
+        columns
+            .fold(Crowd::default(), |crowd, index| crowd.and(&group.scratch.gather(parts, grid, index), grid))
+    };
+    may_be_crowded(boxes, entries, grid)
+        && groups.par_iter_mut().map(count).reduce(Crowd::default, Crowd::with).is_worth_segments(boxes, grid)
+}
+
+/// Boxes of a sample, a slab.
+const LOOKS: usize = 32;
+
+/// Where to cut space along an axis so that about as many boxes begin in every slab.
+fn cut_into_slabs<B: Bounds>(cuts: &mut Vec<Key>, boxes: &[B], (axis, slabs): (usize, usize)) {
+    let looks = (slabs * LOOKS) as u64;
+    let sample = (0..looks).map(|look| (look * boxes.len() as u64 / looks) as u32);
+    let item = |place: u32| Item::new(boxes.get(place as usize)?, place);
+    cuts.extend(sample.filter_map(item).map(|item| item.key(axis)));
+    cuts.sort_unstable_by(in_order);
+    let count = cuts.len();
+    for slab in 1..slabs.min(count) {
+        cuts[slab] = cuts[slab * count / slabs];
+    }
+    // Slabs without end on both sides; where the sample is short, the last ones are empty.
+    cuts.resize(slabs + 1, Slab::ALL.end);
+    (cuts[0], cuts[slabs]) = (Slab::ALL.start, Slab::ALL.end);
+}
+
 impl Group {
     fn sweep<B: Bounds>(
         &mut self,
         (parts, grid): (&[Columns], &Grid),
-        boxes: &[B],
-        admit: &impl Fn(u32, u32) -> bool,
+        slab: Option<Slab>,
+        (boxes, admit): (&[B], &impl Fn(u32, u32) -> bool),
         (total, limit): (&AtomicUsize, usize),
     ) {
         let Self { columns, scratch, found, counts, .. } = self;
@@ -212,7 +258,12 @@ impl Group {
         let range = columns.clone();
         let question = &mut Question { boxes, admit, sink: &mut sink };
         // Broken off only where there are too many pairs, which the total says.
-        let _ = widest(Level::<_, _, _, false> { parts, grid, range, question, scratch, around: (None, 0) });
+        let _ = match slab {
+            Some(slab) => question.ask_all(&mut scratch.segments, (grid.sweep, slab)),
+            None => {
+                widest(Level::<_, _, _, false> { parts, grid, range, question, scratch, around: (None, 0) })
+            }
+        };
         counts.clear();
         counts.resize(BINS, 0);
         for pair in found.iter() {

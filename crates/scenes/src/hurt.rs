@@ -1,0 +1,131 @@
+//! Boxes that are laid out to make a broad phase slow: few of them overlap, and a grid, a tree or a sweep along one
+//! axis has a hard time to see it.
+//!
+//! ```
+//! use asunder_scenes::hurt::HurtScene;
+//! let boxes = HurtScene::Needles.boxes(900, 1);
+//! assert_eq!(boxes.len(), 900);
+//! assert_eq!(boxes, HurtScene::Needles.boxes(900, 1));
+//! assert!(HurtScene::ALL.iter().all(|&scene| HurtScene::by_name(scene.name()) == Some(scene)));
+//! ```
+
+use crate::random::Random;
+use asunder_geometry::Aabb3;
+use glam::{DVec3, Vec3};
+
+/// The named scenes. Cost of making one: some tens of nanoseconds a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum HurtScene {
+    /// Needles through all of a cube, a third along each axis, with one overlap for ten.
+    Needles,
+    /// As needles, but of any length from a hundredth of the cube on.
+    Splinters,
+    /// Forty clouds about one spot, each half as wide as the one before, its boxes too.
+    Halves,
+    /// As halves, a quarter as wide.
+    Quarters,
+    /// As halves, a thousandth as wide, and six of them.
+    Thousandths,
+    /// Cubes as near the middle as far away: the logarithm of every coordinate is spread evenly over twelve decades.
+    Scattered,
+    /// Lines without end along each axis, and as many crumbs, in a cube.
+    Unbounded,
+    /// Floors of all widths above each other, each of which meets about sixty others.
+    Floors,
+}
+
+impl HurtScene {
+    /// Every scene, in the order in which results are listed.
+    pub const ALL: [Self; 8] = [
+        Self::Needles,
+        Self::Splinters,
+        Self::Halves,
+        Self::Quarters,
+        Self::Thousandths,
+        Self::Scattered,
+        Self::Unbounded,
+        Self::Floors,
+    ];
+
+    /// The name used in result rows.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Needles => "needles",
+            Self::Splinters => "splinters",
+            Self::Halves => "halves",
+            Self::Quarters => "quarters",
+            Self::Thousandths => "thousandths",
+            Self::Scattered => "scattered",
+            Self::Unbounded => "unbounded",
+            Self::Floors => "floors",
+        }
+    }
+
+    /// The scene of that name, if there is one.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|scene| scene.name() == name)
+    }
+
+    /// Its boxes, in metres. What overlaps a box on average does not depend on how many there are.
+    pub fn boxes(self, count: usize, seed: u64) -> Vec<Aabb3> {
+        let mut random = Random::new(seed ^ 0x4157);
+        (0..count).map(|place| self.one(place, count as f64, &mut random)).collect()
+    }
+
+    fn one(self, place: usize, count: f64, random: &mut Random) -> Aabb3 {
+        match self {
+            Self::Needles => needle(place, 1.0, count, random),
+            Self::Splinters => {
+                let length = random.log_range(0.01, 1.0);
+                needle(place, length, count, random)
+            }
+            Self::Halves => shrinking(place, (40, 0.5), count, random),
+            Self::Quarters => shrinking(place, (40, 0.25), count, random),
+            Self::Thousandths => shrinking(place, (6, 1e-3), count, random),
+            Self::Scattered => {
+                let center = DVec3::from_array([0; 3].map(|_| random.log_range(1e-6, 1e6) * sign(random)));
+                // Of any size, but far smaller than its way from the middle.
+                around(center, DVec3::splat(random.log_range(1e-8, 1e-6)))
+            }
+            Self::Unbounded => {
+                // What has ends is of no size and in no column's way: a grid that looks at it alone is too fine.
+                let is_line = place.is_multiple_of(2);
+                let mut one = needle(place / 2, if is_line { 0.0 } else { 0.1 / count }, count, random);
+                if is_line {
+                    one.min[place / 2 % 3] = f32::NEG_INFINITY;
+                    one.max[place / 2 % 3] = f32::INFINITY;
+                }
+                one
+            }
+            Self::Floors => {
+                let center = random.within(DVec3::NEG_ONE, DVec3::ONE);
+                let half = DVec3::new(random.range(0.3, 1.0), 60.0 / count, random.range(0.3, 1.0));
+                around(center, half)
+            }
+        }
+    }
+}
+
+/// A needle of a cube of 1 m. Two of different axes meet with the chance of twice their width.
+fn needle(place: usize, length: f64, count: f64, random: &mut Random) -> Aabb3 {
+    let mut half = DVec3::splat(0.1 / count);
+    half[place % 3] = 0.5 * length;
+    around(random.within(DVec3::splat(-0.5), DVec3::splat(0.5)), half)
+}
+
+/// A cube of one of so many clouds, each that much narrower than the last. Of two of a cloud, one in a million a
+/// billionth of the cloud overlaps.
+fn shrinking(place: usize, (clouds, ratio): (usize, f64), count: f64, random: &mut Random) -> Aabb3 {
+    let scale = (0..place % clouds).fold(1.0, |scale, _| scale * ratio);
+    let half = 0.5 * libm::cbrt(clouds as f64 / count);
+    around(random.within(DVec3::NEG_ONE, DVec3::ONE) * scale, DVec3::splat(half * scale))
+}
+
+fn around(center: DVec3, half: DVec3) -> Aabb3 {
+    let [low, high]: [Vec3; 2] = [center - half, center + half].map(|corner| corner.as_vec3());
+    Aabb3::new(low, high)
+}
+
+fn sign(random: &mut Random) -> f64 {
+    if random.below(2) == 0 { -1.0 } else { 1.0 }
+}
