@@ -143,7 +143,8 @@ impl<B: Bounds> CoherentSweep<B> {
     }
 
     /// Memory that is held for the next call, in bytes: some 80 a box (30 to 60 more where several threads sort them) and
-    /// 16 a pair, and 28 for every column that a mover reaches, of which there are at most four for every box.
+    /// 16 a pair, and 28 for every column that a mover reaches, of which there are about four for every box at most;
+    /// where columns are of no use, 64 a box more, and for each thread.
     ///
     /// ```
     /// assert_eq!(asunder_broad::CoherentSweep::<asunder_geometry::Aabb2>::new().bytes(), 0);
@@ -200,9 +201,8 @@ impl<B: Bounds> CoherentSweep<B> {
         moving.clear();
         moving.extend(movers.iter().map(|&place| boxes[place as usize]));
         let place = |mover: u32| movers[mover as usize];
-        self.sweep_of_movers.pairs(moving, |a, b| admit(place(a), place(b)), limit, among)?;
         fresh.clear();
-        fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
+        // First what may turn out to be too much: then nobody has been asked about any pair yet.
         if let Some(sorted) = self.sweep.whole() {
             let has_met = self.rest.meet(sorted, boxes, movers, |pair| {
                 if admit(pair.a, pair.b) {
@@ -214,7 +214,10 @@ impl<B: Bounds> CoherentSweep<B> {
                 return Ok(false);
             }
         }
-        if fresh.len() > limit { Err(TooManyPairs { limit }) } else { Ok(true) }
+        let room = limit.checked_sub(fresh.len()).ok_or(TooManyPairs { limit })?;
+        self.sweep_of_movers.pairs(moving, |a, b| admit(place(a), place(b)), room, among)?;
+        fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
+        Ok(true)
     }
 }
 

@@ -44,8 +44,8 @@ pub const FACE_PREFERENCE: f64 = 5e-7;
 ///
 /// A body that a solver holds at rest leans now here and now there, by up to some 1e-5 rad, which lifts one side of its
 /// face by as much of its width. With a smaller value the deepest corner changes with every lean, and with it which four
-/// are told; with a larger one, what leans more may be held beside its deepest corner by as much. It is the share by which
-/// manifolds are moved along, too. Only the choice of corners depends on it: what is told of the pair, and of each corner,
+/// are told; with a larger one, what leans more may be held beside its deepest corner by as much. Twice as far as
+/// manifolds are moved along. Only the choice of corners depends on it: what is told of the pair, and of each corner,
 /// is exact. (2^-12 was tried: ids stay at 1e-4 rad, too, but a box of a metre may stand 0.4 mm beside its deepest corner.)
 pub const EVEN_DEPTH: f64 = 1.0 / 32_768.0;
 

@@ -155,7 +155,7 @@ fn of_tilted_faces_the_deepest_corner_is_kept_with_the_best_three_others() {
             let center = case.pose_b.position() + towards * 0.25;
             center.z - (at - center.truncate()).dot(towards.truncate()) / towards.z
         };
-        // What trembling may change is as deep: 4e-4 here, where depths differ by up to 2e-3.
+        // What trembling may change is as deep: 5e-5 here, where depths differ by up to 2e-3.
         let even = EVEN_DEPTH * 2.0 * f64::from(case.shape_a.outer_radius().min(case.shape_b.outer_radius()));
         let least = exact.iter().map(|&corner| depth(corner)).fold(f64::INFINITY, f64::min) + even + 2e-6;
         let deepest: Vec<DVec2> = exact.iter().copied().filter(|&corner| depth(corner) <= least).collect();

@@ -20,7 +20,8 @@ const CROWDED: usize = 8;
 /// Whether columns hold so many boxes on average that candidates may be worth counting: where all columns are like each
 /// other, half of what is compared here is all that there are.
 pub(super) fn may_be_crowded(boxes: usize, entries: usize, grid: &Grid) -> bool {
-    way() == Way::Segments || entries * entries > worth(boxes) * boxes * grid.count()
+    let most = (worth(boxes) as u64).saturating_mul(boxes as u64).saturating_mul(grid.count() as u64);
+    way() == Way::Segments || (entries as u64).saturating_mul(entries as u64) > most
 }
 
 impl Crowd {

@@ -21,7 +21,8 @@
 //! Baraff's sweep and prune (1992) in the cells of a regular grid, after Terdiman, "Box pruning revisited" (2017),
 //! for the wide tests on integers; Tracy, Buss & Woods, "Efficient large-scale sweep and prune methods with AABB
 //! insertion and removal" (2009), for the segmentation. Cost: linear in boxes and pairs, for boxes of like size; a
-//! scene of all sizes costs more entries, and no scene more than n log^3 n + pairs, by [`segments`].
+//! scene of all sizes costs more entries. No scene costs more than n log^3 n + pairs, by [`segments`], but for pairs that are
+//! found again in every column that both boxes share.
 //!
 //! # What each technique bought
 //! At 10,000 boxes of `gas` and `pile`, ns a box in all, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep
@@ -42,7 +43,7 @@
 //! ns a pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
 //! %); codes and bins of a box by hand in AVX2, half the instructions (6 % slower).
 //!
-//! 8. Segments, where the candidates that columns count cost more. It costs nothing elsewhere. ns a box, and in how many
+//! 8. Segments, where the candidates that columns count cost more. The named scenes are as they were. ns a box, and in how many
 //!    budgets of 80 ns a box and 20 a pair, by `compare -- broad --hurt` (AMD EPYC, Zen 4, 2 virtual cores, one thread,
 //!    2026-11-22; quarters, and halves of 300,000, before: in a run of their own):
 //!
@@ -88,7 +89,7 @@ use settle::Question;
 
 /// All overlapping pairs of boxes. Keep one between frames: a steady scene then allocates nothing.
 ///
-/// However the boxes lie, the cost is in O(n log^3 n + pairs).
+/// However the boxes lie, the cost is in O(n log^3 n + pairs), a pair once for every column that both its boxes share.
 ///
 /// It holds no history: the list depends on the boxes and the filter alone, and is the same at any thread count and
 /// vector width. In [`Sweep::pairs`], from 30,000 boxes on, the threads of the current rayon pool share the work
@@ -256,7 +257,8 @@ impl Sweep {
         self.sorted().into_iter().flat_map(|(grid, parts)| Column::all(grid, parts))
     }
 
-    /// Memory that is held for the next sweep, in bytes: some 70 a box.
+    /// Memory that is held for the next sweep, in bytes: some 70 a box; where columns are of no use, 64 a box more, and
+    /// for each thread.
     ///
     /// ```
     /// assert_eq!(asunder_broad::Sweep::new().bytes(), 0);

@@ -18,7 +18,8 @@
 //! - if the best four of all hold a corner as deep as any, it is at least 95 % of theirs: all of it up to
 //!   [`EVERY_ROOT`] corners in the arc. So it is wherever faces rest on each other, where all are as deep;
 //! - fours that are worth as much are told apart by the features of their corners alone: a body that trembles on
-//!   its face stands on the same four in every frame, and seen from the other shape they are the same.
+//!   its face stands on the same four in every frame, and seen from the other shape they are the same, unless two
+//!   corners have each other's names.
 //!
 //! The best four that hold a given corner have at least 2/3 of the area of the best of all: at worst the deepest is the
 //! middle of the longer side of a trapezoid whose other side is half as long. Nothing that keeps it can do better.

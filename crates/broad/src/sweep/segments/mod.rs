@@ -1,4 +1,4 @@
-//! A bound on what a sweep may cost: all pairs of two sets of boxes in O(n log^3 n + pairs), however they lie.
+//! A bound on what a walk through boxes may cost: all pairs of two sets in O(n log^3 n + pairs), however they lie.
 //!
 //! Two boxes overlap on an axis where the lower end of one lies in the interval of the other. So every box is once a
 //! *span*, an interval on the axis at hand, and once a *point*, its lower end there; the question is which points lie
@@ -95,7 +95,7 @@ pub(super) fn axes_from<B: Bounds>(sweep: usize) -> ([usize; 3], usize) {
 /// as was measured at the worst (needles; a third of it where boxes are cubes of all sizes).
 pub(super) fn worth(boxes: usize) -> usize {
     if way() == Way::Columns {
-        return usize::MAX >> 32;
+        return usize::MAX >> (usize::BITS / 2);
     }
     let depth = boxes.max(2).ilog2() as usize;
     CANDIDATES_A_NODE * depth * depth

@@ -142,7 +142,7 @@ impl Touching<'_> {
         let (slack, deep) = (self.placed.preference, self.deep());
         let within = if deep > self.margin { deep } else { self.margin };
         let size = normal.abs();
-        let axis = if size.x > ALIGNED_FACES { 0 } else { 2 - usize::from(size.y > ALIGNED_FACES) };
+        let axis = if size.x >= ALIGNED_FACES { 0 } else { 2 - usize::from(size.y >= ALIGNED_FACES) };
         let face = 2 * axis + usize::from(normal[axis] > 0.0);
         let (reference, faces) = self.placed.faces(false, face, slack)?;
         let patch = faces.leaning(&reference, normal).patch(reference, within, slack);
