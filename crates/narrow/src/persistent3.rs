@@ -160,8 +160,10 @@ impl Persistent3 {
             None => of_a.turn(normal_then),
             Some([a, b]) => {
                 let cross = of_a.turn(a.as_dvec3()).cross(of_b.turn(b.as_dvec3()));
-                let normal = cross.normalize_or(normal_then);
-                if normal.dot(normal_then) < 0.0 { -normal } else { normal }
+                // Bodies may have turned a long way together.
+                let carried = of_a.turn(normal_then);
+                let normal = cross.normalize_or(carried);
+                if normal.dot(carried) < 0.0 { -normal } else { normal }
             }
         };
         let turn = Turn { of_a, of_b, offset_then, normal_then };
