@@ -117,19 +117,20 @@ fn gather<S: Space>(world: &mut World<S>) {
         }
         let (Some(asked), Some((outcome, place))) = (asked.next(), outcomes.next()) else { break };
         let keys = (keys[pair.a as usize], keys[pair.b as usize]);
-        // Bodies lie all over memory: of what is apart, or moved along, nobody reads them again.
-        let both = || bodies.get(keys.0).zip(bodies.get(keys.1));
         // What motions may bring is looked for within other margins in every frame.
         let is_going = !motions.is_empty() && (motions.of(pair.a).is_some() || motions.of(pair.b).is_some());
+        // Bodies lie all over memory: of what is apart, or moved along, nobody reads them again.
+        let is_new = matches!(outcome, Outcome::Answered(Answer::Contact { .. }, _));
+        let both = if is_new || is_going { bodies.get(keys.0).zip(bodies.get(keys.1)) } else { None };
         let ways = [odometers[pair.a as usize], odometers[pair.b as usize]];
-        let lasting = || if is_going { None } else { both() };
+        let lasting = both.filter(|_| !is_going);
         candidates.push(candidate_of::<S>((asked, keys), &outcome, (ways, lasting), persistent));
         if let Some(met) = met_of(&outcome, both) {
             // Only that is beyond the margins: else no manifold need be read.
             let found = manifolds_at(&place, askings, carried);
             let is_beyond = |(a, b): Both<'_, S>| S::least_separation(found) > a.margin + b.margin;
             let is_sought = is_going && !met.overlapping && !found.is_empty();
-            let speculative = is_sought && both().is_some_and(is_beyond);
+            let speculative = is_sought && both.is_some_and(is_beyond);
             records.push(record_of((pair, keys), met, speculative, place));
         }
     }
@@ -140,10 +141,10 @@ type Both<'a, S> = (&'a Collider<S>, &'a Collider<S>);
 
 /// What is kept of a pair that was asked about, by how far its bodies went. Manifolds of bodies that last are kept to be
 /// moved along.
-fn candidate_of<'a, S: Space>(
+fn candidate_of<S: Space>(
     (asked, keys): (&Asked, (S::Key, S::Key)),
     outcome: &Outcome<'_, S>,
-    (ways, lasting): ([Odometer; 2], impl FnOnce() -> Option<Both<'a, S>>),
+    (ways, lasting): ([Odometer; 2], Option<Both<'_, S>>),
     persistent: &mut Slab<S::Persistent>,
 ) -> Candidate<S::Key> {
     let Asked { pair, hint, persistent: place } = *asked;
@@ -154,7 +155,7 @@ fn candidate_of<'a, S: Space>(
         }
         Outcome::Answered(answer @ &Answer::Contact { hint, .. }, manifolds) => {
             let step = ways[0].step() + ways[1].step();
-            let kept = lasting().and_then(|(a, b)| {
+            let kept = lasting.and_then(|(a, b)| {
                 S::persistent(&S::job(a, b, a.margin + b.margin, hint), answer, manifolds, step)
             });
             (hint, persistent.put(place, kept), f64::NEG_INFINITY)
@@ -171,13 +172,13 @@ struct Met {
 }
 
 /// How a pair that was asked about met, if it did.
-fn met_of<'a, S: Space>(outcome: &Outcome<'_, S>, both: impl FnOnce() -> Option<Both<'a, S>>) -> Option<Met> {
+fn met_of<S: Space>(outcome: &Outcome<'_, S>, both: Option<Both<'_, S>>) -> Option<Met> {
     match *outcome {
         Outcome::Moved(Moved { overlapping, user_data, .. }) => {
             Some(Met { overlapping, sensor: false, user_data })
         }
         Outcome::Answered(Answer::Apart { .. }, _) => None,
-        Outcome::Answered(&Answer::Contact { overlapping, .. }, _) => both().map(|(a, b)| Met {
+        Outcome::Answered(&Answer::Contact { overlapping, .. }, _) => both.map(|(a, b)| Met {
             overlapping,
             sensor: a.sensor || b.sensor,
             user_data: (a.user_data, b.user_data),

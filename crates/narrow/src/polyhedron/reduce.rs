@@ -131,8 +131,9 @@ fn corners_in(mut four: u32) -> [usize; 4] {
 
 /// Four of many that hold a deep one, by walks around the patch.
 ///
-/// The walks set out from the first corner by its features, and towards the neighbour that comes first: where several fours are worth as
-/// much, so are found the same, whichever corner the list begins with and from whichever side the patch is seen.
+/// The walks set out from the first corner by its features, and towards the neighbour that comes first: where several
+/// fours are worth as much, the same are found, whichever corner the list begins with and from whichever side the patch
+/// is seen.
 fn pick_of_many(
     count: usize,
     at: impl Fn(usize) -> [f64; 2],
