@@ -7,12 +7,12 @@
 //! ```
 //! All of them are looked at, since that takes no branch: the walk around the patch, which finds the same, takes
 //! six times as long (AMD EPYC, Zen 4, 2026-11-21). Areas are only compared, and f32 does. Where the largest holds
-//! no corner as deep as any, the walk decides. Fours of areas that are even are told apart by where they stand in the
-//! list, and not by features: equal faces turned against each other by 45 degrees, up to 1e-5 rad, may change from one
-//! to another.
+//! no corner as deep as any, and where another four is as large but for [`EVEN_AREA`], the walk decides: it tells such fours
+//! apart by the features of their corners, which stay while a body trembles.
 
 use super::super::reduce::{Spot, pick_four};
 use super::patch::{Patch, SLOTS};
+use asunder_geometry::tolerance::EVEN_AREA;
 
 /// The most corners that two rectangles' common patch has.
 pub(super) const MOST: usize = 8;
@@ -34,26 +34,31 @@ const SHAPES: [[usize; 3]; 10] = [
 /// Bits of an area that number it.
 const NUMBER: u32 = 127;
 
-/// What the area of each is multiplied by, so that of many alike the same one is taken in every frame: less than 1
-/// by at most 0.2 %, and from each to the next by more than the bits of an area that its number takes the place of.
-const WEIGHTS: [[f32; 8]; 10] = weights(false);
+/// What the area of each is multiplied by, for five to eight corners: 1 for every four of them once, else 0, so that two as
+/// large are two fours.
+const ANY: [Weights; 4] = [weights(5, false), weights(6, false), weights(7, false), weights(8, false)];
 
-/// The same, and zero for those without the first corner.
-const ROOTED: [[f32; 8]; 10] = weights(true);
+/// The same where the first corner must be kept.
+const ROOTED: [Weights; 4] = [weights(5, true), weights(6, true), weights(7, true), weights(8, true)];
 
-const fn weights(is_rooted: bool) -> [[f32; 8]; 10] {
+/// By shape and beginning.
+type Weights = [[f32; 8]; 10];
+
+const fn weights(count: usize, is_rooted: bool) -> Weights {
     let mut weights = [[0.0; 8]; 10];
-    let mut shape = 0;
-    while shape < 10 {
-        let mut begin = 0;
-        while begin < 8 {
-            let four = corners(shape, begin);
-            if !is_rooted || four[0] == 0 || four[1] == 0 || four[2] == 0 || four[3] == 0 {
-                weights[shape][begin] = 1.0 - (8 * shape + begin) as f32 * 2e-5;
-            }
-            begin += 1;
+    // A bit for each set of places that was met.
+    let mut met = [0_u128; 2];
+    let mut number = 0;
+    while number < 80 {
+        let [a, b, c, d] = corners(number / 8, number % 8);
+        let set: u32 = 1 << a | 1 << b | 1 << c | 1 << d;
+        let bit = 1 << (set % 128);
+        let is_new = met[set as usize / 128] & bit == 0;
+        if is_new && set >> count == 0 && (!is_rooted || set & 1 == 1) {
+            weights[number / 8][number % 8] = 1.0;
         }
-        shape += 1;
+        met[set as usize / 128] |= bit;
+        number += 1;
     }
     weights
 }
@@ -81,14 +86,18 @@ pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, even: 
         let i = if place < count { place } else { count - 1 } + first;
         *slot = slots[if i < count { i } else { i - count } % MOST];
     }
-    let found = largest(patch, &around, if is_alone { &ROOTED } else { &WEIGHTS });
-    let four = found.map(|place| around[place % MOST]);
-    if four.iter().any(|&slot| is_deep(slot)) { four } else { walk(patch, &slots[..count.min(MOST)], even) }
+    let weights = if is_alone { &ROOTED } else { &ANY };
+    let found = largest(patch, &around, &weights[count.clamp(5, MOST) - 5]);
+    let four = found.map(|found| [around[found[0]], around[found[1]], around[found[2]], around[found[3]]]);
+    match four.filter(|four| four.iter().any(|&slot| is_deep(slot))) {
+        Some(four) => four,
+        None => walk(patch, &slots[..count.min(MOST)], even),
+    }
 }
 
-/// The largest quadrilateral by its weighted area.
+/// The largest quadrilateral by its weighted area; nothing where another is as large but for what counts as even.
 #[inline(always)]
-fn largest(patch: &Patch, around: &[usize; MOST], weights: &[[f32; 8]; 10]) -> [usize; 4] {
+fn largest(patch: &Patch, around: &[usize; MOST], weights: &Weights) -> Option<[usize; 4]> {
     let mut places = [[0.0_f32; 12]; 2];
     for i in 0..12 {
         let slot = around[i % MOST] % SLOTS;
@@ -103,7 +112,20 @@ fn largest(patch: &Patch, around: &[usize; MOST], weights: &[[f32; 8]; 10]) -> [
     let [a, b, c, d, e, f, g, h] = best;
     let greatest = greater(greater(greater(a, b), greater(c, d)), greater(greater(e, f), greater(g, h)));
     let number = (greatest.to_bits() & NUMBER) as usize;
-    corners(number / 8, number % 8)
+    let even = f32::from_bits(greatest.to_bits() & !NUMBER) * (1.0 - EVEN_AREA as f32);
+    (count_from(&areas, even) == 1).then(|| corners(number / 8, number % 8))
+}
+
+/// How many are at least so large.
+#[inline(always)]
+fn count_from(areas: &[[f32; 8]; 10], even: f32) -> u32 {
+    let mut counts = [0_u32; 8];
+    for areas in areas {
+        for i in 0..8 {
+            counts[i] += u32::from(areas[i] >= even);
+        }
+    }
+    counts.iter().sum()
 }
 
 #[inline(always)]
@@ -131,7 +153,7 @@ fn fill_diagonals(places: &[[f32; 12]; 2], diagonals: &mut Diagonals) {
 }
 
 #[inline(never)]
-fn fill_areas(diagonals: &Diagonals, weights: &[[f32; 8]; 10], areas: &mut [[f32; 8]; 10]) {
+fn fill_areas(diagonals: &Diagonals, weights: &Weights, areas: &mut [[f32; 8]; 10]) {
     fill_area::<0>(diagonals, weights, areas);
     fill_area::<1>(diagonals, weights, areas);
     fill_area::<2>(diagonals, weights, areas);
@@ -146,11 +168,7 @@ fn fill_areas(diagonals: &Diagonals, weights: &[[f32; 8]; 10], areas: &mut [[f32
 
 /// All quadrilaterals of one shape.
 #[inline(always)]
-fn fill_area<const SHAPE: usize>(
-    diagonals: &Diagonals,
-    weights: &[[f32; 8]; 10],
-    areas: &mut [[f32; 8]; 10],
-) {
+fn fill_area<const SHAPE: usize>(diagonals: &Diagonals, weights: &Weights, areas: &mut [[f32; 8]; 10]) {
     let [third, second, fourth] = SHAPES[SHAPE];
     let ([one_u, one_v], [other_u, other_v]) = (&diagonals[third - 2], &diagonals[fourth - 2]);
     for i in 0..8 {
