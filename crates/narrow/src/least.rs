@@ -33,11 +33,21 @@ impl<P> Least<P> {
 
     /// Whether parts at least so far apart need no looking at; if so they are done with.
     pub(crate) fn passes_over(&mut self, at_least: f64) -> bool {
-        let is_out_of_reach = at_least > self.reach;
+        self.passes_below(at_least, f64::INFINITY)
+    }
+
+    /// The same where others are known to be at most so far apart.
+    pub(crate) fn passes_below(&mut self, at_least: f64, at_most: f64) -> bool {
+        let is_out_of_reach = at_least > self.reach.min(at_most);
         if is_out_of_reach {
             self.give_up(rounded_down(at_least));
         }
         is_out_of_reach
+    }
+
+    /// Whether parts at least so far apart are no nearer than the nearest so far but for its error, and need no looking at.
+    pub(crate) fn is_no_less(&self, at_least: f64) -> bool {
+        self.best.as_ref().is_some_and(|best| at_least >= f64::from(best.separation) - f64::from(best.error))
     }
 
     /// Parts that turned out to be at least so far apart, and that beyond reach.
@@ -78,7 +88,7 @@ mod tests {
         least.offer("wide", 2.0, 0.75);
         least.offer("near", 1.5, 0.1);
         assert_eq!(least.reach(), 1.5);
-        assert!(least.passes_over(1.6) && !least.passes_over(1.4));
+        assert!(least.passes_over(1.6) && !least.passes_over(1.4) && least.passes_below(1.4, 1.3));
         let (parts, error) = least.finish().unwrap();
         // "wide" may be as near as 1.25.
         assert!(parts == "near" && (0.25..0.2501).contains(&error), "{parts} {error}");

@@ -199,6 +199,9 @@ impl<'a> Pair3<'a> {
         if let Some(on) = OnGround::of(self) {
             return self.distance_on(&on);
         }
+        if self.cuboids().is_some_and(|cuboids| cuboids.overlaps() == Some(true)) {
+            return None;
+        }
         let (parts, near) = self.nearest(f64::INFINITY, Wanted::Closest).ok()?;
         let [on_a, on_b] = near.closest?;
         Some(Closest3 {

@@ -5,7 +5,9 @@
 //!
 //! ```text
 //! overlap      the triangles whose boxes the part's box meets; the axis across the triangle; then as any pair
-//! separation   the triangles nearest first by their boxes, until those are further off than the least so far
+//! separation   the triangles nearest first by their boxes, until those are further off than the least so far, or than a
+//!              point of one that was met: what two points show costs a twentieth of a kernel, and is met first;
+//!              then those that are left, the least lower bound first
 //! ```
 //! Two grounds are asked about each triangle of one against those of the other that are near it.
 
@@ -18,9 +20,13 @@ use crate::least::Least;
 use crate::pair3::{Pair3, Part, Parts, for_parts};
 use crate::polyhedron::convex::{Asked, Near, Probe, Wanted};
 use crate::precision::rounded_down;
+use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
 use core::ops::ControlFlow;
+
+/// Triangles that wait until a point of another has shown them to be too far away.
+const MOST_WAITING: usize = 16;
 
 /// What is told of the triangle that is nearest.
 struct Told {
@@ -164,22 +170,69 @@ impl Pair3<'_> {
         (part, wanted): (&Part, Wanted),
         least: &mut Least<Told>,
     ) -> f64 {
-        let placed = Corners::of(on, part);
-        on.ground.visit_nearest(&placed.bounds(0.0, part), least.reach(), |number| {
-            if least.passes_over(placed.gap(on.ground.corners(number), least.reach())) {
-                return least.reach();
-            }
-            if let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) {
-                let parts = self.parts_on(on, bases, *part, (number, &triangle));
-                let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted };
-                match parts.convex.probe(asked) {
-                    Probe::Beyond(at_least, _) => least.give_up(at_least),
-                    Probe::Near(near) => least.offer(told(&parts, &near), near.separation, near.error),
+        let placed = &Corners::of(on, part);
+        let mut asker = Asker { pair: self, on, bases, part, wanted, placed, shown: None };
+        let mut waiting: ArrayVec<(f64, u32), MOST_WAITING> = ArrayVec::new();
+        let mut at_most = f64::INFINITY;
+        // The core's box: a ball's own has corners that are nearer than the ball.
+        let radius = f64::from(part.shape.radius());
+        on.ground.visit_nearest(&placed.bounds(-radius, part), least.reach() + radius, |number| {
+            let corners = on.ground.corners(number);
+            let gap = placed.gap(corners, least.reach().min(at_most));
+            if !least.passes_below(gap, at_most) {
+                at_most = at_most.min(placed.at_most(corners));
+                if waiting.is_full() {
+                    waiting.retain(|(gap, _)| !least.passes_below(*gap, at_most));
+                }
+                if let Err(full) = waiting.try_push((gap, number)) {
+                    asker.ask(full.element().1, least);
                 }
             }
-            least.reach()
+            least.reach().min(at_most) + radius
         });
+        waiting.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+        for (gap, number) in waiting {
+            if !least.passes_below(gap, at_most) {
+                asker.ask(number, least);
+            }
+        }
         least.reach()
+    }
+}
+
+/// Asks the kernels of a part and triangles, one after the other.
+struct Asker<'s> {
+    pair: &'s Pair3<'s>,
+    on: &'s OnGround<'s>,
+    bases: &'s [Basis3; 2],
+    part: &'s Part<'s>,
+    wanted: Wanted,
+    placed: &'s Corners,
+    /// The axis that was told last, from the part to the ground in the ground's axes, and how far the part reaches there.
+    shown: Option<(DVec3, f64)>,
+}
+
+impl Asker<'_> {
+    /// Asks of one triangle, unless the last axis shows that it is no nearer than the nearest so far: most often they share
+    /// the corner or the edge that is.
+    fn ask(&mut self, number: u32, least: &mut Least<Told>) {
+        let Self { pair, on, bases, part, wanted, placed, .. } = *self;
+        let corners = on.ground.corners(number);
+        let is_no_less = |shown: (DVec3, f64)| least.is_no_less(placed.beyond(shown, corners));
+        if self.shown.is_some_and(is_no_less) || placed.towards(part, corners).is_some_and(is_no_less) {
+            return;
+        }
+        let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return };
+        let parts = pair.parts_on(on, bases, *part, (number, &triangle));
+        match parts.convex.probe(Asked { limit: least.reach(), hint: Hint::NONE, wanted }) {
+            Probe::Beyond(at_least, _) => least.give_up(at_least),
+            Probe::Near(near) => {
+                let towards = on.basis.turn_back(parts.basis.turn(near.normal));
+                let towards = if on.is_b { towards } else { -towards };
+                self.shown = Some((towards, placed.top(part, towards)));
+                least.offer(told(&parts, &near), near.separation, near.error);
+            }
+        }
     }
 }
 

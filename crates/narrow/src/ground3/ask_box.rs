@@ -6,7 +6,8 @@
 //! passed by   on one side of the triangle's plane from start to end
 //!             along the same way, square to the motion
 //! ```
-//! An axis is any: what all corners of both show along it is proved, however it was found.
+//! An axis is any: what all corners of both show along it is proved, however it was found. And any two points bound a
+//! separation from above.
 
 use super::near::OnGround;
 use crate::pair3::Part;
@@ -23,6 +24,13 @@ pub(crate) struct Corners {
     radius: f64,
     /// The centre of its bounding sphere, which tells the side it is on.
     pub(crate) center: DVec3,
+    /// How far the part reaches from there in every direction at least; below zero where it is beside that.
+    inner_radius: f64,
+    /// Whether the points are those of the part.
+    has_all: bool,
+    /// The part's axes and its origin in the ground's.
+    axes: [DVec3; 3],
+    origin: DVec3,
     /// All lengths that were summed for a place, and the radius.
     lengths: f64,
     low: DVec3,
@@ -55,7 +63,15 @@ impl Corners {
         let lengths = on.to_body.length() + shift.length() + f64::from(reach);
         let lengths = lengths + shape.center().as_dvec3().length() + radius;
         let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let mut corners = Self { points: ArrayVec::new(), radius, center, lengths, low, high };
+        let inner_radius = match shape {
+            Shape3::Cuboid(cuboid) => cuboid.half_extents().min_element(),
+            Shape3::Sphere(_) => 0.0,
+            _ => shape.core().inner_radius(),
+        };
+        let inner_radius = f64::from(inner_radius) + radius;
+        let points = ArrayVec::new();
+        let mut corners =
+            Self { points, radius, center, inner_radius, has_all: true, axes, origin, lengths, low, high };
         let mut add = |vertices: &[Vec3]| {
             for vertex in vertices {
                 let [x, y, z] = vertex.as_dvec3().to_array();
@@ -78,6 +94,7 @@ impl Corners {
             corners.points.clear();
             corners.points.push(center);
             corners.radius = f64::from(shape.outer_radius());
+            corners.has_all = false;
         }
         corners
     }
@@ -105,6 +122,57 @@ impl Corners {
         }
         let towards = (nearest(self.center, [a, b, c]) - self.center).try_normalize();
         towards.map_or(shown, |axis| shown.max(self.along(axis, [a, b, c]).gap()))
+    }
+
+    /// An upper bound on the separation from a triangle: the way from its point nearest to the part's centre to the sphere
+    /// inside the part, or from the part's corner nearest to that point. Infinite for a half-space.
+    pub(crate) fn at_most(&self, corners: [Vec3; 3]) -> f64 {
+        let corners = corners.map(|corner| corner.as_dvec3());
+        let near = nearest(self.center, corners);
+        let mut least = (near - self.center).length() - self.inner_radius;
+        if self.has_all {
+            let away = |point: &DVec3| (*point - near).length_squared();
+            let point =
+                self.points.iter().reduce(|one, other| if away(other) < away(one) { other } else { one });
+            let Some(&point) = point else { return f64::INFINITY };
+            least = least.min((nearest(point, corners) - point).length() - self.radius);
+        }
+        // Both points are points of the shapes up to rounding.
+        least.max(0.0) + 1024.0 * f64::EPSILON * (self.lengths + corners[0].abs().element_sum())
+    }
+
+    /// How far the part reaches along a unit axis, in metres from the ground's origin; without end for a half-space. Cost:
+    /// linear in the vertices.
+    pub(crate) fn top(&self, part: &Part, axis: DVec3) -> f64 {
+        let highest = if self.points.is_empty() {
+            f64::INFINITY
+        } else if self.has_all {
+            self.points.iter().fold(f64::NEG_INFINITY, |top, point| top.max(axis.dot(*point)))
+        } else {
+            let own = DVec3::new(self.axes[0].dot(axis), self.axes[1].dot(axis), self.axes[2].dot(axis));
+            let core = part.shape.core();
+            let heights = core.vertices().iter().map(|vertex| own.dot(vertex.as_dvec3()));
+            axis.dot(self.origin) + heights.fold(f64::NEG_INFINITY, f64::max)
+        };
+        highest + f64::from(part.shape.radius())
+    }
+
+    /// The axis from the centre to a triangle's nearest point, and how far the part reaches there, where [`Corners::gap`] has not
+    /// looked along it at the part's own points.
+    pub(crate) fn towards(&self, part: &Part, corners: [Vec3; 3]) -> Option<(DVec3, f64)> {
+        if self.has_all {
+            return None;
+        }
+        let near = nearest(self.center, corners.map(|corner| corner.as_dvec3()));
+        let axis = (near - self.center).try_normalize()?;
+        Some((axis, self.top(part, axis)))
+    }
+
+    /// A lower bound on the separation from a triangle: along a unit axis up to which the part reaches so far.
+    pub(crate) fn beyond(&self, (axis, top): (DVec3, f64), [a, b, c]: [Vec3; 3]) -> f64 {
+        let height = |corner: Vec3| axis.dot(corner.as_dvec3());
+        let least = height(a).min(height(b)).min(height(c));
+        least - top - 128.0 * f64::EPSILON * (self.lengths + least.abs() + a.as_dvec3().abs().element_sum())
     }
 
     /// Whether it passes a triangle by while it is moved, for certain.

@@ -59,7 +59,10 @@ impl Convex<'_> {
         {
             return self.told_gap((a, b), axes, witness, asked.hint);
         }
-        if let Some(cuboids) = self.cuboids() {
+        // Closest points are the distance's, and no axis tells of them.
+        if asked.wanted != Wanted::Closest
+            && let Some(cuboids) = self.cuboids()
+        {
             return self.probe_cuboids(&cuboids, (a, b), beyond, asked.wanted);
         }
         if let Some(axes) = hinted.and_then(|hinted| hinted.proved((a, b), &self.precision)) {
