@@ -5,10 +5,17 @@
 //!
 //! ```text
 //! overlap      the triangles whose boxes the part's box meets; the axis across the triangle; then as any pair
-//! separation   the triangles nearest first by their boxes, until those are further off than the least so far, or than a
-//!              point of one that was met: what two points show costs a twentieth of a kernel, and is met first;
-//!              then those that are left, the least lower bound first
+//! separation   the triangles nearest first by their boxes, until those are beyond the least so far:
+//!                beyond what a point of the part and one of a triangle that was met show: passed over
+//!                else it waits
+//!              those that wait, the least lower bound first:
+//!                the axis that was told last shows it no nearer than the least so far: passed over
+//!                else as any pair
 //! ```
+//! Kernels are dear, and most of the triangles around the nearest share the corner or the edge that is. What the bounds
+//! save: kernels asked, of hulls of 32 over hills, 8.2 to 1.8 a question; of boxes 2.9 to 2.2; of spheres 4 to 1.1. Times
+//! from 11.0 us to 6.4, 7.3 to 5.6, 5.7 to 2.9 (AMD EPYC, Zen 4, 2026-11-22).
+//!
 //! Two grounds are asked about each triangle of one against those of the other that are near it.
 
 use super::ask_box::Corners;

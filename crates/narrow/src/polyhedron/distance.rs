@@ -191,24 +191,34 @@ impl Simplex {
     /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than
     /// `length`.
     fn grow(&mut self, corner: Vertex, length: f64) -> Grown {
-        let mut corners = self.corners.clone();
-        let _ = corners.try_push(corner);
-        let points: ArrayVec<DVec3, 4> = corners.iter().map(|&(_, point)| point).collect();
-        let Some(nearest) = nearest_to_origin(&points) else {
+        let mut points = [corner.1; 4];
+        let count = self.corners.len();
+        for (point, &(_, place)) in points.iter_mut().zip(&self.corners) {
+            *point = place;
+        }
+        let Some(nearest) = nearest_to_origin(&points[..(count + 1).min(4)]) else {
             // Only four corners hold anything.
-            return Grown::Around(core::array::from_fn(|i| corners[i.min(corners.len() - 1)]));
+            let mut around = [corner; 4];
+            for (place, &known) in around.iter_mut().zip(&self.corners) {
+                *place = known;
+            }
+            return Grown::Around(around);
         };
         if nearest.point.length_squared() >= length * length {
             return Grown::Not;
         }
-        self.corners.clear();
         self.nearest = nearest.point;
-        for (index, corner) in corners.into_iter().enumerate() {
-            if nearest.corners >> index & 1 == 1 {
-                self.weights[self.corners.len()] = nearest.weights[index];
-                self.corners.push(corner);
+        let _ = self.corners.try_push(corner);
+        // Where they stay: moved as a whole, they cost as much as the search for the nearest point.
+        let mut kept = 0;
+        for i in 0..self.corners.len() {
+            if nearest.corners >> i & 1 == 1 {
+                self.corners[kept] = self.corners[i];
+                self.weights[kept] = nearest.weights[i];
+                kept += 1;
             }
         }
+        self.corners.truncate(kept);
         Grown::Nearer
     }
 
