@@ -13,7 +13,7 @@
 //!                else as any pair
 //! ```
 //! Kernels are dear, and most of the triangles around the nearest share the corner or the edge that is. What the bounds
-//! save: kernels asked, of hulls of 32 over hills, 8.2 to 1.8 a question; of boxes 2.9 to 2.2; of spheres 4 to 1.1. Times
+//! save: kernels asked, of hulls of 32 over hills, 9.4 to 1.8 a question; of boxes 5.1 to 2.2; of spheres 4.4 to 1.1. Times
 //! from 11.0 us to 6.4, 7.3 to 5.6, 5.7 to 2.9 (AMD EPYC, Zen 4, 2026-11-22).
 //!
 //! Two grounds are asked about each triangle of one against those of the other that are near it.
