@@ -4,7 +4,8 @@
 //! of the body against each triangle near it, as two convex shapes, with the same error and the same exactness.
 //!
 //! ```text
-//! overlap      the triangles whose boxes the part's box meets; the axis across the triangle; then as any pair
+//! overlap      the triangles whose boxes the part's box meets; the axis across the triangle; a point of it in the sphere
+//!              inside the part; then as any pair
 //! separation   the triangles nearest first by their boxes, until those are beyond the least so far:
 //!                beyond what a point of the part and one of a triangle that was met show: passed over
 //!                else it waits
@@ -104,11 +105,11 @@ impl Pair3<'_> {
                 let corners = on.ground.corners(number);
                 let is_meant =
                     placed.gap(corners, 0.0) <= 0.0 && (!only_seen || on.sees(corners, placed.center));
-                let is_yes = is_meant
-                    && on.ground.triangle(number).is_some_and(|triangle| {
-                        let triangle = Shape3::Triangle(triangle);
-                        ask(&self.parts_on(on, &bases, *part, (number, &triangle)))
-                    });
+                let mut is_yes = || {
+                    let triangle = on.ground.triangle(number).map(Shape3::Triangle);
+                    triangle.is_some_and(|it| ask(&self.parts_on(on, &bases, *part, (number, &it))))
+                };
+                let is_yes = is_meant && (placed.holds_some(corners) || is_yes());
                 if is_yes { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             flow.is_break()

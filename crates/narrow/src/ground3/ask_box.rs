@@ -138,7 +138,19 @@ impl Corners {
             least = least.min((nearest(point, corners) - point).length() - self.radius);
         }
         // Both points are points of the shapes up to rounding.
-        least.max(0.0) + 1024.0 * f64::EPSILON * (self.lengths + corners[0].abs().element_sum())
+        least.max(0.0) + self.doubt_beside(corners[0])
+    }
+
+    /// Whether the sphere inside the part certainly holds a point of a triangle.
+    pub(crate) fn holds_some(&self, corners: [Vec3; 3]) -> bool {
+        let corners = corners.map(|corner| corner.as_dvec3());
+        let away = (nearest(self.center, corners) - self.center).length();
+        away < self.inner_radius - self.doubt_beside(corners[0])
+    }
+
+    /// What the distance of two points may be off by, in metres.
+    fn doubt_beside(&self, corner: DVec3) -> f64 {
+        1024.0 * f64::EPSILON * (self.lengths + corner.abs().element_sum())
     }
 
     /// How far the part reaches along a unit axis, in metres from the ground's origin; without end for a half-space. Cost:
