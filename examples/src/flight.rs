@@ -7,7 +7,7 @@
 //! Developers Conference 2013).
 
 use crate::game::Body;
-use crate::physics::Physics;
+use crate::physics::{Linear, Physics};
 
 /// A bullet that is turned aside flies blind for the rest of a step: so far at most, as a share of its reach.
 const BLIND: f64 = 0.25;
@@ -67,9 +67,9 @@ impl<S: Physics> Flights<S> {
         };
         let flight = &self.0[index];
         let aside = moved - flight.moved;
-        let blind = BLIND * body.reach;
-        if S::dot(aside, aside) > blind * blind || flight.is_held {
-            let (way, most) = (S::dot(moved, moved).sqrt(), blind.min(blind * flight.share.max(BLIND)));
+        let blind = BLIND * body.matter.reach;
+        if aside.dot(aside) > blind * blind || flight.is_held {
+            let (way, most) = (moved.length(), blind.min(blind * flight.share.max(BLIND)));
             return (if way > most { moved * (most / way) } else { moved }, turned);
         }
         if flight.share < 1.0 {

@@ -85,7 +85,7 @@ impl<S: Sight> Stand<S> {
     /// The box around what moves, with the room that is never left; around all that has an end, where nothing moves.
     fn measure(&mut self, game: &Game<S>, (low, high): (DVec3, DVec3)) {
         let is_driven = |key| game.number(key).is_some_and(|number| self.is_driven(number));
-        let bodies = || S::bodies(&game.world).filter(|(_, body)| S::ball(body).1.is_finite());
+        let bodies = || game.world.iter().filter(|(_, body)| S::ball(body).1.is_finite());
         let free = || bodies().filter(|(key, body)| !body.is_fixed() && !is_driven(*key));
         let around = most(free().map(|(_, body)| S::corners(body)).collect());
         let driven =
@@ -179,7 +179,7 @@ impl<S: Sight> Stand<S> {
             found.iter().for_each(|&key| *counts.entry(key).or_default() += 1);
         }
         for (key, count) in counts {
-            let radius = S::get(&game.world, key).map_or(0.0, |body| S::ball(body).1);
+            let radius = game.world.get(key).map_or(0.0, |body| S::ball(body).1);
             if count >= HIDES && radius > large {
                 self.hidden.push(key);
             }
@@ -192,7 +192,7 @@ impl<S: Sight> Stand<S> {
         }
         let eye = view.eye();
         let mut seen: Vec<(f64, S::Key, &Collider<S>)> = Vec::new();
-        for (key, body) in S::bodies(&game.world).filter(|(_, body)| body.is_enabled()) {
+        for (key, body) in game.world.iter().filter(|(_, body)| body.is_enabled()) {
             let (center, radius) = S::ball(body);
             if view.sees(center, radius) && self.hidden.binary_search(&key).is_err() {
                 let distance = if S::FLAT { view.target.distance(center) } else { eye.distance(center) };
@@ -275,8 +275,8 @@ impl<S: Sight> Stand<S> {
             }
         });
         if toggles.shows(Layer::Pairs) {
-            for (a, b) in S::pairs(&game.world) {
-                let ends = [a, b].map(|key| S::get(&game.world, key).map(S::ball));
+            for (a, b) in game.world.candidates() {
+                let ends = [a, b].map(|key| game.world.get(key).map(S::ball));
                 let [Some((from, _)), Some((to, _))] = ends else { continue };
                 if from.is_finite() && to.is_finite() && view.sees((from + to) * 0.5, 0.5 * from.distance(to))
                 {
