@@ -5,7 +5,7 @@ use crate::stand::Stand;
 use crate::toggles::Toggles;
 use crate::view::View;
 use asunder::glam::DVec3;
-use asunder::{Plane, Volume};
+use asunder::{AnyWorld, Plane, Volume};
 use asunder_examples::game::Game;
 use asunder_examples::opened::{plane, volume};
 use asunder_examples::report::{STEP, Times, stages};

@@ -6,8 +6,8 @@ use crate::paint::Paint;
 use crate::sight::Sight;
 use crate::toggles::{Layer, Toggles};
 use crate::view::View;
-use asunder::glam::DVec3;
-use asunder::{Collider, DebugLine, DebugOptions, Tier};
+use asunder::glam::{DVec2, DVec3};
+use asunder::{AnyWorld, Collider, DebugLine, DebugOptions, Tier};
 use asunder_examples::game::Game;
 use macroquad::camera::set_camera;
 use std::collections::BTreeMap;
@@ -88,8 +88,12 @@ impl<S: Sight> Stand<S> {
         let bodies = || game.world.iter().filter(|(_, body)| S::ball(body).1.is_finite());
         let free = || bodies().filter(|(key, body)| !body.is_fixed() && !is_driven(*key));
         let around = most(free().map(|(_, body)| S::corners(body)).collect());
-        let driven =
-            bodies().filter(|(key, _)| is_driven(*key)).map(|(_, body)| S::corners(body)).reduce(both);
+        let driven: Vec<_> =
+            bodies().filter(|(key, _)| is_driven(*key)).map(|(_, body)| S::corners(body)).collect();
+        let driven = match around {
+            Some(inside) => turning(&driven, inside),
+            None => driven.into_iter().reduce(both),
+        };
         let all = || bodies().map(|(_, body)| S::corners(body)).reduce(both);
         let Some(room) = around.or(driven).or_else(all) else { return };
         let (sum, count) =
@@ -310,6 +314,21 @@ fn most(boxes: Vec<(DVec3, DVec3)>) -> Option<(DVec3, DVec3)> {
         }
     }
     Some((low, high))
+}
+
+/// The box around all of these; around the wheel that they turn in, about an axis along z, where they surround others:
+/// a drum, whose corners will be anywhere.
+fn turning(driven: &[(DVec3, DVec3)], inside: (DVec3, DVec3)) -> Option<(DVec3, DVec3)> {
+    let (low, high) = driven.iter().copied().reduce(both)?;
+    let surrounds = (low.cmple(inside.0) & high.cmpge(inside.1)).bitmask() & 0b011 == 0b011;
+    if !surrounds {
+        return Some((low, high));
+    }
+    let middle = (low + high) * 0.5;
+    let reach =
+        |&(low, high): &(DVec3, DVec3)| (low - middle).abs().max((high - middle).abs()).truncate().length();
+    let wheel = DVec2::splat(driven.iter().map(reach).fold(0.0, f64::max)).extend(0.0);
+    Some(both((low, high), (middle - wheel, middle + wheel)))
 }
 
 fn both(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
