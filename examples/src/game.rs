@@ -2,7 +2,7 @@
 
 mod tally;
 
-use crate::flight::{Flight, Flights};
+use crate::flight::Flights;
 use crate::islands::Islands;
 use crate::physics::{Linear, Matter, Physics, Touch};
 use crate::response::{Forces, Motion, Response, approach};
@@ -158,21 +158,18 @@ impl<S: Physics> Game<S> {
     pub fn add(
         &mut self,
         collider: Collider<S>,
-        shape: &S::Shape,
-        pose: &S::Pose,
         velocity: S::Vector,
         spin: S::Spin,
     ) -> Result<usize, NoMass> {
         let (matter, state) = match collider.is_fixed() {
             true => (Matter::none(), State::Fixed),
-            false => (S::matter(shape).ok_or(NoMass)?, State::Awake),
+            false => (S::matter(&collider).ok_or(NoMass)?, State::Awake),
         };
-        let (position, turn) = S::place(pose);
+        let (position, turn) = S::place(S::pose_of(&collider));
         let center = position + S::turned(turn, matter.center);
         let (number, is_bullet, is_sensor) =
             (self.bodies.len() as u32, collider.is_bullet(), collider.is_sensor());
-        let mut motion = Motion::new(velocity, spin);
-        motion.offset = center - position;
+        let mut motion = Motion::new(velocity, spin, center - position);
         match state {
             State::Fixed => motion.rest(),
             _ => self.awake.push(number),
@@ -191,7 +188,8 @@ impl<S: Physics> Game<S> {
         let Some(body) = self.bodies.get_mut(number) else { return };
         body.center -= self.motions[number].offset;
         (body.matter.center, body.state) = (S::Vector::default(), State::Driven);
-        self.motions[number] = Motion::new(S::Vector::default(), S::Spin::default());
+        let (still, at_origin) = (S::Vector::default(), S::Vector::default());
+        self.motions[number] = Motion::new(still, S::Spin::default(), at_origin);
         self.awake.retain(|&other| other as usize != number);
         self.driven.push(number as u32);
         self.paths.push(Box::new(path));
@@ -330,14 +328,7 @@ impl<S: Physics> Game<S> {
                 let _ = self.world.set_motion(body.key, motion);
             }
             if body.is_bullet && travel > 0.5 * body.matter.reach {
-                self.flights.push(Flight {
-                    number,
-                    moved,
-                    turned,
-                    share: 1.0,
-                    carried: S::Vector::default(),
-                    is_held: false,
-                });
+                self.flights.push(number, moved, turned);
             }
         }
     }

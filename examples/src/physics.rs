@@ -78,8 +78,8 @@ pub trait Physics: Space<Pose: Numbers> {
     /// Twice the energy of a spin. What nothing turns has none.
     fn spin_energy(inertia: &Self::Inertia, spin: Self::Spin) -> f64;
 
-    /// What a shape weighs at unit density; nothing where it is too thin for its mass to be told from zero.
-    fn matter(shape: &Self::Shape) -> Option<Matter<Self>>;
+    /// What a body weighs at unit density; nothing where it is too thin for its mass to be told from zero.
+    fn matter(body: &Collider<Self>) -> Option<Matter<Self>>;
     /// Where a body is.
     fn pose_of(body: &Collider<Self>) -> &Self::Pose;
     /// The place of a body's own origin, and its rotation.

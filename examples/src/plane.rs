@@ -2,7 +2,7 @@
 
 use crate::physics::{Matter, Physics, Touch, TouchId};
 use asunder::glam::DVec2;
-use asunder::{Collider2, Contact2, Impact2, MassProperties2, Motion2, Plane, Pose2, Rotation2, Shape2};
+use asunder::{Collider2, Contact2, Impact2, MassProperties2, Motion2, Plane, Pose2, Rotation2};
 
 impl Physics for Plane {
     type Vector = DVec2;
@@ -47,10 +47,10 @@ impl Physics for Plane {
         turn.rotate(local)
     }
 
-    fn matter(shape: &Shape2) -> Option<Matter<Self>> {
-        let MassProperties2 { mass, center, inertia } = shape.mass_properties(1.0).ok()?;
+    fn matter(body: &Collider2) -> Option<Matter<Self>> {
+        let MassProperties2 { mass, center, inertia } = body.shape().mass_properties(1.0).ok()?;
         let (inverse_mass, inverse_inertia) = (1.0 / mass, 1.0 / inertia);
-        let (size, reach) = (mass.sqrt(), f64::from(shape.outer_radius()));
+        let (size, reach) = (mass.sqrt(), f64::from(body.shape().outer_radius()));
         let is_sound = (inverse_mass + inverse_inertia).is_finite();
         is_sound.then_some(Matter { inverse_mass, inverse_inertia, center, size, reach })
     }

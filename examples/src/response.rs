@@ -76,24 +76,14 @@ pub(crate) struct Forces<S: Physics> {
 }
 
 impl<S: Physics> Motion<S> {
-    pub(crate) fn new(velocity: S::Vector, spin: S::Spin) -> Self {
-        let (nowhere, still) = (S::Vector::default(), S::Spin::default());
-        Self {
-            velocity,
-            spin,
-            inverse_mass: 0.0,
-            inverse_inertia: S::IMMOVABLE,
-            offset: nowhere,
-            moved: nowhere,
-            turned: still,
-        }
+    pub(crate) fn new(velocity: S::Vector, spin: S::Spin, offset: S::Vector) -> Self {
+        let (moved, turned) = (S::Vector::default(), S::Spin::default());
+        Self { velocity, spin, inverse_mass: 0.0, inverse_inertia: S::IMMOVABLE, offset, moved, turned }
     }
 
     /// Holds the body where it is, whatever pushes it.
     pub(crate) fn rest(&mut self) {
-        let offset = self.offset;
-        *self = Self::new(S::Vector::default(), S::Spin::default());
-        self.offset = offset;
+        *self = Self::new(S::Vector::default(), S::Spin::default(), self.offset);
     }
 
     #[inline]

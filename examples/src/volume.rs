@@ -2,7 +2,7 @@
 
 use crate::physics::{Matter, Physics, Touch, TouchId};
 use asunder::glam::{DMat3, DQuat, DVec3};
-use asunder::{Collider3, Contact3, Impact3, MassProperties3, Motion3, Pose3, Shape3, Volume};
+use asunder::{Collider3, Contact3, Impact3, MassProperties3, Motion3, Pose3, Volume};
 
 impl Physics for Volume {
     type Vector = DVec3;
@@ -52,10 +52,10 @@ impl Physics for Volume {
         turn * local
     }
 
-    fn matter(shape: &Shape3) -> Option<Matter<Self>> {
-        let MassProperties3 { mass, center, inertia } = shape.mass_properties(1.0).ok()?;
+    fn matter(body: &Collider3) -> Option<Matter<Self>> {
+        let MassProperties3 { mass, center, inertia } = body.shape().mass_properties(1.0).ok()?;
         let (inverse_mass, inverse_inertia) = (1.0 / mass, inertia.inverse());
-        let (size, reach) = (libm::cbrt(mass), f64::from(shape.outer_radius()));
+        let (size, reach) = (libm::cbrt(mass), f64::from(body.shape().outer_radius()));
         let is_sound = inverse_mass.is_finite() && inverse_inertia.is_finite();
         is_sound.then_some(Matter { inverse_mass, inverse_inertia, center, size, reach })
     }
