@@ -24,8 +24,7 @@ use crate::world::{StaleKey, World};
 ///     assert!(world.contact(b, a).is_some_and(|contact| (contact.a, contact.b) == (a, b)));
 ///     world.sleep(b)?;
 ///     assert!(world.get(b).is_some_and(Collider::is_asleep));
-///     world.set_pose(b, S::Pose::default())?;
-///     assert!(world.iter().all(|(_, body)| !body.is_asleep()) && world.remove(a).is_some());
+///     assert!(world.iter().count() == 2 && world.remove(a).is_some());
 ///     assert_eq!(world.set_pose(a, S::Pose::default()), Err(StaleKey));
 ///     Ok(world.events().len())
 /// }

@@ -7,8 +7,10 @@ use asunder::glam::{DVec2, DVec3, Vec3};
 use asunder::{BodyKey3, Collider3, Shape3, World3};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A landscape of more pieces than this is drawn only so far, about one of the bodies that move on it.
+/// Of a landscape of more pieces than this
 const PIECES: usize = 12_000;
+/// so many are drawn, about one of the bodies that move on it.
+const AROUND: usize = 2_000;
 /// Metres between the lines that are drawn on large faces of the scenery.
 const TILE: f64 = 1.0;
 /// Scenery that hides more than this share of the bodies that move is drawn as a shadow: the walls of a pit.
@@ -119,7 +121,7 @@ fn shown(world: &World3) -> Vec<(BodyKey3, &Collider3)> {
     let near = moving.min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle))).unwrap_or(middle);
     let away = |body: &Collider3| (place(body) - near).abs().max_element();
     let mut ways: Vec<f64> = bodies.iter().map(|(_, body)| away(body)).collect();
-    let (_, &mut far, _) = ways.select_nth_unstable_by(PIECES, f64::total_cmp);
+    let (_, &mut far, _) = ways.select_nth_unstable_by(AROUND, f64::total_cmp);
     bodies.retain(|(_, body)| away(body) <= far);
     bodies
 }
