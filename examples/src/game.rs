@@ -322,9 +322,11 @@ impl<S: Physics> Game<S> {
                 continue;
             }
             let (moved, turned) = (motion.velocity * self.seconds, motion.spin * self.seconds);
-            let end = body.pose_at(body.center + moved, S::turned_by(body.turn, turned));
+            let Some(end) = body.pose_at(body.center + moved, S::turned_by(body.turn, turned)) else {
+                continue;
+            };
             let start = self.world.get(body.key).map(S::pose_of);
-            if let Some(motion) = start.zip(end).and_then(|(start, end)| S::motion(start, &end)) {
+            if let Some(motion) = start.and_then(|start| S::motion(start, &end)) {
                 let _ = self.world.set_motion(body.key, motion);
             }
             if body.is_bullet && travel > 0.5 * body.matter.reach {

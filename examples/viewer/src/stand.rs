@@ -352,3 +352,20 @@ impl Tiers {
         tiers
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drum_is_framed_with_room_to_turn_and_a_wall_is_not() {
+        let inside = (DVec3::splat(-2.0), DVec3::splat(2.0));
+        let bar = |x: f64, y: f64| (DVec3::new(x - 3.0, y - 3.0, -1.0), DVec3::new(x + 3.0, y + 3.0, 1.0));
+        let (low, high) = turning(&[bar(1.0, 1.0), bar(-1.0, -1.0)], inside).unwrap();
+        let corner = 4.0 * 2.0_f64.sqrt();
+        assert!((high - DVec3::new(corner, corner, 1.0)).length() < 1e-12 && low == -high, "{low} {high}");
+        let wall = bar(9.0, 0.0);
+        assert_eq!(turning(&[wall], inside), Some(wall));
+        assert_eq!(turning(&[], inside), None);
+    }
+}
