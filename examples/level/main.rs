@@ -70,7 +70,7 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
     );
     let mut game = Game::<Volume>::new(DVec3::NEG_Y * 9.81);
     let floor = Shape3::from(mesh);
-    game.add(Collider3::new(floor.clone()).fixed(), &floor, &Pose3::IDENTITY, DVec3::ZERO, DVec3::ZERO)?;
+    game.add(Collider3::new(floor.clone()).fixed(), DVec3::ZERO, DVec3::ZERO)?;
     drop_things(&mut game, &floor, options.bodies as usize)?;
     report::run(&mut game, "level", options.steps);
     picture::save(&options.svg, &picture::volume::draw(&game.world))
@@ -102,9 +102,8 @@ fn drop_things(game: &mut Game<Volume>, floor: &Shape3, count: usize) -> Result<
         let position =
             DVec3::new(middle.x + from_middle(column, columns), height, middle.z + from_middle(row, rows));
         let pose = Pose3::new(position, random.rotation())?;
-        let shape = shapes[number % VARIANTS].clone();
-        let collider = Collider3::new(shape.clone()).at(pose).margin(MARGIN)?;
-        game.add(collider, &shape, &pose, DVec3::ZERO, DVec3::ZERO)?;
+        let collider = Collider3::new(shapes[number % VARIANTS].clone()).at(pose).margin(MARGIN)?;
+        game.add(collider, DVec3::ZERO, DVec3::ZERO)?;
     }
     Ok(())
 }

@@ -7,22 +7,22 @@
 //! Developers Conference 2013).
 
 use crate::game::Body;
-use crate::physics::Physics;
+use crate::physics::{Linear, Physics};
 
 /// A bullet that is turned aside flies blind for the rest of a step: so far at most, as a share of its reach.
 const BLIND: f64 = 0.25;
 
 /// What a bullet is expected to do in the next step.
-pub(crate) struct Flight<S: Physics> {
-    pub(crate) number: u32,
-    pub(crate) moved: S::Vector,
-    pub(crate) turned: S::Spin,
+struct Flight<S: Physics> {
+    number: u32,
+    moved: S::Vector,
+    turned: S::Spin,
     /// How much of it may be done.
-    pub(crate) share: f64,
+    share: f64,
     /// How far what is hit goes on by itself in the rest of the step: the bullet goes along.
-    pub(crate) carried: S::Vector,
+    carried: S::Vector,
     /// Whether a contact that is there already bends it.
-    pub(crate) is_held: bool,
+    is_held: bool,
 }
 
 /// The flights of the next step, by the bullets' numbers, ascending.
@@ -35,8 +35,16 @@ impl<S: Physics> Flights<S> {
         self.0.clear();
     }
 
-    pub(crate) fn push(&mut self, flight: Flight<S>) {
-        self.0.push(flight);
+    /// A bullet sets off; bullets are told of by their numbers, ascending.
+    pub(crate) fn push(&mut self, number: u32, moved: S::Vector, turned: S::Spin) {
+        self.0.push(Flight {
+            number,
+            moved,
+            turned,
+            share: 1.0,
+            carried: S::Vector::default(),
+            is_held: false,
+        });
     }
 
     /// A bullet hits something after a share of its flight, which itself moves so far in a step.
@@ -67,9 +75,9 @@ impl<S: Physics> Flights<S> {
         };
         let flight = &self.0[index];
         let aside = moved - flight.moved;
-        let blind = BLIND * body.reach;
-        if S::dot(aside, aside) > blind * blind || flight.is_held {
-            let (way, most) = (S::dot(moved, moved).sqrt(), blind.min(blind * flight.share.max(BLIND)));
+        let blind = BLIND * body.matter.reach;
+        if aside.dot(aside) > blind * blind || flight.is_held {
+            let (way, most) = (moved.length(), blind.min(blind * flight.share.max(BLIND)));
             return (if way > most { moved * (most / way) } else { moved }, turned);
         }
         if flight.share < 1.0 {

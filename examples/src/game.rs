@@ -2,12 +2,12 @@
 
 mod tally;
 
-use crate::flight::{Flight, Flights};
+use crate::flight::Flights;
 use crate::islands::Islands;
-use crate::physics::{Physics, Touch};
+use crate::physics::{Linear, Matter, Physics, Touch};
 use crate::response::{Forces, Motion, Response, approach};
 use asunder::slotmap::SecondaryMap;
-use asunder::{Collider, Event, World};
+use asunder::{AnyWorld, Collider, Event, World};
 use asunder_scenes::stages::Feel;
 
 /// How close bodies come before they get a contact, each. A contact that exists before it is needed lets the response
@@ -95,14 +95,8 @@ pub(crate) struct Body<S: Physics> {
     pub(crate) key: S::Key,
     pub(crate) center: S::Vector,
     pub(crate) turn: S::Turn,
-    local_center: S::Vector,
     start: S::Vector,
-    inverse_mass: f64,
-    inverse_inertia: S::Inertia,
-    /// Of its furthest point from the centre of mass, about, in metres.
-    pub(crate) reach: f64,
-    /// The edge of the cube, or of the square, of its mass; infinite without one.
-    size: f64,
+    pub(crate) matter: Matter<S>,
     pub(crate) is_bullet: bool,
     is_sensor: bool,
     state: State,
@@ -123,12 +117,13 @@ enum State {
 impl<S: Physics> Body<S> {
     /// The pose with the centre of mass at a place.
     pub(crate) fn pose_at(&self, center: S::Vector, turn: S::Turn) -> Option<S::Pose> {
-        S::pose(center - S::turned(turn, self.local_center), turn)
+        S::pose(center - S::turned(turn, self.matter.center), turn)
     }
 
     /// The square of a bound on the speed of its points.
     fn speed_squared(&self, motion: &Motion<S>) -> f64 {
-        S::dot(motion.velocity, motion.velocity) + S::spin_square(motion.spin) * self.reach * self.reach
+        let reach = self.matter.reach;
+        motion.velocity.dot(motion.velocity) + motion.spin.dot(motion.spin) * reach * reach
     }
 }
 
@@ -147,7 +142,7 @@ impl<S: Physics> Game<S> {
             awake: Vec::new(),
             driven: Vec::new(),
             paths: Vec::new(),
-            islands: Islands::NONE,
+            islands: Islands::default(),
             flights: Flights::NONE,
             touches: Vec::new(),
             response: Response::NONE,
@@ -163,43 +158,27 @@ impl<S: Physics> Game<S> {
     pub fn add(
         &mut self,
         collider: Collider<S>,
-        shape: &S::Shape,
-        pose: &S::Pose,
         velocity: S::Vector,
         spin: S::Spin,
     ) -> Result<usize, NoMass> {
-        // Scenery needs none, and may be without an end.
-        let mass = if collider.is_fixed() { None } else { Some(S::mass(shape).ok_or(NoMass)?) };
-        let (position, turn) = S::place(pose);
-        let local_center = mass.as_ref().map_or(S::Vector::default(), |mass| mass.center);
-        let center = position + S::turned(turn, local_center);
-        let (number, is_sensor) = (self.bodies.len() as u32, collider.is_sensor());
-        let (is_bullet, state) =
-            (collider.is_bullet(), if mass.is_some() { State::Awake } else { State::Fixed });
-        let key = S::insert(&mut self.world, collider);
+        let (matter, state) = match collider.is_fixed() {
+            true => (Matter::none(), State::Fixed),
+            false => (S::matter(&collider).ok_or(NoMass)?, State::Awake),
+        };
+        let (position, turn) = S::place(S::pose_of(&collider));
+        let center = position + S::turned(turn, matter.center);
+        let (number, is_bullet, is_sensor) =
+            (self.bodies.len() as u32, collider.is_bullet(), collider.is_sensor());
+        let mut motion = Motion::new(velocity, spin, center - position);
+        match state {
+            State::Fixed => motion.rest(),
+            _ => self.awake.push(number),
+        }
+        let key = self.world.insert(collider);
         self.numbers.insert(key, number);
         self.islands.add_body();
-        let mut motion = Motion::new(velocity, spin);
-        motion.offset = center - position;
-        match &mass {
-            Some(_) => self.awake.push(number),
-            None => motion.rest(),
-        }
         self.motions.push(motion);
-        self.bodies.push(Body {
-            key,
-            center,
-            turn,
-            local_center,
-            start: center,
-            inverse_mass: mass.as_ref().map_or(0.0, |mass| 1.0 / mass.mass),
-            size: mass.as_ref().map_or(f64::INFINITY, |mass| mass.size),
-            inverse_inertia: mass.map_or(S::IMMOVABLE, |mass| mass.inverse_inertia),
-            reach: S::reach(shape),
-            is_bullet,
-            is_sensor,
-            state,
-        });
+        self.bodies.push(Body { key, center, turn, start: center, matter, is_bullet, is_sensor, state });
         Ok(number as usize)
     }
 
@@ -208,8 +187,9 @@ impl<S: Physics> Game<S> {
     pub fn drive(&mut self, number: usize, path: impl Fn(u32) -> S::Pose + Send + 'static) {
         let Some(body) = self.bodies.get_mut(number) else { return };
         body.center -= self.motions[number].offset;
-        (body.local_center, body.state) = (S::Vector::default(), State::Driven);
-        self.motions[number] = Motion::new(S::Vector::default(), S::Spin::default());
+        (body.matter.center, body.state) = (S::Vector::default(), State::Driven);
+        let (still, at_origin) = (S::Vector::default(), S::Vector::default());
+        self.motions[number] = Motion::new(still, S::Spin::default(), at_origin);
         self.awake.retain(|&other| other as usize != number);
         self.driven.push(number as u32);
         self.paths.push(Box::new(path));
@@ -221,8 +201,8 @@ impl<S: Physics> Game<S> {
         self.steps += 1;
         for &number in &self.awake {
             let (body, motion) = (&self.bodies[number as usize], &mut self.motions[number as usize]);
-            motion.inverse_mass = body.inverse_mass;
-            motion.inverse_inertia = S::turned_inertia(&body.inverse_inertia, body.turn);
+            motion.inverse_mass = body.matter.inverse_mass;
+            motion.inverse_inertia = S::turned_inertia(&body.matter.inverse_inertia, body.turn);
             (motion.moved, motion.turned) = (S::Vector::default(), S::Spin::default());
         }
         let targets = self.aim();
@@ -233,7 +213,8 @@ impl<S: Physics> Game<S> {
         for (&number, pose) in self.driven.iter().zip(targets) {
             let body = &mut self.bodies[number as usize];
             (body.center, body.turn) = S::place(&pose);
-            S::set_pose(&mut self.world, body.key, pose);
+            // A stale key is a body that has left the level: there is nothing to move.
+            let _ = self.world.set_pose(body.key, pose);
         }
         if self.sleeps {
             self.send_to_sleep();
@@ -265,14 +246,14 @@ impl<S: Physics> Game<S> {
             let (center, turn) = (body.center + moved, S::turned_by(body.turn, turned));
             let travelled = center - body.start;
             match body.pose_at(center, turn) {
-                Some(pose) if S::dot(travelled, travelled) < LEFT * LEFT => {
+                Some(pose) if travelled.dot(travelled) < LEFT * LEFT => {
                     (body.center, body.turn) = (center, turn);
-                    motion.offset = S::turned(turn, body.local_center);
-                    S::set_pose(world, body.key, pose);
+                    motion.offset = S::turned(turn, body.matter.center);
+                    let _ = world.set_pose(body.key, pose);
                     true
                 }
                 _ => {
-                    S::remove(world, body.key);
+                    world.remove(body.key);
                     body.state = State::Left;
                     motion.rest();
                     counts.left += 1;
@@ -302,7 +283,7 @@ impl<S: Physics> Game<S> {
             let body = &mut bodies[number as usize];
             body.state = State::Asleep;
             motions[number as usize].rest();
-            S::sleep(world, body.key);
+            let _ = world.sleep(body.key);
         });
     }
 
@@ -311,7 +292,7 @@ impl<S: Physics> Game<S> {
         self.look_ahead();
         self.world.update();
         self.note_hits();
-        for event in S::events(&self.world) {
+        for event in self.world.events() {
             match event {
                 Event::Began { .. } => self.counts.began += 1,
                 Event::Ended { .. } => self.counts.ended += 1,
@@ -337,35 +318,33 @@ impl<S: Physics> Game<S> {
         for &number in &self.awake {
             let (body, motion) = (&self.bodies[number as usize], &self.motions[number as usize]);
             let travel = body.speed_squared(motion).sqrt() * self.seconds;
-            if travel < f64::from(MARGIN) + 0.05 * body.reach && !(everybody && travel > 0.0) {
+            if travel < f64::from(MARGIN) + 0.05 * body.matter.reach && !(everybody && travel > 0.0) {
                 continue;
             }
             let (moved, turned) = (motion.velocity * self.seconds, motion.spin * self.seconds);
-            let Some(pose) = body.pose_at(body.center + moved, S::turned_by(body.turn, turned)) else {
+            let Some(end) = body.pose_at(body.center + moved, S::turned_by(body.turn, turned)) else {
                 continue;
             };
-            S::look_ahead(&mut self.world, body.key, &pose);
-            if body.is_bullet && travel > 0.5 * body.reach {
-                self.flights.push(Flight {
-                    number,
-                    moved,
-                    turned,
-                    share: 1.0,
-                    carried: S::Vector::default(),
-                    is_held: false,
-                });
+            let start = self.world.get(body.key).map(S::pose_of);
+            if let Some(motion) = start.and_then(|start| S::motion(start, &end)) {
+                let _ = self.world.set_motion(body.key, motion);
+            }
+            if body.is_bullet && travel > 0.5 * body.matter.reach {
+                self.flights.push(number, moved, turned);
             }
         }
     }
 
     /// A bullet stops where it will hit something; the contact that is there by then does the rest.
     fn note_hits(&mut self) {
-        for (bullet, other, share) in S::hits(&self.world) {
-            let (Some(&number), Some(&met)) = (self.numbers.get(bullet), self.numbers.get(other)) else {
+        for hit in self.world.impacts().iter().filter(|hit| !hit.sensor) {
+            let (Some(&number), Some(&met)) = (self.numbers.get(hit.bullet), self.numbers.get(hit.other))
+            else {
                 continue;
             };
             // What it touches already is that contact's business.
-            let is_contact = S::is_near(&self.world, bullet, other);
+            let contact = self.world.contact(hit.bullet, hit.other);
+            let is_contact = contact.is_some_and(|contact| !contact.speculative);
             let other = &self.bodies[met as usize];
             // Two bullets both stop where they meet.
             let goes_on = !other.is_bullet || other.state == State::Driven;
@@ -374,31 +353,31 @@ impl<S: Physics> Game<S> {
             } else {
                 S::Vector::default()
             };
-            self.flights.note(number, (share, along), is_contact);
+            self.flights.note(number, (S::fraction(&hit.impact), along), is_contact);
         }
     }
 
     /// Collects the contact points that matter: of bodies that move.
     fn gather(&mut self) {
         self.touches.clear();
-        let (numbers, bodies, motions) = (&self.numbers, &self.bodies, &self.motions);
-        let wanted = |a, b, speculative| {
-            let pair = [*numbers.get(a)?, *numbers.get(b)?];
-            let [a, b] = pair.map(|number| &bodies[number as usize]);
-            let states = [a.state, b.state];
-            let is_driven =
-                |side: usize| states[side] == State::Driven && is_moving(&motions[pair[side] as usize]);
-            let is_wanted = match states {
+        let (bodies, motions) = (&self.bodies, &self.motions);
+        for contact in self.world.contacts() {
+            let (Some(&a), Some(&b)) = (self.numbers.get(contact.a), self.numbers.get(contact.b)) else {
+                continue;
+            };
+            let [of_a, of_b] = [a, b].map(|number| &bodies[number as usize]);
+            let is_wanted = match [of_a.state, of_b.state] {
                 [State::Awake, _] | [_, State::Awake] => true,
-                [_, State::Asleep] => is_driven(0),
-                [State::Asleep, _] => is_driven(1),
+                [State::Driven, State::Asleep] => is_moving(&motions[a as usize]),
+                [State::Asleep, State::Driven] => is_moving(&motions[b as usize]),
                 _ => false,
             };
             // Of bullets the world says more: what they hit, and when.
-            let is_flying = speculative && (a.is_bullet || b.is_bullet);
-            (is_wanted && !is_flying).then_some(pair)
-        };
-        S::touches(&self.world, wanted, &mut self.touches);
+            let is_flying = contact.speculative && (of_a.is_bullet || of_b.is_bullet);
+            if is_wanted && !is_flying {
+                self.touches.extend(S::touches(contact, [a, b]));
+            }
+        }
     }
 
     /// Wakes the islands that something which moves touches, or will touch in the next step: to be hit while asleep
@@ -423,7 +402,7 @@ impl<S: Physics> Game<S> {
 
     fn note_depths(&mut self) {
         let deepest = self.touches.iter().map(|touch| -touch.separation).fold(0.0, f64::max);
-        let share = self.share_of(&self.touches);
+        let share = self.touches.iter().map(|touch| self.share_of(touch)).fold(0.0, f64::max);
         let counts = &mut self.counts;
         counts.deepest = counts.deepest.max(deepest);
         if f64::from(self.steps) * self.seconds > SETTLED {

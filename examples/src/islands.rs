@@ -10,6 +10,7 @@ const CALM: f64 = 0.05;
 const CALM_FOR: f64 = 0.5;
 
 /// The islands of one game, by the numbers of its bodies.
+#[derive(Default)]
 pub(crate) struct Islands {
     /// Of an island's body, another of the same island with a lower number, or itself. Of a sleeping body: the root.
     parents: Vec<u32>,
@@ -22,9 +23,6 @@ pub(crate) struct Islands {
 }
 
 impl Islands {
-    pub(crate) const NONE: Self =
-        Self { parents: Vec::new(), calm: Vec::new(), asleep: Vec::new(), waking: Vec::new() };
-
     pub(crate) fn add_body(&mut self) {
         self.parents.push(self.parents.len() as u32);
         self.calm.push(0.0);
@@ -52,7 +50,6 @@ impl Islands {
 
     /// Moves bodies of islands that are calm from the list of those awake to that of those asleep, and tells of each.
     pub(crate) fn send_to_sleep(&mut self, awake: &mut Vec<u32>, mut tell: impl FnMut(u32)) {
-        let before = self.asleep.len();
         awake.retain(|&body| {
             let root = self.root(body);
             let sleeps = self.calm[root as usize] >= CALM_FOR;
@@ -64,9 +61,7 @@ impl Islands {
             }
             !sleeps
         });
-        if self.asleep.len() > before {
-            self.asleep.sort_unstable();
-        }
+        self.asleep.sort_unstable();
     }
 
     /// The island of a sleeping body is to wake.
@@ -116,7 +111,7 @@ mod tests {
 
     #[test]
     fn an_island_sleeps_when_its_last_body_is_calm_and_wakes_as_a_whole() {
-        let mut islands = Islands::NONE;
+        let mut islands = Islands::default();
         (0..5).for_each(|_| islands.add_body());
         let mut awake = vec![0, 1, 2, 3, 4];
         let mut slept = Vec::new();

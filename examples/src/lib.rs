@@ -5,14 +5,12 @@
 //!
 //! ```
 //! use asunder::glam::{DVec3, Vec3};
-//! use asunder::{Collider3, Cuboid, HalfSpace, Pose3, Shape3, Volume};
+//! use asunder::{Collider3, Cuboid, HalfSpace, Pose3, Volume};
 //! use asunder_examples::game::{Game, MARGIN};
 //! let mut game = Game::<Volume>::new(DVec3::NEG_Y * 9.81);
-//! let (floor, here) = (Shape3::from(HalfSpace::new(Vec3::Y)?), Pose3::IDENTITY);
-//! game.add(Collider3::new(floor.clone()).fixed(), &floor, &here, DVec3::ZERO, DVec3::ZERO)?;
-//! let (cube, above) = (Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?), Pose3::at([0.0, 0.6, 0.0])?);
-//! let collider = Collider3::new(cube.clone()).at(above).margin(MARGIN)?;
-//! game.add(collider, &cube, &above, DVec3::ZERO, DVec3::ZERO)?;
+//! game.add(Collider3::new(HalfSpace::new(Vec3::Y)?).fixed(), DVec3::ZERO, DVec3::ZERO)?;
+//! let cube = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5))?);
+//! game.add(cube.at(Pose3::at([0.0, 0.6, 0.0])?).margin(MARGIN)?, DVec3::ZERO, DVec3::ZERO)?;
 //! game.update();
 //! (0..60).for_each(|_| game.step(1.0 / 60.0));
 //! assert!(game.fastest_now() < 0.01 && game.counts.deepest < 0.01, "it lies still");

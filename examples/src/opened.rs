@@ -93,7 +93,7 @@ fn game<S: Physics, P: Clone + Send + 'static>(
         let flags = [body.fixed, body.sensor, scene.bullets.binary_search(&(number as u32)).is_ok()];
         let collider = with_flags(collider, flags, body.layers).user_data(body.user_data);
         let collider = owned(collider, &scene.owners, number);
-        game.add(collider, &body.shape, &body.pose, body.linear_velocity, body.angular_velocity)
+        game.add(collider, body.linear_velocity, body.angular_velocity)
             .map_err(|error| format!("bodies[{number}].shape: {error}"))?;
     }
     for driver in &scene.drivers {

@@ -1,8 +1,9 @@
 //! What a game needs of a dimension beyond what the engine gives: vectors, turning, mass.
 
+use crate::recording::Numbers;
 use asunder::glam::{DVec2, DVec3};
 use asunder::slotmap::Key;
-use asunder::{Collider, Event, Space, World};
+use asunder::{Collider, Contact, Space};
 use core::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 /// Vectors, and what bodies spin by: a number in the plane, a vector in space.
@@ -16,102 +17,106 @@ pub trait Linear:
     + AddAssign
     + SubAssign
 {
+    /// The inner product.
+    fn dot(self, other: Self) -> f64;
+
+    /// The root of the inner product with itself.
+    #[inline]
+    fn length(self) -> f64 {
+        self.dot(self).sqrt()
+    }
 }
 
-impl Linear for f64 {}
-impl Linear for DVec2 {}
-impl Linear for DVec3 {}
+impl Linear for f64 {
+    #[inline]
+    fn dot(self, other: Self) -> f64 {
+        self * other
+    }
+}
+
+impl Linear for DVec2 {
+    #[inline]
+    fn dot(self, other: Self) -> f64 {
+        Self::dot(self, other)
+    }
+}
+
+impl Linear for DVec3 {
+    #[inline]
+    fn dot(self, other: Self) -> f64 {
+        Self::dot(self, other)
+    }
+}
 
 /// A dimension that the game can be played in.
-pub trait Physics: Space {
+pub trait Physics: Space<Pose: Numbers> {
     /// Places and velocities.
     type Vector: Linear;
     /// Angular velocities, in radians a second.
     type Spin: Linear;
     /// A rotation in f64: the poses' own f32 would drift over many small turns.
     type Turn: Copy;
-    /// An inverse inertia about the centre of mass.
-    type Inertia: Copy;
-    /// How many numbers a position has, and how many a rotation.
-    const NUMBERS: [usize; 2];
+    /// An inverse inertia about the centre of mass: times a torque it is the spin that the torque gives.
+    type Inertia: Copy + Mul<Self::Spin, Output = Self::Spin>;
     /// Of what no torque turns.
     const IMMOVABLE: Self::Inertia;
 
-    /// The inner product.
-    fn dot(a: Self::Vector, b: Self::Vector) -> f64;
-    /// The speed of a spin, squared.
-    fn spin_square(spin: Self::Spin) -> f64;
     /// Whether a point lies in the box between two corners.
     fn is_within(point: Self::Vector, room: &(Self::Vector, Self::Vector)) -> bool;
-    /// The spin that a push at the end of an arm gives.
+    /// What a push at the end of an arm turns with.
     fn torque(arm: Self::Vector, push: Self::Vector) -> Self::Spin;
     /// The velocity that a spin gives the end of an arm.
     fn sweep(spin: Self::Spin, arm: Self::Vector) -> Self::Vector;
-    /// The spin that a torque gives.
-    fn respond(inertia: &Self::Inertia, torque: Self::Spin) -> Self::Spin;
-    /// Twice the energy of a spin. What nothing turns has none.
-    fn spin_energy(inertia: &Self::Inertia, spin: Self::Spin) -> f64;
-    /// The inverse inertia of a turned body, in world axes.
-    fn turned_inertia(inertia: &Self::Inertia, turn: Self::Turn) -> Self::Inertia;
+    /// A vector of the body in world axes.
+    fn turned(turn: Self::Turn, local: Self::Vector) -> Self::Vector;
     /// A rotation, turned on by a small one.
     fn turned_by(turn: Self::Turn, spin: Self::Spin) -> Self::Turn;
     /// What turns one rotation to another that is near.
     fn spin_between(from: Self::Turn, to: Self::Turn) -> Self::Spin;
-    /// A vector of the body in world axes.
-    fn turned(turn: Self::Turn, local: Self::Vector) -> Self::Vector;
+    /// The inverse inertia of a turned body, in world axes.
+    fn turned_inertia(inertia: &Self::Inertia, turn: Self::Turn) -> Self::Inertia;
+    /// Twice the energy of a spin. What nothing turns has none.
+    fn spin_energy(inertia: &Self::Inertia, spin: Self::Spin) -> f64;
 
-    /// Nothing where the shape is too thin for its mass to be told from zero.
-    fn mass(shape: &Self::Shape) -> Option<Mass<Self>>;
-    /// How far a shape reaches from its own centre, in metres.
-    fn reach(shape: &Self::Shape) -> f64;
+    /// What a body weighs at unit density; nothing where it is too thin for its mass to be told from zero.
+    fn matter(body: &Collider<Self>) -> Option<Matter<Self>>;
+    /// Where a body is.
+    fn pose_of(body: &Collider<Self>) -> &Self::Pose;
     /// The place of a body's own origin, and its rotation.
     fn place(pose: &Self::Pose) -> (Self::Vector, Self::Turn);
     /// Nothing where the numbers are no pose: the body has left every level that there can be.
     fn pose(position: Self::Vector, turn: Self::Turn) -> Option<Self::Pose>;
-
-    /// Adds a body.
-    fn insert(world: &mut World<Self>, collider: Collider<Self>) -> Self::Key;
-    /// Takes a body out.
-    fn remove(world: &mut World<Self>, key: Self::Key);
-    /// Moves a body.
-    fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose);
-    /// Says where a body will be when the next step is done.
-    fn look_ahead(world: &mut World<Self>, key: Self::Key, to: &Self::Pose);
-    /// Notes that a body is at rest.
-    fn sleep(world: &mut World<Self>, key: Self::Key);
-    /// Where a body is.
-    fn pose_of(world: &World<Self>, key: Self::Key) -> Option<Self::Pose>;
-    /// What the last update reported.
-    fn events(world: &World<Self>) -> &[Event<Self::Key>];
-    /// What solid things bullets run into: the bullet, the other, and the share of the motion until then.
-    fn hits(world: &World<Self>) -> impl Iterator<Item = (Self::Key, Self::Key, f64)>;
-    /// Whether two bodies have a contact by where they are, and not only by where they are going.
-    fn is_near(world: &World<Self>, a: Self::Key, b: Self::Key) -> bool;
-    /// Appends every point of the contacts that are wanted, in the world's order. Asked with both bodies, and whether
-    /// the contact is only what motions may bring; the answer is the bodies' numbers.
+    /// What leads from one pose to another; nothing where they are too far apart.
+    fn motion(from: &Self::Pose, to: &Self::Pose) -> Option<Self::Motion>;
+    /// The share of a motion until something is hit.
+    fn fraction(impact: &Self::Impact) -> f64;
+    /// The points of a contact between the bodies of these numbers.
     fn touches(
-        world: &World<Self>,
-        wanted: impl FnMut(Self::Key, Self::Key, bool) -> Option<[u32; 2]>,
-        touches: &mut Vec<Touch<Self>>,
-    );
-    /// How many contacts there are by where bodies are, and how many of them share a point.
-    fn count_contacts(world: &World<Self>) -> (u32, u32);
-    /// The numbers of a pose, bit for bit: those of the position, then those of the rotation, which are f32.
-    fn numbers(pose: &Self::Pose) -> impl Iterator<Item = f64>;
-    /// The pose of such numbers; nothing where they are none.
-    fn of_numbers(numbers: &[f64]) -> Option<Self::Pose>;
+        contact: Contact<'_, Self::Key, Self::Manifold>,
+        bodies: [u32; 2],
+    ) -> impl Iterator<Item = Touch<Self>>;
 }
 
-/// Mass at unit density, and how it is spread.
-pub struct Mass<S: Physics> {
-    /// In kilograms.
-    pub mass: f64,
-    /// The edge of the cube, or of the square, of that mass, in metres.
-    pub size: f64,
+/// How heavy a body is.
+pub struct Matter<S: Physics> {
+    /// In 1/kg. Zero for what no push moves.
+    pub inverse_mass: f64,
+    /// About the centre of mass, in the body's axes.
+    pub inverse_inertia: S::Inertia,
     /// The centre of mass, in the body's axes.
     pub center: S::Vector,
-    /// About the centre of mass.
-    pub inverse_inertia: S::Inertia,
+    /// The edge of the cube, or of the square, of its mass, in metres; infinite without one.
+    pub size: f64,
+    /// How far the shape reaches from its own centre, in metres.
+    pub reach: f64,
+}
+
+impl<S: Physics> Matter<S> {
+    /// Of scenery, which needs none and may be without an end.
+    pub(crate) fn none() -> Self {
+        let (center, size) = (S::Vector::default(), f64::INFINITY);
+        Self { inverse_mass: 0.0, inverse_inertia: S::IMMOVABLE, center, size, reach: 0.0 }
+    }
 }
 
 /// One point of a contact.
@@ -124,10 +129,8 @@ pub struct Touch<S: Physics> {
     pub normal: S::Vector,
     /// In metres; negative in overlap.
     pub separation: f64,
-    /// Relative to the first body's position.
-    pub anchor_a: S::Vector,
-    /// Relative to the second body's position.
-    pub anchor_b: S::Vector,
+    /// Relative to either body's position.
+    pub anchors: [S::Vector; 2],
 }
 
 /// What stays the same of a contact point from frame to frame.

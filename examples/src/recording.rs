@@ -13,7 +13,8 @@
 //! room.
 
 use crate::physics::Physics;
-use asunder::Space;
+use asunder::glam::{DVec2, DVec3, Quat};
+use asunder::{Pose2, Pose3, Rotation2, Space};
 use std::io::{ErrorKind, Read, Write};
 
 /// How a recording begins.
@@ -24,6 +25,45 @@ pub const VERSION: u32 = 1;
 
 /// The longest name of a scene, in bytes.
 const MAX_NAME: u32 = 4096;
+
+/// A pose as the numbers that it is made of, bit for bit.
+pub trait Numbers: Sized {
+    /// How many a position has, and how many a rotation.
+    const COUNTS: [usize; 2];
+    /// Those of the position, then those of the rotation, which are f32.
+    fn numbers(&self) -> impl Iterator<Item = f64>;
+    /// The pose of such numbers; nothing where they are none.
+    fn of_numbers(numbers: &[f64]) -> Option<Self>;
+}
+
+impl Numbers for Pose2 {
+    const COUNTS: [usize; 2] = [2, 2];
+
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        let rotation = [self.rotation().cos(), self.rotation().sin()].map(f64::from);
+        self.position().to_array().into_iter().chain(rotation)
+    }
+
+    fn of_numbers(numbers: &[f64]) -> Option<Self> {
+        let &[x, y, cos, sin] = numbers else { return None };
+        Self::new(DVec2::new(x, y), Rotation2::new(cos as f32, sin as f32).ok()?).ok()
+    }
+}
+
+impl Numbers for Pose3 {
+    const COUNTS: [usize; 2] = [3, 4];
+
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        let rotation = self.rotation().to_array().map(f64::from);
+        self.position().to_array().into_iter().chain(rotation)
+    }
+
+    fn of_numbers(numbers: &[f64]) -> Option<Self> {
+        let &[x, y, z, ref rotation @ ..] = numbers else { return None };
+        let rotation: [f64; 4] = rotation.try_into().ok()?;
+        Self::new(DVec3::new(x, y, z), Quat::from_array(rotation.map(|number| number as f32))).ok()
+    }
+}
 
 /// What a recording says of its scene.
 ///
@@ -170,15 +210,15 @@ pub fn write_step<S: Physics>(to: &mut impl Write, step: &Step<S>) -> Result<(),
 }
 
 fn write_pose<S: Physics>(pose: &S::Pose, to: &mut impl Write) -> Result<(), std::io::Error> {
-    let [of_position, _] = S::NUMBERS;
-    S::numbers(pose).enumerate().try_for_each(|(place, number)| match place < of_position {
+    let [of_position, _] = S::Pose::COUNTS;
+    pose.numbers().enumerate().try_for_each(|(place, number)| match place < of_position {
         true => to.write_all(&number.to_le_bytes()),
         false => to.write_all(&(number as f32).to_le_bytes()),
     })
 }
 
 fn read_pose<S: Physics>(from: &mut impl Read) -> Result<Option<S::Pose>, std::io::Error> {
-    let [of_position, of_rotation] = S::NUMBERS;
+    let [of_position, of_rotation] = S::Pose::COUNTS;
     let mut numbers = Vec::with_capacity(of_position + of_rotation);
     for _ in 0..of_position {
         numbers.push(f64::from_le_bytes(read(from)?));
@@ -186,7 +226,7 @@ fn read_pose<S: Physics>(from: &mut impl Read) -> Result<Option<S::Pose>, std::i
     for _ in 0..of_rotation {
         numbers.push(f64::from(f32::from_le_bytes(read(from)?)));
     }
-    Ok(S::of_numbers(&numbers))
+    Ok(S::Pose::of_numbers(&numbers))
 }
 
 /// Reads the head of a recording.

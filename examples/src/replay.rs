@@ -2,8 +2,9 @@
 
 use crate::game::Game;
 use crate::physics::Physics;
-use crate::recording::{Head, RecordError, Step, read_step, write_head, write_step};
+use crate::recording::{Head, Numbers, RecordError, Step, read_step, write_head, write_step};
 use crate::report::{Times, bar};
+use asunder::{AnyWorld, World};
 use std::error::Error;
 use std::io::{Read, Write};
 
@@ -34,7 +35,7 @@ impl<S: Physics, W: Write> Recorder<S, W> {
             let now = pose(game, number);
             match (&*last, now) {
                 (Some(before), Some(now))
-                    if !S::numbers(before).map(f64::to_bits).eq(S::numbers(&now).map(f64::to_bits)) =>
+                    if !before.numbers().map(f64::to_bits).eq(now.numbers().map(f64::to_bits)) =>
                 {
                     moved.push((number as u32, now));
                 }
@@ -43,7 +44,7 @@ impl<S: Physics, W: Write> Recorder<S, W> {
             }
             *last = now;
         }
-        let (contacts, touching) = S::count_contacts(&game.world);
+        let (contacts, touching) = count_contacts(&game.world);
         write_step(&mut self.to, &Step::<S> { moved, left, contacts, touching })
     }
 
@@ -57,7 +58,13 @@ impl<S: Physics, W: Write> Recorder<S, W> {
 }
 
 fn pose<S: Physics>(game: &Game<S>, number: usize) -> Option<S::Pose> {
-    game.key(number).and_then(|key| S::pose_of(&game.world, key))
+    game.key(number).and_then(|key| game.world.get(key)).map(|body| *S::pose_of(body))
+}
+
+/// How many contacts there are by where bodies are, and how many of them share a point.
+fn count_contacts<S: Physics>(world: &World<S>) -> (u32, u32) {
+    let near = world.contacts().filter(|contact| !contact.speculative);
+    near.fold((0, 0), |(near, touching), contact| (near + 1, touching + u32::from(contact.overlapping)))
 }
 
 /// Plays at most so many steps of a recording, and returns what they cost. The game is that of the recording's scene,
@@ -85,19 +92,18 @@ pub fn replay<S: Physics>(
         number += 1;
         let set = |game: &mut Game<S>| {
             for &(body, pose) in &step.moved {
-                if let Some(key) = game.key(body as usize) {
-                    S::set_pose(&mut game.world, key, pose);
-                }
+                // A stale key is a body that has left the level: there is nothing to move.
+                let _ = game.key(body as usize).map(|key| game.world.set_pose(key, pose));
             }
             for &body in &step.left {
                 if let Some(key) = game.key(body as usize) {
-                    S::remove(&mut game.world, key);
+                    game.world.remove(key);
                 }
             }
             game.world.update();
         };
         times.measure(game, |game| game.world.stats(), set);
-        let found = S::count_contacts(&game.world);
+        let found = count_contacts(&game.world);
         if found != (step.contacts, step.touching) {
             return Err(format!(
                 "step {number}: {} contacts, {} touching; the recording has {} and {}",

@@ -1,12 +1,12 @@
 //! Push-apart response: contacts in, velocities and displacements out.
 //!
 //! Sequential impulses in short substeps with soft contacts (Catto, "Solver2D", 2024; "soft step" there, and the
-//! solver of Box2D 3): a step is cut into [`SUBSTEPS`]; each one pushes every contact point once with a spring that
+//! solver of Box2D 3): a step is cut into substeps; each one pushes every contact point once with a spring that
 //! removes overlap, moves the bodies, and pushes once more without the spring, so that removing overlap leaves no
 //! speed behind. Contacts are those of one update; between substeps their separations are carried along by what the
 //! bodies moved. At the end, what came fast enough is given the share of its speed that bounces back.
 
-use crate::physics::{Physics, Touch, TouchId};
+use crate::physics::{Linear, Physics, Touch, TouchId};
 use asunder_scenes::stages::Feel;
 use core::f64::consts::TAU;
 
@@ -37,22 +37,18 @@ pub(crate) struct Motion<S: Physics> {
     pub(crate) turned: S::Spin,
 }
 
-/// What a contact point has pushed so far, kept from step to step as the first guess of the next.
-struct Pushes<S: Physics> {
-    apart: f64,
-    aside: S::Vector,
-}
-
 struct Point<S: Physics> {
     id: TouchId<S::Key>,
-    a: usize,
-    b: usize,
-    arm_a: S::Vector,
-    arm_b: S::Vector,
+    bodies: [usize; 2],
+    /// From their centres of mass.
+    arms: [S::Vector; 2],
     normal: S::Vector,
     separation: f64,
+    /// Of both bodies, as a push along the normal feels it; zero where it moves neither.
     mass: f64,
-    pushes: Pushes<S>,
+    /// What it has pushed so far, kept from step to step as the first guess of the next.
+    apart: f64,
+    aside: S::Vector,
     /// How fast both came together before the step, in m/s, and the hardest push of any substep.
     speed_before: f64,
     hardest: f64,
@@ -80,30 +76,20 @@ pub(crate) struct Forces<S: Physics> {
 }
 
 impl<S: Physics> Motion<S> {
-    pub(crate) fn new(velocity: S::Vector, spin: S::Spin) -> Self {
-        let (nowhere, still) = (S::Vector::default(), S::Spin::default());
-        Self {
-            velocity,
-            spin,
-            inverse_mass: 0.0,
-            inverse_inertia: S::IMMOVABLE,
-            offset: nowhere,
-            moved: nowhere,
-            turned: still,
-        }
+    pub(crate) fn new(velocity: S::Vector, spin: S::Spin, offset: S::Vector) -> Self {
+        let (moved, turned) = (S::Vector::default(), S::Spin::default());
+        Self { velocity, spin, inverse_mass: 0.0, inverse_inertia: S::IMMOVABLE, offset, moved, turned }
     }
 
     /// Holds the body where it is, whatever pushes it.
     pub(crate) fn rest(&mut self) {
-        let offset = self.offset;
-        *self = Self::new(S::Vector::default(), S::Spin::default());
-        self.offset = offset;
+        *self = Self::new(S::Vector::default(), S::Spin::default(), self.offset);
     }
 
     #[inline]
     fn push(&mut self, arm: S::Vector, push: S::Vector) {
         self.velocity += push * self.inverse_mass;
-        self.spin += S::respond(&self.inverse_inertia, S::torque(arm, push));
+        self.spin += self.inverse_inertia * S::torque(arm, push);
     }
 
     #[inline]
@@ -114,15 +100,15 @@ impl<S: Physics> Motion<S> {
     /// How much speed along a direction a unit push along it gives the end of an arm.
     #[inline]
     fn yielding(&self, arm: S::Vector, direction: S::Vector) -> f64 {
-        let spin = S::respond(&self.inverse_inertia, S::torque(arm, direction));
-        self.inverse_mass + S::dot(direction, S::sweep(spin, arm))
+        let spin = self.inverse_inertia * S::torque(arm, direction);
+        self.inverse_mass + direction.dot(S::sweep(spin, arm))
     }
 }
 
 /// How fast two bodies come together at a contact point, in m/s; negative where they part.
 pub(crate) fn approach<S: Physics>(touch: &Touch<S>, [a, b]: [&Motion<S>; 2]) -> f64 {
-    let (at_a, at_b) = (a.velocity_at(touch.anchor_a - a.offset), b.velocity_at(touch.anchor_b - b.offset));
-    S::dot(at_a - at_b, touch.normal)
+    let [anchor_a, anchor_b] = touch.anchors;
+    (a.velocity_at(anchor_a - a.offset) - b.velocity_at(anchor_b - b.offset)).dot(touch.normal)
 }
 
 impl<S: Physics> Response<S> {
@@ -168,16 +154,15 @@ impl<S: Physics> Response<S> {
         self.points.clear();
         let mut start = 0;
         for touch in touches {
-            let (a, b) = (touch.bodies[0] as usize, touch.bodies[1] as usize);
             while self.last.get(start).is_some_and(|last| last.id.keys < touch.id.keys) {
                 start += 1;
             }
             let of_pair = self.last[start..].iter().take_while(|last| last.id.keys == touch.id.keys);
-            let mut point = Point::new(touch, [&motions[a], &motions[b]]);
+            let mut point = Point::new(touch, motions);
             if let Some(last) = of_pair.into_iter().find(|last| last.id == touch.id) {
                 // It pushes as it did; sideways only as far as the new normal agrees.
-                let Pushes { apart, aside } = last.pushes;
-                point.pushes = Pushes { apart, aside: aside - point.normal * S::dot(aside, point.normal) };
+                point.apart = last.apart;
+                point.aside = last.aside - point.normal * last.aside.dot(point.normal);
             }
             self.points.push(point);
         }
@@ -194,39 +179,34 @@ impl Spring {
 }
 
 impl<S: Physics> Point<S> {
-    fn new(touch: &Touch<S>, [a, b]: [&Motion<S>; 2]) -> Self {
-        let (arm_a, arm_b, normal) = (touch.anchor_a - a.offset, touch.anchor_b - b.offset, touch.normal);
-        let yielding = a.yielding(arm_a, normal) + b.yielding(arm_b, normal);
+    fn new(touch: &Touch<S>, motions: &[Motion<S>]) -> Self {
+        let Touch { id, normal, separation, .. } = *touch;
+        let bodies = touch.bodies.map(|body| body as usize);
+        let [a, b] = bodies.map(|body| &motions[body]);
+        let arms = [touch.anchors[0] - a.offset, touch.anchors[1] - b.offset];
+        let yielding = a.yielding(arms[0], normal) + b.yielding(arms[1], normal);
         let mass = if yielding > 0.0 { 1.0 / yielding } else { 0.0 };
-        Self {
-            id: touch.id,
-            a: touch.bodies[0] as usize,
-            b: touch.bodies[1] as usize,
-            arm_a,
-            arm_b,
-            normal,
-            separation: touch.separation,
-            mass,
-            pushes: Pushes { apart: 0.0, aside: S::Vector::default() },
-            speed_before: -approach(touch, [a, b]),
-            hardest: 0.0,
-        }
+        let speed_before = -approach(touch, [a, b]);
+        let (apart, aside, hardest) = (0.0, S::Vector::default(), 0.0);
+        Self { id, bodies, arms, normal, separation, mass, apart, aside, speed_before, hardest }
     }
 
     fn repeat(&self, motions: &mut [Motion<S>]) {
-        self.apply(motions, self.normal * self.pushes.apart + self.pushes.aside);
+        self.apply(motions, self.normal * self.apart + self.aside);
     }
 
     #[inline]
     fn apply(&self, motions: &mut [Motion<S>], push: S::Vector) {
-        motions[self.a].push(self.arm_a, push * -1.0);
-        motions[self.b].push(self.arm_b, push);
+        let ([a, b], [arm_a, arm_b]) = (self.bodies, self.arms);
+        motions[a].push(arm_a, push * -1.0);
+        motions[b].push(arm_b, push);
     }
 
     /// The velocity of B's point, as seen from A's.
     #[inline]
     fn drift(&self, motions: &[Motion<S>]) -> S::Vector {
-        motions[self.b].velocity_at(self.arm_b) - motions[self.a].velocity_at(self.arm_a)
+        let [a, b] = self.bodies.map(|body| &motions[body]);
+        b.velocity_at(self.arms[1]) - a.velocity_at(self.arms[0])
     }
 
     /// Friction first, as in Box2D 2.4: what keeps bodies apart has the last word. (The other way round, a pyramid with
@@ -237,54 +217,54 @@ impl<S: Physics> Point<S> {
     }
 
     fn push_apart(&mut self, motions: &mut [Motion<S>], substep: f64, spring: Option<&Spring>) {
-        let (a, b) = (&motions[self.a], &motions[self.b]);
-        let carried = b.moved + S::sweep(b.turned, self.arm_b) - a.moved - S::sweep(a.turned, self.arm_a);
-        let separation = self.separation + S::dot(carried, self.normal);
-        let speed = S::dot(self.drift(motions), self.normal);
+        let ([a, b], [arm_a, arm_b]) = (self.bodies.map(|body| &motions[body]), self.arms);
+        let carried = b.moved + S::sweep(b.turned, arm_b) - a.moved - S::sweep(a.turned, arm_a);
+        let separation = self.separation + carried.dot(self.normal);
+        let speed = self.drift(motions).dot(self.normal);
         let push = match spring {
             // In a gap: allow as much speed as closes it.
             _ if separation > 0.0 => -self.mass * (speed + separation / substep),
             Some(spring) => {
                 let wanted = (spring.rate * separation).max(-PUSH_SPEED);
-                -self.mass * spring.mass_share * (speed + wanted) - spring.push_share * self.pushes.apart
+                -self.mass * spring.mass_share * (speed + wanted) - spring.push_share * self.apart
             }
             None => -self.mass * speed,
         };
-        self.set_apart(motions, self.pushes.apart + push);
+        self.set_apart(motions, self.apart + push);
     }
 
     #[inline]
     fn set_apart(&mut self, motions: &mut [Motion<S>], wanted: f64) {
         let apart = wanted.max(0.0);
-        self.apply(motions, self.normal * (apart - self.pushes.apart));
-        self.pushes.apart = apart;
+        self.apply(motions, self.normal * (apart - self.apart));
+        self.apart = apart;
         self.hardest = self.hardest.max(apart);
     }
 
     /// Friction: stops sliding, with at most a share of what pushes apart.
     fn push_aside(&mut self, motions: &mut [Motion<S>], friction: f64) {
-        let most = friction * self.pushes.apart;
-        if most == 0.0 && self.pushes.aside == S::Vector::default() {
+        let most = friction * self.apart;
+        if most == 0.0 && self.aside == S::Vector::default() {
             return;
         }
         let velocity = self.drift(motions);
-        let slide = velocity - self.normal * S::dot(velocity, self.normal);
-        let speed = S::dot(slide, slide).sqrt();
-        let mut aside = self.pushes.aside;
+        let slide = velocity - self.normal * velocity.dot(self.normal);
+        let speed = slide.length();
+        let mut aside = self.aside;
         if speed > 1e-12 {
             let direction = slide * (1.0 / speed);
-            let (a, b) = (&motions[self.a], &motions[self.b]);
-            let yielding = a.yielding(self.arm_a, direction) + b.yielding(self.arm_b, direction);
+            let [a, b] = self.bodies.map(|body| &motions[body]);
+            let yielding = a.yielding(self.arms[0], direction) + b.yielding(self.arms[1], direction);
             if yielding > 0.0 {
                 aside -= direction * (speed / yielding);
             }
         }
-        let size = S::dot(aside, aside).sqrt();
+        let size = aside.length();
         if size > most {
             aside = aside * (most / size);
         }
-        self.apply(motions, aside - self.pushes.aside);
-        self.pushes.aside = aside;
+        self.apply(motions, aside - self.aside);
+        self.aside = aside;
     }
 
     /// Gives back a share of the speed that both came with, where they did meet.
@@ -292,8 +272,8 @@ impl<S: Physics> Point<S> {
         if self.speed_before > -BOUNCE_SPEED || self.hardest == 0.0 {
             return;
         }
-        let speed = S::dot(self.drift(motions), self.normal);
+        let speed = self.drift(motions).dot(self.normal);
         let push = -self.mass * (speed + restitution * self.speed_before);
-        self.set_apart(motions, self.pushes.apart + push);
+        self.set_apart(motions, self.apart + push);
     }
 }

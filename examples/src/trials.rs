@@ -98,15 +98,14 @@ pub fn shoot(speed: f64, shots: usize) -> Result<Figure, Box<dyn Error>> {
     let mut passed = 0.0;
     for shot in 0..shots {
         let mut game = Game::<Volume>::new(DVec3::NEG_Y * 9.81);
-        let here = Pose3::IDENTITY;
-        game.add(Collider3::new(wall.clone()).fixed(), &wall, &here, DVec3::ZERO, DVec3::ZERO)?;
+        game.add(Collider3::new(wall.clone()).fixed(), DVec3::ZERO, DVec3::ZERO)?;
         let share = shot as f64 / shots as f64;
         let start = DVec3::new(0.0, 0.0, 1.0 + 10.0 * share);
         let pose = Pose3::at(start)?;
         let collider = Collider3::new(ball.clone()).at(pose).bullet().margin(MARGIN)?;
         // Up to 40 degrees off, all of them towards the wall.
         let aim = DVec3::new(0.8 * (share * 7.0 - (share * 7.0).floor() - 0.5), 0.0, -1.0).normalize();
-        let number = game.add(collider, &ball, &pose, aim * speed, DVec3::ZERO)?;
+        let number = game.add(collider, aim * speed, DVec3::ZERO)?;
         game.update();
         play(&mut game, 0.25, |_| ());
         let is_through = game.center(number).is_none_or(|center| center.z < 0.0);

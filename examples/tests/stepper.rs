@@ -24,7 +24,7 @@ fn add(game: &mut Game<Volume>, shape: &Shape3, place: DVec3, fixed: bool) -> us
     let pose = Pose3::at(place).unwrap();
     let collider = Collider3::new(shape.clone()).at(pose).margin(MARGIN).unwrap();
     let collider = if fixed { collider.fixed() } else { collider };
-    game.add(collider, shape, &pose, DVec3::ZERO, DVec3::ZERO).unwrap()
+    game.add(collider, DVec3::ZERO, DVec3::ZERO).unwrap()
 }
 
 fn steps(game: &mut Game<Volume>, count: u32) {

@@ -55,6 +55,7 @@
 //!   constructors.
 #![deny(missing_docs)]
 
+mod any_world;
 mod ask2;
 mod ask3;
 mod bodies;
@@ -78,6 +79,7 @@ mod world;
 mod world2;
 mod world3;
 
+pub use any_world::AnyWorld;
 pub use asunder_geometry::{
     Aabb2, Aabb3, Basis3, Bounds, Capsule2, Capsule3, CapsuleError, Chain, ChainError, Circle, Compound2,
     Compound3, CompoundError, Core2, Core3, Cuboid, DecomposeError, DirectionError, DroppedTriangles,

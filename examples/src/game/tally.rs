@@ -1,7 +1,9 @@
 //! What can be asked of a game.
 
 use super::{Game, Places, State};
-use crate::physics::{Physics, Touch};
+use crate::physics::{Linear, Physics, Touch};
+use crate::recording::Numbers;
+use asunder::AnyWorld;
 
 impl<S: Physics> Game<S> {
     /// How many bodies were added.
@@ -61,41 +63,40 @@ impl<S: Physics> Game<S> {
 
     /// The deepest overlap of any contact point of the last update, in metres.
     pub fn deepest_now(&self) -> f64 {
-        let mut touches = Vec::new();
-        S::touches(&self.world, |_, _, _| Some([0, 0]), &mut touches);
-        touches.iter().map(|touch| -touch.separation).fold(0.0, f64::max)
+        self.all_touches().map(|touch| -touch.separation).fold(0.0, f64::max)
     }
 
     /// The deepest overlap of any contact point of the last update, as a share of the smaller body's size: the edge of
     /// the cube, or of the square, of its mass.
     pub fn deepest_share(&self) -> f64 {
-        let mut touches = Vec::new();
-        let pair = |a, b| Some([*self.numbers.get(a)?, *self.numbers.get(b)?]);
-        S::touches(&self.world, |a, b, _| pair(a, b), &mut touches);
-        self.share_of(&touches)
+        self.all_touches().map(|touch| self.share_of(&touch)).fold(0.0, f64::max)
     }
 
-    pub(super) fn share_of(&self, touches: &[Touch<S>]) -> f64 {
-        let share = |touch: &Touch<S>| {
-            let [a, b] = touch.bodies.map(|number| self.bodies[number as usize].size);
-            -touch.separation / a.min(b)
-        };
-        touches.iter().map(share).fold(0.0, f64::max)
+    fn all_touches(&self) -> impl Iterator<Item = Touch<S>> {
+        let pair = |a, b| Some([*self.numbers.get(a)?, *self.numbers.get(b)?]);
+        let of_bodies =
+            self.world.contacts().filter_map(move |contact| Some((contact, pair(contact.a, contact.b)?)));
+        of_bodies.flat_map(|(contact, bodies)| S::touches(contact, bodies))
+    }
+
+    pub(super) fn share_of(&self, touch: &Touch<S>) -> f64 {
+        let [a, b] = touch.bodies.map(|number| self.bodies[number as usize].matter.size);
+        -touch.separation / a.min(b)
     }
 
     /// The greatest speed of any body, in m/s: near zero once the scene is at rest.
     pub fn fastest_now(&self) -> f64 {
         let motions = self.awake.iter().map(|&number| &self.motions[number as usize]);
-        motions.map(|motion| S::dot(motion.velocity, motion.velocity)).fold(0.0, f64::max).sqrt()
+        motions.map(|motion| motion.velocity.length()).fold(0.0, f64::max)
     }
 
     /// The kinetic energy of all that pushes can move, in joules.
     pub fn energy(&self) -> f64 {
         let energy = |&number: &u32| {
             let (body, motion) = (&self.bodies[number as usize], &self.motions[number as usize]);
-            let inertia = S::turned_inertia(&body.inverse_inertia, body.turn);
+            let inertia = S::turned_inertia(&body.matter.inverse_inertia, body.turn);
             let spin = S::spin_energy(&inertia, motion.spin);
-            0.5 * (S::dot(motion.velocity, motion.velocity) / body.inverse_mass + spin)
+            0.5 * (motion.velocity.dot(motion.velocity) / body.matter.inverse_mass + spin)
         };
         // Not `sum`: of nothing that is -0.
         self.awake.iter().map(energy).fold(0.0, |sum, one| sum + one)
@@ -124,9 +125,9 @@ impl<S: Physics> Game<S> {
                 State::Fixed | State::Driven => continue,
                 State::Awake | State::Asleep => {}
             }
-            let moved = body.center - *center;
-            let turned = S::spin_square(S::spin_between(*turn, body.turn)).sqrt() * body.reach;
-            most = most.max((S::dot(moved, moved).sqrt() + turned) / body.size);
+            let moved = (body.center - *center).length();
+            let turned = S::spin_between(*turn, body.turn).length() * body.matter.reach;
+            most = most.max((moved + turned) / body.matter.size);
         }
         most
     }
@@ -134,8 +135,8 @@ impl<S: Physics> Game<S> {
     /// A number that differs wherever the poses of two runs do (FNV-1a over their bits).
     pub fn digest(&self) -> u64 {
         let mut digest = 0xcbf2_9ce4_8422_2325_u64;
-        for pose in self.bodies.iter().filter_map(|body| S::pose_of(&self.world, body.key)) {
-            for byte in S::numbers(&pose).flat_map(f64::to_le_bytes) {
+        for body in self.bodies.iter().filter_map(|body| self.world.get(body.key)) {
+            for byte in S::pose_of(body).numbers().flat_map(f64::to_le_bytes) {
                 digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }
         }

@@ -7,6 +7,10 @@ use asunder::glam::{DVec2, DVec3, Vec3};
 use asunder::{BodyKey3, Collider3, Shape3, World3};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Of a landscape of more pieces than this
+const PIECES: usize = 12_000;
+/// so many are drawn, about one of the bodies that move on it.
+const AROUND: usize = 2_000;
 /// Metres between the lines that are drawn on large faces of the scenery.
 const TILE: f64 = 1.0;
 /// Scenery that hides more than this share of the bodies that move is drawn as a shadow: the walls of a pit.
@@ -34,12 +38,13 @@ struct Solid {
 /// Draws the world as of its last update.
 pub fn draw(world: &World3) -> String {
     let view = View::new(DVec3::new(0.60, 0.62, 0.90));
-    let solids: Vec<Solid> = world
+    let bodies = shown(world);
+    let solids: Vec<Solid> = bodies
         .iter()
         .enumerate()
         .flat_map(|(body, (_, collider))| parts(collider).into_iter().map(move |part| Solid::new(part, body)))
         .collect();
-    let numbers: BTreeMap<_, usize> = world.iter().enumerate().map(|(i, (key, _))| (key, i)).collect();
+    let numbers: BTreeMap<_, usize> = bodies.iter().enumerate().map(|(i, (key, _))| (*key, i)).collect();
     let outlines: Vec<Vec<DVec2>> = solids.iter().map(|solid| view.outline(solid)).collect();
     let convex: Vec<&Collider3> = solids.iter().map(|solid| &solid.part).collect();
     let order = far_to_near(&convex, &outlines, view.toward_viewer);
@@ -102,6 +107,23 @@ fn shadows(solids: &[Solid], view: &View) -> BTreeSet<usize> {
         hidden as f64 > HIDES * movers.len() as f64
     };
     scenery.filter(|(_, solid)| hides_much(solid)).map(|(number, _)| number).collect()
+}
+
+/// The bodies that are drawn: all, but of a large landscape a square about the body that moves nearest to its middle.
+fn shown(world: &World3) -> Vec<(BodyKey3, &Collider3)> {
+    let mut bodies: Vec<_> = world.iter().collect();
+    if bodies.iter().filter(|(_, body)| body.is_fixed()).count() <= PIECES {
+        return bodies;
+    }
+    let place = |body: &Collider3| body.pose().position();
+    let middle = bodies.iter().map(|(_, body)| place(body)).sum::<DVec3>() / bodies.len() as f64;
+    let moving = bodies.iter().filter(|(_, body)| !body.is_fixed()).map(|(_, body)| place(body));
+    let near = moving.min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle))).unwrap_or(middle);
+    let away = |body: &Collider3| (place(body) - near).abs().max_element();
+    let mut ways: Vec<f64> = bodies.iter().map(|(_, body)| away(body)).collect();
+    let (_, &mut far, _) = ways.select_nth_unstable_by(AROUND, f64::total_cmp);
+    bodies.retain(|(_, body)| away(body) <= far);
+    bodies
 }
 
 impl View {

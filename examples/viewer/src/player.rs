@@ -5,7 +5,7 @@ use crate::stand::Stand;
 use crate::toggles::Toggles;
 use crate::view::View;
 use asunder::glam::DVec3;
-use asunder::{Plane, Volume};
+use asunder::{AnyWorld, Plane, Volume};
 use asunder_examples::game::Game;
 use asunder_examples::opened::{plane, volume};
 use asunder_examples::report::{STEP, Times, stages};
@@ -117,7 +117,7 @@ impl<S: Sight> Show for Player<S> {
     fn hold(&mut self, (from, direction): (DVec3, DVec3)) -> Option<DVec3> {
         let (key, place) = S::pick(&self.game.world, from, direction, self.stand.hidden())?;
         let number = self.game.number(key)?;
-        if self.stand.is_driven(number) || S::get(&self.game.world, key)?.is_fixed() {
+        if self.stand.is_driven(number) || self.game.world.get(key)?.is_fixed() {
             return None;
         }
         self.held = Some(Held { number, offset: place - S::in_space(self.game.center(number)?) });

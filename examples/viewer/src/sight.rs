@@ -19,10 +19,6 @@ pub(crate) trait Sight: Physics {
     fn in_space(place: Self::Vector) -> DVec3;
     /// What is left of a vector of space.
     fn of_space(v: DVec3) -> Self::Vector;
-    /// The world's bodies, in its order.
-    fn bodies(world: &World<Self>) -> impl Iterator<Item = (Self::Key, &Collider<Self>)>;
-    /// A body.
-    fn get(world: &World<Self>, key: Self::Key) -> Option<&Collider<Self>>;
     /// Where a body is.
     fn position(body: &Collider<Self>) -> DVec3;
     /// Where a body is, seen from a point.
@@ -39,8 +35,6 @@ pub(crate) trait Sight: Physics {
     fn paint(body: &Collider<Self>) -> Paint;
     /// The engine's own lines.
     fn lines(world: &World<Self>, options: &DebugOptions, line: &mut impl FnMut(DVec3, DVec3, DebugLine));
-    /// Pairs whose boxes meet.
-    fn pairs(world: &World<Self>) -> impl Iterator<Item = (Self::Key, Self::Key)>;
     /// Each contact's pair, by what it was settled whether they touch, and where its points are.
     fn tiers(world: &World<Self>, tell: impl FnMut([Self::Key; 2], Tier, &mut dyn Iterator<Item = DVec3>));
     /// What is seen first along a ray, but for what is hidden, and where.

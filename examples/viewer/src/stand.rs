@@ -6,8 +6,8 @@ use crate::paint::Paint;
 use crate::sight::Sight;
 use crate::toggles::{Layer, Toggles};
 use crate::view::View;
-use asunder::glam::DVec3;
-use asunder::{Collider, DebugLine, DebugOptions, Tier};
+use asunder::glam::{DVec2, DVec3};
+use asunder::{AnyWorld, Collider, DebugLine, DebugOptions, Tier};
 use asunder_examples::game::Game;
 use macroquad::camera::set_camera;
 use std::collections::BTreeMap;
@@ -85,11 +85,15 @@ impl<S: Sight> Stand<S> {
     /// The box around what moves, with the room that is never left; around all that has an end, where nothing moves.
     fn measure(&mut self, game: &Game<S>, (low, high): (DVec3, DVec3)) {
         let is_driven = |key| game.number(key).is_some_and(|number| self.is_driven(number));
-        let bodies = || S::bodies(&game.world).filter(|(_, body)| S::ball(body).1.is_finite());
+        let bodies = || game.world.iter().filter(|(_, body)| S::ball(body).1.is_finite());
         let free = || bodies().filter(|(key, body)| !body.is_fixed() && !is_driven(*key));
         let around = most(free().map(|(_, body)| S::corners(body)).collect());
-        let driven =
-            bodies().filter(|(key, _)| is_driven(*key)).map(|(_, body)| S::corners(body)).reduce(both);
+        let driven: Vec<_> =
+            bodies().filter(|(key, _)| is_driven(*key)).map(|(_, body)| S::corners(body)).collect();
+        let driven = match around {
+            Some(inside) => turning(&driven, inside),
+            None => driven.into_iter().reduce(both),
+        };
         let all = || bodies().map(|(_, body)| S::corners(body)).reduce(both);
         let Some(room) = around.or(driven).or_else(all) else { return };
         let (sum, count) =
@@ -179,7 +183,7 @@ impl<S: Sight> Stand<S> {
             found.iter().for_each(|&key| *counts.entry(key).or_default() += 1);
         }
         for (key, count) in counts {
-            let radius = S::get(&game.world, key).map_or(0.0, |body| S::ball(body).1);
+            let radius = game.world.get(key).map_or(0.0, |body| S::ball(body).1);
             if count >= HIDES && radius > large {
                 self.hidden.push(key);
             }
@@ -192,7 +196,7 @@ impl<S: Sight> Stand<S> {
         }
         let eye = view.eye();
         let mut seen: Vec<(f64, S::Key, &Collider<S>)> = Vec::new();
-        for (key, body) in S::bodies(&game.world).filter(|(_, body)| body.is_enabled()) {
+        for (key, body) in game.world.iter().filter(|(_, body)| body.is_enabled()) {
             let (center, radius) = S::ball(body);
             if view.sees(center, radius) && self.hidden.binary_search(&key).is_err() {
                 let distance = if S::FLAT { view.target.distance(center) } else { eye.distance(center) };
@@ -275,8 +279,8 @@ impl<S: Sight> Stand<S> {
             }
         });
         if toggles.shows(Layer::Pairs) {
-            for (a, b) in S::pairs(&game.world) {
-                let ends = [a, b].map(|key| S::get(&game.world, key).map(S::ball));
+            for (a, b) in game.world.candidates() {
+                let ends = [a, b].map(|key| game.world.get(key).map(S::ball));
                 let [Some((from, _)), Some((to, _))] = ends else { continue };
                 if from.is_finite() && to.is_finite() && view.sees((from + to) * 0.5, 0.5 * from.distance(to))
                 {
@@ -312,6 +316,21 @@ fn most(boxes: Vec<(DVec3, DVec3)>) -> Option<(DVec3, DVec3)> {
     Some((low, high))
 }
 
+/// The box around all of these; around the wheel that they turn in, about an axis along z, where they surround others:
+/// a drum, whose corners will be anywhere.
+fn turning(driven: &[(DVec3, DVec3)], inside: (DVec3, DVec3)) -> Option<(DVec3, DVec3)> {
+    let (low, high) = driven.iter().copied().reduce(both)?;
+    let surrounds = (low.cmple(inside.0) & high.cmpge(inside.1)).bitmask() & 0b011 == 0b011;
+    if !surrounds {
+        return Some((low, high));
+    }
+    let middle = (low + high) * 0.5;
+    let reach =
+        |&(low, high): &(DVec3, DVec3)| (low - middle).abs().max((high - middle).abs()).truncate().length();
+    let wheel = DVec2::splat(driven.iter().map(reach).fold(0.0, f64::max)).extend(0.0);
+    Some(both((low, high), (middle - wheel, middle + wheel)))
+}
+
 fn both(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
     (a.0.min(b.0), a.1.max(b.1))
 }
@@ -331,5 +350,22 @@ impl Tiers {
             tiers.marks.extend(places.map(|place| (place, tier)));
         });
         tiers
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drum_is_framed_with_room_to_turn_and_a_wall_is_not() {
+        let inside = (DVec3::splat(-2.0), DVec3::splat(2.0));
+        let bar = |x: f64, y: f64| (DVec3::new(x - 3.0, y - 3.0, -1.0), DVec3::new(x + 3.0, y + 3.0, 1.0));
+        let (low, high) = turning(&[bar(1.0, 1.0), bar(-1.0, -1.0)], inside).unwrap();
+        let corner = 4.0 * 2.0_f64.sqrt();
+        assert!((high - DVec3::new(corner, corner, 1.0)).length() < 1e-12 && low == -high, "{low} {high}");
+        let wall = bar(9.0, 0.0);
+        assert_eq!(turning(&[wall], inside), Some(wall));
+        assert_eq!(turning(&[], inside), None);
     }
 }

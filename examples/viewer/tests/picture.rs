@@ -3,6 +3,7 @@
 use macroquad::texture::Image;
 use std::collections::BTreeSet;
 use std::error::Error;
+use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -13,17 +14,22 @@ fn viewer() -> &'static str {
     env!("CARGO_BIN_EXE_asunder-viewer")
 }
 
+/// Not by `println`, which is swallowed where a test passes: who reads nothing believes that a picture was made.
+fn say(what: &str) {
+    let _ = writeln!(std::io::stderr(), "{what}");
+}
+
 /// Makes a picture; nothing where the system has no virtual display.
 fn shoot(scene: &[&str], file: &Path) -> Option<Output> {
     let mut command = Command::new("xvfb-run");
     command.arg("-a").arg(viewer()).args(scene).arg("--shot").arg(file);
     let Ok(output) = command.output() else {
-        println!("SKIPPED: no xvfb-run on this system, so no picture of {scene:?} was made");
+        say(&format!("SKIPPED: no xvfb-run on this system, so no picture of {scene:?} was made"));
         return None;
     };
     if output.status.code() == Some(NO_WINDOW) {
         let why = String::from_utf8_lossy(&output.stderr);
-        println!("SKIPPED: no window under xvfb-run, so no picture of {scene:?} was made: {why}");
+        say(&format!("SKIPPED: no window under xvfb-run, so no picture of {scene:?} was made: {why}"));
         return None;
     }
     Some(output)
@@ -38,7 +44,7 @@ fn colors(scene: &[&str], name: &str) -> Result<Option<BTreeSet<[u8; 4]>>, Box<d
     let bytes = std::fs::read(&file)?;
     let image = Image::from_file_with_format(&bytes, None)?;
     assert_eq!((image.width, image.height), (1280, 800));
-    println!("made a picture of {scene:?}");
+    say(&format!("made a picture of {scene:?}"));
     Ok(Some(image.get_image_data().iter().copied().collect()))
 }
 

@@ -21,14 +21,6 @@ impl Sight for Plane {
         v.truncate()
     }
 
-    fn bodies(world: &World2) -> impl Iterator<Item = (BodyKey2, &Collider2)> {
-        world.iter()
-    }
-
-    fn get(world: &World2, key: BodyKey2) -> Option<&Collider2> {
-        world.get(key)
-    }
-
     fn position(body: &Collider2) -> DVec3 {
         body.pose().position().extend(0.0)
     }
@@ -96,10 +88,6 @@ impl Sight for Plane {
         world.debug_lines(options, &mut |from: DVec2, to: DVec2, what| {
             line(from.extend(0.0), to.extend(0.0), what);
         });
-    }
-
-    fn pairs(world: &World2) -> impl Iterator<Item = (BodyKey2, BodyKey2)> {
-        world.candidates()
     }
 
     fn tiers(world: &World2, mut tell: impl FnMut([BodyKey2; 2], Tier, &mut dyn Iterator<Item = DVec3>)) {

@@ -22,14 +22,6 @@ impl Sight for Volume {
         v
     }
 
-    fn bodies(world: &World3) -> impl Iterator<Item = (BodyKey3, &Collider3)> {
-        world.iter()
-    }
-
-    fn get(world: &World3, key: BodyKey3) -> Option<&Collider3> {
-        world.get(key)
-    }
-
     fn position(body: &Collider3) -> DVec3 {
         body.pose().position()
     }
@@ -92,10 +84,6 @@ impl Sight for Volume {
 
     fn lines(world: &World3, options: &DebugOptions, line: &mut impl FnMut(DVec3, DVec3, DebugLine)) {
         world.debug_lines(options, line);
-    }
-
-    fn pairs(world: &World3) -> impl Iterator<Item = (BodyKey3, BodyKey3)> {
-        world.candidates()
     }
 
     fn tiers(world: &World3, mut tell: impl FnMut([BodyKey3; 2], Tier, &mut dyn Iterator<Item = DVec3>)) {
