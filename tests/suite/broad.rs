@@ -10,6 +10,7 @@ use core::ops::ControlFlow;
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use std::sync::Mutex;
 
 fn swept<B: Bounds>(boxes: &[B], admit: impl Fn(u32, u32) -> bool + Sync) -> Vec<(u32, u32)> {
     let mut pairs = vec![PairId { a: 7, b: 9 }];
@@ -338,6 +339,42 @@ fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
         }
     }
     assert!(kept_frames > 600 && refused > 100, "{kept_frames} frames with few movers, {refused} refused");
+}
+
+/// Movers that reach all boxes are looked up while that costs less than to sweep all; then all are swept, and the filter is
+/// asked about pairs at rest, too. Either way about each pair once.
+#[test]
+fn movers_that_reach_too_far_are_swept_with_all_others() {
+    let mut random = Random::new(705);
+    let room = Vec3::splat(8.0);
+    let rest: Vec<Aabb3> = (0..2000).map(|_| random_box3(&mut random, room, 0.5)).collect();
+    let (mut coherent, mut pairs, mut fresh) = (CoherentSweep::new(), Vec::new(), Vec::new());
+    let mut ways = Vec::new();
+    for giants in [1, 20, 399, 399, 3, 3] {
+        let mut boxes = rest.clone();
+        let moved: Vec<u32> = (0..giants).map(|i| 5 * i).collect();
+        for &place in &moved {
+            boxes[place as usize] = Aabb3::new(-room, room + Vec3::splat(place as f32));
+        }
+        coherent.update(&rest, &[], |_, _| true, usize::MAX, &mut pairs).unwrap();
+        let asked = Mutex::new(Vec::new());
+        let admit = |a, b| {
+            asked.lock().unwrap().push((a, b));
+            true
+        };
+        coherent.update(&boxes, &moved, admit, usize::MAX, &mut pairs).unwrap();
+        Sweep::new().pairs(&boxes, |_, _| true, usize::MAX, &mut fresh).unwrap();
+        assert!(pairs == fresh, "{giants} giants: {} pairs, not {}", pairs.len(), fresh.len());
+        let mut asked = asked.into_inner().unwrap();
+        let count = asked.len();
+        asked.sort_unstable();
+        asked.dedup();
+        assert_eq!(asked.len(), count, "{giants} giants: asked twice about a pair");
+        ways.push(asked.iter().any(|(a, b)| !moved.contains(a) && !moved.contains(b)));
+        // They go back to where they were, and everybody is told.
+        coherent.update(&rest, &moved, |_, _| true, usize::MAX, &mut pairs).unwrap();
+    }
+    assert_eq!((ways[0], ways[2]), (false, true), "one is looked up, and many are not: {ways:?}");
 }
 
 #[test]
