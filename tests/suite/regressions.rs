@@ -1,6 +1,7 @@
 //! What went wrong once, as the smallest scene that shows it: symptom, cause, scene.
 
 mod blades;
+mod close;
 mod needles;
 mod peers;
 mod points;

@@ -13,7 +13,7 @@
 //! three-dimensional space" (1988). Whatever rounding does to the iteration, both bounds hold for what is returned:
 //! a stall widens the reported error, and nothing else. Cost: a few steps, each linear in the vertices.
 
-use super::simplex::nearest_to_origin;
+use super::simplex::{Nearest, nearest_to_origin};
 use super::solid::Solid;
 use crate::precision::Precision;
 use arrayvec::ArrayVec;
@@ -147,9 +147,13 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
                     Grown::Not => {}
                     Grown::Around(around) => {
                         let is_proved = is_around_origin(around.map(|corner| corner.1), precision);
-                        let corners = around.iter().map(|corner| corner.0).collect();
+                        if !is_proved {
+                            simplex.go_to_nearest_face(&around);
+                        }
+                        let (corners, within) =
+                            (around.map(|corner| corner.0).into(), simplex.nearest.length());
                         let points = simplex.points(a, b);
-                        return Reached::Origin(Close { corners, is_proved, within: length, points });
+                        return Reached::Origin(Close { corners, is_proved, within, points });
                     }
                 }
             }
@@ -207,8 +211,14 @@ impl Simplex {
         if nearest.point.length_squared() >= length * length {
             return Grown::Not;
         }
-        self.nearest = nearest.point;
         let _ = self.corners.try_push(corner);
+        self.keep(&nearest);
+        Grown::Nearer
+    }
+
+    /// Leaves out the corners that do not carry the nearest point.
+    fn keep(&mut self, nearest: &Nearest) {
+        self.nearest = nearest.point;
         // Where they stay: moved as a whole, they cost as much as the search for the nearest point.
         let mut kept = 0;
         for i in 0..self.corners.len() {
@@ -219,7 +229,21 @@ impl Simplex {
             }
         }
         self.corners.truncate(kept);
-        Grown::Nearer
+    }
+
+    /// Goes on to the nearest point of the faces of four corners, which hold the origin but for rounding: so much closer than
+    /// the last point was, that what is not proved is told by it.
+    fn go_to_nearest_face(&mut self, around: &[Vertex; 4]) {
+        for left_out in 0..4 {
+            let corners: ArrayVec<Vertex, 4> = (0..4).filter(|&i| i != left_out).map(|i| around[i]).collect();
+            let places: ArrayVec<DVec3, 4> = corners.iter().map(|corner| corner.1).collect();
+            if let Some(nearest) = nearest_to_origin(&places)
+                && nearest.point.length_squared() < self.nearest.length_squared()
+            {
+                self.corners = corners;
+                self.keep(&nearest);
+            }
+        }
     }
 
     /// The unit direction to the origin that is square to the simplex: where the origin is all but on it, the

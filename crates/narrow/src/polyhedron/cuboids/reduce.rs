@@ -99,9 +99,12 @@ pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, even: 
 #[inline(always)]
 fn largest(patch: &Patch, around: &[usize; MOST], weights: &Weights) -> Option<[usize; 4]> {
     let mut places = [[0.0_f32; 12]; 2];
+    // From one of them, before anything is rounded: they may lie far out on a huge face.
+    let first = around[0] % SLOTS;
+    let [from_u, from_v] = [patch.u[first], patch.v[first]];
     for i in 0..12 {
         let slot = around[i % MOST] % SLOTS;
-        (places[0][i], places[1][i]) = (patch.u[slot] as f32, patch.v[slot] as f32);
+        (places[0][i], places[1][i]) = ((patch.u[slot] - from_u) as f32, (patch.v[slot] - from_v) as f32);
     }
     let mut diagonals = [[[0.0; 12]; 2]; 3];
     fill_diagonals(&places, &mut diagonals);

@@ -1,0 +1,60 @@
+//! Shapes that all but touch: the answer was right, and its error bound said nothing.
+
+use asunder_geometry::{Cuboid, Hull, Pose3, Shape3};
+use asunder_narrow::{Pair3, Separation3};
+use asunder_tests::cases::Random;
+use glam::{DVec3, Vec3};
+
+/// Errors of all that is told of a pair, in metres.
+fn errors(pair: &Pair3) -> [f32; 4] {
+    let of_manifold = |margin| pair.manifold(margin).map_or(0.0, |manifold| manifold.error);
+    let Separation3::Measured(measured) = pair.separation(f32::INFINITY) else {
+        panic!("there is no limit");
+    };
+    let of_distance = pair.distance().map_or(0.0, |closest| closest.error);
+    [measured.error, of_distance, of_manifold(0.0), of_manifold(0.01)]
+}
+
+/// Symptom: of boxes of a metre with a gap below 1e-12 m an error of up to half a metre was told. Cause: where four corners
+/// were around the origin but for rounding, the error was as far as the last step had been from it.
+#[test]
+fn boxes_that_all_but_touch_are_told_as_well_as_any() {
+    let mut random = Random::new(350);
+    let (mut touching, mut apart) = (0, 0);
+    for round in 0..12_000 {
+        let mut half = || Vec3::from_array([0; 3].map(|_| random.between(0.1, 1.1) as f32));
+        let halves = [half(), half()];
+        let turns = [random.quaternion(), random.quaternion()];
+        let [a, b] = turns.map(|turn| Pose3::new(DVec3::ZERO, turn).unwrap());
+        // A face's normal, or one across two edges.
+        let (of_a, of_b) = (a.basis(), b.basis());
+        let across = of_a.z.cross(of_b.z).normalize_or(of_a.x);
+        let axis = if round % 2 == 0 { of_a.x } else { across };
+        let reach = |pose: &Pose3, half: Vec3| pose.basis().turn_back(axis).abs().dot(half.as_dvec3());
+        let gap = 1e-16 * random.signed() * [1.0, 10.0, 1e3, 1e4][round % 4];
+        let there = Pose3::new(axis * (reach(&a, halves[0]) + reach(&b, halves[1]) + gap), turns[1]).unwrap();
+        let cuboids = halves.map(|half| Cuboid::from_half_extents(half).unwrap());
+        let shapes = cuboids.map(|cuboid| {
+            if round % 3 == 0 {
+                Hull::from_points(&cuboid.vertices()).unwrap().into()
+            } else {
+                Shape3::from(cuboid)
+            }
+        });
+        let pair = Pair3::new(&shapes[0], &a, &shapes[1], &there);
+        if pair.overlaps() {
+            touching += 1
+        } else {
+            apart += 1
+        }
+        for (asked, error) in
+            ["separation", "distance", "manifold", "with a margin"].iter().zip(errors(&pair))
+        {
+            assert!(
+                error < 1e-6 * pair.size(),
+                "round {round}: {asked} off by up to {error} m: {shapes:?} {there:?}"
+            );
+        }
+    }
+    assert!(touching > 2000 && apart > 2000, "{touching} touch, {apart} do not");
+}
