@@ -199,6 +199,7 @@ impl<'a> Pair3<'a> {
         if let Some(on) = OnGround::of(self) {
             return self.distance_on(&on);
         }
+        // Their axes say so before they are seen as solids.
         if self.cuboids().is_some_and(|cuboids| cuboids.overlaps() == Some(true)) {
             return None;
         }

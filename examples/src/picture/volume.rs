@@ -7,9 +7,9 @@ use asunder::glam::{DVec2, DVec3, Vec3};
 use asunder::{BodyKey3, Collider3, Shape3, World3};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Of a landscape of more pieces than this
+/// A landscape of more fixed pieces than this is not drawn whole.
 const PIECES: usize = 12_000;
-/// so many are drawn, about one of the bodies that move on it.
+/// So many bodies of it are, about one that moves.
 const AROUND: usize = 2_000;
 /// Metres between the lines that are drawn on large faces of the scenery.
 const TILE: f64 = 1.0;

@@ -104,7 +104,8 @@ impl Search<'_> {
         let on = self.on;
         let until = self.until();
         let corners = on.ground.corners(number);
-        let is_beside = || self.passage.is_straight() && placed.passes(corners, self.way * until);
+        let is_beside =
+            || self.passage.is_straight() && placed.passes(&placed.beside(corners), self.way * until);
         if !on.sees(corners, placed.center) || is_beside() {
             return until;
         }

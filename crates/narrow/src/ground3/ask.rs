@@ -103,13 +103,14 @@ impl Pair3<'_> {
             let placed = Corners::of(on, part);
             let flow = on.ground.visit_near(&placed.bounds(0.0, part), |number| {
                 let corners = on.ground.corners(number);
+                let beside = placed.beside(corners);
                 let is_meant =
-                    placed.gap(corners, 0.0) <= 0.0 && (!only_seen || on.sees(corners, placed.center));
-                let mut is_yes = || {
+                    placed.gap(&beside, 0.0) <= 0.0 && (!only_seen || on.sees(corners, placed.center));
+                let mut kernels_say_so = || {
                     let triangle = on.ground.triangle(number).map(Shape3::Triangle);
                     triangle.is_some_and(|it| ask(&self.parts_on(on, &bases, *part, (number, &it))))
                 };
-                let is_yes = is_meant && (placed.holds_some(corners) || is_yes());
+                let is_yes = is_meant && (placed.holds_some(&beside) || kernels_say_so());
                 if is_yes { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             flow.is_break()
@@ -185,10 +186,10 @@ impl Pair3<'_> {
         // The core's box: a ball's own has corners that are nearer than the ball.
         let radius = f64::from(part.shape.radius());
         on.ground.visit_nearest(&placed.bounds(-radius, part), least.reach() + radius, |number| {
-            let corners = on.ground.corners(number);
-            let gap = placed.gap(corners, least.reach().min(at_most));
+            let beside = placed.beside(on.ground.corners(number));
+            let gap = placed.gap(&beside, least.reach().min(at_most));
             if !least.passes_below(gap, at_most) {
-                at_most = at_most.min(placed.at_most(corners));
+                at_most = at_most.min(placed.at_most(&beside));
                 if waiting.is_full() {
                     waiting.retain(|(gap, _)| !least.passes_below(*gap, at_most));
                 }
@@ -225,9 +226,9 @@ impl Asker<'_> {
     /// the corner or the edge that is.
     fn ask(&mut self, number: u32, least: &mut Least<Told>) {
         let Self { pair, on, bases, part, wanted, placed, .. } = *self;
-        let corners = on.ground.corners(number);
-        let is_no_less = |shown: (DVec3, f64)| least.is_no_less(placed.beyond(shown, corners));
-        if self.shown.is_some_and(is_no_less) || placed.towards(part, corners).is_some_and(is_no_less) {
+        let beside = &placed.beside(on.ground.corners(number));
+        let is_no_less = |shown: (DVec3, f64)| least.is_no_less(placed.beyond(shown, beside));
+        if self.shown.is_some_and(is_no_less) || placed.towards(part, beside).is_some_and(is_no_less) {
             return;
         }
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return };

@@ -37,6 +37,13 @@ pub(crate) struct Corners {
     high: DVec3,
 }
 
+/// A triangle beside a part, in the ground's axes.
+pub(crate) struct Beside {
+    corners: [DVec3; 3],
+    /// Its point nearest to the part's centre, up to rounding.
+    near: DVec3,
+}
+
 /// What a part and a triangle take up along an axis, in metres from the triangle's first corner.
 struct Along {
     part: [f64; 2],
@@ -111,25 +118,30 @@ impl Corners {
         Aabb3::new(next(self.low - grow, false).into(), next(self.high + grow, true).into())
     }
 
+    /// A triangle as it lies beside the part: what all bounds start from.
+    pub(crate) fn beside(&self, corners: [Vec3; 3]) -> Beside {
+        let corners = corners.map(|corner| corner.as_dvec3());
+        Beside { corners, near: nearest(self.center, corners) }
+    }
+
     /// A lower bound on the separation from a triangle; zero or less where nothing shows one. What shows more than is
     /// asked for comes first.
-    pub(crate) fn gap(&self, corners: [Vec3; 3], wanted: f64) -> f64 {
-        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-        let from_plane = (b - a).cross(c - a).try_normalize().map(|axis| self.along(axis, [a, b, c]).gap());
+    pub(crate) fn gap(&self, &Beside { corners, near }: &Beside, wanted: f64) -> f64 {
+        let [a, b, c] = corners;
+        let from_plane = (b - a).cross(c - a).try_normalize().map(|axis| self.along(axis, corners).gap());
         let shown = from_plane.unwrap_or(f64::NEG_INFINITY);
         if shown > wanted {
             return shown;
         }
-        let towards = (nearest(self.center, [a, b, c]) - self.center).try_normalize();
-        towards.map_or(shown, |axis| shown.max(self.along(axis, [a, b, c]).gap()))
+        let towards = (near - self.center).try_normalize();
+        towards.map_or(shown, |axis| shown.max(self.along(axis, corners).gap()))
     }
 
     /// An upper bound on the separation from a triangle: the way from its point nearest to the part's centre to the sphere
     /// inside the part, or from the part's corner nearest to that point. Infinite for a half-space.
-    pub(crate) fn at_most(&self, corners: [Vec3; 3]) -> f64 {
-        let corners = corners.map(|corner| corner.as_dvec3());
-        let near = nearest(self.center, corners);
-        let mut least = (near - self.center).length() - self.inner_radius;
+    pub(crate) fn at_most(&self, beside: &Beside) -> f64 {
+        let &Beside { corners, near } = beside;
+        let mut least = self.from_inside(beside);
         if self.has_all {
             let away = |point: &DVec3| (*point - near).length_squared();
             let point =
@@ -142,10 +154,13 @@ impl Corners {
     }
 
     /// Whether the sphere inside the part certainly holds a point of a triangle.
-    pub(crate) fn holds_some(&self, corners: [Vec3; 3]) -> bool {
-        let corners = corners.map(|corner| corner.as_dvec3());
-        let away = (nearest(self.center, corners) - self.center).length();
-        away < self.inner_radius - self.doubt_beside(corners[0])
+    pub(crate) fn holds_some(&self, beside: &Beside) -> bool {
+        self.from_inside(beside) < -self.doubt_beside(beside.corners[0])
+    }
+
+    /// How far a triangle is from the sphere inside the part, in metres.
+    fn from_inside(&self, beside: &Beside) -> f64 {
+        (beside.near - self.center).length() - self.inner_radius
     }
 
     /// What the distance of two points may be off by, in metres.
@@ -171,25 +186,23 @@ impl Corners {
 
     /// The axis from the centre to a triangle's nearest point, and how far the part reaches there, where [`Corners::gap`] has not
     /// looked along it at the part's own points.
-    pub(crate) fn towards(&self, part: &Part, corners: [Vec3; 3]) -> Option<(DVec3, f64)> {
+    pub(crate) fn towards(&self, part: &Part, beside: &Beside) -> Option<(DVec3, f64)> {
         if self.has_all {
             return None;
         }
-        let near = nearest(self.center, corners.map(|corner| corner.as_dvec3()));
-        let axis = (near - self.center).try_normalize()?;
+        let axis = (beside.near - self.center).try_normalize()?;
         Some((axis, self.top(part, axis)))
     }
 
     /// A lower bound on the separation from a triangle: along a unit axis up to which the part reaches so far.
-    pub(crate) fn beyond(&self, (axis, top): (DVec3, f64), [a, b, c]: [Vec3; 3]) -> f64 {
-        let height = |corner: Vec3| axis.dot(corner.as_dvec3());
-        let least = height(a).min(height(b)).min(height(c));
-        least - top - 128.0 * f64::EPSILON * (self.lengths + least.abs() + a.as_dvec3().abs().element_sum())
+    pub(crate) fn beyond(&self, (axis, top): (DVec3, f64), beside: &Beside) -> f64 {
+        let [a, b, c] = beside.corners;
+        let least = axis.dot(a).min(axis.dot(b)).min(axis.dot(c));
+        least - top - 128.0 * f64::EPSILON * (self.lengths + least.abs() + a.abs().element_sum())
     }
 
     /// Whether it passes a triangle by while it is moved, for certain.
-    pub(crate) fn passes(&self, corners: [Vec3; 3], way: DVec3) -> bool {
-        let corners = corners.map(|corner| corner.as_dvec3());
+    pub(crate) fn passes(&self, &Beside { corners, near }: &Beside, way: DVec3) -> bool {
         let [a, b, c] = corners;
         // Any axis proves what all corners show along it; so it need not be the normal to the last bit.
         let Some(normal) = (b - a).cross(c - a).try_normalize() else { return false };
@@ -200,7 +213,7 @@ impl Corners {
         if above > 0.0 || below > 0.0 {
             return true;
         }
-        let towards = nearest(self.center, corners) - self.center;
+        let towards = near - self.center;
         let aside = towards - way * (towards.dot(way) / way.length_squared());
         let Some(axis) = aside.try_normalize() else { return false };
         self.along(axis, corners).gap() > axis.dot(way).abs() + doubt

@@ -183,6 +183,10 @@ pub(super) fn is_around_origin([a, b, c, d]: [DVec3; 4], precision: &Precision) 
     volumes.iter().all(|&volume| volume > doubt) || volumes.iter().all(|&volume| volume < -doubt)
 }
 
+fn places_of(corners: &[Vertex]) -> ArrayVec<DVec3, 4> {
+    corners.iter().map(|&(_, place)| place).collect()
+}
+
 impl Simplex {
     fn of(corner: Vertex) -> Self {
         Self { corners: core::iter::once(corner).collect(), weights: [1.0, 0.0, 0.0, 0.0], nearest: corner.1 }
@@ -195,25 +199,23 @@ impl Simplex {
     /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than
     /// `length`.
     fn grow(&mut self, corner: Vertex, length: f64) -> Grown {
-        let mut points = [corner.1; 4];
-        let count = self.corners.len();
-        for (point, &(_, place)) in points.iter_mut().zip(&self.corners) {
-            *point = place;
-        }
-        let Some(nearest) = nearest_to_origin(&points[..(count + 1).min(4)]) else {
-            // Only four corners hold anything.
-            let mut around = [corner; 4];
-            for (place, &known) in around.iter_mut().zip(&self.corners) {
-                *place = known;
-            }
-            return Grown::Around(around);
-        };
-        if nearest.point.length_squared() >= length * length {
-            return Grown::Not;
-        }
         let _ = self.corners.try_push(corner);
-        self.keep(&nearest);
-        Grown::Nearer
+        match nearest_to_origin(&places_of(&self.corners)) {
+            Some(nearest) if nearest.point.length_squared() < length * length => {
+                self.keep(&nearest);
+                Grown::Nearer
+            }
+            Some(_) => {
+                self.corners.pop();
+                Grown::Not
+            }
+            None => {
+                // Only four corners hold anything.
+                let around = core::array::from_fn(|i| self.corners[i.min(self.corners.len() - 1)]);
+                self.corners.pop();
+                Grown::Around(around)
+            }
+        }
     }
 
     /// Leaves out the corners that do not carry the nearest point.
@@ -236,8 +238,7 @@ impl Simplex {
     fn go_to_nearest_face(&mut self, around: &[Vertex; 4]) {
         for left_out in 0..4 {
             let corners: ArrayVec<Vertex, 4> = (0..4).filter(|&i| i != left_out).map(|i| around[i]).collect();
-            let places: ArrayVec<DVec3, 4> = corners.iter().map(|corner| corner.1).collect();
-            if let Some(nearest) = nearest_to_origin(&places)
+            if let Some(nearest) = nearest_to_origin(&places_of(&corners))
                 && nearest.point.length_squared() < self.nearest.length_squared()
             {
                 self.corners = corners;

@@ -46,18 +46,16 @@ type Weights = [[f32; 8]; 10];
 
 const fn weights(count: usize, is_rooted: bool) -> Weights {
     let mut weights = [[0.0; 8]; 10];
-    // A bit for each set of places that was met.
-    let mut met = [0_u128; 2];
+    // Sets of places.
+    let mut is_met = [false; 256];
     let mut number = 0;
     while number < 80 {
         let [a, b, c, d] = corners(number / 8, number % 8);
-        let set: u32 = 1 << a | 1 << b | 1 << c | 1 << d;
-        let bit = 1 << (set % 128);
-        let is_new = met[set as usize / 128] & bit == 0;
-        if is_new && set >> count == 0 && (!is_rooted || set & 1 == 1) {
+        let set: usize = 1 << a | 1 << b | 1 << c | 1 << d;
+        if !is_met[set] && set >> count == 0 && (!is_rooted || set & 1 == 1) {
             weights[number / 8][number % 8] = 1.0;
         }
-        met[set as usize / 128] |= bit;
+        is_met[set] = true;
         number += 1;
     }
     weights
