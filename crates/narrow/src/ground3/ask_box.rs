@@ -141,7 +141,7 @@ impl Corners {
     /// inside the part, or from the part's corner nearest to that point. Infinite for a half-space.
     pub(crate) fn at_most(&self, beside: &Beside) -> f64 {
         let &Beside { corners, near } = beside;
-        let mut least = self.from_inside(beside);
+        let mut least = self.gap_of_ball(beside);
         if self.has_all {
             let away = |point: &DVec3| (*point - near).length_squared();
             let point =
@@ -155,11 +155,11 @@ impl Corners {
 
     /// Whether the sphere inside the part certainly holds a point of a triangle.
     pub(crate) fn holds_some(&self, beside: &Beside) -> bool {
-        self.from_inside(beside) < -self.doubt_beside(beside.corners[0])
+        self.gap_of_ball(beside) < -self.doubt_beside(beside.corners[0])
     }
 
     /// How far a triangle is from the sphere inside the part, in metres.
-    fn from_inside(&self, beside: &Beside) -> f64 {
+    fn gap_of_ball(&self, beside: &Beside) -> f64 {
         (beside.near - self.center).length() - self.inner_radius
     }
 
