@@ -208,8 +208,11 @@ impl Space for Plane {
         manifolds: &[Manifold2],
         step: f64,
     ) -> Option<Persistent2> {
-        let is_slow = step <= f64::from(Persistent2::reach(job));
-        if is_slow { Persistent2::of(job, answer, manifolds) } else { None }
+        if step > f64::from(Persistent2::most_reach(job)) {
+            return None;
+        }
+        let kept = Persistent2::of(job, answer, manifolds);
+        kept.filter(|kept| step <= f64::from(kept.reach()))
     }
 
     fn carry_on(
@@ -303,8 +306,11 @@ impl Space for Volume {
         manifolds: &[Manifold3],
         step: f64,
     ) -> Option<Persistent3> {
-        let is_slow = step <= f64::from(Persistent3::reach(job));
-        if is_slow { Persistent3::of(job, answer, manifolds) } else { None }
+        if step > f64::from(Persistent3::most_reach(job)) {
+            return None;
+        }
+        let kept = Persistent3::of(job, answer, manifolds);
+        kept.filter(|kept| step <= f64::from(kept.reach()))
     }
 
     fn carry_on(

@@ -55,6 +55,7 @@ mod cast3;
 mod counted;
 mod exact;
 mod feature;
+mod footing;
 mod ground2;
 mod ground3;
 mod impact2;

@@ -9,20 +9,26 @@
 //!     their own separations are measured anew, and the normal turns with the face
 //!     what the faces share moves sideways under them by no more than the drift
 //! ```
+//! That alone costs up to twice the drift in error. Where what carries the bodies is wide the axis can be shown to stay the
+//! best, and they may slide 32 times as far for a smaller error: see `footing`.
+//!
 //! Bullet and PhysX keep manifolds too ("persistent contact manifold"), until points slip by centimetres; parry3d until one
-//! slips by a millimetre. Here the limit is a share of the bodies, the drift goes into the error that is reported, and it
+//! slips by a millimetre. Here the limit is a share of the bodies, what it costs goes into the error that is reported, and it
 //! counts from where the manifold was made, not from frame to frame, so that it does not pile up.
 //!
-//! The error could be twice the drift where another axis is nearly as deep, and was found to be 9e-6 of the size at most in a
-//! heap of 8,000 boxes that sway. parry3d's time over ours for heaps of boxes and hulls, and pyramids (AMD EPYC, Zen 4,
-//! 2026-11-22): nothing kept 0.67, 0.79, 0.79; 2^-17 of the radius 0.74, 1.04, 0.75; 2^-15 0.9, 2.5, 1.1.
+//! parry3d's time over ours for heaps of boxes and hulls, and pyramids (AMD EPYC, Zen 4, 2026-11-22): nothing kept 0.67,
+//! 0.79, 0.79; 2^-17 of the radius 0.74, 1.04, 0.75; 2^-15 0.9, 2.5, 1.1.
 
 use crate::answer::Answer;
 use crate::feature::{Feature, Hint, OnFace};
+use crate::footing::{Footing, SLIDE};
 
-/// Share of the smaller bounding radius by which two bodies may drift, 2^-15: of cubes of a metre, 26 micrometres. The
-/// reported error is up to twice that.
+/// Share of the smaller bounding radius by which two bodies may drift without a footing, 2^-15: of cubes of a metre, 26
+/// micrometres. The reported error is up to twice that.
 const DRIFT: f32 = 1.0 / 32_768.0;
+
+/// What a footing may cost, as a share of how far it reaches: as much as a drift without one.
+const DRIFT_OF_SLIDE: f32 = DRIFT / SLIDE;
 
 /// What holds a manifold that is moved along to its bodies, in either dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +43,18 @@ pub(crate) struct Terms {
     pub(crate) slack: f32,
     /// How far the bodies reach from their positions, in metres.
     pub(crate) arms: [f32; 2],
+    pub(crate) footing: Option<Footing>,
+}
+
+/// How bodies moved since a manifold was made.
+#[derive(Clone, Copy)]
+pub(crate) struct Way {
+    /// No point moved further than that, in metres.
+    pub(crate) drift: f64,
+    /// By how much they turned against each other, in radians, times the lesser arm.
+    pub(crate) spun: f64,
+    /// By how much the deepest point rose, in metres.
+    pub(crate) rise: f64,
 }
 
 impl Terms {
@@ -46,12 +64,47 @@ impl Terms {
         self.margin.is_finite()
             && self.arms.iter().all(|arm| arm.is_finite() && *arm >= 0.0)
             && (0.0..=most).contains(&self.slack)
+            && self.footing.is_none_or(|footing| footing.is_sound(self.arms))
+    }
+
+    /// Up to which drift it is worth looking, in metres.
+    #[inline(always)]
+    pub(crate) fn reach(&self) -> f32 {
+        self.footing.map_or(self.slack, |footing| footing.reach.max(self.slack))
+    }
+
+    /// The error of a separation, which had this error, after such a way; nothing where it has to be asked about anew.
+    #[inline(always)]
+    pub(crate) fn error_after(&self, [separation, error]: [f32; 2], way: &Way) -> Option<f32> {
+        let Way { drift, spun, rise } = *way;
+        let (then, known) = (f64::from(separation), f64::from(error));
+        let rounding = f64::from(f32::EPSILON) * (then.abs() + drift);
+        if let Some(footing) = self.footing.filter(|footing| drift <= f64::from(footing.reach)) {
+            let loss = footing.loss(drift, spun);
+            let (now, error) = (then + rise, known + loss + rounding);
+            let is_certain = if self.overlapping {
+                now + error < 0.0
+            } else {
+                now - error > 0.0 && now + error <= f64::from(self.margin)
+            };
+            if is_certain && loss <= f64::from(footing.reach * DRIFT_OF_SLIDE) {
+                return Some((error as f32).next_up());
+            }
+        }
+        // The truth may have gone the other way.
+        let is_close = drift <= f64::from(self.slack);
+        is_close.then(|| ((known + drift + rise.abs() + rounding) as f32).next_up())
     }
 }
 
 /// Up to which drift bodies of these bounding radii are told by what they were, in metres.
 pub(crate) fn reach_of(radii: [f32; 2]) -> f32 {
     DRIFT * radii[0].min(radii[1])
+}
+
+/// The same where they have the widest footing that there can be.
+pub(crate) fn widest_reach_of(radii: [f32; 2]) -> f32 {
+    SLIDE * radii[0].min(radii[1])
 }
 
 /// Up to which drift an answer of this separation, and this error, stays what it is, in metres; nothing where it is too close to call.
@@ -102,12 +155,4 @@ pub(crate) fn single(answer: &Answer) -> Option<(Hint, usize, bool)> {
 #[inline(always)]
 pub(crate) fn lost(summed: f64, arm: f64) -> f64 {
     64.0 * f64::EPSILON * (summed + arm)
-}
-
-/// The error of a separation, which had this error, after a drift in which the deepest point rose by so much: the truth
-/// may have gone the other way. And what rounding costs it.
-#[inline(always)]
-pub(crate) fn error_after([separation, error]: [f32; 2], drift: f64, rise: f64) -> f32 {
-    let rounding = f64::from(f32::EPSILON) * (f64::from(separation).abs() + drift);
-    ((f64::from(error) + drift + rise.abs() + rounding) as f32).next_up()
 }

@@ -2,8 +2,9 @@
 
 use crate::answer::{Answer, ContactPoint2, Manifold2};
 use crate::feature::OnFace;
+use crate::footing::{Footing, Girth};
 use crate::jobs2::Job2;
-use crate::persistent::{THEIRS, Terms, error_after, lost, measured_from, reach_of, single, slack_of};
+use crate::persistent::{THEIRS, Terms, Way, lost, measured_from, single, slack_of, widest_reach_of};
 use crate::precision::signed;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec2, Vec2};
@@ -32,9 +33,9 @@ use asunder_geometry::{Pose2, Shape2};
 /// let mut moved = Vec::new();
 /// let sunk = Pose2::at([0.5, 1.875 - 4e-6])?;
 /// assert!(persistent.carry_on([&pose_a, &sunk], &mut moved) && persistent.overlapping());
-/// assert!(Persistent2::reach(&job) > 4e-5 && Persistent2::reach(&job) < 4e-4);
+/// assert!(persistent.reach() > 1e-3 && persistent.reach() <= Persistent2::most_reach(&job));
 /// assert!((moved[0].points[0].separation + 0.125 + 4e-6).abs() < 1e-8);
-/// let gone = Pose2::at([0.5, 1.875 - 4e-4])?;
+/// let gone = Pose2::at([0.5, 1.875 - 4e-3])?;
 /// assert!(!persistent.carry_on([&pose_a, &gone], &mut moved), "too far: it must be made anew");
 /// assert_eq!((persistent.manifold().points.len(), persistent.margin()), (2, 0.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -71,6 +72,7 @@ impl Persistent2 {
             margin: job.margin,
             slack,
             arms: [arm(job.shape_a), arm(job.shape_b)],
+            footing: footing_of(job, edge, manifold),
         };
         let poses = [*job.pose_a, *job.pose_b];
         terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, poses })
@@ -78,8 +80,13 @@ impl Persistent2 {
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
     /// a frame, keeping one is no use.
-    pub fn reach(job: &Job2<'_>) -> f32 {
-        reach_of([job.shape_a.outer_radius(), job.shape_b.outer_radius()])
+    pub fn most_reach(job: &Job2<'_>) -> f32 {
+        widest_reach_of([job.shape_a.outer_radius(), job.shape_b.outer_radius()])
+    }
+
+    /// Up to which drift this one can be moved along, in metres.
+    pub fn reach(&self) -> f32 {
+        self.terms.reach()
     }
 
     /// The manifold as it was made.
@@ -115,11 +122,11 @@ impl Persistent2 {
             self.turned(poses)
         };
         // What is not a number is not close.
-        let is_close = moved.drift <= f64::from(self.terms.slack);
-        if is_close {
-            to.push(self.filled(&moved));
-        }
-        is_close
+        let is_close = moved.drift <= f64::from(self.terms.reach());
+        let filled = if is_close { self.filled(&moved) } else { None };
+        let is_told = filled.is_some();
+        to.extend(filled);
+        is_told
     }
 
     /// Moved, by bodies that did not turn.
@@ -129,7 +136,7 @@ impl Persistent2 {
         let normal = self.manifold.normal.as_dvec2();
         let arm = f64::from(self.terms.arms[0].min(self.terms.arms[1]));
         let drift = step.length() + lost(offset.abs().element_sum(), arm);
-        Moved { drift, offset, normal, rise: normal.dot(step), turn: None }
+        Moved { drift, spun: 0.0, offset, normal, rise: normal.dot(step), turn: None }
     }
 
     /// Moved, by bodies of which one turned.
@@ -152,12 +159,15 @@ impl Persistent2 {
         };
         let [arm_a, arm_b] = self.terms.arms;
         let drift = drift_from(&of_a, arm_b).min(drift_from(&of_b, arm_a)) + scale(0) + scale(1);
+        // What stored rotations scale their bodies by moves points as turning does.
+        let spun = spin * f64::from(arm_a.min(arm_b)) + scale(0) + scale(1);
         let normal = if self.terms.is_from_b { of_b.turn(normal_then) } else { of_a.turn(normal_then) };
         let turn = Turn { of_a, of_b, offset_then, normal_then };
-        Moved { drift, offset, normal, rise: 0.0, turn: Some(turn) }
+        Moved { drift, spun, offset, normal, rise: 0.0, turn: Some(turn) }
     }
 
-    fn filled(&self, moved: &Moved) -> Manifold2 {
+    /// The manifold as it is now; nothing where it has to be made anew.
+    fn filled(&self, moved: &Moved) -> Option<Manifold2> {
         let of = &self.manifold;
         let mut to = Manifold2 { normal: moved.normal.as_vec2(), points: ArrayVec::new(), ..*of };
         let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
@@ -182,14 +192,17 @@ impl Persistent2 {
         }
         let rise = deepest - deepest_then;
         to.separation = signed(f64::from(of.separation) + rise, self.terms.overlapping);
-        to.error = error_after([of.separation, of.error], moved.drift, rise);
-        to
+        let way = Way { drift: moved.drift, spun: moved.spun, rise };
+        to.error = self.terms.error_after([of.separation, of.error], &way)?;
+        Some(to)
     }
 }
 
 /// How bodies moved since.
 struct Moved {
     drift: f64,
+    /// Their spin against each other times the lesser arm.
+    spun: f64,
     /// From A's position to B's, now.
     offset: DVec2,
     /// From A to B, now.
@@ -237,6 +250,41 @@ fn is_normal_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> bool {
     let normal = shape.core().normals().get(edge).copied();
     let off = |normal: DVec2| pose.turn(normal * out) - manifold.normal.as_dvec2();
     normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
+}
+
+/// By how much the bodies stand on each other, to both sides: from one point to the other, else how far the point is
+/// from the ends of the edge.
+fn footing_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> Option<Footing> {
+    let (mut low, mut high) = (manifold.separation, manifold.separation);
+    for point in &manifold.points {
+        (low, high) = (low.min(point.separation), high.max(point.separation));
+    }
+    let width = match manifold.points.as_slice() {
+        [one, other] => (other.anchor_a - one.anchor_a).as_dvec2().length(),
+        [one] => {
+            let (shape, pose, edge, anchor) = match edge {
+                OnFace::OfA(edge) => (job.shape_a, job.pose_a, edge as usize, one.anchor_a),
+                OnFace::OfB(edge) => (job.shape_b, job.pose_b, edge as usize, one.anchor_b),
+            };
+            let core = shape.core();
+            let vertices = core.vertices();
+            let (from, to) =
+                (vertices.get(edge)?.as_dvec2(), vertices[(edge + 1) % vertices.len()].as_dvec2());
+            let along = (to - from).try_normalize()?;
+            let place = along.dot(pose.turn_back(anchor.as_dvec2()) - from);
+            place.min((to - from).length() - place)
+        }
+        _ => return None,
+    };
+    let girth = |shape: &Shape2| {
+        let inner = match shape {
+            Shape2::Rect(rect) => rect.inner_radius(),
+            Shape2::Polygon(polygon) => polygon.inner_radius(),
+            _ => shape.radius(),
+        };
+        Girth { inner, outer: shape.outer_radius() }
+    };
+    Footing::new(width, [low, high], manifold.error, [girth(job.shape_a), girth(job.shape_b)])
 }
 
 /// A turn: where it takes the x axis, of unit length.

@@ -2,9 +2,11 @@
 
 use crate::answer::{Answer, ContactPoint3, Manifold3};
 use crate::feature::{Feature, Hint, OnFace};
+use crate::footing::{Footing, Girth};
 use crate::jobs3::Job3;
-use crate::persistent::{THEIRS, Terms, error_after, lost, measured_from, reach_of, single, slack_of};
+use crate::persistent::{THEIRS, Terms, Way, lost, measured_from, single, slack_of, widest_reach_of};
 use crate::precision::signed;
+use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
@@ -31,10 +33,10 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 /// let mut moved = Vec::new();
 /// let sunk = Pose3::at([0.5, 0.25, 1.875 - 4e-6])?;
 /// assert!(persistent.carry_on([&pose_a, &sunk], &mut moved) && persistent.overlapping());
-/// assert!(Persistent3::reach(&job) > 4e-5 && Persistent3::reach(&job) < 4e-4);
+/// assert!(persistent.reach() > 1e-3 && persistent.reach() <= Persistent3::most_reach(&job));
 /// assert!((moved[0].points[0].separation + 0.125 + 4e-6).abs() < 1e-8);
 /// assert_eq!(moved[0].points[0].feature, persistent.manifold().points[0].feature);
-/// let gone = Pose3::at([0.5, 0.25, 1.875 - 4e-4])?;
+/// let gone = Pose3::at([0.5, 0.25, 1.875 - 4e-3])?;
 /// assert!(!persistent.carry_on([&pose_a, &gone], &mut moved), "too far: it must be made anew");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -58,9 +60,13 @@ impl Persistent3 {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;
         let face = measured_from(hint);
-        let edges = match face {
-            Some(face) => is_normal_of(job, face, manifold).then_some(None)?,
-            None => Some(crossing(job, hint, manifold)?),
+        let (edges, width) = match face {
+            Some(face) if is_normal_of(job, face, manifold) => (None, width_on(job, face, manifold)),
+            Some(_) => return None,
+            None => {
+                let (edges, width) = crossing(job, hint, manifold)?;
+                (Some(edges), width)
+            }
         };
         let found = [manifold.separation, manifold.error];
         let slack = slack_of(
@@ -76,6 +82,7 @@ impl Persistent3 {
             margin: job.margin,
             slack,
             arms: [arm(job.shape_a), arm(job.shape_b)],
+            footing: footing_of(job, manifold, width),
         };
         let poses = [*job.pose_a, *job.pose_b];
         terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, edges, poses })
@@ -83,8 +90,13 @@ impl Persistent3 {
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
     /// a frame, keeping one is no use.
-    pub fn reach(job: &Job3<'_>) -> f32 {
-        reach_of([job.shape_a.outer_radius(), job.shape_b.outer_radius()])
+    pub fn most_reach(job: &Job3<'_>) -> f32 {
+        widest_reach_of([job.shape_a.outer_radius(), job.shape_b.outer_radius()])
+    }
+
+    /// Up to which drift this one can be moved along, in metres.
+    pub fn reach(&self) -> f32 {
+        self.terms.reach()
     }
 
     /// The manifold as it was made.
@@ -120,14 +132,15 @@ impl Persistent3 {
             self.turned(poses)
         };
         // What is not a number is not close.
-        let is_close = moved.drift <= f64::from(self.terms.slack);
-        if is_close {
-            to.push(Manifold3::BLANK);
-            if let Some(manifold) = to.last_mut() {
-                self.fill(&moved, manifold);
-            }
+        if !(moved.drift <= f64::from(self.terms.reach())) {
+            return false;
         }
-        is_close
+        to.push(Manifold3::BLANK);
+        let is_told = to.last_mut().is_some_and(|manifold| self.fill(&moved, manifold));
+        if !is_told {
+            to.pop();
+        }
+        is_told
     }
 
     /// Moved, by bodies that did not turn.
@@ -137,7 +150,7 @@ impl Persistent3 {
         let normal = self.manifold.normal.as_dvec3();
         let arm = f64::from(self.terms.arms[0].min(self.terms.arms[1]));
         let drift = step.length() + lost(offset.abs().element_sum(), arm);
-        Moved { drift, offset, normal, rise: normal.dot(step), turn: None }
+        Moved { drift, spun: 0.0, offset, normal, rise: normal.dot(step), turn: None }
     }
 
     /// Moved, by bodies of which one turned.
@@ -155,6 +168,8 @@ impl Persistent3 {
         };
         let [arm_a, arm_b] = self.terms.arms;
         let drift = drift_from(&of_a, arm_b).min(drift_from(&of_b, arm_a));
+        // A normal made of two edges leans further than the bodies do.
+        let spun = if self.edges.is_some() { f64::INFINITY } else { spin * f64::from(arm_a.min(arm_b)) };
         let normal = match self.edges {
             None if self.terms.is_from_b => of_b.turn(normal_then),
             None => of_a.turn(normal_then),
@@ -167,11 +182,12 @@ impl Persistent3 {
             }
         };
         let turn = Turn { of_a, of_b, offset_then, normal_then };
-        Moved { drift, offset, normal, rise: 0.0, turn: Some(turn) }
+        Moved { drift, spun, offset, normal, rise: 0.0, turn: Some(turn) }
     }
 
+    /// The manifold as it is now; says no where it has to be made anew.
     #[inline(always)]
-    fn fill(&self, moved: &Moved, to: &mut Manifold3) {
+    fn fill(&self, moved: &Moved, to: &mut Manifold3) -> bool {
         let of = &self.manifold;
         (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, moved.normal.as_vec3());
         let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
@@ -196,13 +212,18 @@ impl Persistent3 {
         }));
         let rise = deepest - deepest_then;
         to.separation = signed(f64::from(of.separation) + rise, self.terms.overlapping);
-        to.error = error_after([of.separation, of.error], moved.drift, rise);
+        let way = Way { drift: moved.drift, spun: moved.spun, rise };
+        let error = self.terms.error_after([of.separation, of.error], &way);
+        to.error = error.unwrap_or_default();
+        error.is_some()
     }
 }
 
 /// How bodies moved since.
 struct Moved {
     drift: f64,
+    /// Their spin against each other times the lesser arm.
+    spun: f64,
     /// From A's position to B's, now.
     offset: DVec3,
     /// From A to B, now.
@@ -254,22 +275,99 @@ fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
 }
 
 /// The directions of the edges that a hint names, in world axes, where they cross at more than half a degree and the
-/// normal of a manifold is theirs.
-fn crossing(job: &Job3<'_>, hint: Hint, manifold: &Manifold3) -> Option<[Vec3; 2]> {
+/// normal of a manifold is theirs; and by how much they reach out to every side of where they cross.
+fn crossing(job: &Job3<'_>, hint: Hint, manifold: &Manifold3) -> Option<([Vec3; 2], f64)> {
     let features = hint.features()?;
     let (Feature::Edge(a), Feature::Edge(b)) = (features.a(), features.b()) else { return None };
-    let along = |(shape, pose): (&Shape3, &Pose3), edge: u32| {
+    let point = manifold.points.first()?;
+    let along = |(shape, pose): (&Shape3, &Pose3), edge: u32, anchor: Vec3| {
         let core = shape.core();
         core.topology().half_edges().get(edge as usize)?;
         let (from, to) = core.topology().ends(edge as usize);
-        let along =
-            (core.vertices().get(to)?.as_dvec3() - core.vertices().get(from)?.as_dvec3()).try_normalize()?;
-        Some(pose.turn(along))
+        let (from, to) = (core.vertices().get(from)?.as_dvec3(), core.vertices().get(to)?.as_dvec3());
+        let along = (to - from).try_normalize()?;
+        let place = along.dot(pose.basis().turn_back(anchor.as_dvec3()) - from);
+        Some((pose.turn(along), place.min((to - from).length() - place)))
     };
-    let (a, b) = (along((job.shape_a, job.pose_a), a)?, along((job.shape_b, job.pose_b), b)?);
+    let (a, reach_a) = along((job.shape_a, job.pose_a), a, point.anchor_a)?;
+    let (b, reach_b) = along((job.shape_b, job.pose_b), b, point.anchor_b)?;
     let is_theirs = |edge: DVec3| edge.dot(manifold.normal.as_dvec3()).abs() <= THEIRS;
-    let do_cross = a.cross(b).length() > LEAST_SINE;
-    (is_theirs(a) && is_theirs(b) && do_cross).then(|| [a.as_vec3(), b.as_vec3()])
+    let sine = a.cross(b).length();
+    let do_cross = sine > LEAST_SINE;
+    (is_theirs(a) && is_theirs(b) && do_cross)
+        .then(|| ([a.as_vec3(), b.as_vec3()], sine * reach_a.min(reach_b)))
+}
+
+/// By how much the bodies stand on each other to every side: the least width of three or four points, else how far the
+/// middle of the points is inside the face.
+fn width_on(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> f64 {
+    let on_face = |point: &ContactPoint3| match face {
+        OnFace::OfA(_) => point.anchor_a.as_dvec3(),
+        OnFace::OfB(_) => point.anchor_b.as_dvec3(),
+    };
+    let points: ArrayVec<DVec3, 4> = manifold.points.iter().map(on_face).collect();
+    if points.len() > 2 {
+        return least_width(&points, manifold.normal.as_dvec3());
+    }
+    let middle = points.iter().fold(DVec3::ZERO, |sum, point| sum + *point) / points.len().max(1) as f64;
+    match face {
+        OnFace::OfA(face) => inside(job.shape_a, face as usize, job.pose_a.basis().turn_back(middle)),
+        OnFace::OfB(face) => inside(job.shape_b, face as usize, job.pose_b.basis().turn_back(middle)),
+    }
+}
+
+/// The least distance of two parallel lines with all points between them: one runs through two of them.
+fn least_width(points: &[DVec3], normal: DVec3) -> f64 {
+    let mut least = f64::INFINITY;
+    for (i, &one) in points.iter().enumerate() {
+        for &other in &points[i + 1..] {
+            let Some(across) = normal.cross(other - one).try_normalize() else { return 0.0 };
+            let beside = |point: &DVec3| across.dot(*point - one);
+            let (low, high) = points
+                .iter()
+                .map(beside)
+                .fold((0.0_f64, 0.0_f64), |(low, high), place| (low.min(place), high.max(place)));
+            least = least.min(high - low);
+        }
+    }
+    least
+}
+
+/// How far inside a face a point above it is, in the axes of the shape; negative outside. Cost: linear in the face's
+/// vertices.
+fn inside(shape: &Shape3, face: usize, point: DVec3) -> f64 {
+    if let Shape3::Cuboid(cuboid) = shape {
+        let within = cuboid.half_extents().as_dvec3() - point.abs();
+        let [u, v] = [(face / 2 + 1) % 3, (face / 2 + 2) % 3];
+        return within.to_array()[u].min(within.to_array()[v]);
+    }
+    let core = shape.core();
+    let (topology, vertices) = (core.topology(), core.vertices());
+    let Some(&normal) = core.normals().get(face) else { return 0.0 };
+    let mut least = f64::INFINITY;
+    for edge in topology.face_half_edges(face) {
+        let (from, to) = topology.ends(edge);
+        let (from, to) = (vertices[from].as_dvec3(), vertices[to].as_dvec3());
+        let Some(inward) = normal.cross(to - from).try_normalize() else { continue };
+        least = least.min(inward.dot(point - from));
+    }
+    if least.is_finite() { least } else { 0.0 }
+}
+
+fn footing_of(job: &Job3<'_>, manifold: &Manifold3, width: f64) -> Option<Footing> {
+    let (mut low, mut high) = (manifold.separation, manifold.separation);
+    for point in &manifold.points {
+        (low, high) = (low.min(point.separation), high.max(point.separation));
+    }
+    let girth = |shape: &Shape3| {
+        // A core of cuboids is made when it is asked for.
+        let inner = match shape {
+            Shape3::Cuboid(cuboid) => cuboid.inner_radius(),
+            _ => shape.core().inner_radius() + shape.radius(),
+        };
+        Girth { inner, outer: shape.outer_radius() }
+    };
+    Footing::new(width, [low, high], manifold.error, [girth(job.shape_a), girth(job.shape_b)])
 }
 
 /// The least sine between edges whose normal is made anew: directions in f32 are off by 1e-7, a normal by 1e-5.
