@@ -52,8 +52,9 @@ impl Footing {
     /// steep, or too deep for the bodies on it.
     pub(crate) fn new(width: f64, heights: [f32; 2], error: f32, girths: [Girth; 2]) -> Option<Self> {
         let least = girths[0].outer.min(girths[1].outer);
-        // Points stand on their faces up to what merging left and rounding took.
-        let width = (width as f32 - least * (1.0 / 4096.0)).next_down();
+        // Points stand on their faces up to what merging left and rounding took. And where all are below, `high` counts for
+        // less at an angle: by less than a 64th of the lean, as they are no deeper than half the width.
+        let width = (width as f32 * (31.0 / 32.0) - least * (1.0 / 4096.0)).next_down();
         let spread = (heights[1] - heights[0] + 2.0 * error + least * f32::EPSILON * 8.0).next_up();
         let reach = (SLIDE * least).min(OF_WIDTH * width);
         let depth = heights[0].abs().max(heights[1].abs()) + 2.0 * reach + error;

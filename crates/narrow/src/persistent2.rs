@@ -14,9 +14,9 @@ use asunder_geometry::{Pose2, Shape2};
 /// fraction of what a new one costs.
 ///
 /// Bodies that rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of
-/// the smaller bounding radius, the manifold holds: the same points of the same features, with separations and a normal
-/// measured anew. Whether the shapes overlap, or are within the margin, is for certain what it was: where that is
-/// closer to call than the drift, there is nothing to be moved along.
+/// the smaller bounding radius, or by 2^-10 where they stand on each other broadly, the manifold holds: the same points of
+/// the same features, with separations and a normal measured anew. Whether the shapes overlap, or are within the margin,
+/// is for certain what it was: where that is too close to call, there is nothing to be moved along.
 ///
 /// ```
 /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -110,7 +110,7 @@ impl Persistent2 {
     }
 
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
-    /// must be those of its job. Its error holds the drift. Cost: constant, least where no body turned.
+    /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
     pub fn carry_on(&self, poses: [&Pose2; 2], to: &mut Vec<Manifold2>) -> bool {
         if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
             to.push(self.manifold.clone());

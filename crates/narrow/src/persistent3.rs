@@ -1,22 +1,22 @@
 //! Manifolds in space that are moved along: see `persistent`.
 
+mod hold;
+
 use crate::answer::{Answer, ContactPoint3, Manifold3};
-use crate::feature::{Feature, Hint, OnFace};
-use crate::footing::{Footing, Girth};
 use crate::jobs3::Job3;
-use crate::persistent::{THEIRS, Terms, Way, lost, measured_from, single, slack_of, widest_reach_of};
+use crate::persistent::{Terms, Way, lost, single, slack_of, widest_reach_of};
 use crate::precision::signed;
-use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
+use hold::{Hold, footing_of};
 
 /// A manifold, and how its two bodies stood to each other when it was made: until they drift, it is moved along for a
 /// fraction of what a new one costs.
 ///
 /// Bodies that rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of
-/// the smaller bounding radius, the manifold holds: the same points of the same features, with separations and a normal
-/// measured anew. Whether the shapes overlap, or are within the margin, is for certain what it was: where that is
-/// closer to call than the drift, there is nothing to be moved along.
+/// the smaller bounding radius, or by 2^-10 where they stand on each other broadly, the manifold holds: the same points of
+/// the same features, with separations and a normal measured anew. Whether the shapes overlap, or are within the margin,
+/// is for certain what it was: where that is too close to call, there is nothing to be moved along.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -45,8 +45,7 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 pub struct Persistent3 {
     manifold: Manifold3,
     terms: Terms,
-    /// The directions that two edges which cross had, in world axes.
-    edges: Option<[Vec3; 2]>,
+    hold: Hold,
     /// Where the bodies were.
     poses: [Pose3; 2],
 }
@@ -55,19 +54,12 @@ impl Persistent3 {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
     /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where they
-    /// touch in several parts; and where points are neither on a face nor where two edges cross. Cost: some square roots.
+    /// touch in several parts; and where points are neither on a face, nor where two edges cross, nor across a gap from each
+    /// other. Cost: some square roots, and linear in the vertices of a face.
     pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;
-        let face = measured_from(hint);
-        let (edges, width) = match face {
-            Some(face) if is_normal_of(job, face, manifold) => (None, width_on(job, face, manifold)),
-            Some(_) => return None,
-            None => {
-                let (edges, width) = crossing(job, hint, manifold)?;
-                (Some(edges), width)
-            }
-        };
+        let (hold, width) = Hold::of(job, hint, manifold, overlapping)?;
         let found = [manifold.separation, manifold.error];
         let slack = slack_of(
             found,
@@ -78,14 +70,14 @@ impl Persistent3 {
         let arm = |shape: &Shape3| (shape.center().length() + shape.outer_radius()).next_up();
         let terms = Terms {
             overlapping,
-            is_from_b: matches!(face, Some(OnFace::OfB(_))),
+            is_from_b: hold == Hold::FaceOfB,
             margin: job.margin,
             slack,
             arms: [arm(job.shape_a), arm(job.shape_b)],
             footing: footing_of(job, manifold, width),
         };
         let poses = [*job.pose_a, *job.pose_b];
-        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, edges, poses })
+        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, hold, poses })
     }
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
@@ -120,13 +112,14 @@ impl Persistent3 {
     }
 
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
-    /// must be those of its job. Its error holds the drift. Cost: constant, least where no body turned.
+    /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
     pub fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
         if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
             to.push(self.manifold.clone());
             return true;
         }
-        let moved = if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
+        let are_turned_alike = (0..2).all(|i| poses[i].same_rotation(&self.poses[i]));
+        let moved = if are_turned_alike && !matches!(self.hold, Hold::Gap(_)) {
             self.shifted(between(poses))
         } else {
             self.turned(poses)
@@ -169,16 +162,26 @@ impl Persistent3 {
         let [arm_a, arm_b] = self.terms.arms;
         let drift = drift_from(&of_a, arm_b).min(drift_from(&of_b, arm_a));
         // A normal made of two edges leans further than the bodies do.
-        let spun = if self.edges.is_some() { f64::INFINITY } else { spin * f64::from(arm_a.min(arm_b)) };
-        let normal = match self.edges {
-            None if self.terms.is_from_b => of_b.turn(normal_then),
-            None => of_a.turn(normal_then),
-            Some([a, b]) => {
+        let spun = match self.hold {
+            Hold::FaceOfA | Hold::FaceOfB => spin * f64::from(arm_a.min(arm_b)),
+            Hold::Edges(_) | Hold::Gap(_) => f64::INFINITY,
+        };
+        // Bodies may have turned a long way together.
+        let carried = of_a.turn(normal_then);
+        let normal = match self.hold {
+            Hold::FaceOfB => of_b.turn(normal_then),
+            Hold::FaceOfA => carried,
+            Hold::Edges([a, b]) => {
                 let cross = of_a.turn(a.as_dvec3()).cross(of_b.turn(b.as_dvec3()));
-                // Bodies may have turned a long way together.
-                let carried = of_a.turn(normal_then);
                 let normal = cross.normalize_or(carried);
                 if normal.dot(carried) < 0.0 { -normal } else { normal }
+            }
+            Hold::Gap(along) => {
+                let across = self.manifold.points.iter().fold(DVec3::ZERO, |sum, point| {
+                    sum + offset + of_b.turn(point.anchor_b.as_dvec3()) - of_a.turn(point.anchor_a.as_dvec3())
+                });
+                let along = of_a.turn(along.as_dvec3());
+                (across - along * across.dot(along)).normalize_or(carried)
             }
         };
         let turn = Turn { of_a, of_b, offset_then, normal_then };
@@ -257,121 +260,6 @@ impl Moved {
         (if is_from_b { a } else { b }, rise)
     }
 }
-
-/// Whether a manifold's normal is that of a face. Corners across a gap are hinted to by the face that all but parts them, and
-/// have a normal of their own.
-fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
-    let (shape, pose, face, out) = match face {
-        OnFace::OfA(face) => (job.shape_a, job.pose_a, face as usize, 1.0),
-        OnFace::OfB(face) => (job.shape_b, job.pose_b, face as usize, -1.0),
-    };
-    let normal = match shape {
-        // A core of cuboids is made when it is asked for.
-        Shape3::Cuboid(_) if face < 6 => Some(DVec3::AXES[face / 2] * if face % 2 == 1 { 1.0 } else { -1.0 }),
-        _ => shape.core().normals().get(face).copied(),
-    };
-    let off = |normal: DVec3| pose.turn(normal * out) - manifold.normal.as_dvec3();
-    normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
-}
-
-/// The directions of the edges that a hint names, in world axes, where they cross at more than half a degree and the
-/// normal of a manifold is theirs; and by how much they reach out to every side of where they cross.
-fn crossing(job: &Job3<'_>, hint: Hint, manifold: &Manifold3) -> Option<([Vec3; 2], f64)> {
-    let features = hint.features()?;
-    let (Feature::Edge(a), Feature::Edge(b)) = (features.a(), features.b()) else { return None };
-    let point = manifold.points.first()?;
-    let along = |(shape, pose): (&Shape3, &Pose3), edge: u32, anchor: Vec3| {
-        let core = shape.core();
-        core.topology().half_edges().get(edge as usize)?;
-        let (from, to) = core.topology().ends(edge as usize);
-        let (from, to) = (core.vertices().get(from)?.as_dvec3(), core.vertices().get(to)?.as_dvec3());
-        let along = (to - from).try_normalize()?;
-        let place = along.dot(pose.basis().turn_back(anchor.as_dvec3()) - from);
-        Some((pose.turn(along), place.min((to - from).length() - place)))
-    };
-    let (a, reach_a) = along((job.shape_a, job.pose_a), a, point.anchor_a)?;
-    let (b, reach_b) = along((job.shape_b, job.pose_b), b, point.anchor_b)?;
-    let is_theirs = |edge: DVec3| edge.dot(manifold.normal.as_dvec3()).abs() <= THEIRS;
-    let sine = a.cross(b).length();
-    let do_cross = sine > LEAST_SINE;
-    (is_theirs(a) && is_theirs(b) && do_cross)
-        .then(|| ([a.as_vec3(), b.as_vec3()], sine * reach_a.min(reach_b)))
-}
-
-/// By how much the bodies stand on each other to every side: the least width of three or four points, else how far the
-/// middle of the points is inside the face.
-fn width_on(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> f64 {
-    let on_face = |point: &ContactPoint3| match face {
-        OnFace::OfA(_) => point.anchor_a.as_dvec3(),
-        OnFace::OfB(_) => point.anchor_b.as_dvec3(),
-    };
-    let points: ArrayVec<DVec3, 4> = manifold.points.iter().map(on_face).collect();
-    if points.len() > 2 {
-        return least_width(&points, manifold.normal.as_dvec3());
-    }
-    let middle = points.iter().fold(DVec3::ZERO, |sum, point| sum + *point) / points.len().max(1) as f64;
-    match face {
-        OnFace::OfA(face) => inside(job.shape_a, face as usize, job.pose_a.basis().turn_back(middle)),
-        OnFace::OfB(face) => inside(job.shape_b, face as usize, job.pose_b.basis().turn_back(middle)),
-    }
-}
-
-/// The least distance of two parallel lines with all points between them: one runs through two of them.
-fn least_width(points: &[DVec3], normal: DVec3) -> f64 {
-    let mut least = f64::INFINITY;
-    for (i, &one) in points.iter().enumerate() {
-        for &other in &points[i + 1..] {
-            let Some(across) = normal.cross(other - one).try_normalize() else { return 0.0 };
-            let beside = |point: &DVec3| across.dot(*point - one);
-            let (low, high) = points
-                .iter()
-                .map(beside)
-                .fold((0.0_f64, 0.0_f64), |(low, high), place| (low.min(place), high.max(place)));
-            least = least.min(high - low);
-        }
-    }
-    least
-}
-
-/// How far inside a face a point above it is, in the axes of the shape; negative outside. Cost: linear in the face's
-/// vertices.
-fn inside(shape: &Shape3, face: usize, point: DVec3) -> f64 {
-    if let Shape3::Cuboid(cuboid) = shape {
-        let within = cuboid.half_extents().as_dvec3() - point.abs();
-        let [u, v] = [(face / 2 + 1) % 3, (face / 2 + 2) % 3];
-        return within.to_array()[u].min(within.to_array()[v]);
-    }
-    let core = shape.core();
-    let (topology, vertices) = (core.topology(), core.vertices());
-    let Some(&normal) = core.normals().get(face) else { return 0.0 };
-    let mut least = f64::INFINITY;
-    for edge in topology.face_half_edges(face) {
-        let (from, to) = topology.ends(edge);
-        let (from, to) = (vertices[from].as_dvec3(), vertices[to].as_dvec3());
-        let Some(inward) = normal.cross(to - from).try_normalize() else { continue };
-        least = least.min(inward.dot(point - from));
-    }
-    if least.is_finite() { least } else { 0.0 }
-}
-
-fn footing_of(job: &Job3<'_>, manifold: &Manifold3, width: f64) -> Option<Footing> {
-    let (mut low, mut high) = (manifold.separation, manifold.separation);
-    for point in &manifold.points {
-        (low, high) = (low.min(point.separation), high.max(point.separation));
-    }
-    let girth = |shape: &Shape3| {
-        // A core of cuboids is made when it is asked for.
-        let inner = match shape {
-            Shape3::Cuboid(cuboid) => cuboid.inner_radius(),
-            _ => shape.core().inner_radius() + shape.radius(),
-        };
-        Girth { inner, outer: shape.outer_radius() }
-    };
-    Footing::new(width, [low, high], manifold.error, [girth(job.shape_a), girth(job.shape_b)])
-}
-
-/// The least sine between edges whose normal is made anew: directions in f32 are off by 1e-7, a normal by 1e-5.
-const LEAST_SINE: f64 = 0.01;
 
 /// From A's position to B's.
 #[inline(always)]

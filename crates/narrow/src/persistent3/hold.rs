@@ -1,0 +1,218 @@
+//! What holds a manifold to its bodies in space: a face, two edges, or what is nearest across a gap.
+//!
+//! The last is what bricks of a wall have with those beside the ones below: two edges side by side, some millimetres
+//! apart, which nothing but the general path tells, in 11 k instructions. Kept, they cost 300: 17 % of a frame of a heap of
+//! 8,000 boxes (AMD EPYC, Zen 4, 2026-11-22, by instructions).
+
+use super::between;
+use crate::answer::{ContactPoint3, Manifold3};
+use crate::feature::{Feature, Hint, OnFace};
+use crate::footing::{Footing, Girth};
+use crate::jobs3::Job3;
+use crate::persistent::{THEIRS, measured_from, reach_of};
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Pose3, Shape3};
+
+/// What a normal turns with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) enum Hold {
+    /// A face of A.
+    FaceOfA,
+    /// A face of B.
+    FaceOfB,
+    /// Two edges that cross; the directions that they had, in world axes.
+    Edges([Vec3; 2]),
+    /// The points nearest to each other across a gap, of corners and edges; the direction of the edges, in world axes, along
+    /// which that does not matter, or zero.
+    Gap(Vec3),
+}
+
+impl Hold {
+    /// What holds a manifold, and how wide it is held.
+    pub(super) fn of(
+        job: &Job3<'_>,
+        hint: Hint,
+        manifold: &Manifold3,
+        overlapping: bool,
+    ) -> Option<(Self, f64)> {
+        let point = manifold.points.first()?;
+        if let Some(face) = measured_from(hint).filter(|face| is_normal_of(job, *face, manifold)) {
+            let is_of_b = matches!(face, OnFace::OfB(_));
+            let hold = if is_of_b { Self::FaceOfB } else { Self::FaceOfA };
+            return Some((hold, width_on(job, face, manifold)));
+        }
+        if let Some((Feature::Edge(a), Feature::Edge(b))) = hint.features().map(|of| (of.a(), of.b()))
+            && let Some((edges, width)) = crossing(job, [a, b], manifold)
+        {
+            return Some((Self::Edges(edges), width));
+        }
+        if overlapping {
+            return None;
+        }
+        let (of_a, of_b) = (point.feature.a(), point.feature.b());
+        match (manifold.points.len(), of_a, of_b) {
+            (2, ..) => {
+                let along = manifold.points[1].anchor_a - point.anchor_a;
+                Self::across(job, manifold, along.as_dvec3().try_normalize()?)
+            }
+            (1, Feature::Vertex(_), Feature::Vertex(_)) => Self::across(job, manifold, DVec3::ZERO),
+            (1, Feature::Edge(edge), Feature::Vertex(_)) => {
+                Self::across(job, manifold, job.pose_a.turn(Edge::of(job.shape_a, edge)?.along))
+            }
+            (1, Feature::Vertex(_), Feature::Edge(edge)) => {
+                Self::across(job, manifold, job.pose_b.turn(Edge::of(job.shape_b, edge)?.along))
+            }
+            (1, Feature::Edge(a), Feature::Edge(b)) => {
+                crossing(job, [a, b], manifold).map(|(edges, width)| (Self::Edges(edges), width))
+            }
+            _ => None,
+        }
+    }
+
+    /// Across a gap wide enough to have a direction, by points that face each other.
+    fn across(job: &Job3<'_>, manifold: &Manifold3, along: DVec3) -> Option<(Self, f64)> {
+        let (normal, offset) = (manifold.normal.as_dvec3(), between([job.pose_a, job.pose_b]));
+        let radii = [job.shape_a.outer_radius(), job.shape_b.outer_radius()];
+        let is_straight = |point: &ContactPoint3| {
+            let across = offset + (point.anchor_b.as_dvec3() - point.anchor_a.as_dvec3());
+            (across - normal * f64::from(point.separation)).length()
+                <= THEIRS * f64::from(radii[0] + radii[1])
+        };
+        let is_wide = manifold.separation >= LEAST_GAP * reach_of(radii);
+        let is_sound =
+            is_wide && along.dot(normal).abs() <= LEAST_SINE && manifold.points.iter().all(is_straight);
+        is_sound.then_some((Self::Gap(along.as_vec3()), 0.0))
+    }
+}
+
+/// Whether a manifold's normal is that of a face. Corners across a gap are hinted to by the face that all but parts them, and
+/// have a normal of their own.
+fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
+    let (shape, pose, face, out) = match face {
+        OnFace::OfA(face) => (job.shape_a, job.pose_a, face as usize, 1.0),
+        OnFace::OfB(face) => (job.shape_b, job.pose_b, face as usize, -1.0),
+    };
+    let normal = match shape {
+        // A core of cuboids is made when it is asked for.
+        Shape3::Cuboid(_) if face < 6 => Some(DVec3::AXES[face / 2] * if face % 2 == 1 { 1.0 } else { -1.0 }),
+        _ => shape.core().normals().get(face).copied(),
+    };
+    let off = |normal: DVec3| pose.turn(normal * out) - manifold.normal.as_dvec3();
+    normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
+}
+
+/// The directions of two edges, in world axes, where they cross at more than half a degree and the normal of a manifold is
+/// theirs; and by how much they reach out to every side of where they cross.
+fn crossing(job: &Job3<'_>, edges: [u32; 2], manifold: &Manifold3) -> Option<([Vec3; 2], f64)> {
+    let point = manifold.points.first()?;
+    let along = |(shape, pose): (&Shape3, &Pose3), edge: u32, anchor: Vec3| {
+        let Edge { from, along, length } = Edge::of(shape, edge)?;
+        let place = along.dot(pose.basis().turn_back(anchor.as_dvec3()) - from);
+        Some((pose.turn(along), place.min(length - place)))
+    };
+    let (a, reach_a) = along((job.shape_a, job.pose_a), edges[0], point.anchor_a)?;
+    let (b, reach_b) = along((job.shape_b, job.pose_b), edges[1], point.anchor_b)?;
+    let is_theirs = |edge: DVec3| edge.dot(manifold.normal.as_dvec3()).abs() <= THEIRS;
+    let sine = a.cross(b).length();
+    let do_cross = sine > LEAST_SINE;
+    (is_theirs(a) && is_theirs(b) && do_cross)
+        .then(|| ([a.as_vec3(), b.as_vec3()], sine * reach_a.min(reach_b)))
+}
+
+/// An edge of a shape, in its axes.
+struct Edge {
+    from: DVec3,
+    along: DVec3,
+    length: f64,
+}
+
+impl Edge {
+    /// Nothing of one that is not there, or has no length.
+    fn of(shape: &Shape3, edge: u32) -> Option<Self> {
+        let core = shape.core();
+        core.topology().half_edges().get(edge as usize)?;
+        let (from, to) = core.topology().ends(edge as usize);
+        let (from, to) = (core.vertices().get(from)?.as_dvec3(), core.vertices().get(to)?.as_dvec3());
+        Some(Self { from, along: (to - from).try_normalize()?, length: (to - from).length() })
+    }
+}
+
+/// By how much the bodies stand on each other to every side: the least width of three or four points, else how far the
+/// middle of the points is inside the face.
+fn width_on(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> f64 {
+    let on_face = |point: &ContactPoint3| match face {
+        OnFace::OfA(_) => point.anchor_a.as_dvec3(),
+        OnFace::OfB(_) => point.anchor_b.as_dvec3(),
+    };
+    let points: ArrayVec<DVec3, 4> = manifold.points.iter().map(on_face).collect();
+    if points.len() > 2 {
+        return least_width(&points, manifold.normal.as_dvec3());
+    }
+    let middle = points.iter().fold(DVec3::ZERO, |sum, point| sum + *point) / points.len().max(1) as f64;
+    match face {
+        OnFace::OfA(face) => inside(job.shape_a, face as usize, job.pose_a.basis().turn_back(middle)),
+        OnFace::OfB(face) => inside(job.shape_b, face as usize, job.pose_b.basis().turn_back(middle)),
+    }
+}
+
+/// The least distance of two parallel lines with all points between them: one runs through two of them.
+fn least_width(points: &[DVec3], normal: DVec3) -> f64 {
+    let mut least = f64::INFINITY;
+    for (i, &one) in points.iter().enumerate() {
+        for &other in &points[i + 1..] {
+            let Some(across) = normal.cross(other - one).try_normalize() else { return 0.0 };
+            let beside = |point: &DVec3| across.dot(*point - one);
+            let (low, high) = points
+                .iter()
+                .map(beside)
+                .fold((0.0_f64, 0.0_f64), |(low, high), place| (low.min(place), high.max(place)));
+            least = least.min(high - low);
+        }
+    }
+    least
+}
+
+/// How far inside a face a point above it is, in the axes of the shape; negative outside. Cost: linear in the face's
+/// vertices.
+fn inside(shape: &Shape3, face: usize, point: DVec3) -> f64 {
+    if let Shape3::Cuboid(cuboid) = shape {
+        let within = cuboid.half_extents().as_dvec3() - point.abs();
+        let [u, v] = [(face / 2 + 1) % 3, (face / 2 + 2) % 3];
+        return within.to_array()[u].min(within.to_array()[v]);
+    }
+    let core = shape.core();
+    let (topology, vertices) = (core.topology(), core.vertices());
+    let Some(&normal) = core.normals().get(face) else { return 0.0 };
+    let mut least = f64::INFINITY;
+    for edge in topology.face_half_edges(face) {
+        let (from, to) = topology.ends(edge);
+        let (from, to) = (vertices[from].as_dvec3(), vertices[to].as_dvec3());
+        let Some(inward) = normal.cross(to - from).try_normalize() else { continue };
+        least = least.min(inward.dot(point - from));
+    }
+    if least.is_finite() { least } else { 0.0 }
+}
+
+pub(super) fn footing_of(job: &Job3<'_>, manifold: &Manifold3, width: f64) -> Option<Footing> {
+    let (mut low, mut high) = (manifold.separation, manifold.separation);
+    for point in &manifold.points {
+        (low, high) = (low.min(point.separation), high.max(point.separation));
+    }
+    let girth = |shape: &Shape3| {
+        // A core of cuboids is made when it is asked for.
+        let inner = match shape {
+            Shape3::Cuboid(cuboid) => cuboid.inner_radius(),
+            _ => shape.core().inner_radius() + shape.radius(),
+        };
+        Girth { inner, outer: shape.outer_radius() }
+    };
+    Footing::new(width, [low, high], manifold.error, [girth(job.shape_a), girth(job.shape_b)])
+}
+
+/// The least sine between edges whose normal is made anew: directions in f32 are off by 1e-7, a normal by 1e-5.
+const LEAST_SINE: f64 = 0.01;
+
+/// The least gap that has a direction, as a multiple of how far bodies may drift.
+const LEAST_GAP: f32 = 16.0;
