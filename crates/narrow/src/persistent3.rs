@@ -119,11 +119,10 @@ impl Persistent3 {
             return true;
         }
         let are_turned_alike = (0..2).all(|i| poses[i].same_rotation(&self.poses[i]));
-        let moved = if are_turned_alike && !matches!(self.hold, Hold::Gap(_)) {
-            self.shifted(between(poses))
-        } else {
-            self.turned(poses)
-        };
+        if are_turned_alike && !matches!(self.hold, Hold::Gap(_)) {
+            return self.shift(between(poses), to);
+        }
+        let moved = self.turned(poses);
         // What is not a number is not close.
         if !(moved.drift <= f64::from(self.terms.reach())) {
             return false;
@@ -136,17 +135,40 @@ impl Persistent3 {
         is_told
     }
 
-    /// Moved, by bodies that did not turn.
+    /// The same where neither body turned: all points rise alike, and stay where they are on one body.
     #[inline(always)]
-    fn shifted(&self, offset: DVec3) -> Moved {
+    fn shift(&self, offset: DVec3, to: &mut Vec<Manifold3>) -> bool {
+        let of = &self.manifold;
         let step = offset - between(self.poses.each_ref());
-        let normal = self.manifold.normal.as_dvec3();
+        let normal = of.normal.as_dvec3();
         let arm = f64::from(self.terms.arms[0].min(self.terms.arms[1]));
         let drift = step.length() + lost(offset.abs().element_sum(), arm);
-        Moved { drift, spun: 0.0, offset, normal, rise: normal.dot(step), turn: None }
+        let rise = normal.dot(step);
+        let way = Way { drift, spun: 0.0, rise };
+        let Some(error) = self.terms.error_after([of.separation, of.error], &way) else { return false };
+        to.push(Manifold3::BLANK);
+        let Some(to) = to.last_mut() else { return false };
+        (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, of.normal);
+        to.separation = signed(f64::from(of.separation) + rise, self.terms.overlapping);
+        to.error = error;
+        let _ = to.points.try_extend_from_slice(&of.points);
+        if self.terms.is_from_b {
+            for point in &mut to.points {
+                let height = f64::from(point.separation) + rise;
+                point.separation = height as f32;
+                point.anchor_b = (point.anchor_a.as_dvec3() - offset + normal * height).as_vec3();
+            }
+        } else {
+            for point in &mut to.points {
+                let height = f64::from(point.separation) + rise;
+                point.separation = height as f32;
+                point.anchor_a = (point.anchor_b.as_dvec3() + offset - normal * height).as_vec3();
+            }
+        }
+        true
     }
 
-    /// Moved, by bodies of which one turned.
+    /// How bodies moved, of which one turned.
     #[inline(never)]
     fn turned(&self, poses: [&Pose3; 2]) -> Moved {
         let (offset, offset_then) = (between(poses), between(self.poses.each_ref()));
@@ -184,12 +206,11 @@ impl Persistent3 {
                 (across - along * across.dot(along)).normalize_or(carried)
             }
         };
-        let turn = Turn { of_a, of_b, offset_then, normal_then };
-        Moved { drift, spun, offset, normal, rise: 0.0, turn: Some(turn) }
+        Moved { drift, spun, offset, normal, of_a, of_b, offset_then, normal_then }
     }
 
-    /// The manifold as it is now; says no where it has to be made anew.
-    #[inline(always)]
+    /// The manifold as it is now, of bodies of which one turned; says no where it has to be made anew.
+    #[inline(never)]
     fn fill(&self, moved: &Moved, to: &mut Manifold3) -> bool {
         let of = &self.manifold;
         (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, moved.normal.as_vec3());
@@ -222,7 +243,7 @@ impl Persistent3 {
     }
 }
 
-/// How bodies moved since.
+/// How bodies moved since, of which one turned; in world axes.
 struct Moved {
     drift: f64,
     /// Their spin against each other times the lesser arm.
@@ -231,13 +252,6 @@ struct Moved {
     offset: DVec3,
     /// From A to B, now.
     normal: DVec3,
-    /// By how much the bodies went apart along the normal, where none turned.
-    rise: f64,
-    turn: Option<Turn>,
-}
-
-/// How bodies turned since, in world axes, and what was then.
-struct Turn {
     of_a: Basis3,
     of_b: Basis3,
     offset_then: DVec3,
@@ -252,11 +266,9 @@ impl Moved {
     #[inline(always)]
     fn held(&self, [on_a, on_b]: [Vec3; 2], is_from_b: bool) -> (DVec3, f64) {
         let (on_a, on_b) = (on_a.as_dvec3(), on_b.as_dvec3());
-        let Some(Turn { of_a, of_b, offset_then, normal_then }) = &self.turn else {
-            return (if is_from_b { on_a } else { on_b }, self.rise);
-        };
-        let (a, b) = (of_a.turn(on_a), of_b.turn(on_b));
-        let rise = self.normal.dot(self.offset + b - a) - normal_then.dot(*offset_then + on_b - on_a);
+        let (a, b) = (self.of_a.turn(on_a), self.of_b.turn(on_b));
+        let rise =
+            self.normal.dot(self.offset + b - a) - self.normal_then.dot(self.offset_then + on_b - on_a);
         (if is_from_b { a } else { b }, rise)
     }
 }
