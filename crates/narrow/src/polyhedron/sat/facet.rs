@@ -15,6 +15,10 @@
 //! the best, nothing but that axis is ever asked for. The idea is that of an expanding polytope's last step (van
 //! den Bergen, "Proximity queries and penetration depth computation on 3D game objects", GDC 2001), with a polytope
 //! that needs no expanding.
+//!
+//! Tried: where several vertices are furthest alike, as of prisms that stand upright side by side, a disc about the middle of the
+//! stretch of their edge, or face, that crosses the face. 45 k asked for by a crowd's limbs, 12 k proved in place of 2.5 k: 4 % fewer
+//! instructions there, 0.6 % more in a cloud of hulls (AMD EPYC, Zen 4, 2026-11-22). Limbs are too thin for a disc that wide.
 
 use super::super::solid::Solid;
 use super::{Axis, AxisOf};
