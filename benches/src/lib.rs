@@ -17,6 +17,7 @@
 #![deny(missing_docs)]
 
 pub mod accuracy;
+pub mod blocks;
 pub mod broad;
 pub mod certain;
 pub mod clock;

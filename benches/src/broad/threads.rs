@@ -2,13 +2,16 @@
 
 use super::figures::Figures;
 use super::ours::{Engine, Variant};
-use super::{Case, Frame, Stage, forget, frames, name, nanoseconds, object};
+use super::{Case, Stage, frames, name, nanoseconds, object};
+use crate::blocks::{Block, blocks};
 use crate::clock::Effort;
 use crate::row::Row;
+use asunder_broad::PairId;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::Instant;
 
-/// Measures our broad phase on one thread and on several, in turns, frame by frame. No peer takes part.
+/// Measures our broad phase on one thread and on several, in turns, in [`blocks`](crate::blocks) of frames. No peer takes
+/// part.
 ///
 /// The row's time is that of our best mode on all threads. Cost: about a second a mode and number of threads.
 ///
@@ -40,20 +43,17 @@ pub(super) fn run(
     row: &mut Row,
 ) -> Result<[Side; 2], ThreadPoolBuildError> {
     let &(_, count) = case;
-    let mut stage = Stage::new(case);
-    let mut sides = [Side::new(1, stage.few_move)?, Side::new(threads, stage.few_move)?];
+    let mut sides = [Side::new(1, case)?, Side::new(threads, case)?];
     let limit = nanoseconds(count, effort);
-    for number in 0..=frames(count, effort) {
-        stage.step();
-        // In turns as to which is first and finds cold caches.
-        let turn = number % 2;
-        sides[turn].frame(&stage.now());
-        sides[1 - turn].frame(&stage.now());
-        if !Side::agree(&sides) {
-            object(row, &format!("LISTS DIFFER in frame {number}"));
+    for block in blocks(frames(count, effort)) {
+        // In turns as to which is first, too.
+        for who in [0, 1].map(|turn| (block.number + turn) % 2) {
+            sides[who].play(&block);
         }
-        if number == 0 {
-            sides.iter_mut().for_each(|side| side.forget_samples(limit));
+        if let Some(frame) =
+            block.frames.clone().find(|&frame| !Side::agree(&sides, frame - block.frames.start))
+        {
+            object(row, &format!("LISTS DIFFER in frame {frame}"));
         }
         if sides.iter().any(|side| side.spent() >= limit) {
             break;
@@ -73,33 +73,43 @@ fn report(row: &mut Row, threads: usize, [one, many]: &[Side; 2]) {
     row.broad = Some(figures);
 }
 
-/// One number of threads: a pool, and our modes in it.
+/// One number of threads: a pool, the scene, and our modes.
 pub(super) struct Side {
     pool: ThreadPool,
+    stage: Stage,
     variants: Vec<Variant>,
+    /// Of each frame of the last block, what each mode's list comes to.
+    found: Vec<Vec<u64>>,
 }
 
 impl Side {
-    fn new(threads: usize, few_move: bool) -> Result<Self, ThreadPoolBuildError> {
+    fn new(threads: usize, case: &Case) -> Result<Self, ThreadPoolBuildError> {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
-        Ok(Self { pool, variants: Engine::all(few_move).into_iter().map(Variant::new).collect() })
+        let stage = Stage::new(case);
+        let variants = Engine::all(stage.few_move).into_iter().map(Variant::new).collect();
+        Ok(Self { pool, stage, variants, found: Vec::new() })
     }
 
     /// The clock runs within the pool: what it takes to enter one is not ours.
-    fn frame(&mut self, frame: &Frame) {
-        for Variant { engine, pairs, samples, .. } in &mut self.variants {
-            let ns = self.pool.install(|| wall(|| engine.list(frame, pairs)));
-            samples.push(ns, ns);
+    fn play(&mut self, block: &Block) {
+        self.found.clear();
+        for frame in block.frames.clone() {
+            self.stage.step();
+            let now = self.stage.now();
+            for Variant { engine, pairs, samples, .. } in &mut self.variants {
+                let ns = self.pool.install(|| wall(|| engine.list(&now, pairs)));
+                if block.counts(frame) {
+                    samples.push(ns, ns);
+                }
+            }
+            self.found.push(self.variants.iter().map(|variant| digest(&variant.pairs)).collect());
         }
     }
 
-    fn agree([one, many]: &[Self; 2]) -> bool {
-        let first = &one.variants[0].pairs;
-        one.variants.iter().chain(&many.variants).all(|variant| variant.pairs == *first)
-    }
-
-    fn forget_samples(&mut self, limit: f64) {
-        self.variants.iter_mut().for_each(|variant| forget(&mut variant.samples, limit));
+    /// Whether all modes of both found the same in a frame of the last block.
+    fn agree([one, many]: &[Self; 2], frame: usize) -> bool {
+        let first = one.found[frame][0];
+        one.found[frame].iter().chain(&many.found[frame]).all(|&found| found == first)
     }
 
     /// Time of the slowest mode.
@@ -111,6 +121,13 @@ impl Side {
         let medians = self.variants.iter().filter_map(|one| Some((one.samples.median()?, one)));
         medians.min_by(|a, b| a.0.total_cmp(&b.0))
     }
+}
+
+/// A number that lists of other pairs, or in another order, hardly share: FNV-1a, word by word.
+fn digest(pairs: &[PairId]) -> u64 {
+    pairs.iter().fold(0xcbf2_9ce4_8422_2325, |hash, pair| {
+        (hash ^ (u64::from(pair.a) << 32 | u64::from(pair.b))).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// Nanoseconds that a call takes by the clock on the wall.

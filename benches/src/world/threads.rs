@@ -1,8 +1,11 @@
 //! Whole frames on several threads beside one, and beside the peer on its one: by the clock on the wall.
+//!
+//! Each side plays a block of frames before it is another's turn: see [`blocks`](crate::blocks) for why.
 
 use super::play::{Play, Replay};
 use super::stages::Stages;
 use super::{Case, lean_of, name, peer_frame};
+use crate::blocks::blocks;
 use crate::clock::{Effort, Samples};
 use crate::lean::{Lean, Walked};
 use crate::row::Row;
@@ -13,7 +16,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::error::Error;
 use std::time::{Duration, Instant};
 
-/// Measures our frames on one thread and on several, and the peer's, in turns; in the plane there is no
+/// Measures our frames on one thread and on several, and the peer's, in turns, block by block; in the plane there is no
 /// peer. The row's time is that of the threads.
 ///
 /// # Errors
@@ -73,10 +76,7 @@ pub(super) struct Run {
     pub(super) differ_in: Option<u32>,
 }
 
-/// Frames at the start that are not counted: a million bodies at rest are sorted in once.
-const WARM: u32 = 2;
-
-/// Measures all three in turns.
+/// Measures all three in turns: every side plays every frame.
 pub(super) fn run<R: Replay>(
     case: &Case,
     count: usize,
@@ -93,28 +93,30 @@ pub(super) fn run<R: Replay>(
     let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
     let (pools, mut worlds) = ([pool(1)?, pool(threads)?], [first.clone(), first]);
     let (mut ours, mut differ_in) = ([Side::default(), Side::default()], None);
-    for frame in 1..=effort.rounds as u32 + WARM {
-        let poses = replay.poses_at(frame);
-        // In turns as to which is first and finds cold caches.
-        let turn = frame as usize % 2;
-        for i in [turn, 1 - turn] {
-            let (side, world) = (&mut ours[i], &mut worlds[i]);
-            side.found = timed(&pools[i], &mut side.samples, || world.frame(&poses));
-            side.stages.push(world.stats());
+    for block in blocks(effort.rounds) {
+        let mut found: [Vec<Walked>; 2] = [Vec::new(), Vec::new()];
+        // In turns as to which is first, too.
+        for who in [0, 1, 2].map(|turn| (block.number + turn) % 3) {
+            for frame in block.frames.clone() {
+                let poses = replay.poses_at(frame as u32);
+                let is_counted = block.counts(frame);
+                match (ours.get_mut(who), &mut peer) {
+                    (Some(side), _) => {
+                        let world = &mut worlds[who];
+                        let (ns, walked) = timed(&pools[who], || world.frame(&poses));
+                        found[who].push(walked);
+                        side.push(is_counted, (ns, walked), |stages| stages.push(world.stats()));
+                    }
+                    (None, Some((peer, side))) => side.push_peer(is_counted, peer, &R::converted(&poses)),
+                    (None, None) => {}
+                }
+            }
         }
-        if ours[0].found != ours[1].found {
-            differ_in = differ_in.or(Some(frame));
-        }
-        if let Some((peer, side)) = &mut peer {
-            side.push_peer(peer, &R::converted(&poses));
-        }
-        let sides = || ours.iter().chain(peer.as_ref().map(|(_, side)| side));
-        let spent = sides().map(|side| side.samples.spent()).fold(0.0, f64::max);
-        if frame == WARM {
-            // Buffers have grown, and what rests is known.
-            let of_peer = peer.as_mut().map(|(_, side)| side);
-            ours.iter_mut().chain(of_peer).for_each(|side| *side = Side::default());
-        } else if frame > WARM && spent > effort.nanoseconds() {
+        let [one, many] = &found;
+        let differs = block.frames.zip(one.iter().zip(many)).find(|(_, (one, many))| one != many);
+        differ_in = differ_in.or(differs.map(|(frame, _)| frame as u32));
+        let mut sides = ours.iter().chain(peer.as_ref().map(|(_, side)| side));
+        if sides.any(|side| side.samples.spent() > effort.nanoseconds()) {
             break;
         }
     }
@@ -125,24 +127,32 @@ pub(super) fn run<R: Replay>(
 }
 
 impl Side {
+    /// One frame: its time and what it found; if it counts, with its stages.
+    fn push(&mut self, is_counted: bool, (ns, found): (f64, Walked), stages: impl FnOnce(&mut Stages)) {
+        self.found = found;
+        if is_counted {
+            self.samples.push(ns, ns);
+            stages(&mut self.stages);
+        }
+    }
+
     /// One frame of the peer's.
-    fn push_peer(&mut self, peer: &mut Lean, poses: &[(u32, Pose)]) {
+    fn push_peer(&mut self, is_counted: bool, peer: &mut Lean, poses: &[(u32, Pose)]) {
         let start = Instant::now();
-        self.found = core::hint::black_box(peer_frame(peer, poses));
+        let found = core::hint::black_box(peer_frame(peer, poses));
         let ns = start.elapsed().as_nanos() as f64;
-        self.samples.push(ns, ns);
         let [refit, sweep, merge, collide] = peer.times();
-        self.stages.push_times([refit, sweep, collide, merge, Duration::ZERO]);
+        let times = [refit, sweep, collide, merge, Duration::ZERO];
+        self.push(is_counted, (ns, found), |stages| stages.push_times(times));
     }
 }
 
-/// The clock runs within the pool: what it takes to enter one is not ours.
-fn timed(pool: &ThreadPool, samples: &mut Samples, frame: impl FnOnce() -> Walked + Send) -> Walked {
-    let (ns, walked) = pool.install(|| {
+/// Nanoseconds that a frame takes, and what it found. The clock runs within the pool: what it takes to enter one is not
+/// ours.
+fn timed(pool: &ThreadPool, frame: impl FnOnce() -> Walked + Send) -> (f64, Walked) {
+    pool.install(|| {
         let start = Instant::now();
         let walked = core::hint::black_box(frame());
         (start.elapsed().as_nanos() as f64, walked)
-    });
-    samples.push(ns, ns);
-    walked
+    })
 }
