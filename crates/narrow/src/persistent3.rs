@@ -124,15 +124,15 @@ impl Persistent3 {
         }
         let moved = self.turned(poses);
         // What is not a number is not close.
-        if !(moved.drift <= f64::from(self.terms.reach())) {
-            return false;
-        }
-        to.push(Manifold3::BLANK);
-        let is_told = to.last_mut().is_some_and(|manifold| self.fill(&moved, manifold));
-        if !is_told {
+        let is_close = moved.drift <= f64::from(self.terms.reach());
+        if is_close {
+            to.push(Manifold3::BLANK);
+            if to.last_mut().is_some_and(|manifold| self.fill(&moved, manifold)) {
+                return true;
+            }
             to.pop();
         }
-        is_told
+        false
     }
 
     /// The same where neither body turned: all points rise alike, and stay where they are on one body.
