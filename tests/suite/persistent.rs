@@ -4,13 +4,13 @@
 //! The judges are separations in double-double arithmetic, exact overlap, and drifts measured at the vertices.
 
 use asunder_geometry::tolerance::EVEN_DEPTH;
-use asunder_geometry::{Cuboid, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
+use asunder_geometry::{Compound3, Cuboid, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
 use asunder_narrow::{
     Batch2, Batch3, Hint, Job2, Job3, Pair2, Pair3, Persistent2, Persistent3, collide2, collide3,
 };
 use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKind, pairs2, pairs3};
 use asunder_scenes::random::Random;
-use asunder_tests::precise::{separation2, separation3};
+use asunder_tests::precise::{along2, separation2, separation3};
 use glam::{DQuat, DVec2, DVec3, Vec2, Vec3};
 
 /// What a manifold may say that it is off by, as a share of the pair's size: twice a drift of 2^-15 of the smaller radius, or
@@ -186,8 +186,8 @@ fn what_is_close_to_call_is_not_kept() {
     assert!(seen > 100);
 }
 
-/// A corner across a gap from a corner, or from an edge, has a normal of its own, which no turn of a face gives. In space it
-/// is that of the points; in the plane, and in a gap too narrow to have a direction, nothing is kept.
+/// A corner across a gap from a corner, or from an edge, has a normal of its own, which turns with the bodies; in the plane,
+/// nothing is kept.
 #[test]
 fn corners_across_a_gap_are_kept_by_what_is_nearest() {
     let square = Shape2::from(Rect::from_half_extents(Vec2::ONE).unwrap());
@@ -217,10 +217,7 @@ fn corners_across_a_gap_are_kept_by_what_is_nearest() {
                 shape_b: cube.clone(),
                 pose_b: Pose3::at(place).unwrap(),
             };
-            let Some(persistent) = kept(&pair, 0.01) else {
-                assert!(gap <= 5e-4, "{way} {gap}");
-                continue;
-            };
+            let persistent = kept(&pair, 0.01).expect("it is some way from touching, and within the margin");
             for _ in 0..40 {
                 let (spin, step) = (random.range(0.0, 1e-5), random.range(0.0, 5e-5));
                 let now = PosedPair3 {
@@ -235,6 +232,65 @@ fn corners_across_a_gap_are_kept_by_what_is_nearest() {
         }
     }
     assert!(seen[0] > 40 && seen[1] > 40, "{seen:?}");
+}
+
+/// Along the normal of what was moved along, all of both bodies are as far apart as is told: not only what is near. Edges and
+/// corners that stand nearly face to face would lean with every step if they turned the normal; a face that is turned by
+/// its own small body, and not by the ground under it, lifts that at its far end.
+#[test]
+fn far_ends_are_as_far_apart_along_the_normal_as_is_told() {
+    let cube = |half: f32| Shape3::from(Cuboid::from_half_extents(Vec3::splat(half)).unwrap());
+    let floor = Shape3::from(Cuboid::from_half_extents(Vec3::new(100.0, 100.0, 1.0)).unwrap());
+    let tilted = Pose3::new(
+        DVec3::new(30.0, 20.0, 1.499),
+        DQuat::from_xyzw(1e-4, 2e-4, 0.3, 1.0).normalize().as_quat(),
+    );
+    let (lone, turned) = ((cube(1.0), Pose3::IDENTITY), (cube(0.5), tilted.unwrap()));
+    let at = |place: [f64; 3]| (cube(1.0), Pose3::at(place).unwrap());
+    let pairs = [
+        (lone.clone(), at([2.001, 2.0 + 1e-6, 0.3])),
+        (lone.clone(), at([2.001, 2.0 + 1e-6, 2.0 + 1e-6])),
+        ((floor.clone(), Pose3::IDENTITY), turned.clone()),
+        (turned, (floor, Pose3::IDENTITY)),
+    ];
+    let mut random = Random::new(74);
+    for (way, ((shape_a, pose_a), (shape_b, pose_b))) in pairs.into_iter().enumerate() {
+        let pair = PosedPair3 { shape_a, pose_a, shape_b, pose_b };
+        let persistent = kept(&pair, 0.01).expect("it is some way from touching, and within the margin");
+        let mut seen = 0;
+        for _ in 0..200 {
+            let (spin, step) = (random.range(0.0, 1e-5), random.range(0.0, 3e-5));
+            let small = small(&mut random, spin, step);
+            let around = pair.pose_b.position() + persistent.manifold().points[0].anchor_b.as_dvec3();
+            let now = PosedPair3 { pose_b: moved(&pair.pose_b, small, around), ..pair.clone() };
+            if persistent.carry_on([&now.pose_a, &now.pose_b], &mut Vec::new()) {
+                check(&persistent, &now, 0.01, &format!("{way}"));
+                seen += 1;
+            }
+        }
+        assert!(seen > 20, "{way}: {seen}");
+    }
+}
+
+/// Of a body of several parts another may come within the margin.
+#[test]
+fn what_has_parts_is_not_kept() {
+    let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE).unwrap());
+    let part = |place: [f64; 3]| (Pose3::at(place).unwrap(), cube.clone());
+    let shape_a = Compound3::new([part([0.0; 3]), part([4.007, 0.0, 0.0])]).unwrap().into();
+    // Between both parts: two edges are 3 mm from it, two others just out of the margin.
+    let pair = |x: f64| PosedPair3 {
+        shape_a: Shape3::clone(&shape_a),
+        pose_a: Pose3::IDENTITY,
+        shape_b: cube.clone(),
+        pose_b: Pose3::at([x, 2.001, 0.3]).unwrap(),
+    };
+    let near = |x: f64| {
+        let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = &pair(x);
+        Pair3::new(shape_a, pose_a, shape_b, pose_b).manifolds(0.0041).len()
+    };
+    assert_eq!((near(2.003), near(2.003_1)), (1, 2));
+    assert_eq!(kept(&pair(2.003), 0.0041), None);
 }
 
 #[test]
@@ -282,6 +338,9 @@ fn what_is_moved_along_is_true_in_the_plane() {
                     let off = (f64::from(manifold.separation) - truth.separation).abs();
                     assert!(off <= f64::from(manifold.error) + truth.bound, "off by {off}, {manifold:?}");
                     assert!(f64::from(manifold.error) <= PROMISED * size, "{manifold:?}");
+                    let apart = along2((shape_a, &now_a), (shape_b, &now_b), manifold.normal);
+                    let shown = f64::from(manifold.separation - manifold.error) - 2e-6 * size;
+                    assert!(apart >= shown, "{apart} along the normal, {manifold:?}");
                     let offset = now_b.position() - now_a.position();
                     for point in &manifold.points {
                         let apart = offset + point.anchor_b.as_dvec2() - point.anchor_a.as_dvec2();

@@ -45,7 +45,6 @@ use hold::{Hold, footing_of};
 pub struct Persistent3 {
     manifold: Manifold3,
     terms: Terms,
-    hold: Hold,
     /// Where the bodies were.
     poses: [Pose3; 2],
 }
@@ -59,7 +58,7 @@ impl Persistent3 {
     pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;
-        let (hold, width) = Hold::of(job, hint, manifold, overlapping)?;
+        let hold = Hold::of(job, hint, manifold, overlapping)?;
         let found = [manifold.separation, manifold.error];
         let slack = slack_of(
             found,
@@ -70,14 +69,14 @@ impl Persistent3 {
         let arm = |shape: &Shape3| (shape.center().length() + shape.outer_radius()).next_up();
         let terms = Terms {
             overlapping,
-            is_from_b: hold == Hold::FaceOfB,
+            is_from_b: hold.is_from_b,
             margin: job.margin,
             slack,
             arms: [arm(job.shape_a), arm(job.shape_b)],
-            footing: footing_of(job, manifold, width),
+            footing: footing_of(job, manifold, hold.width),
         };
         let poses = [*job.pose_a, *job.pose_b];
-        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, hold, poses })
+        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, poses })
     }
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
@@ -118,8 +117,7 @@ impl Persistent3 {
             to.push(self.manifold.clone());
             return true;
         }
-        let are_turned_alike = (0..2).all(|i| poses[i].same_rotation(&self.poses[i]));
-        let moved = if are_turned_alike && !matches!(self.hold, Hold::Gap(_)) {
+        let moved = if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
             self.shifted(between(poses))
         } else {
             self.turned(poses)
@@ -160,30 +158,11 @@ impl Persistent3 {
             step + spin * f64::from(arm) + lost(offset.abs().element_sum(), arm.into())
         };
         let [arm_a, arm_b] = self.terms.arms;
-        let drift = drift_from(&of_a, arm_b).min(drift_from(&of_b, arm_a));
-        // A normal made of two edges leans further than the bodies do.
-        let spun = match self.hold {
-            Hold::FaceOfA | Hold::FaceOfB => spin * f64::from(arm_a.min(arm_b)),
-            Hold::Edges(_) | Hold::Gap(_) => f64::INFINITY,
-        };
-        // Bodies may have turned a long way together.
-        let carried = of_a.turn(normal_then);
-        let normal = match self.hold {
-            Hold::FaceOfB => of_b.turn(normal_then),
-            Hold::FaceOfA => carried,
-            Hold::Edges([a, b]) => {
-                let cross = of_a.turn(a.as_dvec3()).cross(of_b.turn(b.as_dvec3()));
-                let normal = cross.normalize_or(carried);
-                if normal.dot(carried) < 0.0 { -normal } else { normal }
-            }
-            Hold::Gap(along) => {
-                let across = self.manifold.points.iter().fold(DVec3::ZERO, |sum, point| {
-                    sum + offset + of_b.turn(point.anchor_b.as_dvec3()) - of_a.turn(point.anchor_a.as_dvec3())
-                });
-                let along = of_a.turn(along.as_dvec3());
-                (across - along * across.dot(along)).normalize_or(carried)
-            }
-        };
+        let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
+        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as wholes.
+        let (drift, arm, seen_from) =
+            if from_a <= from_b { (from_a, arm_b, of_a) } else { (from_b, arm_a, of_b) };
+        let (spun, normal) = (spin * f64::from(arm), seen_from.turn(normal_then));
         let turn = Turn { of_a, of_b, offset_then, normal_then };
         Moved { drift, spun, offset, normal, rise: 0.0, turn: Some(turn) }
     }
@@ -225,7 +204,7 @@ impl Persistent3 {
 /// How bodies moved since.
 struct Moved {
     drift: f64,
-    /// Their spin against each other times the lesser arm.
+    /// Their spin against each other times the arm of the one that is seen to move.
     spun: f64,
     /// From A's position to B's, now.
     offset: DVec3,
