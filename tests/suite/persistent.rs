@@ -293,6 +293,93 @@ fn what_has_parts_is_not_kept() {
     assert_eq!(kept(&pair(2.003), 0.0041), None);
 }
 
+/// The second axis is as good as the first, and gains on it with every step: what a footing may lose is lost here. B leans by
+/// `lean` on A's top, with its deepest corners over A's rim: the normals of both faces show the same, and sliding along
+/// the slope changes one alone.
+#[test]
+fn what_a_footing_may_lose_is_in_the_error() {
+    let cuboid =
+        |x: f32, y: f32, z: f32| Shape3::from(Cuboid::from_half_extents(Vec3::new(x, y, z)).unwrap());
+    let (cube, beam) = (cuboid(1.0, 1.0, 1.0), cuboid(0.1, 1.0, 0.5));
+    let cases = [
+        // Four points on a wide face, four on a narrow one, two on an edge.
+        (cube.clone(), DQuat::IDENTITY, 1.0 / 45.0),
+        (beam, DQuat::IDENTITY, 1.0 / 60.0),
+        (cube, DQuat::from_xyzw(0.382_683_432, 0.0, 0.0, 0.923_879_533).normalize(), 1.0 / 90.0),
+    ];
+    for (way, (shape, first, lean)) in cases.into_iter().enumerate() {
+        let Shape3::Cuboid(cuboid) = &shape else { unreachable!("made a cuboid") };
+        let half = cuboid.half_extents().as_dvec3();
+        let turn = (DQuat::from_xyzw(0.0, -lean / 2.0, 0.0, 1.0).normalize() * first).as_quat();
+        let corners = [[-1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, 1.0]];
+        let at_origin = Pose3::new(DVec3::ZERO, turn).unwrap();
+        let lowest = corners.map(|signs| at_origin.transform(half * DVec3::from_array(signs)));
+        let lowest = lowest.into_iter().min_by(|a, b| a.z.total_cmp(&b.z)).unwrap();
+        for (over, depth) in [(1e-7, 4e-3), (-1e-7, 4e-3), (0.0, 1e-3)] {
+            let place = DVec3::new(over - half.x - lowest.x, 0.0, half.z - depth - lowest.z);
+            let pair = PosedPair3 {
+                shape_a: shape.clone(),
+                pose_a: Pose3::IDENTITY,
+                shape_b: shape.clone(),
+                pose_b: Pose3::new(place, turn).unwrap(),
+            };
+            let persistent = kept(&pair, 0.2).expect("it is deep enough");
+            let reach = f64::from(persistent.reach());
+            assert!(reach > 5e-4, "{way}: a footing");
+            let mut seen = 0;
+            for (share, side) in [(0.99, 1.0), (0.99, -1.0), (0.6, 1.0), (0.6, -1.0), (0.3, 1.0), (0.3, -1.0)]
+            {
+                let now = PosedPair3 {
+                    pose_b: Pose3::new(place + DVec3::X * (reach * share * side), turn).unwrap(),
+                    ..pair.clone()
+                };
+                if persistent.carry_on([&now.pose_a, &now.pose_b], &mut Vec::new()) {
+                    check(&persistent, &now, 0.2, &format!("{way} {over} {share} {side}"));
+                    seen += 1;
+                }
+            }
+            assert!(seen >= 2, "{way} {over}: {seen}");
+        }
+    }
+}
+
+/// Two plates half way through each other leave by either side, and what sinks one way rises the other.
+#[test]
+fn plates_through_each_other_have_no_footing() {
+    let plate = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 1.0, 1e-3)).unwrap());
+    let at = |z: f64| PosedPair3 {
+        shape_a: plate.clone(),
+        pose_a: Pose3::IDENTITY,
+        shape_b: plate.clone(),
+        pose_b: Pose3::at([0.0, 0.0, z]).unwrap(),
+    };
+    let persistent = kept(&at(1e-7), 0.01).expect("it is deep enough");
+    let most = f64::from(Persistent3::most_reach(&job(&at(1e-7), 0.01)));
+    let mut seen = 0;
+    for share in [0.9, 0.5, 0.2, 0.02, 0.01] {
+        let now = at(1e-7 - most * share);
+        if persistent.carry_on([&now.pose_a, &now.pose_b], &mut Vec::new()) {
+            check(&persistent, &now, 0.01, &format!("{share}"));
+            seen += 1;
+        }
+    }
+    assert!(seen > 0);
+}
+
+/// Points lose a thirtieth of a narrow patch at most.
+#[test]
+fn a_footing_reaches_a_64th_of_what_is_under_it() {
+    let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE).unwrap());
+    let rim = PosedPair3 {
+        shape_a: cube.clone(),
+        pose_a: Pose3::IDENTITY,
+        shape_b: cube,
+        pose_b: Pose3::at([1.98, 0.0, 2.0 - 1e-4]).unwrap(),
+    };
+    let reach = f64::from(kept(&rim, 0.2).expect("it is deep enough").reach());
+    assert!(reach <= 0.02 / 64.0 && reach > 2.0_f64.powi(-15) * 3.0_f64.sqrt());
+}
+
 #[test]
 fn what_is_moved_along_is_true_in_the_plane() {
     let mut random = Random::new(72);
