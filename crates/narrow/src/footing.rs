@@ -9,12 +9,12 @@
 //!         where sin t >= (high - low + 2 d) / w =: lean, it is not better than n is now
 //!     nearer than that, it has changed by what n has, up to   d (sin t + sin^2 t) + what turning did
 //! an axis that points back: a ball in either body, which the patch and the ball span M to, keeps it away
-//! so the separation is S + the rise of the points, up to   d (lean + lean^2) + 5 spin * the lesser arm
+//! so the separation is S + the rise of the points, up to   d (lean + lean^2) + 5 spin * arm
 //! ```
-//! The last is what turning by `spin` moves points of one body by, once about the point that is deepest now, once for that
-//! having been another; and the normal of one body, seen from the other, by less than the fifth part. For faces that rest on
-//! each other `lean` is a thousandth, so a drift of a millimetre costs a micrometre of error, and is all that points may
-//! stand beside where new ones would.
+//! The last is what turning by `spin` moves points of the one body by that is seen to move, which is so long, once about
+//! the point that is deepest now, once for that having been another; a fifth part is spare. For faces that rest on each other
+//! `lean` is a thousandth, so a drift of a millimetre costs a micrometre of error, and is all that points may stand beside
+//! where new ones would.
 //!
 //! Source: the polar form of the separating axis theorem (the separation is minus the support function of the Minkowski
 //! difference: Cameron and Culley, "Determining the minimum translational distance between two convex polyhedra", 1986).
@@ -63,7 +63,7 @@ impl Footing {
         (is_wide && girths.iter().any(is_held)).then_some(Self { width, spread, reach })
     }
 
-    /// How far the separation may be off after a drift, and bodies that turned by so much, with the lesser arm.
+    /// How far the separation may be off after a drift, and bodies that turned by so much, times the arm.
     #[inline(always)]
     pub(crate) fn loss(&self, drift: f64, spun: f64) -> f64 {
         let lean = (f64::from(self.spread) + 2.0 * drift) / f64::from(self.width);

@@ -6,7 +6,7 @@
 //!     so the true separation does
 //!     so whether they overlap, and are within the margin, is as it was while drift < how far off either is
 //! the points stay where they are on one body, above the face of the other that they are measured from:
-//!     their own separations are measured anew, and the normal turns with the face
+//!     their own separations are measured anew, and the normal turns with the body that sees the lesser drift
 //!     what the faces share moves sideways under them by no more than the drift
 //! ```
 //! That alone costs up to twice the drift in error. Where what carries the bodies is wide the axis can be shown to stay the
@@ -35,8 +35,8 @@ const DRIFT_OF_SLIDE: f32 = DRIFT / SLIDE;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Terms {
     pub(crate) overlapping: bool,
-    /// Whether the points are measured from a face of B (an edge, in the plane); two edges that cross count as if they were
-    /// from A.
+    /// Whether the points are measured from a face of B (an edge, in the plane); all that is from no face counts as if it
+    /// were from A.
     pub(crate) is_from_b: bool,
     pub(crate) margin: f32,
     /// Up to which drift the answer holds, in metres.
@@ -51,7 +51,7 @@ pub(crate) struct Terms {
 pub(crate) struct Way {
     /// No point moved further than that, in metres.
     pub(crate) drift: f64,
-    /// By how much they turned against each other, in radians, times the lesser arm.
+    /// By how much they turned against each other, in radians, times the arm of the one that is seen to move.
     pub(crate) spun: f64,
     /// By how much the deepest point rose, in metres.
     pub(crate) rise: f64,

@@ -158,10 +158,14 @@ impl Persistent2 {
             if is_same { 0.0 } else { 2.0 * f64::from(f32::EPSILON * self.terms.arms[body]) }
         };
         let [arm_a, arm_b] = self.terms.arms;
-        let drift = drift_from(&of_a, arm_b).min(drift_from(&of_b, arm_a)) + scale(0) + scale(1);
+        let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
+        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as wholes.
+        let (seen, arm, seen_from) =
+            if from_a <= from_b { (from_a, arm_b, &of_a) } else { (from_b, arm_a, &of_b) };
         // What stored rotations scale their bodies by moves points as turning does.
-        let spun = spin * f64::from(arm_a.min(arm_b)) + scale(0) + scale(1);
-        let normal = if self.terms.is_from_b { of_b.turn(normal_then) } else { of_a.turn(normal_then) };
+        let scaled = scale(0) + scale(1);
+        let (drift, spun) = (seen + scaled, spin * f64::from(arm) + scaled);
+        let normal = seen_from.turn(normal_then);
         let turn = Turn { of_a, of_b, offset_then, normal_then };
         Moved { drift, spun, offset, normal, rise: 0.0, turn: Some(turn) }
     }
@@ -201,7 +205,7 @@ impl Persistent2 {
 /// How bodies moved since.
 struct Moved {
     drift: f64,
-    /// Their spin against each other times the lesser arm.
+    /// Their spin against each other times the arm of the one that is seen to move.
     spun: f64,
     /// From A's position to B's, now.
     offset: DVec2,

@@ -45,7 +45,6 @@ use hold::{Hold, footing_of};
 pub struct Persistent3 {
     manifold: Manifold3,
     terms: Terms,
-    hold: Hold,
     /// Where the bodies were.
     poses: [Pose3; 2],
 }
@@ -54,12 +53,12 @@ impl Persistent3 {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
     /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where they
-    /// touch in several parts; and where points are neither on a face, nor where two edges cross, nor across a gap from each
-    /// other. Cost: some square roots, and linear in the vertices of a face.
+    /// touch in several parts; and where points are neither on a face, nor where two edges cross, nor, of single solids, across a
+    /// gap from each other. Cost: some square roots, and linear in the vertices of a face.
     pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;
-        let (hold, width) = Hold::of(job, hint, manifold, overlapping)?;
+        let hold = Hold::of(job, hint, manifold, overlapping)?;
         let found = [manifold.separation, manifold.error];
         let slack = slack_of(
             found,
@@ -67,17 +66,18 @@ impl Persistent3 {
             job.margin,
             [job.shape_a.outer_radius(), job.shape_b.outer_radius()],
         )?;
+        let slack = if hold.is_gap { slack.min(LEAN * manifold.separation) } else { slack };
         let arm = |shape: &Shape3| (shape.center().length() + shape.outer_radius()).next_up();
         let terms = Terms {
             overlapping,
-            is_from_b: hold == Hold::FaceOfB,
+            is_from_b: hold.is_from_b,
             margin: job.margin,
             slack,
             arms: [arm(job.shape_a), arm(job.shape_b)],
-            footing: footing_of(job, manifold, width),
+            footing: footing_of(job, manifold, hold.width),
         };
         let poses = [*job.pose_a, *job.pose_b];
-        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, hold, poses })
+        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, poses })
     }
 
     /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
@@ -118,8 +118,7 @@ impl Persistent3 {
             to.push(self.manifold.clone());
             return true;
         }
-        let are_turned_alike = (0..2).all(|i| poses[i].same_rotation(&self.poses[i]));
-        if are_turned_alike && !matches!(self.hold, Hold::Gap(_)) {
+        if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
             return self.shift(between(poses), to);
         }
         let moved = self.turned(poses);
@@ -182,30 +181,11 @@ impl Persistent3 {
             step + spin * f64::from(arm) + lost(offset.abs().element_sum(), arm.into())
         };
         let [arm_a, arm_b] = self.terms.arms;
-        let drift = drift_from(&of_a, arm_b).min(drift_from(&of_b, arm_a));
-        // A normal made of two edges leans further than the bodies do.
-        let spun = match self.hold {
-            Hold::FaceOfA | Hold::FaceOfB => spin * f64::from(arm_a.min(arm_b)),
-            Hold::Edges(_) | Hold::Gap(_) => f64::INFINITY,
-        };
-        // Bodies may have turned a long way together.
-        let carried = of_a.turn(normal_then);
-        let normal = match self.hold {
-            Hold::FaceOfB => of_b.turn(normal_then),
-            Hold::FaceOfA => carried,
-            Hold::Edges([a, b]) => {
-                let cross = of_a.turn(a.as_dvec3()).cross(of_b.turn(b.as_dvec3()));
-                let normal = cross.normalize_or(carried);
-                if normal.dot(carried) < 0.0 { -normal } else { normal }
-            }
-            Hold::Gap(along) => {
-                let across = self.manifold.points.iter().fold(DVec3::ZERO, |sum, point| {
-                    sum + offset + of_b.turn(point.anchor_b.as_dvec3()) - of_a.turn(point.anchor_a.as_dvec3())
-                });
-                let along = of_a.turn(along.as_dvec3());
-                (across - along * across.dot(along)).normalize_or(carried)
-            }
-        };
+        let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
+        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as wholes.
+        let (drift, arm, seen_from) =
+            if from_a <= from_b { (from_a, arm_b, of_a) } else { (from_b, arm_a, of_b) };
+        let (spun, normal) = (spin * f64::from(arm), seen_from.turn(normal_then));
         Moved { drift, spun, offset, normal, of_a, of_b, offset_then, normal_then }
     }
 
@@ -246,7 +226,7 @@ impl Persistent3 {
 /// How bodies moved since, of which one turned; in world axes.
 struct Moved {
     drift: f64,
-    /// Their spin against each other times the lesser arm.
+    /// Their spin against each other times the arm of the one that is seen to move.
     spun: f64,
     /// From A's position to B's, now.
     offset: DVec3,
@@ -272,6 +252,9 @@ impl Moved {
         (if is_from_b { a } else { b }, rise)
     }
 }
+
+/// Most that a normal may lean that leads across a gap between corners and edges, by drift over gap.
+const LEAN: f32 = 1.0 / 16.0;
 
 /// From A's position to B's.
 #[inline(always)]

@@ -1,90 +1,59 @@
-//! What holds a manifold to its bodies in space: a face, two edges, or what is nearest across a gap.
+//! What holds a manifold to its bodies in space, and how wide: a face, two edges, or what is nearest across a gap.
 //!
 //! The last is what bricks of a wall have with those beside the ones below: two edges side by side, some millimetres
 //! apart, which nothing but the general path tells, in 11 k instructions. Kept, they cost 300: 17 % of a frame of a heap of
 //! 8,000 boxes (AMD EPYC, Zen 4, 2026-11-22, by instructions).
+//!
+//! Tried and dropped: a normal made anew, by the points across the gap or by the edges that cross. It leans by drift / gap,
+//! or drift / sine, and the far ends of the bodies then overlap along it by as much of their size.
 
-use super::between;
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, Hint, OnFace};
 use crate::footing::{Footing, Girth};
 use crate::jobs3::Job3;
-use crate::persistent::{THEIRS, measured_from, reach_of};
+use crate::persistent::{THEIRS, measured_from};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Pose3, Shape3};
 
-/// What a normal turns with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) enum Hold {
-    /// A face of A.
-    FaceOfA,
-    /// A face of B.
-    FaceOfB,
-    /// Two edges that cross; the directions that they had, in world axes.
-    Edges([Vec3; 2]),
-    /// The points nearest to each other across a gap, of corners and edges; the direction of the edges, in world axes, along
-    /// which that does not matter, or zero.
-    Gap(Vec3),
+/// What holds a manifold.
+pub(super) struct Hold {
+    /// Whether points are measured from a face of B.
+    pub(super) is_from_b: bool,
+    /// How far the bodies reach to every side of it, in metres: zero where nobody knows.
+    pub(super) width: f64,
+    /// Whether it leads from corner or edge to corner or edge across a gap: as bodies drift, it should lean.
+    pub(super) is_gap: bool,
 }
 
 impl Hold {
-    /// What holds a manifold, and how wide it is held.
-    pub(super) fn of(
-        job: &Job3<'_>,
-        hint: Hint,
-        manifold: &Manifold3,
-        overlapping: bool,
-    ) -> Option<(Self, f64)> {
-        let point = manifold.points.first()?;
+    /// Of a manifold: nothing where it is not kept.
+    pub(super) fn of(job: &Job3<'_>, hint: Hint, manifold: &Manifold3, overlapping: bool) -> Option<Self> {
         if let Some(face) = measured_from(hint).filter(|face| is_normal_of(job, *face, manifold)) {
-            let is_of_b = matches!(face, OnFace::OfB(_));
-            let hold = if is_of_b { Self::FaceOfB } else { Self::FaceOfA };
-            return Some((hold, width_on(job, face, manifold)));
+            let is_from_b = matches!(face, OnFace::OfB(_));
+            return Some(Self { is_from_b, width: width_on(job, face, manifold), is_gap: false });
         }
-        if let Some((Feature::Edge(a), Feature::Edge(b))) = hint.features().map(|of| (of.a(), of.b()))
-            && let Some((edges, width)) = crossing(job, [a, b], manifold)
-        {
-            return Some((Self::Edges(edges), width));
+        let point = manifold.points.first()?;
+        let by_hint = hint.features().map(|of| [of.a(), of.b()]);
+        for features in [by_hint, Some([point.feature.a(), point.feature.b()])] {
+            if let Some([Feature::Edge(a), Feature::Edge(b)]) = features
+                && let Some(width) = crossing(job, [a, b], manifold)
+            {
+                return Some(Self { is_from_b: false, width, is_gap: false });
+            }
         }
-        if overlapping {
-            return None;
-        }
-        let (of_a, of_b) = (point.feature.a(), point.feature.b());
-        match (manifold.points.len(), of_a, of_b) {
-            (2, ..) => {
-                let along = manifold.points[1].anchor_a - point.anchor_a;
-                Self::across(job, manifold, along.as_dvec3().try_normalize()?)
-            }
-            (1, Feature::Vertex(_), Feature::Vertex(_)) => Self::across(job, manifold, DVec3::ZERO),
-            (1, Feature::Edge(edge), Feature::Vertex(_)) => {
-                Self::across(job, manifold, job.pose_a.turn(Edge::of(job.shape_a, edge)?.along))
-            }
-            (1, Feature::Vertex(_), Feature::Edge(edge)) => {
-                Self::across(job, manifold, job.pose_b.turn(Edge::of(job.shape_b, edge)?.along))
-            }
-            (1, Feature::Edge(a), Feature::Edge(b)) => {
-                crossing(job, [a, b], manifold).map(|(edges, width)| (Self::Edges(edges), width))
-            }
-            _ => None,
-        }
+        let is_corner = |feature| matches!(feature, Feature::Edge(_) | Feature::Vertex(_));
+        let is_gap = !overlapping
+            && (manifold.points.len() == 2 || is_corner(point.feature.a()) && is_corner(point.feature.b()))
+            && is_one(job.shape_a)
+            && is_one(job.shape_b);
+        is_gap.then_some(Self { is_from_b: false, width: 0.0, is_gap })
     }
+}
 
-    /// Across a gap wide enough to have a direction, by points that face each other.
-    fn across(job: &Job3<'_>, manifold: &Manifold3, along: DVec3) -> Option<(Self, f64)> {
-        let (normal, offset) = (manifold.normal.as_dvec3(), between([job.pose_a, job.pose_b]));
-        let radii = [job.shape_a.outer_radius(), job.shape_b.outer_radius()];
-        let is_straight = |point: &ContactPoint3| {
-            let across = offset + (point.anchor_b.as_dvec3() - point.anchor_a.as_dvec3());
-            (across - normal * f64::from(point.separation)).length()
-                <= THEIRS * f64::from(radii[0] + radii[1])
-        };
-        let is_wide = manifold.separation >= LEAST_GAP * reach_of(radii);
-        let is_sound =
-            is_wide && along.dot(normal).abs() <= LEAST_SINE && manifold.points.iter().all(is_straight);
-        is_sound.then_some((Self::Gap(along.as_vec3()), 0.0))
-    }
+/// Whether a shape is one solid. Of several, another may come within the margin while the nearest is moved along.
+const fn is_one(shape: &Shape3) -> bool {
+    !matches!(shape, Shape3::Compound(_) | Shape3::TriMesh(_) | Shape3::HeightField(_))
 }
 
 /// Whether a manifold's normal is that of a face. Corners across a gap are hinted to by the face that all but parts them, and
@@ -103,9 +72,9 @@ fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
     normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
 }
 
-/// The directions of two edges, in world axes, where they cross at more than half a degree and the normal of a manifold is
-/// theirs; and by how much they reach out to every side of where they cross.
-fn crossing(job: &Job3<'_>, edges: [u32; 2], manifold: &Manifold3) -> Option<([Vec3; 2], f64)> {
+/// By how much two edges reach out to every side of where they cross: nothing unless they do at more than half a degree,
+/// and the normal of a manifold is theirs.
+fn crossing(job: &Job3<'_>, edges: [u32; 2], manifold: &Manifold3) -> Option<f64> {
     let point = manifold.points.first()?;
     let along = |(shape, pose): (&Shape3, &Pose3), edge: u32, anchor: Vec3| {
         let Edge { from, along, length } = Edge::of(shape, edge)?;
@@ -117,8 +86,7 @@ fn crossing(job: &Job3<'_>, edges: [u32; 2], manifold: &Manifold3) -> Option<([V
     let is_theirs = |edge: DVec3| edge.dot(manifold.normal.as_dvec3()).abs() <= THEIRS;
     let sine = a.cross(b).length();
     let do_cross = sine > LEAST_SINE;
-    (is_theirs(a) && is_theirs(b) && do_cross)
-        .then(|| ([a.as_vec3(), b.as_vec3()], sine * reach_a.min(reach_b)))
+    (is_theirs(a) && is_theirs(b) && do_cross).then(|| sine * reach_a.min(reach_b))
 }
 
 /// An edge of a shape, in its axes.
@@ -211,8 +179,5 @@ pub(super) fn footing_of(job: &Job3<'_>, manifold: &Manifold3, width: f64) -> Op
     Footing::new(width, [low, high], manifold.error, [girth(job.shape_a), girth(job.shape_b)])
 }
 
-/// The least sine between edges whose normal is made anew: directions in f32 are off by 1e-7, a normal by 1e-5.
+/// The least sine of edges that cross.
 const LEAST_SINE: f64 = 0.01;
-
-/// The least gap that has a direction, as a multiple of how far bodies may drift.
-const LEAST_GAP: f32 = 16.0;
