@@ -1,9 +1,9 @@
 //! Frames in blocks, for threads that take turns.
 //!
 //! Who plays one frame and then waits for the others begins every frame with the caches full of what they left there, as
-//! no game does, and two threads lose more of their gain by it than one does: of heaps and pyramids they were 1.0 to 1.5
-//! times as fast frame by frame, and 1.3 to 1.6 block by block (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22). So each side
-//! plays some frames in a row, and the first of them are not counted.
+//! no game does, and two threads lose more of their gain by it than one does: of heaps and pyramids they were 1.00 to 1.04
+//! times as fast frame by frame, and 1.08 to 1.26 block by block (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22). So each
+//! side plays some frames in a row, and the first of them are not counted.
 
 use core::ops::Range;
 
