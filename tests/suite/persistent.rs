@@ -377,7 +377,7 @@ fn a_footing_reaches_a_64th_of_what_is_under_it() {
         pose_b: Pose3::at([1.98, 0.0, 2.0 - 1e-4]).unwrap(),
     };
     let reach = f64::from(kept(&rim, 0.2).expect("it is deep enough").reach());
-    assert!(reach <= 0.02 / 64.0 && reach > 2.0_f64.powi(-15) * 3.0_f64.sqrt());
+    assert!(reach <= 0.02 / 64.0 && reach > 3.0_f64.sqrt() / 32_768.0);
 }
 
 #[test]
