@@ -27,7 +27,8 @@ pub(super) fn draft(rows: &[BroadRow], frames: &[FrameRow]) -> Draft {
         method: "All overlapping pairs of a frame of moving boxes, filtered; asunder's sorted, by the better of its two \
                  ways, parry3d's in no order, by the best of up to nine ways to bring its tree up to date. The dashed \
                  line is the time in which one thread's memory could read every box and write every pair. Ways took \
-                 turns, frame by frame, in CPU time of one thread; every frame all had to find equally many pairs. A \
+                 turns, frame by frame, in CPU time of one thread, and on two threads in blocks of frames, by the \
+                 clock on the wall; every frame all had to find equally many pairs. A \
                  sweep that is broken off as too slow has a row that says so, and no point. A false pair is one that \
                  is handed over though its shapes do not touch; boxes alone have none, since those of a listed pair \
                  overlap, and there the ratio is how many pairs of boxes the sweep from scratch compares for each that \

@@ -19,7 +19,8 @@ pub(super) fn draft(rows: &[FrameRow]) -> Draft {
     Draft {
         heading: "Frame",
         method: "Poses in, all contact points walked: named scenes beside a lean pipeline straight over parry3d (its \
-                 trees, its persistent manifolds, no events); those of the plane stand alone. By the clock on the wall, in turns, frame by frame. \
+                 trees, its persistent manifolds, no events); those of the plane stand alone. By the clock on the wall, in turns, in blocks of \
+                 frames whose first two do not count. \
                  Allocations are those of a steady frame, in the third round of the same frames; bytes are held beside \
                  the shapes' own data. False pairs are candidates without a contact point.",
         figures,
