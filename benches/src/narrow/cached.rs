@@ -125,10 +125,11 @@ impl Memory {
             let (Answer::Apart { hint, .. } | Answer::Contact { hint, .. }) = answer;
             kept.hint = *hint;
             let is_contact = matches!(answer, Answer::Contact { .. });
-            let step = went(last, job);
-            let is_slow = is_contact && step <= f64::from(Persistent3::most_reach(job));
-            let made = if is_slow { Persistent3::of(job, answer, &batch.manifolds) } else { None };
-            kept.persistent = made.filter(|made| step <= f64::from(made.reach()));
+            kept.persistent = if is_contact {
+                Persistent3::lasting(job, answer, &batch.manifolds, went(last, job))
+            } else {
+                None
+            };
         }
         let found = batch.manifolds.iter().chain(&*moved);
         found.flat_map(|manifold| &manifold.points).map(|point| point.separation).sum()

@@ -208,11 +208,7 @@ impl Space for Plane {
         manifolds: &[Manifold2],
         step: f64,
     ) -> Option<Persistent2> {
-        if step > f64::from(Persistent2::most_reach(job)) {
-            return None;
-        }
-        let kept = Persistent2::of(job, answer, manifolds);
-        kept.filter(|kept| step <= f64::from(kept.reach()))
+        Persistent2::lasting(job, answer, manifolds, step)
     }
 
     fn carry_on(
@@ -306,11 +302,7 @@ impl Space for Volume {
         manifolds: &[Manifold3],
         step: f64,
     ) -> Option<Persistent3> {
-        if step > f64::from(Persistent3::most_reach(job)) {
-            return None;
-        }
-        let kept = Persistent3::of(job, answer, manifolds);
-        kept.filter(|kept| step <= f64::from(kept.reach()))
+        Persistent3::lasting(job, answer, manifolds, step)
     }
 
     fn carry_on(

@@ -34,6 +34,7 @@ use asunder_geometry::{Pose2, Shape2};
 /// let sunk = Pose2::at([0.5, 1.875 - 4e-6])?;
 /// assert!(persistent.carry_on([&pose_a, &sunk], &mut moved) && persistent.overlapping());
 /// assert!(persistent.reach() > 1e-3 && persistent.reach() <= Persistent2::most_reach(&job));
+/// assert_eq!(Persistent2::lasting(&job, &batch.answers[0], &batch.manifolds, 0.1), None, "bodies as fast as that");
 /// assert!((moved[0].points[0].separation + 0.125 + 4e-6).abs() < 1e-8);
 /// let gone = Pose2::at([0.5, 1.875 - 4e-3])?;
 /// assert!(!persistent.carry_on([&pose_a, &gone], &mut moved), "too far: it must be made anew");
@@ -78,8 +79,16 @@ impl Persistent2 {
         terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, poses })
     }
 
-    /// Up to which drift a manifold of this job can be moved along at most, in metres: where bodies move more than that in
-    /// a frame, keeping one is no use.
+    /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of no
+    /// use in the next.
+    pub fn lasting(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2], step: f64) -> Option<Self> {
+        if step > f64::from(Self::most_reach(job)) {
+            return None;
+        }
+        Self::of(job, answer, manifolds).filter(|made| step <= f64::from(made.reach()))
+    }
+
+    /// Up to which drift a manifold of this job can be moved along at most, in metres.
     pub fn most_reach(job: &Job2<'_>) -> f32 {
         widest_reach_of([job.shape_a.outer_radius(), job.shape_b.outer_radius()])
     }

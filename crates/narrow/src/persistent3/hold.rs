@@ -1,7 +1,7 @@
 //! What holds a manifold to its bodies in space, and how wide: a face, two edges, or what is nearest across a gap.
 //!
 //! The last is what bricks of a wall have with those beside the ones below: two edges side by side, some millimetres
-//! apart, which nothing but the general path tells, in 11 k instructions. Kept, they cost 300: 17 % of a frame of a heap of
+//! apart, which nothing but the general path tells, in 11 k instructions. Kept, they cost 400: 17 % of a frame of a heap of
 //! 8,000 boxes (AMD EPYC, Zen 4, 2026-11-22, by instructions).
 //!
 //! Tried and dropped: a normal made anew, by the points across the gap or by the edges that cross. It leans by drift / gap,
@@ -12,6 +12,7 @@ use crate::feature::{Feature, Hint, OnFace};
 use crate::footing::{Footing, Girth};
 use crate::jobs3::Job3;
 use crate::persistent::{THEIRS, measured_from};
+use crate::polyhedron::sat::in_polygon;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Pose3, Shape3};
@@ -153,16 +154,10 @@ fn inside(shape: &Shape3, face: usize, point: DVec3) -> f64 {
     let core = shape.core();
     let (topology, vertices) = (core.topology(), core.vertices());
     let Some(&normal) = core.normals().get(face) else { return 0.0 };
-    let mut least = f64::INFINITY;
-    for edge in topology.face_half_edges(face) {
-        let (from, to) = topology.ends(edge);
-        let (from, to) = (vertices[from].as_dvec3(), vertices[to].as_dvec3());
-        let Some(inward) = normal.cross(to - from).try_normalize() else { continue };
-        least = least.min(inward.dot(point - from));
-    }
-    if least.is_finite() { least } else { 0.0 }
+    in_polygon(topology.face_vertices(face).map(|vertex| vertices[vertex].as_dvec3()), normal, point)
 }
 
+/// How broadly the bodies stand on each other, if they do.
 pub(super) fn footing_of(job: &Job3<'_>, manifold: &Manifold3, width: f64) -> Option<Footing> {
     let (mut low, mut high) = (manifold.separation, manifold.separation);
     for point in &manifold.points {

@@ -68,6 +68,7 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 use cross::{Cross, EdgeAt};
 use cull::Sight;
+pub(crate) use facet::in_polygon;
 use facet::is_nearest;
 pub(crate) use hinted::{Hinted, hint_of, hint_to, hint_with, last_of};
 

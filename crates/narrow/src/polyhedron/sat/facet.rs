@@ -59,8 +59,13 @@ pub(super) fn is_nearest(
 
 /// How far a point is inside a face, as seen along its outward normal; below zero where it is not.
 pub(super) fn in_face(solid: &Solid, face: usize, outward: DVec3, point: DVec3) -> f64 {
+    in_polygon(solid.topology.face_vertices(face).map(|vertex| solid.point(vertex)), outward, point)
+}
+
+/// How far a point is inside a convex polygon, as seen along its outward normal; below zero where it is not.
+#[inline(always)]
+pub(crate) fn in_polygon(mut corners: impl Iterator<Item = DVec3>, outward: DVec3, point: DVec3) -> f64 {
     let mut least = f64::INFINITY;
-    let mut corners = solid.topology.face_vertices(face).map(|vertex| solid.point(vertex));
     let Some(first) = corners.next() else { return f64::NEG_INFINITY };
     let mut from = first;
     for to in corners.chain(core::iter::once(first)) {
