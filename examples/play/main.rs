@@ -9,7 +9,7 @@ mod heap;
 
 use asunder_examples::game::Game;
 use asunder_examples::opened::{AnyGame, SEED, scene};
-use asunder_examples::physics::Physics;
+use asunder_examples::playable::{InSpace, Playable};
 use asunder_examples::recording::{Head, read_head};
 use asunder_examples::replay::{Recorder, replay};
 use asunder_examples::report::Times;
@@ -109,20 +109,20 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
     let picture = match (&scene, AnyGame::of(&scene)?) {
         (Scene::Plane(scene), AnyGame::Plane(mut game)) => {
             let times = step(&mut game, options, &head(2, scene.level.bodies.len()))?;
-            tell(&game, &scene.level.name, &times, (options, &scene.room));
-            options.svg.as_ref().map(|_| picture::plane::draw(&game.world))
+            tell(&game, &scene.level.name, &times, (options, scene.room));
+            options.svg.as_ref().map(|_| picture::plane::draw(&game.stepper.world))
         }
         (Scene::Volume(scene), AnyGame::Volume(mut game)) => {
             let times = step(&mut game, options, &head(3, scene.level.bodies.len()))?;
-            tell(&game, &scene.level.name, &times, (options, &scene.room));
-            options.svg.as_ref().map(|_| picture::volume::draw(&game.world))
+            tell(&game, &scene.level.name, &times, (options, scene.room));
+            options.svg.as_ref().map(|_| picture::volume::draw(&game.stepper.world))
         }
         _ => None,
     };
     save(options, picture)
 }
 
-fn step<S: Physics>(game: &mut Game<S>, options: &Options, head: &Head) -> Result<Times, Box<dyn Error>> {
+fn step<S: Playable>(game: &mut Game<S>, options: &Options, head: &Head) -> Result<Times, Box<dyn Error>> {
     let Some(file) = &options.record else {
         return report::timed(game, options.steps, |_| Ok(()));
     };
@@ -138,14 +138,14 @@ fn step<S: Physics>(game: &mut Game<S>, options: &Options, head: &Head) -> Resul
     Ok(times)
 }
 
-fn tell<S: Physics>(
+fn tell<S: Playable, V: InSpace>(
     game: &Game<S>,
     name: &str,
     times: &Times,
-    (options, room): (&Options, &(S::Vector, S::Vector)),
+    (options, room): (&Options, (V, V)),
 ) {
     if options.json {
-        println!("{}", report::json(name, times, game.world.stats()));
+        println!("{}", report::json(name, times, game.stepper.world.stats()));
     } else {
         report::print(game, name, times, game.outside(room));
     }
@@ -171,19 +171,19 @@ fn play_again(file: &Path, options: &Options) -> Result<(), Box<dyn Error>> {
     let picture = match (AnyGame::of(&scene)?, head.dimension) {
         (AnyGame::Plane(mut game), 2) => {
             let times = replay(&mut game, &mut from, &head, options.steps).map_err(|error| at(&*error))?;
-            told(&times, game.world.stats());
+            told(&times, game.stepper.world.stats());
             if !options.json {
-                report::print_replay(&game.world, &head.name, &times);
+                report::print_replay(&game.stepper.world, &head.name, &times);
             }
-            options.svg.as_ref().map(|_| picture::plane::draw(&game.world))
+            options.svg.as_ref().map(|_| picture::plane::draw(&game.stepper.world))
         }
         (AnyGame::Volume(mut game), 3) => {
             let times = replay(&mut game, &mut from, &head, options.steps).map_err(|error| at(&*error))?;
-            told(&times, game.world.stats());
+            told(&times, game.stepper.world.stats());
             if !options.json {
-                report::print_replay(&game.world, &head.name, &times);
+                report::print_replay(&game.stepper.world, &head.name, &times);
             }
-            options.svg.as_ref().map(|_| picture::volume::draw(&game.world))
+            options.svg.as_ref().map(|_| picture::volume::draw(&game.stepper.world))
         }
         _ => return Err(format!("{}: its scene has another dimension than it says", file.display()).into()),
     };

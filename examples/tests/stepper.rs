@@ -3,11 +3,12 @@
 
 use asunder::glam::{DVec3, Vec3};
 use asunder::{Collider3, Cuboid, Pose3, Shape3, Sphere, Volume};
-use asunder_examples::game::{Game, MARGIN};
+use asunder_examples::game::Game;
 use asunder_examples::opened::{AnyGame, scene};
 use asunder_examples::recording::{Head, read_head};
 use asunder_examples::replay::{Recorder, replay};
 use asunder_examples::report::STEP;
+use asunder_examples::stepper::MARGIN;
 
 fn cuboid(half: Vec3) -> Shape3 {
     Cuboid::from_half_extents(half).unwrap().into()
@@ -35,7 +36,7 @@ fn steps(game: &mut Game<Volume>, count: u32) {
 fn a_ball_rises_as_high_as_its_restitution_says() {
     for restitution in [0.0, 0.5, 0.8] {
         let mut game = floored();
-        game.feel.restitution = restitution;
+        game.stepper.feel.restitution = restitution;
         let ball = add(&mut game, &Sphere::new(0.25).unwrap().into(), DVec3::Y * 2.25, false);
         game.update();
         // It takes 0.64 s down; the top of the first bounce is sought in the second after that.
@@ -81,7 +82,11 @@ fn what_rests_sleeps_and_moves_nothing_until_it_is_hit() {
     assert_eq!(game.awake_and_asleep(), (0, 4));
     let digest = game.digest();
     steps(&mut game, 10);
-    assert_eq!((game.digest(), game.world.stats().moved), (digest, 0), "the engine carries all of it on");
+    assert_eq!(
+        (game.digest(), game.stepper.world.stats().moved),
+        (digest, 0),
+        "the engine carries all of it on"
+    );
 
     let ball = add(&mut game, &Sphere::new(0.4).unwrap().into(), DVec3::new(0.0, 5.0, 0.2), false);
     game.update();
@@ -110,7 +115,7 @@ fn a_recording_plays_again_with_the_same_contacts_and_tells_of_others() {
         recorder.record(&game).unwrap();
     }
     recorder.finish().unwrap();
-    assert!(game.world.stats().touching > 20, "it says something");
+    assert!(game.stepper.world.stats().touching > 20, "it says something");
 
     let play = |mut bytes: &[u8]| {
         let mut game = open();
