@@ -5,7 +5,7 @@ mod tally;
 
 use crate::playable::Playable;
 use crate::stepper::{MARGIN, Point, Stepper};
-use asunder::glam::DVec3;
+use asunder::glam::{DQuat, DVec3};
 use asunder::{AnyWorld, Collider, Event};
 use flights::Flights;
 
@@ -21,6 +21,8 @@ pub struct Game<S: Playable> {
     pub stepper: Stepper<S>,
     /// What has happened so far.
     pub counts: Counts,
+    /// Whether bodies that are at rest fall asleep.
+    pub sleeps: bool,
     actors: Vec<Actor>,
     /// Numbers of those that go their own way, in the order in which they were told to, and their ways.
     driven: Vec<usize>,
@@ -77,7 +79,7 @@ impl std::fmt::Display for NoMass {
 }
 
 /// Where all bodies are at one time, to be compared with where they are later.
-pub struct Places<S: Playable>(Vec<(DVec3, S::Turn)>);
+pub struct Places(Vec<(DVec3, DQuat)>);
 
 impl<S: Playable> Game<S> {
     /// An empty game, with gravity in m/s^2.
@@ -85,6 +87,7 @@ impl<S: Playable> Game<S> {
         Self {
             stepper: Stepper::new(gravity),
             counts: Counts::default(),
+            sleeps: true,
             actors: Vec::new(),
             driven: Vec::new(),
             paths: Vec::new(),
@@ -129,7 +132,9 @@ impl<S: Playable> Game<S> {
         for (&number, pose) in self.driven.iter().zip(targets) {
             self.stepper.place(number, pose);
         }
-        self.stepper.settle();
+        if self.sleeps {
+            self.stepper.settle();
+        }
         self.update();
     }
 
@@ -147,30 +152,26 @@ impl<S: Playable> Game<S> {
         let rate = 1.0 / self.seconds;
         let targets: Vec<S::Pose> = self.paths.iter().map(|path| path(self.steps)).collect();
         for (&number, pose) in self.driven.iter().zip(&targets) {
-            let (body, (position, turn)) = (&self.stepper.bodies()[number], S::place(pose));
-            let velocity = (position - body.center) * rate;
-            let spin = S::spin_between(body.turn, turn) * rate;
-            let motion = &mut self.stepper.motions_mut()[number];
-            (motion.velocity, motion.spin) = (velocity, spin);
+            let (body, (position, turn)) = (&mut self.stepper.bodies_mut()[number], S::place(pose));
+            body.velocity = (position - body.center) * rate;
+            body.spin = spin_between(body.turn, turn) * rate;
         }
         targets
     }
 
     fn shorten_flights(&mut self) {
         for flight in self.flights.iter() {
-            let reach = self.stepper.bodies()[flight.number].mass.reach;
-            let motion = &mut self.stepper.motions_mut()[flight.number];
-            (motion.moved, motion.turned) = flight.limited(reach, (motion.moved, motion.turned));
+            let body = &mut self.stepper.bodies_mut()[flight.number];
+            (body.moved, body.turned) = flight.limited(body);
         }
     }
 
     /// Bodies that would be out of the level after this step leave it.
     fn take_out_far(&mut self) {
         let is_far = |&number: &usize| {
-            let moved = self.stepper.motions()[number].moved;
-            let travelled = self.stepper.bodies()[number].center + moved - self.actors[number].start;
-            // No number is far, too.
-            !(travelled.length_squared() < LEFT * LEFT)
+            let body = &self.stepper.bodies()[number];
+            let travelled = (body.center + body.moved - self.actors[number].start).length_squared();
+            travelled >= LEFT * LEFT || travelled.is_nan()
         };
         let far: Vec<usize> = self.stepper.awake().iter().copied().filter(is_far).collect();
         self.counts.left += far.len();
@@ -184,15 +185,14 @@ impl<S: Playable> Game<S> {
         // What a bullet hits is known to where both are going.
         let everybody = stepper.awake().iter().any(|&number| actors[number].is_bullet);
         for number in stepper.awake().to_vec() {
-            let (body, motion) = (&stepper.bodies()[number], &stepper.motions()[number]);
-            let travel = body.speed_squared(motion).sqrt() * *seconds;
+            let body = &stepper.bodies()[number];
+            let travel = body.speed_squared().sqrt() * *seconds;
             if travel < f64::from(MARGIN) + 0.05 * body.mass.reach && !(everybody && travel > 0.0) {
                 continue;
             }
-            let (key, moved, turned) = (body.key, motion.velocity * *seconds, motion.spin * *seconds);
-            let Some(end) = body.pose_at(body.center + moved, S::turned_by(body.turn, turned)) else {
-                continue;
-            };
+            let (moved, turned) = (body.velocity * *seconds, body.spin * *seconds);
+            let Some(end) = body.pose::<S>(body.after(moved, turned)) else { continue };
+            let key = body.key.into();
             if actors[number].is_bullet && travel > 0.5 * body.mass.reach {
                 flights.push(number, moved, turned);
             }
@@ -215,7 +215,7 @@ impl<S: Playable> Game<S> {
             let is_contact = contact.is_some_and(|contact| !contact.speculative);
             // Two bullets both stop where they meet.
             let goes_on = !actors[met].is_bullet || actors[met].is_driven;
-            let speed = if goes_on { stepper.motions()[met].velocity } else { DVec3::ZERO };
+            let speed = if goes_on { stepper.bodies()[met].velocity } else { DVec3::ZERO };
             self.flights.note(number, (S::fraction(&hit.impact), speed * self.seconds), is_contact);
         }
     }
@@ -250,4 +250,13 @@ impl<S: Playable> Game<S> {
         let [a, b] = point.bodies.map(|number| self.actors[number].size);
         -point.separation / a.min(b)
     }
+}
+
+/// What turns one rotation to another that is near.
+fn spin_between(from: DQuat, to: DQuat) -> DVec3 {
+    let by = to * from.conjugate();
+    // The shorter way round. Over a step it is small: an angle and its sine are nearly the same.
+    let (half, w) = if by.w < 0.0 { (-by.xyz(), -by.w) } else { (by.xyz(), by.w) };
+    let sine = half.length();
+    if sine > 0.0 { half * (2.0 * libm::atan2(sine, w) / sine) } else { DVec3::ZERO }
 }

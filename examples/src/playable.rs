@@ -2,17 +2,13 @@
 
 use crate::recording::Numbers;
 use crate::stepper::Dimension;
-use asunder::glam::{DMat3, DQuat, DVec2, DVec3};
+use asunder::glam::{DVec2, DVec3};
 use asunder::{Impact2, Impact3, Motion2, Motion3, Plane, Pose2, Pose3, Volume};
 
 /// A dimension that the game can be played in.
 pub trait Playable: Dimension<Pose: Numbers> {
     /// The edge of the square, or of the cube, of a mass.
     fn size(mass: f64) -> f64;
-    /// What turns one rotation to another that is near.
-    fn spin_between(from: Self::Turn, to: Self::Turn) -> DVec3;
-    /// Twice the energy of a spin, by an inverse inertia in world axes. What nothing turns has none.
-    fn spin_energy(inertia: &DMat3, spin: DVec3) -> f64;
     /// What leads from one pose to another; nothing where they are too far apart.
     fn motion(from: &Self::Pose, to: &Self::Pose) -> Option<Self::Motion>;
     /// The share of a motion until something is hit.
@@ -22,14 +18,6 @@ pub trait Playable: Dimension<Pose: Numbers> {
 impl Playable for Plane {
     fn size(mass: f64) -> f64 {
         mass.sqrt()
-    }
-
-    fn spin_between(from: DVec2, to: DVec2) -> DVec3 {
-        DVec3::Z * libm::atan2(from.perp_dot(to), from.dot(to))
-    }
-
-    fn spin_energy(inertia: &DMat3, spin: DVec3) -> f64 {
-        if inertia.z_axis.z > 0.0 { spin.z * spin.z / inertia.z_axis.z } else { 0.0 }
     }
 
     fn motion(from: &Pose2, to: &Pose2) -> Option<Motion2> {
@@ -44,18 +32,6 @@ impl Playable for Plane {
 impl Playable for Volume {
     fn size(mass: f64) -> f64 {
         libm::cbrt(mass)
-    }
-
-    fn spin_between(from: DQuat, to: DQuat) -> DVec3 {
-        let by = to * from.conjugate();
-        // The shorter way round. Over a step it is small: an angle and its sine are nearly the same.
-        let (half, w) = if by.w < 0.0 { (-by.xyz(), -by.w) } else { (by.xyz(), by.w) };
-        let sine = half.length();
-        if sine > 0.0 { half * (2.0 * libm::atan2(sine, w) / sine) } else { DVec3::ZERO }
-    }
-
-    fn spin_energy(inertia: &DMat3, spin: DVec3) -> f64 {
-        if inertia.determinant() > 0.0 { spin.dot(inertia.inverse() * spin) } else { 0.0 }
     }
 
     fn motion(from: &Pose3, to: &Pose3) -> Option<Motion3> {

@@ -7,11 +7,11 @@
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | this one | bodies, the step, which contacts matter |
+//! | this one | the step, which contacts matter, what can be asked |
+//! | `body` | where a body is, how it moves and how it yields |
 //! | `solver` | soft contacts, friction, restitution, warm starting |
 //! | `islands` | who sleeps |
-//! | `dimension` | what must be known of the plane and of space |
-//! | `plane`, `volume` | both |
+//! | `dimension` | what must be known of space, and of the plane |
 //!
 //! It uses the engine's public face alone, and nothing else of the examples. Equal calls give equal bits: bodies and
 //! contacts are visited in their own order, in one thread.
@@ -32,15 +32,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod body;
 mod dimension;
 mod islands;
-mod plane;
 mod solver;
-mod volume;
 
 pub use asunder_scenes::stages::Feel;
-pub use dimension::{Dimension, Mass};
-pub use solver::{Motion, Point};
+pub use body::{Body, Mass, State};
+pub use dimension::Dimension;
+pub use solver::Point;
 
 use asunder::glam::DVec3;
 use asunder::slotmap::{Key, SecondaryMap};
@@ -63,10 +63,7 @@ pub struct Stepper<S: Dimension> {
     pub gravity: DVec3,
     /// What bodies are like where they touch.
     pub feel: Feel,
-    /// Whether bodies that are at rest fall asleep.
-    pub sleeps: bool,
-    bodies: Vec<Body<S>>,
-    motions: Vec<Motion>,
+    bodies: Vec<Body>,
     numbers: SecondaryMap<S::Key, usize>,
     islands: Islands,
     driven: Vec<usize>,
@@ -77,46 +74,6 @@ pub struct Stepper<S: Dimension> {
     seconds: f64,
 }
 
-/// A body of a stepper.
-pub struct Body<S: Dimension> {
-    /// In the world.
-    pub key: S::Key,
-    /// Who moves it.
-    pub state: State,
-    /// Where its centre of mass is.
-    pub center: DVec3,
-    /// How it is turned.
-    pub turn: S::Turn,
-    /// How heavy it is.
-    pub mass: Mass,
-}
-
-/// Who moves a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
-    /// Nobody, or whoever drives it.
-    Fixed,
-    /// Pushes.
-    Awake,
-    /// Nobody, until something wakes it.
-    Asleep,
-    /// It was taken out.
-    Removed,
-}
-
-impl<S: Dimension> Body<S> {
-    /// The pose with the centre of mass at a place; nothing where the numbers are no pose.
-    pub fn pose_at(&self, center: DVec3, turn: S::Turn) -> Option<S::Pose> {
-        S::pose(center - S::turned(turn, self.mass.center), turn)
-    }
-
-    /// The square of a bound on the speed of its points.
-    pub fn speed_squared(&self, motion: &Motion) -> f64 {
-        let reach = self.mass.reach;
-        motion.velocity.length_squared() + motion.spin.dot(motion.spin) * reach * reach
-    }
-}
-
 impl<S: Dimension> Stepper<S> {
     /// An empty world, with gravity in m/s^2. In the plane the third coordinate is zero, here and wherever a place or a
     /// velocity is asked for, and so are the first two of a spin.
@@ -125,9 +82,7 @@ impl<S: Dimension> Stepper<S> {
             world: World::new(),
             gravity,
             feel: Feel::default(),
-            sleeps: true,
             bodies: Vec::new(),
-            motions: Vec::new(),
             numbers: SecondaryMap::new(),
             islands: Islands::default(),
             driven: Vec::new(),
@@ -140,69 +95,61 @@ impl<S: Dimension> Stepper<S> {
     /// Adds a body, with speeds in m/s and rad/s, and returns its number; nothing for a shape that has no mass to speak
     /// of. One that is fixed needs none, and has no speed until it is driven.
     pub fn add(&mut self, collider: Collider<S>, velocity: DVec3, spin: DVec3) -> Option<usize> {
-        let (state, mass) = match collider.is_fixed() {
-            true => (State::Fixed, Mass::ENDLESS),
-            false => (State::Awake, S::mass(&collider)?),
+        let (state, mass, [velocity, spin]) = match collider.is_fixed() {
+            true => (State::Fixed, Mass::ENDLESS, [DVec3::ZERO; 2]),
+            false => (State::Awake, S::mass(&collider)?, [velocity, spin]),
         };
-        let (position, turn) = S::place(S::pose_of(&collider));
-        let (number, center) = (self.bodies.len(), position + S::turned(turn, mass.center));
-        let mut motion = Motion::new(velocity, spin, center - position);
-        if state == State::Fixed {
-            motion.rest();
-        }
+        let (number, place) = (self.bodies.len(), S::place(S::pose_of(&collider)));
         let key = self.world.insert(collider);
         self.numbers.insert(key, number);
         self.islands.add(state == State::Awake);
-        self.motions.push(motion);
-        self.bodies.push(Body { key, state, center, turn, mass });
+        self.bodies.push(Body { velocity, spin, ..Body::new(key.data(), state, mass, place) });
         Some(number)
     }
 
-    /// Drives a body from now on: no push moves it, it goes with the speed that [`Self::motions_mut`] is given, and
+    /// Drives a body from now on: no push moves it, it goes with the speed that it is given in [`Self::bodies_mut`], and
     /// pushes and carries others with that. No such body is no fault.
     pub fn drive(&mut self, number: usize) {
+        self.wake(&[number]);
         let Some(body) = self.bodies.get_mut(number) else { return };
-        body.center -= self.motions[number].offset;
-        (body.state, body.mass) = (State::Fixed, Mass::ENDLESS);
-        self.motions[number] = Motion::new(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        *body = Body::new(body.key, State::Fixed, Mass::ENDLESS, (body.center - body.offset, body.turn));
         self.islands.awake.retain(|&other| other != number);
+        self.driven.retain(|&other| other != number);
         self.driven.push(number);
     }
 
     /// Puts a body somewhere else.
     pub fn place(&mut self, number: usize, pose: S::Pose) {
         let Some(body) = self.bodies.get_mut(number) else { return };
-        let ((position, turn), motion) = (S::place(&pose), &mut self.motions[number]);
-        motion.offset = S::turned(turn, body.mass.center);
-        (body.center, body.turn) = (position + motion.offset, turn);
+        let (position, turn) = S::place(&pose);
+        body.offset = turn * body.mass.center;
+        (body.center, body.turn) = (position + body.offset, turn);
         // A stale key is a body that has left the world: there is nothing to move.
-        let _ = self.world.set_pose(body.key, pose);
+        let _ = self.world.set_pose(body.key.into(), pose);
     }
 
-    /// Takes a body out of the world, and wakes what lies on it.
+    /// Takes a body out of the world, and wakes whom it touches.
     pub fn remove(&mut self, number: usize) {
-        self.wake(&[number]);
-        let Some(body) = self.bodies.get_mut(number) else { return };
-        body.state = State::Removed;
-        self.motions[number].rest();
+        let Some(key) = self.bodies.get(number).map(|body| S::Key::from(body.key)) else { return };
+        let contacts = self.world.contacts().filter(|contact| contact.a == key || contact.b == key);
+        let others = contacts.flat_map(|contact| [contact.a, contact.b]).filter_map(|key| self.number(key));
+        self.wake(&others.chain([number]).collect::<Vec<usize>>());
+        self.bodies[number].state = State::Removed;
+        self.bodies[number].rest();
         self.islands.awake.retain(|&other| other != number);
-        self.world.remove(body.key);
+        self.points.retain(|point| !point.bodies.contains(&number));
+        self.world.remove(key);
     }
 
     /// All bodies, by number.
-    pub fn bodies(&self) -> &[Body<S>] {
+    pub fn bodies(&self) -> &[Body] {
         &self.bodies
-    }
-
-    /// How they move, by number.
-    pub fn motions(&self) -> &[Motion] {
-        &self.motions
     }
 
     /// For other speeds: of a body that sleeps after [`Self::wake`]. Between [`Self::solve`] and [`Self::advance`], for
     /// other ways in this step.
-    pub fn motions_mut(&mut self) -> &mut [Motion] {
-        &mut self.motions
+    pub fn bodies_mut(&mut self) -> &mut [Body] {
+        &mut self.bodies
     }
 
     /// The numbers of bodies that pushes move and that are awake, ascending.
@@ -225,7 +172,8 @@ impl<S: Dimension> Stepper<S> {
         self.numbers.get(key).copied()
     }
 
-    /// One step: the contacts of the last update push, bodies move, and the world finds the next contacts.
+    /// One step of some seconds, more than none: the contacts of the last update push, bodies move, what is at rest falls
+    /// asleep, and the world finds the next contacts.
     pub fn step(&mut self, seconds: f64) {
         self.solve(seconds);
         self.advance();
@@ -235,34 +183,31 @@ impl<S: Dimension> Stepper<S> {
 
     /// Finds the motions of one step, under gravity and contacts.
     pub fn solve(&mut self, seconds: f64) {
-        let Self { bodies, motions, points, islands, driven, feel, .. } = self;
+        let Self { bodies, points, islands, driven, feel, .. } = self;
         for &number in islands.awake.iter().chain(&*driven) {
-            let (Body { mass, turn, .. }, motion) = (&bodies[number], &mut motions[number]);
-            (motion.moved, motion.turned) = (DVec3::ZERO, DVec3::ZERO);
-            motion.inverse_mass = mass.inverse;
-            motion.inverse_inertia = S::turned_inertia(mass.inverse_inertia, *turn);
+            bodies[number].prepare();
         }
         warm_start(points, &self.solved);
-        points.iter_mut().for_each(|point| point.prepare(motions));
+        points.iter_mut().for_each(|point| point.prepare(bodies));
         let substep = seconds / f64::from(feel.substeps.max(1));
         let soft = Pass::soft(substep, feel.friction);
         let stiff = soft.stiff();
         for _ in 0..feel.substeps.max(1) {
             for &number in &islands.awake {
-                motions[number].velocity += self.gravity * substep;
-                motions[number].spin *= 1.0 / (1.0 + substep * feel.spin_damping);
+                bodies[number].velocity += self.gravity * substep;
+                bodies[number].spin *= 1.0 / (1.0 + substep * feel.spin_damping);
             }
-            points.iter().for_each(|point| point.repeat(motions));
-            points.iter_mut().for_each(|point| point.push(motions, &soft));
+            points.iter().for_each(|point| point.apply(bodies, point.normal * point.apart + point.aside));
+            points.iter_mut().for_each(|point| point.push(bodies, &soft));
             for &number in islands.awake.iter().chain(&*driven) {
-                let motion = &mut motions[number];
-                motion.moved += motion.velocity * substep;
-                motion.turned += motion.spin * substep;
+                let body = &mut bodies[number];
+                body.moved += body.velocity * substep;
+                body.turned += body.spin * substep;
             }
-            points.iter_mut().for_each(|point| point.push(motions, &stiff));
+            points.iter_mut().for_each(|point| point.push(bodies, &stiff));
         }
         if feel.restitution > 0.0 {
-            points.iter_mut().for_each(|point| point.bounce(motions, feel.restitution));
+            points.iter_mut().for_each(|point| point.bounce(bodies, feel.restitution));
         }
         self.seconds = seconds;
         core::mem::swap(&mut self.points, &mut self.solved);
@@ -271,43 +216,42 @@ impl<S: Dimension> Stepper<S> {
     /// Moves the bodies. One whose numbers are no pose any more stops.
     pub fn advance(&mut self) {
         for &number in self.islands.awake.iter().chain(&self.driven) {
-            let (body, motion) = (&mut self.bodies[number], &mut self.motions[number]);
-            if motion.moved == DVec3::ZERO && motion.turned == DVec3::ZERO {
+            let body = &mut self.bodies[number];
+            // What stays where it is keeps its pose to the bit, and costs the world nothing.
+            if body.moved == DVec3::ZERO && body.turned == DVec3::ZERO {
                 continue;
             }
-            let (center, turn) = (body.center + motion.moved, S::turned_by(body.turn, motion.turned));
-            let Some(pose) = body.pose_at(center, turn) else {
-                motion.rest();
-                continue;
-            };
-            (body.center, body.turn) = (center, turn);
-            motion.offset = S::turned(turn, body.mass.center);
-            let _ = self.world.set_pose(body.key, pose);
+            let place = body.after(body.moved, body.turned);
+            match body.pose::<S>(place) {
+                Some(pose) => {
+                    (body.center, body.turn) = place;
+                    body.offset = body.turn * body.mass.center;
+                    let _ = self.world.set_pose(body.key.into(), pose);
+                }
+                None => body.rest(),
+            }
         }
     }
 
     /// Sends islands to sleep that are at rest.
     pub fn settle(&mut self) {
-        let Self { bodies, motions, islands, .. } = self;
-        if !self.sleeps {
-            return;
-        }
+        let Self { bodies, islands, .. } = self;
         for number in islands.awake.clone() {
-            islands.note(number, bodies[number].speed_squared(&motions[number]), self.seconds);
+            islands.note(number, bodies[number].speed_squared(), self.seconds);
         }
         for point in self.solved.iter().filter(|point| point.separation < JOINED) {
             let [a, b] = point.bodies;
             match [bodies[a].state, bodies[b].state] {
                 [State::Awake, State::Awake] => islands.join(a, b),
-                [State::Fixed, State::Awake] if motions[a].is_moving() => islands.disturb(b),
-                [State::Awake, State::Fixed] if motions[b].is_moving() => islands.disturb(a),
+                [State::Fixed, State::Awake] if bodies[a].is_moving() => islands.disturb(b),
+                [State::Awake, State::Fixed] if bodies[b].is_moving() => islands.disturb(a),
                 _ => {}
             }
         }
         for number in islands.settle() {
             bodies[number].state = State::Asleep;
-            motions[number].rest();
-            let _ = self.world.sleep(bodies[number].key);
+            bodies[number].rest();
+            let _ = self.world.sleep(bodies[number].key.into());
         }
     }
 
@@ -317,7 +261,7 @@ impl<S: Dimension> Stepper<S> {
         self.world.update();
         self.gather();
         let is_near = |point: &&Point| {
-            let closing = -point.speed(&self.motions) * self.seconds;
+            let closing = -point.speed(&self.bodies) * self.seconds;
             point.separation - closing.max(0.0) <= JOINED
         };
         let near: Vec<usize> = self.points.iter().filter(is_near).flat_map(|point| point.bodies).collect();
@@ -340,11 +284,11 @@ impl<S: Dimension> Stepper<S> {
 
     /// Collects the contact points that matter: of bodies of which one moves, and one can be pushed.
     fn gather(&mut self) {
-        let Self { world, bodies, motions, numbers, points, .. } = self;
+        let Self { world, bodies, numbers, points, .. } = self;
         points.clear();
         for contact in world.contacts() {
             let (Some(&a), Some(&b)) = (numbers.get(contact.a), numbers.get(contact.b)) else { continue };
-            let moves = |body: usize| bodies[body].state == State::Awake || motions[body].is_moving();
+            let moves = |body: usize| bodies[body].state == State::Awake || bodies[body].is_moving();
             let is_fixed = |body: usize| bodies[body].state == State::Fixed;
             // Of bullets the world says more: what they hit, and when. Whoever has bullets asks for that.
             let is_bullet = |key| world.get(key).is_some_and(Collider::is_bullet);
@@ -354,7 +298,7 @@ impl<S: Dimension> Stepper<S> {
             }
             let keys = [contact.a.data(), contact.b.data()];
             points.extend(contact.manifolds.iter().flat_map(S::points).map(|point| {
-                let arms = [point.arms[0] - motions[a].offset, point.arms[1] - motions[b].offset];
+                let arms = [point.arms[0] - bodies[a].offset, point.arms[1] - bodies[b].offset];
                 Point { keys, bodies: [a, b], arms, ..point }
             }));
         }

@@ -73,7 +73,7 @@ pub fn stand((stage, size): (Stage, usize), seconds: f64) -> Result<[Figure; 2],
         scene.level.bodies.remove(ball as usize);
     }
     let mut game = volume(&scene)?;
-    game.stepper.sleeps = false;
+    game.sleeps = false;
     game.update();
     let settle = SETTLE.min(0.5 * seconds);
     play(&mut game, settle, |_| ());

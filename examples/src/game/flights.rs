@@ -6,6 +6,7 @@
 //! of the step in which it arrives is lost, as in Box2D's continuous collision (Catto, "Continuous Collision", Game
 //! Developers Conference 2013).
 
+use crate::stepper::Body;
 use asunder::glam::DVec3;
 
 /// A bullet that is turned aside flies blind for the rest of a step: so far at most, as a share of its reach.
@@ -57,10 +58,11 @@ impl Flights {
 }
 
 impl Flight {
-    /// How much of what the solver says a bullet of such a reach does.
-    pub(super) fn limited(&self, reach: f64, (moved, turned): (DVec3, DVec3)) -> (DVec3, DVec3) {
+    /// How much of what the solver says a bullet does.
+    pub(super) fn limited(&self, body: &Body) -> (DVec3, DVec3) {
+        let (moved, turned) = (body.moved, body.turned);
         let aside = moved - self.moved;
-        let blind = BLIND * reach;
+        let blind = BLIND * body.mass.reach;
         if aside.dot(aside) > blind * blind || self.is_held {
             let (way, most) = (moved.length(), blind.min(blind * self.share.max(BLIND)));
             return (if way > most { moved * (most / way) } else { moved }, turned);

@@ -1,6 +1,6 @@
 //! What can be asked of a game.
 
-use super::{Game, Places};
+use super::{Game, Places, spin_between};
 use crate::playable::{InSpace, Playable};
 use crate::recording::Numbers;
 use crate::stepper::{Point, State};
@@ -31,7 +31,7 @@ impl<S: Playable> Game<S> {
     /// The key of a body in the world; nothing for one that has left, or never came.
     pub fn key(&self, number: usize) -> Option<S::Key> {
         let body = self.stepper.bodies().get(number)?;
-        (body.state != State::Removed).then_some(body.key)
+        (body.state != State::Removed).then(|| body.key.into())
     }
 
     /// Where a body's centre of mass is.
@@ -43,7 +43,7 @@ impl<S: Playable> Game<S> {
     pub fn set_velocity(&mut self, number: usize, velocity: DVec3) {
         self.stepper.wake(&[number]);
         if self.stepper.bodies().get(number).is_some_and(|body| body.state == State::Awake) {
-            self.stepper.motions_mut()[number].velocity = velocity;
+            self.stepper.bodies_mut()[number].velocity = velocity;
         }
     }
 
@@ -73,17 +73,21 @@ impl<S: Playable> Game<S> {
 
     /// The greatest speed of any body, in m/s: near zero once the scene is at rest.
     pub fn fastest_now(&self) -> f64 {
-        let motions = self.stepper.awake().iter().map(|&number| &self.stepper.motions()[number]);
-        motions.map(|motion| motion.velocity.length()).fold(0.0, f64::max)
+        let bodies = self.stepper.awake().iter().map(|&number| &self.stepper.bodies()[number]);
+        bodies.map(|body| body.velocity.length()).fold(0.0, f64::max)
     }
 
     /// The kinetic energy of all that pushes can move, in joules.
     pub fn energy(&self) -> f64 {
         let energy = |&number: &usize| {
-            let (body, motion) = (&self.stepper.bodies()[number], &self.stepper.motions()[number]);
-            let inertia = S::turned_inertia(body.mass.inverse_inertia, body.turn);
-            let spin = S::spin_energy(&inertia, motion.spin);
-            0.5 * (motion.velocity.dot(motion.velocity) / body.mass.inverse + spin)
+            let body = &self.stepper.bodies()[number];
+            // In the body's axes, where the inertia is. Of the plane only the last number is any.
+            let (spin, inverse) = (body.turn.conjugate() * body.spin, body.mass.inverse_inertia);
+            let momentum = match inverse.determinant() > 0.0 {
+                true => inverse.inverse() * spin,
+                false => spin / inverse.z_axis.z,
+            };
+            0.5 * (body.velocity.dot(body.velocity) / body.mass.inverse + spin.dot(momentum))
         };
         // Not `sum`: of nothing that is -0.
         self.stepper.awake().iter().map(energy).fold(0.0, |sum, one| sum + one)
@@ -101,14 +105,14 @@ impl<S: Playable> Game<S> {
     }
 
     /// Where all bodies are.
-    pub fn places(&self) -> Places<S> {
+    pub fn places(&self) -> Places {
         Places(self.stepper.bodies().iter().map(|body| (body.center, body.turn)).collect())
     }
 
     /// How far the body has moved that moved furthest since then, as a share of its size: its centre, and its
     /// furthest point by turning. The size is the edge of the cube, or of the square, of its mass. Bodies that have
     /// left are infinitely far.
-    pub fn strayed(&self, since: &Places<S>) -> f64 {
+    pub fn strayed(&self, since: &Places) -> f64 {
         let mut most: f64 = 0.0;
         for ((body, actor), (center, turn)) in self.stepper.bodies().iter().zip(&self.actors).zip(&since.0) {
             match body.state {
@@ -117,7 +121,7 @@ impl<S: Playable> Game<S> {
                 State::Awake | State::Asleep => {}
             }
             let moved = (body.center - *center).length();
-            let turned = S::spin_between(*turn, body.turn).length() * body.mass.reach;
+            let turned = spin_between(*turn, body.turn).length() * body.mass.reach;
             most = most.max((moved + turned) / actor.size);
         }
         most
@@ -126,7 +130,7 @@ impl<S: Playable> Game<S> {
     /// A number that differs wherever the poses of two runs do (FNV-1a over their bits).
     pub fn digest(&self) -> u64 {
         let mut digest = 0xcbf2_9ce4_8422_2325_u64;
-        for body in self.stepper.bodies().iter().filter_map(|body| self.stepper.world.get(body.key)) {
+        for body in self.stepper.bodies().iter().filter_map(|body| self.stepper.world.get(body.key.into())) {
             for byte in S::pose_of(body).numbers().flat_map(f64::to_le_bytes) {
                 digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }

@@ -6,7 +6,8 @@
 //! speed behind. Contacts are those of one update; between substeps their separations are carried along by what the
 //! bodies moved. At the end, what came fast enough is given the share of its speed that bounces back.
 
-use asunder::glam::{DMat3, DVec3};
+use super::body::Body;
+use asunder::glam::DVec3;
 use asunder::slotmap::KeyData;
 use core::f64::consts::TAU;
 
@@ -21,25 +22,6 @@ const SPRING_DAMPING: f64 = 5.0;
 const PUSH_SPEED: f64 = 3.0;
 /// What comes slower than this, in m/s, does not bounce, or nothing would ever come to rest.
 const BOUNCE_SPEED: f64 = 1.0;
-
-/// How a body moves, and how it yields to pushes.
-#[derive(Clone, Copy, Debug)]
-pub struct Motion {
-    /// Of the centre of mass, in m/s.
-    pub velocity: DVec3,
-    /// In rad/s.
-    pub spin: DVec3,
-    /// During this step, in metres.
-    pub moved: DVec3,
-    /// During this step, in radians.
-    pub turned: DVec3,
-    /// From the body's position to its centre of mass, in world axes.
-    pub(super) offset: DVec3,
-    /// Zero for what no push moves, as the next.
-    pub(super) inverse_mass: f64,
-    /// In world axes.
-    pub(super) inverse_inertia: DMat3,
-}
 
 /// A point where two bodies touch or nearly do, and how it pushes them.
 #[derive(Clone, Debug, Default)]
@@ -77,41 +59,6 @@ pub(super) struct Pass {
     push_share: f64,
 }
 
-impl Motion {
-    /// Of a body that no push moves yet.
-    pub(super) fn new(velocity: DVec3, spin: DVec3, offset: DVec3) -> Self {
-        let (moved, turned, inverse_mass, inverse_inertia) = (DVec3::ZERO, DVec3::ZERO, 0.0, DMat3::ZERO);
-        Self { velocity, spin, moved, turned, offset, inverse_mass, inverse_inertia }
-    }
-
-    /// Holds the body where it is, whatever pushes it.
-    pub(super) fn rest(&mut self) {
-        *self = Self::new(DVec3::ZERO, DVec3::ZERO, self.offset);
-    }
-
-    pub(super) fn is_moving(&self) -> bool {
-        self.velocity != DVec3::ZERO || self.spin != DVec3::ZERO
-    }
-
-    #[inline]
-    fn push(&mut self, arm: DVec3, push: DVec3) {
-        self.velocity += push * self.inverse_mass;
-        self.spin += self.inverse_inertia * arm.cross(push);
-    }
-
-    #[inline]
-    fn velocity_at(&self, arm: DVec3) -> DVec3 {
-        self.velocity + self.spin.cross(arm)
-    }
-
-    /// How much speed along a direction a unit push along it gives the end of an arm.
-    #[inline]
-    fn yielding(&self, arm: DVec3, direction: DVec3) -> f64 {
-        let spin = self.inverse_inertia * arm.cross(direction);
-        self.inverse_mass + direction.dot(spin.cross(arm))
-    }
-}
-
 impl Pass {
     /// With springs, which remove overlap.
     pub(super) fn soft(substep: f64, friction: f64) -> Self {
@@ -140,62 +87,50 @@ pub(super) fn warm_start(points: &mut [Point], last: &[Point]) {
         if let Some(last) = of_pair.find(|last| last.feature == point.feature) {
             // Sideways only as far as the new normal agrees.
             point.apart = last.apart;
-            point.aside = last.aside - point.normal * last.aside.dot(point.normal);
+            point.aside = last.aside.reject_from_normalized(point.normal);
         }
     }
 }
 
 impl Point {
     /// Before the first substep: what does not change in any.
-    pub(super) fn prepare(&mut self, motions: &[Motion]) {
-        let yielding = self.yielding(motions, self.normal);
+    pub(super) fn prepare(&mut self, bodies: &[Body]) {
+        let yielding = self.yielding(bodies, self.normal);
         self.mass = if yielding > 0.0 { 1.0 / yielding } else { 0.0 };
-        self.speed_before = self.speed(motions);
+        self.speed_before = self.speed(bodies);
     }
 
-    /// Pushes as it did last.
-    pub(super) fn repeat(&self, motions: &mut [Motion]) {
-        self.apply(motions, self.normal * self.apart + self.aside);
-    }
-
-    #[inline]
-    fn apply(&self, motions: &mut [Motion], push: DVec3) {
+    /// Pushes B, and A the other way.
+    pub(super) fn apply(&self, bodies: &mut [Body], push: DVec3) {
         let ([a, b], [arm_a, arm_b]) = (self.bodies, self.arms);
-        motions[a].push(arm_a, -push);
-        motions[b].push(arm_b, push);
+        bodies[a].push(arm_a, -push);
+        bodies[b].push(arm_b, push);
     }
 
     /// The velocity of B's point, as seen from A's.
-    #[inline]
-    fn drift(&self, motions: &[Motion]) -> DVec3 {
-        let [a, b] = self.bodies.map(|body| &motions[body]);
+    fn drift(&self, bodies: &[Body]) -> DVec3 {
+        let [a, b] = self.bodies.map(|number| &bodies[number]);
         b.velocity_at(self.arms[1]) - a.velocity_at(self.arms[0])
     }
 
     /// How fast the bodies part, in m/s.
-    #[inline]
-    pub(super) fn speed(&self, motions: &[Motion]) -> f64 {
-        self.drift(motions).dot(self.normal)
+    pub(super) fn speed(&self, bodies: &[Body]) -> f64 {
+        self.drift(bodies).dot(self.normal)
     }
 
-    #[inline]
-    fn yielding(&self, motions: &[Motion], direction: DVec3) -> f64 {
-        let [a, b] = self.bodies.map(|body| &motions[body]);
+    fn yielding(&self, bodies: &[Body], direction: DVec3) -> f64 {
+        let [a, b] = self.bodies.map(|number| &bodies[number]);
         a.yielding(self.arms[0], direction) + b.yielding(self.arms[1], direction)
     }
 
     /// Friction first, as in Box2D 2.4: what keeps bodies apart has the last word. (The other way round, a pyramid with
     /// a base of 60 settles 7 mm off its middle along its rows, and not 1.)
-    pub(super) fn push(&mut self, motions: &mut [Motion], pass: &Pass) {
-        self.push_aside(motions, pass.friction);
-        self.push_apart(motions, pass);
-    }
-
-    fn push_apart(&mut self, motions: &mut [Motion], pass: &Pass) {
-        let ([a, b], [arm_a, arm_b]) = (self.bodies.map(|body| &motions[body]), self.arms);
+    pub(super) fn push(&mut self, bodies: &mut [Body], pass: &Pass) {
+        self.push_aside(bodies, pass.friction);
+        let ([a, b], [arm_a, arm_b]) = (self.bodies.map(|number| &bodies[number]), self.arms);
         let carried = b.moved + b.turned.cross(arm_b) - a.moved - a.turned.cross(arm_a);
         let separation = self.separation + carried.dot(self.normal);
-        let speed = self.speed(motions);
+        let speed = self.speed(bodies);
         let push = if separation > 0.0 {
             // In a gap: allow as much speed as closes it.
             -self.mass * (speed + separation / pass.substep)
@@ -203,30 +138,28 @@ impl Point {
             let wanted = (pass.rate * separation).max(-PUSH_SPEED);
             -self.mass * pass.mass_share * (speed + wanted) - pass.push_share * self.apart
         };
-        self.set_apart(motions, self.apart + push);
+        self.set_apart(bodies, self.apart + push);
     }
 
-    #[inline]
-    fn set_apart(&mut self, motions: &mut [Motion], wanted: f64) {
+    fn set_apart(&mut self, bodies: &mut [Body], wanted: f64) {
         let apart = wanted.max(0.0);
-        self.apply(motions, self.normal * (apart - self.apart));
+        self.apply(bodies, self.normal * (apart - self.apart));
         self.apart = apart;
         self.hardest = self.hardest.max(apart);
     }
 
     /// Friction: stops sliding, with at most a share of what pushes apart.
-    fn push_aside(&mut self, motions: &mut [Motion], friction: f64) {
+    fn push_aside(&mut self, bodies: &mut [Body], friction: f64) {
         let most = friction * self.apart;
         if most == 0.0 && self.aside == DVec3::ZERO {
             return;
         }
-        let velocity = self.drift(motions);
-        let slide = velocity - self.normal * velocity.dot(self.normal);
+        let slide = self.drift(bodies).reject_from_normalized(self.normal);
         let speed = slide.length();
         let mut aside = self.aside;
         if speed > 1e-12 {
             let direction = slide * (1.0 / speed);
-            let yielding = self.yielding(motions, direction);
+            let yielding = self.yielding(bodies, direction);
             if yielding > 0.0 {
                 aside -= direction * (speed / yielding);
             }
@@ -235,16 +168,16 @@ impl Point {
         if size > most {
             aside *= most / size;
         }
-        self.apply(motions, aside - self.aside);
+        self.apply(bodies, aside - self.aside);
         self.aside = aside;
     }
 
     /// Gives back a share of the speed that both came with, where they did meet.
-    pub(super) fn bounce(&mut self, motions: &mut [Motion], restitution: f64) {
+    pub(super) fn bounce(&mut self, bodies: &mut [Body], restitution: f64) {
         if self.speed_before > -BOUNCE_SPEED || self.hardest == 0.0 {
             return;
         }
-        let push = -self.mass * (self.speed(motions) + restitution * self.speed_before);
-        self.set_apart(motions, self.apart + push);
+        let push = -self.mass * (self.speed(bodies) + restitution * self.speed_before);
+        self.set_apart(bodies, self.apart + push);
     }
 }
