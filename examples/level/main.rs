@@ -6,7 +6,8 @@ mod obj;
 
 use asunder::glam::DVec3;
 use asunder::{Collider3, MeshError, Pose3, Shape3, TriMesh, Volume};
-use asunder_examples::game::{Game, MARGIN};
+use asunder_examples::game::Game;
+use asunder_examples::stepper::MARGIN;
 use asunder_examples::{picture, report, things};
 use asunder_scenes::random::Random;
 use clap::Parser;
@@ -73,7 +74,7 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
     game.add(Collider3::new(floor.clone()).fixed(), DVec3::ZERO, DVec3::ZERO)?;
     drop_things(&mut game, &floor, options.bodies as usize)?;
     report::run(&mut game, "level", options.steps);
-    picture::save(&options.svg, &picture::volume::draw(&game.world))
+    picture::save(&options.svg, &picture::volume::draw(&game.stepper.world))
 }
 
 fn mesh_of(soup: obj::Soup, is_one_sided: bool) -> Result<TriMesh, MeshError> {

@@ -1,7 +1,7 @@
 //! Plays a scene and says what it cost: `cargo run --release --example play -- --help`.
 //!
-//! The engine answers what touches; the game around it (`asunder_examples::game`) gives bodies mass and lets contacts
-//! push them apart. The default scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Named
+//! The engine answers what touches; the stepper around it (`asunder_examples::stepper`) gives bodies mass and lets
+//! contacts push them apart; `asunder_examples::game` drives, counts and lets bullets fly. The default scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Named
 //! scenes are described in `asunder_scenes::stages`, scene files in `asunder_scenes::level`, recordings in
 //! `asunder_examples::recording`.
 
@@ -9,7 +9,7 @@ mod heap;
 
 use asunder_examples::game::Game;
 use asunder_examples::opened::{AnyGame, SEED, scene};
-use asunder_examples::physics::Physics;
+use asunder_examples::playable::{InSpace, Playable};
 use asunder_examples::recording::{Head, read_head};
 use asunder_examples::replay::{Recorder, replay};
 use asunder_examples::report::Times;
@@ -109,20 +109,20 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
     let picture = match (&scene, AnyGame::of(&scene)?) {
         (Scene::Plane(scene), AnyGame::Plane(mut game)) => {
             let times = step(&mut game, options, &head(2, scene.level.bodies.len()))?;
-            tell(&game, &scene.level.name, &times, (options, &scene.room));
-            options.svg.as_ref().map(|_| picture::plane::draw(&game.world))
+            tell(&game, &scene.level.name, &times, (options, scene.room));
+            options.svg.as_ref().map(|_| picture::plane::draw(&game.stepper.world))
         }
         (Scene::Volume(scene), AnyGame::Volume(mut game)) => {
             let times = step(&mut game, options, &head(3, scene.level.bodies.len()))?;
-            tell(&game, &scene.level.name, &times, (options, &scene.room));
-            options.svg.as_ref().map(|_| picture::volume::draw(&game.world))
+            tell(&game, &scene.level.name, &times, (options, scene.room));
+            options.svg.as_ref().map(|_| picture::volume::draw(&game.stepper.world))
         }
         _ => None,
     };
     save(options, picture)
 }
 
-fn step<S: Physics>(game: &mut Game<S>, options: &Options, head: &Head) -> Result<Times, Box<dyn Error>> {
+fn step<S: Playable>(game: &mut Game<S>, options: &Options, head: &Head) -> Result<Times, Box<dyn Error>> {
     let Some(file) = &options.record else {
         return report::timed(game, options.steps, |_| Ok(()));
     };
@@ -138,14 +138,14 @@ fn step<S: Physics>(game: &mut Game<S>, options: &Options, head: &Head) -> Resul
     Ok(times)
 }
 
-fn tell<S: Physics>(
+fn tell<S: Playable, V: InSpace>(
     game: &Game<S>,
     name: &str,
     times: &Times,
-    (options, room): (&Options, &(S::Vector, S::Vector)),
+    (options, room): (&Options, (V, V)),
 ) {
     if options.json {
-        println!("{}", report::json(name, times, game.world.stats()));
+        println!("{}", report::json(name, times, game.stepper.world.stats()));
     } else {
         report::print(game, name, times, game.outside(room));
     }
@@ -171,19 +171,19 @@ fn play_again(file: &Path, options: &Options) -> Result<(), Box<dyn Error>> {
     let picture = match (AnyGame::of(&scene)?, head.dimension) {
         (AnyGame::Plane(mut game), 2) => {
             let times = replay(&mut game, &mut from, &head, options.steps).map_err(|error| at(&*error))?;
-            told(&times, game.world.stats());
+            told(&times, game.stepper.world.stats());
             if !options.json {
-                report::print_replay(&game.world, &head.name, &times);
+                report::print_replay(&game.stepper.world, &head.name, &times);
             }
-            options.svg.as_ref().map(|_| picture::plane::draw(&game.world))
+            options.svg.as_ref().map(|_| picture::plane::draw(&game.stepper.world))
         }
         (AnyGame::Volume(mut game), 3) => {
             let times = replay(&mut game, &mut from, &head, options.steps).map_err(|error| at(&*error))?;
-            told(&times, game.world.stats());
+            told(&times, game.stepper.world.stats());
             if !options.json {
-                report::print_replay(&game.world, &head.name, &times);
+                report::print_replay(&game.stepper.world, &head.name, &times);
             }
-            options.svg.as_ref().map(|_| picture::volume::draw(&game.world))
+            options.svg.as_ref().map(|_| picture::volume::draw(&game.stepper.world))
         }
         _ => return Err(format!("{}: its scene has another dimension than it says", file.display()).into()),
     };

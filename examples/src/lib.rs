@@ -1,12 +1,12 @@
-//! The game around the engine that the larger examples share: bodies with mass and speed, pushed apart by the
-//! contacts of a world, and pictures of it.
+//! What the larger examples share: a rigid-body stepper over the worlds of the engine, a game on it, and pictures.
 //!
 //! Nothing here is part of the engine, and all of it is written against its public face.
 //!
 //! ```
 //! use asunder::glam::{DVec3, Vec3};
 //! use asunder::{Collider3, Cuboid, HalfSpace, Pose3, Volume};
-//! use asunder_examples::game::{Game, MARGIN};
+//! use asunder_examples::game::Game;
+//! use asunder_examples::stepper::MARGIN;
 //! let mut game = Game::<Volume>::new(DVec3::NEG_Y * 9.81);
 //! game.add(Collider3::new(HalfSpace::new(Vec3::Y)?).fixed(), DVec3::ZERO, DVec3::ZERO)?;
 //! let cube = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5))?);
@@ -17,17 +17,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod flight;
 pub mod game;
-mod islands;
 pub mod opened;
-pub mod physics;
 pub mod picture;
-mod plane;
+pub mod playable;
 pub mod recording;
 pub mod replay;
 pub mod report;
-mod response;
+pub mod stepper;
 pub mod things;
 pub mod trials;
-mod volume;

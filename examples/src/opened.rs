@@ -1,7 +1,8 @@
 //! From a scene to a game: stages by name, and scene files.
 
-use crate::game::{Game, MARGIN};
-use crate::physics::Physics;
+use crate::game::Game;
+use crate::playable::{InSpace, Playable};
+use crate::stepper::MARGIN;
 use asunder::{Collider, Collider2, Collider3, Layers, Plane, Space, Volume};
 use asunder_scenes::level::{Level, LevelBody, LevelLayers};
 use asunder_scenes::stages::{Path2, Path3, Scene, Scene2, Scene3, SceneOf, Stage};
@@ -78,22 +79,21 @@ pub fn volume(scene: &Scene3) -> Result<Game<Volume>, Box<dyn Error>> {
     game(scene, |shape, pose| Collider3::new(shape).at(pose), Path3::pose_at)
 }
 
-type Body<S> =
-    LevelBody<<S as Space>::Shape, <S as Space>::Pose, <S as Physics>::Vector, <S as Physics>::Spin>;
+type Body<S, Vector, Spin> = LevelBody<<S as Space>::Shape, <S as Space>::Pose, Vector, Spin>;
 
-fn game<S: Physics, P: Clone + Send + 'static>(
-    scene: &SceneOf<S::Vector, Body<S>, P>,
+fn game<S: Playable, Vector: InSpace, Spin: InSpace, P: Clone + Send + 'static>(
+    scene: &SceneOf<Vector, Body<S, Vector, Spin>, P>,
     collider: fn(S::Shape, S::Pose) -> Collider<S>,
     pose_at: fn(&P, u32) -> S::Pose,
 ) -> Result<Game<S>, Box<dyn Error>> {
-    let mut game = Game::new(scene.level.gravity);
-    game.feel = scene.feel;
+    let mut game = Game::new(scene.level.gravity.in_space());
+    game.stepper.feel = scene.feel;
     for (number, body) in scene.level.bodies.iter().enumerate() {
         let collider = collider(body.shape.clone(), body.pose).margin(margin(body.sensor))?;
         let flags = [body.fixed, body.sensor, scene.bullets.binary_search(&(number as u32)).is_ok()];
         let collider = with_flags(collider, flags, body.layers).user_data(body.user_data);
         let collider = owned(collider, &scene.owners, number);
-        game.add(collider, body.linear_velocity, body.angular_velocity)
+        game.add(collider, body.linear_velocity.in_space(), body.angular_velocity.in_space())
             .map_err(|error| format!("bodies[{number}].shape: {error}"))?;
     }
     for driver in &scene.drivers {

@@ -12,7 +12,7 @@
 //! Steps follow one another to the end of the file. Body numbers are those of the scene. What does not move takes no
 //! room.
 
-use crate::physics::Physics;
+use crate::playable::Playable;
 use asunder::glam::{DVec2, DVec3, Quat};
 use asunder::{Pose2, Pose3, Rotation2, Space};
 use std::io::{ErrorKind, Read, Write};
@@ -196,7 +196,7 @@ pub fn write_head(to: &mut impl Write, head: &Head) -> Result<(), RecordError> {
 ///
 /// # Errors
 /// Those of the file system.
-pub fn write_step<S: Physics>(to: &mut impl Write, step: &Step<S>) -> Result<(), RecordError> {
+pub fn write_step<S: Playable>(to: &mut impl Write, step: &Step<S>) -> Result<(), RecordError> {
     to.write_all(&(step.moved.len() as u32).to_le_bytes())?;
     for (body, pose) in &step.moved {
         to.write_all(&body.to_le_bytes())?;
@@ -209,7 +209,7 @@ pub fn write_step<S: Physics>(to: &mut impl Write, step: &Step<S>) -> Result<(),
     Ok(())
 }
 
-fn write_pose<S: Physics>(pose: &S::Pose, to: &mut impl Write) -> Result<(), std::io::Error> {
+fn write_pose<S: Playable>(pose: &S::Pose, to: &mut impl Write) -> Result<(), std::io::Error> {
     let [of_position, _] = S::Pose::COUNTS;
     pose.numbers().enumerate().try_for_each(|(place, number)| match place < of_position {
         true => to.write_all(&number.to_le_bytes()),
@@ -217,7 +217,7 @@ fn write_pose<S: Physics>(pose: &S::Pose, to: &mut impl Write) -> Result<(), std
     })
 }
 
-fn read_pose<S: Physics>(from: &mut impl Read) -> Result<Option<S::Pose>, std::io::Error> {
+fn read_pose<S: Playable>(from: &mut impl Read) -> Result<Option<S::Pose>, std::io::Error> {
     let [of_position, of_rotation] = S::Pose::COUNTS;
     let mut numbers = Vec::with_capacity(of_position + of_rotation);
     for _ in 0..of_position {
@@ -263,7 +263,7 @@ pub fn read_head(from: &mut impl Read) -> Result<Head, RecordError> {
 ///
 /// # Errors
 /// A step that is cut short; bodies that the scene does not have; poses that are none.
-pub fn read_step<S: Physics>(from: &mut impl Read, head: &Head) -> Result<Option<Step<S>>, RecordError> {
+pub fn read_step<S: Playable>(from: &mut impl Read, head: &Head) -> Result<Option<Step<S>>, RecordError> {
     let mut first = [0; 1];
     loop {
         match from.read(&mut first) {

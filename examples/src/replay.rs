@@ -1,7 +1,7 @@
 //! Recording a game, and playing a recording: poses are set as they were, and nothing is solved.
 
 use crate::game::Game;
-use crate::physics::Physics;
+use crate::playable::Playable;
 use crate::recording::{Head, Numbers, RecordError, Step, read_step, write_head, write_step};
 use crate::report::{Times, bar};
 use asunder::{AnyWorld, World};
@@ -9,13 +9,13 @@ use std::error::Error;
 use std::io::{Read, Write};
 
 /// Writes down what a game does, step by step.
-pub struct Recorder<S: Physics, W: Write> {
+pub struct Recorder<S: Playable, W: Write> {
     to: W,
     /// Of each body, as of the last step; nothing for one that has left.
     last: Vec<Option<S::Pose>>,
 }
 
-impl<S: Physics, W: Write> Recorder<S, W> {
+impl<S: Playable, W: Write> Recorder<S, W> {
     /// Begins a recording with the game's bodies as they are.
     ///
     /// # Errors
@@ -44,7 +44,7 @@ impl<S: Physics, W: Write> Recorder<S, W> {
             }
             *last = now;
         }
-        let (contacts, touching) = count_contacts(&game.world);
+        let (contacts, touching) = count_contacts(&game.stepper.world);
         write_step(&mut self.to, &Step::<S> { moved, left, contacts, touching })
     }
 
@@ -57,12 +57,12 @@ impl<S: Physics, W: Write> Recorder<S, W> {
     }
 }
 
-fn pose<S: Physics>(game: &Game<S>, number: usize) -> Option<S::Pose> {
-    game.key(number).and_then(|key| game.world.get(key)).map(|body| *S::pose_of(body))
+fn pose<S: Playable>(game: &Game<S>, number: usize) -> Option<S::Pose> {
+    game.key(number).and_then(|key| game.stepper.world.get(key)).map(|body| *S::pose_of(body))
 }
 
 /// How many contacts there are by where bodies are, and how many of them share a point.
-fn count_contacts<S: Physics>(world: &World<S>) -> (u32, u32) {
+fn count_contacts<S: Playable>(world: &World<S>) -> (u32, u32) {
     let near = world.contacts().filter(|contact| !contact.speculative);
     near.fold((0, 0), |(near, touching), contact| (near + 1, touching + u32::from(contact.overlapping)))
 }
@@ -73,7 +73,7 @@ fn count_contacts<S: Physics>(world: &World<S>) -> (u32, u32) {
 /// # Errors
 /// What is wrong with the recording. Another number of bodies than it says, and contacts other than it says: then the
 /// scene, the engine or the file is not what it was.
-pub fn replay<S: Physics>(
+pub fn replay<S: Playable>(
     game: &mut Game<S>,
     from: &mut impl Read,
     head: &Head,
@@ -85,7 +85,7 @@ pub fn replay<S: Physics>(
     }
     let mut times = Times::default();
     let shown = bar(u64::from(steps));
-    game.world.update();
+    game.stepper.world.update();
     let mut number = 0;
     while number < steps {
         let Some(step) = read_step::<S>(from, head)? else { break };
@@ -93,17 +93,17 @@ pub fn replay<S: Physics>(
         let set = |game: &mut Game<S>| {
             for &(body, pose) in &step.moved {
                 // A stale key is a body that has left the level: there is nothing to move.
-                let _ = game.key(body as usize).map(|key| game.world.set_pose(key, pose));
+                let _ = game.key(body as usize).map(|key| game.stepper.world.set_pose(key, pose));
             }
             for &body in &step.left {
                 if let Some(key) = game.key(body as usize) {
-                    game.world.remove(key);
+                    game.stepper.world.remove(key);
                 }
             }
-            game.world.update();
+            game.stepper.world.update();
         };
-        times.measure(game, |game| game.world.stats(), set);
-        let found = count_contacts(&game.world);
+        times.measure(game, |game| game.stepper.world.stats(), set);
+        let found = count_contacts(&game.stepper.world);
         if found != (step.contacts, step.touching) {
             return Err(format!(
                 "step {number}: {} contacts, {} touching; the recording has {} and {}",

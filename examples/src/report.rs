@@ -1,7 +1,7 @@
 //! What a run cost and found, in words or as one line of JSON.
 
 use crate::game::Game;
-use crate::physics::Physics;
+use crate::playable::Playable;
 use asunder::{Stats, World};
 use core::convert::Infallible;
 use core::fmt::Write;
@@ -79,7 +79,7 @@ pub fn bar(steps: u64) -> ProgressBar {
 ///
 /// # Errors
 /// What the telling says.
-pub fn timed<S: Physics, E>(
+pub fn timed<S: Playable, E>(
     game: &mut Game<S>,
     steps: u32,
     mut tell: impl FnMut(&Game<S>) -> Result<(), E>,
@@ -88,9 +88,9 @@ pub fn timed<S: Physics, E>(
     let mut times = Times::default();
     game.update();
     for _ in 0..steps {
-        times.measure(game, |game| game.world.stats(), |game| game.step(STEP));
+        times.measure(game, |game| game.stepper.world.stats(), |game| game.step(STEP));
         tell(game)?;
-        bar.set_message(format!("{} contacts", game.world.stats().contacts));
+        bar.set_message(format!("{} contacts", game.stepper.world.stats().contacts));
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -98,14 +98,14 @@ pub fn timed<S: Physics, E>(
 }
 
 /// Plays some steps untimed, then so many more; returns what the latter cost.
-pub fn timed_after<S: Physics>(game: &mut Game<S>, after: u32, steps: u32) -> Times {
+pub fn timed_after<S: Playable>(game: &mut Game<S>, after: u32, steps: u32) -> Times {
     let Ok(_) = timed(game, after, |_| Ok::<(), Infallible>(()));
     let Ok(times) = timed(game, steps, |_| Ok::<(), Infallible>(()));
     times
 }
 
 /// Plays so many steps of 1/60 s behind a progress bar, then prints what they cost and what touches.
-pub fn run<S: Physics>(game: &mut Game<S>, name: &str, steps: u32) {
+pub fn run<S: Playable>(game: &mut Game<S>, name: &str, steps: u32) {
     let Ok(times) = timed(game, steps, |_| Ok::<(), Infallible>(()));
     print(game, name, &times, game.counts.left);
 }
@@ -117,8 +117,8 @@ pub fn false_pairs(stats: &Stats) -> f64 {
 }
 
 /// Prints what a run cost and what touches at its end; how many bodies are outside the scene's room besides.
-pub fn print<S: Physics>(game: &Game<S>, name: &str, times: &Times, outside: usize) {
-    let (stats, counts) = (game.world.stats(), game.counts);
+pub fn print<S: Playable>(game: &Game<S>, name: &str, times: &Times, outside: usize) {
+    let (stats, counts) = (game.stepper.world.stats(), game.counts);
     print_times(name, times, stats, "response");
     let (awake, asleep) = game.awake_and_asleep();
     println!(
@@ -143,7 +143,7 @@ pub fn print<S: Physics>(game: &Game<S>, name: &str, times: &Times, outside: usi
 }
 
 /// Prints what a run cost that only set poses, and what touches at its end.
-pub fn print_replay<S: Physics>(world: &World<S>, name: &str, times: &Times) {
+pub fn print_replay<S: Playable>(world: &World<S>, name: &str, times: &Times) {
     print_times(name, times, world.stats(), "set poses");
     println!("bodies         {}", world.stats().bodies);
     print_pairs(world.stats());

@@ -3,10 +3,11 @@
 //! Each trial plays a scene and returns a figure with its limit; `targets` prints them, and short versions run in
 //! `cargo test`.
 
-use crate::game::{Game, MARGIN};
+use crate::game::Game;
 use crate::opened::{SEED, volume};
-use crate::physics::Physics;
+use crate::playable::Playable;
 use crate::report::STEP;
+use crate::stepper::MARGIN;
 use asunder::glam::{DVec3, Vec3};
 use asunder::{Collider3, Cuboid, Plane, Pose3, Shape3, Sphere, Volume};
 use asunder_scenes::stages::{Scene, Stage};
@@ -124,13 +125,13 @@ pub fn keep(stage: Stage, size: usize, seconds: f64) -> Result<Figure, Box<dyn E
             let mut game = crate::opened::plane(&scene)?;
             game.update();
             play(&mut game, seconds, |_| ());
-            game.outside(&scene.room)
+            game.outside(scene.room)
         }
         Scene::Volume(scene) => {
             let mut game = volume(&scene)?;
             game.update();
             play(&mut game, seconds, |_| ());
-            game.outside(&scene.room)
+            game.outside(scene.room)
         }
     };
     Ok(Figure { what: "bodies lost", is: lost as f64, most: 0.0 })
@@ -158,7 +159,7 @@ pub fn digest(stage: Stage, size: usize, steps: u32) -> Result<u64, Box<dyn Erro
     })
 }
 
-fn play<S: Physics>(game: &mut Game<S>, seconds: f64, mut tell: impl FnMut(&Game<S>)) {
+fn play<S: Playable>(game: &mut Game<S>, seconds: f64, mut tell: impl FnMut(&Game<S>)) {
     for _ in 0..(seconds / STEP).round() as u32 {
         game.step(STEP);
         tell(game);

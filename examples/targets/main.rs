@@ -115,11 +115,11 @@ fn write_times(file: &Path, options: &Options) -> Result<(), Box<dyn Error>> {
         let (times, stats) = match AnyGame::of(&stage.build(size, SEED))? {
             AnyGame::Plane(mut game) => {
                 let times = report::timed_after(&mut game, options.after, options.steps);
-                (times, *game.world.stats())
+                (times, *game.stepper.world.stats())
             }
             AnyGame::Volume(mut game) => {
                 let times = report::timed_after(&mut game, options.after, options.steps);
-                (times, *game.world.stats())
+                (times, *game.stepper.world.stats())
             }
         };
         let Times { stages, worst_update, all, steps } = times;

@@ -1,19 +1,21 @@
 //! What can be asked of a game.
 
-use super::{Game, Places, State};
-use crate::physics::{Linear, Physics, Touch};
+use super::{Game, Places, spin_between};
+use crate::playable::{InSpace, Playable};
 use crate::recording::Numbers;
+use crate::stepper::{Point, State};
 use asunder::AnyWorld;
+use asunder::glam::DVec3;
 
-impl<S: Physics> Game<S> {
+impl<S: Playable> Game<S> {
     /// How many bodies were added.
     pub fn len(&self) -> usize {
-        self.bodies.len()
+        self.actors.len()
     }
 
     /// Whether none was added.
     pub fn is_empty(&self) -> bool {
-        self.bodies.is_empty()
+        self.actors.is_empty()
     }
 
     /// How many steps were done.
@@ -23,111 +25,104 @@ impl<S: Physics> Game<S> {
 
     /// How many bodies are awake, and how many are asleep, of those that pushes can move.
     pub fn awake_and_asleep(&self) -> (usize, usize) {
-        (self.awake.len(), self.islands.asleep.len())
+        (self.stepper.awake().len(), self.stepper.asleep().len())
     }
 
     /// The key of a body in the world; nothing for one that has left, or never came.
     pub fn key(&self, number: usize) -> Option<S::Key> {
-        self.bodies.get(number).filter(|body| body.state != State::Left).map(|body| body.key)
-    }
-
-    /// The number of a body of the world; nothing for a key of another world.
-    pub fn number(&self, key: S::Key) -> Option<usize> {
-        self.numbers.get(key).map(|&number| number as usize)
+        let body = self.stepper.bodies().get(number)?;
+        (body.state != State::Removed).then(|| body.key.into())
     }
 
     /// Where a body's centre of mass is.
-    pub fn center(&self, number: usize) -> Option<S::Vector> {
-        self.bodies.get(number).map(|body| body.center)
-    }
-
-    /// How fast a body's centre of mass moves, in m/s.
-    pub fn velocity(&self, number: usize) -> Option<S::Vector> {
-        self.motions.get(number).map(|motion| motion.velocity)
+    pub fn center(&self, number: usize) -> Option<DVec3> {
+        self.stepper.bodies().get(number).map(|body| body.center)
     }
 
     /// Gives a body another speed, in m/s, and wakes it. No effect on what pushes cannot move.
-    pub fn set_velocity(&mut self, number: usize, velocity: S::Vector) {
-        match self.bodies.get(number).map(|body| body.state) {
-            Some(State::Awake) => {}
-            Some(State::Asleep) => {
-                let Self { bodies, islands, awake, .. } = self;
-                islands.rouse(number as u32);
-                islands.wake(awake, |number| bodies[number as usize].state = State::Awake);
-                self.gather();
-            }
-            _ => return,
+    pub fn set_velocity(&mut self, number: usize, velocity: DVec3) {
+        self.stepper.wake(&[number]);
+        if self.stepper.bodies().get(number).is_some_and(|body| body.state == State::Awake) {
+            self.stepper.bodies_mut()[number].velocity = velocity;
         }
-        self.motions[number].velocity = velocity;
     }
 
     /// The deepest overlap of any contact point of the last update, in metres.
     pub fn deepest_now(&self) -> f64 {
-        self.all_touches().map(|touch| -touch.separation).fold(0.0, f64::max)
+        self.all_points().map(|point| -point.separation).fold(0.0, f64::max)
     }
 
     /// The deepest overlap of any contact point of the last update, as a share of the smaller body's size: the edge of
     /// the cube, or of the square, of its mass.
     pub fn deepest_share(&self) -> f64 {
-        self.all_touches().map(|touch| self.share_of(&touch)).fold(0.0, f64::max)
+        self.all_points().map(|point| self.share_of(&point)).fold(0.0, f64::max)
     }
 
-    fn all_touches(&self) -> impl Iterator<Item = Touch<S>> {
-        let pair = |a, b| Some([*self.numbers.get(a)?, *self.numbers.get(b)?]);
-        let of_bodies =
-            self.world.contacts().filter_map(move |contact| Some((contact, pair(contact.a, contact.b)?)));
-        of_bodies.flat_map(|(contact, bodies)| S::touches(contact, bodies))
-    }
-
-    pub(super) fn share_of(&self, touch: &Touch<S>) -> f64 {
-        let [a, b] = touch.bodies.map(|number| self.bodies[number as usize].matter.size);
-        -touch.separation / a.min(b)
+    /// Those of bodies that sleep as well.
+    fn all_points(&self) -> impl Iterator<Item = Point> {
+        self.stepper.world.contacts().flat_map(|contact| {
+            let numbers = [contact.a, contact.b].map(|key| self.stepper.number(key));
+            let bodies = if let [Some(a), Some(b)] = numbers { Some([a, b]) } else { None };
+            let points = contact.manifolds.iter().flat_map(S::points);
+            points.filter_map(move |mut point| {
+                point.bodies = bodies?;
+                Some(point)
+            })
+        })
     }
 
     /// The greatest speed of any body, in m/s: near zero once the scene is at rest.
     pub fn fastest_now(&self) -> f64 {
-        let motions = self.awake.iter().map(|&number| &self.motions[number as usize]);
-        motions.map(|motion| motion.velocity.length()).fold(0.0, f64::max)
+        let bodies = self.stepper.awake().iter().map(|&number| &self.stepper.bodies()[number]);
+        bodies.map(|body| body.velocity.length()).fold(0.0, f64::max)
     }
 
     /// The kinetic energy of all that pushes can move, in joules.
     pub fn energy(&self) -> f64 {
-        let energy = |&number: &u32| {
-            let (body, motion) = (&self.bodies[number as usize], &self.motions[number as usize]);
-            let inertia = S::turned_inertia(&body.matter.inverse_inertia, body.turn);
-            let spin = S::spin_energy(&inertia, motion.spin);
-            0.5 * (motion.velocity.dot(motion.velocity) / body.matter.inverse_mass + spin)
+        let energy = |&number: &usize| {
+            let body = &self.stepper.bodies()[number];
+            // In the body's axes, where the inertia is. Of the plane only the last number is any.
+            let (spin, inverse) = (body.turn.conjugate() * body.spin, body.mass.inverse_inertia);
+            let momentum = match inverse.determinant() > 0.0 {
+                true => inverse.inverse() * spin,
+                false => spin / inverse.z_axis.z,
+            };
+            0.5 * (body.velocity.dot(body.velocity) / body.mass.inverse + spin.dot(momentum))
         };
         // Not `sum`: of nothing that is -0.
-        self.awake.iter().map(energy).fold(0.0, |sum, one| sum + one)
+        self.stepper.awake().iter().map(energy).fold(0.0, |sum, one| sum + one)
     }
 
     /// How many bodies that pushes can move are outside a room, or have left the level.
-    pub fn outside(&self, room: &(S::Vector, S::Vector)) -> usize {
-        let numbers = self.awake.iter().chain(&self.islands.asleep);
-        let is_out = |&&number: &&u32| !S::is_within(self.bodies[number as usize].center, room);
+    pub fn outside<V: InSpace>(&self, (low, high): (V, V)) -> usize {
+        let (low, high) = (low.in_space(), high.in_space());
+        let is_out = |&&number: &&usize| {
+            let center = self.stepper.bodies()[number].center;
+            !(center.cmpge(low).all() && center.cmple(high).all())
+        };
+        let numbers = self.stepper.awake().iter().chain(self.stepper.asleep());
         numbers.filter(is_out).count() + self.counts.left
     }
 
     /// Where all bodies are.
-    pub fn places(&self) -> Places<S> {
-        Places(self.bodies.iter().map(|body| (body.center, body.turn)).collect())
+    pub fn places(&self) -> Places {
+        Places(self.stepper.bodies().iter().map(|body| (body.center, body.turn)).collect())
     }
 
     /// How far the body has moved that moved furthest since then, as a share of its size: its centre, and its
     /// furthest point by turning. The size is the edge of the cube, or of the square, of its mass. Bodies that have
     /// left are infinitely far.
-    pub fn strayed(&self, since: &Places<S>) -> f64 {
+    pub fn strayed(&self, since: &Places) -> f64 {
         let mut most: f64 = 0.0;
-        for (body, (center, turn)) in self.bodies.iter().zip(&since.0) {
+        for ((body, actor), (center, turn)) in self.stepper.bodies().iter().zip(&self.actors).zip(&since.0) {
             match body.state {
-                State::Left => return f64::INFINITY,
-                State::Fixed | State::Driven => continue,
+                State::Removed => return f64::INFINITY,
+                State::Fixed => continue,
                 State::Awake | State::Asleep => {}
             }
             let moved = (body.center - *center).length();
-            let turned = S::spin_between(*turn, body.turn).length() * body.matter.reach;
-            most = most.max((moved + turned) / body.matter.size);
+            let turned = spin_between(*turn, body.turn).length() * body.mass.reach;
+            most = most.max((moved + turned) / actor.size);
         }
         most
     }
@@ -135,7 +130,7 @@ impl<S: Physics> Game<S> {
     /// A number that differs wherever the poses of two runs do (FNV-1a over their bits).
     pub fn digest(&self) -> u64 {
         let mut digest = 0xcbf2_9ce4_8422_2325_u64;
-        for body in self.bodies.iter().filter_map(|body| self.world.get(body.key)) {
+        for body in self.stepper.bodies().iter().filter_map(|body| self.stepper.world.get(body.key.into())) {
             for byte in S::pose_of(body).numbers().flat_map(f64::to_le_bytes) {
                 digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }

@@ -8,6 +8,7 @@ use asunder::glam::DVec3;
 use asunder::{AnyWorld, Plane, Volume};
 use asunder_examples::game::Game;
 use asunder_examples::opened::{plane, volume};
+use asunder_examples::playable::InSpace;
 use asunder_examples::report::{STEP, Times, stages};
 use asunder_scenes::stages::Scene;
 use core::time::Duration;
@@ -72,9 +73,9 @@ struct Held {
 }
 
 impl<S: Sight> Player<S> {
-    fn new(mut game: Game<S>, driven: Vec<usize>, (low, high): (S::Vector, S::Vector)) -> Self {
+    fn new(mut game: Game<S>, driven: Vec<usize>, (low, high): (impl InSpace, impl InSpace)) -> Self {
         game.update();
-        let stand = Stand::new(&game, driven, (S::in_space(low), S::in_space(high)));
+        let stand = Stand::new(&game, driven, (low.in_space(), high.in_space()));
         Self { game, stand, times: Times::default(), held: None, drawing: Duration::ZERO }
     }
 }
@@ -83,11 +84,11 @@ impl<S: Sight> Show for Player<S> {
     fn step(&mut self, hand: Option<DVec3>) {
         if let (Some(held), Some(hand), Some(place)) = (&self.held, hand, self.held()) {
             let velocity = ((hand - place) * PULL).clamp_length_max(FASTEST);
-            self.game.set_velocity(held.number, S::of_space(velocity));
+            self.game.set_velocity(held.number, S::within(velocity));
         }
         // Of the last step alone.
         self.times = Times::default();
-        self.times.measure(&mut self.game, |game| game.world.stats(), |game| game.step(STEP));
+        self.times.measure(&mut self.game, |game| game.stepper.world.stats(), |game| game.step(STEP));
     }
 
     fn draw(&mut self, view: &View, toggles: &Toggles) {
@@ -97,7 +98,7 @@ impl<S: Sight> Show for Player<S> {
     }
 
     fn report(&self) -> Vec<String> {
-        let (stats, (awake, asleep)) = (self.game.world.stats(), self.game.awake_and_asleep());
+        let (stats, (awake, asleep)) = (self.game.stepper.world.stats(), self.game.awake_and_asleep());
         let ms = |time| self.times.mean(time);
         let mut lines = vec![
             format!("step {}", self.game.steps()),
@@ -115,12 +116,12 @@ impl<S: Sight> Show for Player<S> {
     }
 
     fn hold(&mut self, (from, direction): (DVec3, DVec3)) -> Option<DVec3> {
-        let (key, place) = S::pick(&self.game.world, from, direction, self.stand.hidden())?;
-        let number = self.game.number(key)?;
-        if self.stand.is_driven(number) || self.game.world.get(key)?.is_fixed() {
+        let (key, place) = S::pick(&self.game.stepper.world, from, direction, self.stand.hidden())?;
+        let number = self.game.stepper.number(key)?;
+        if self.stand.is_driven(number) || self.game.stepper.world.get(key)?.is_fixed() {
             return None;
         }
-        self.held = Some(Held { number, offset: place - S::in_space(self.game.center(number)?) });
+        self.held = Some(Held { number, offset: place - self.game.center(number)? });
         Some(place)
     }
 
@@ -130,7 +131,7 @@ impl<S: Sight> Show for Player<S> {
 
     fn held(&self) -> Option<DVec3> {
         let held = self.held.as_ref()?;
-        Some(S::in_space(self.game.center(held.number)?) + held.offset)
+        Some(self.game.center(held.number)? + held.offset)
     }
 
     fn bounds(&self) -> (DVec3, DVec3) {

@@ -8,17 +8,15 @@ use crate::form::Form;
 use crate::paint::Paint;
 use asunder::glam::DVec3;
 use asunder::{Collider, DebugLine, DebugOptions, Tier, World};
-use asunder_examples::physics::Physics;
+use asunder_examples::playable::Playable;
 
 /// A dimension that can be looked at.
-pub(crate) trait Sight: Physics {
+pub(crate) trait Sight: Playable {
     /// Whether it is seen from straight above, without perspective.
     const FLAT: bool;
 
-    /// A place of this dimension in space.
-    fn in_space(place: Self::Vector) -> DVec3;
     /// What is left of a vector of space.
-    fn of_space(v: DVec3) -> Self::Vector;
+    fn within(v: DVec3) -> DVec3;
     /// Where a body is.
     fn position(body: &Collider<Self>) -> DVec3;
     /// Where a body is, seen from a point.

@@ -84,8 +84,8 @@ impl<S: Sight> Stand<S> {
 
     /// The box around what moves, with the room that is never left; around all that has an end, where nothing moves.
     fn measure(&mut self, game: &Game<S>, (low, high): (DVec3, DVec3)) {
-        let is_driven = |key| game.number(key).is_some_and(|number| self.is_driven(number));
-        let bodies = || game.world.iter().filter(|(_, body)| S::ball(body).1.is_finite());
+        let is_driven = |key| game.stepper.number(key).is_some_and(|number| self.is_driven(number));
+        let bodies = || game.stepper.world.iter().filter(|(_, body)| S::ball(body).1.is_finite());
         let free = || bodies().filter(|(key, body)| !body.is_fixed() && !is_driven(*key));
         let around = most(free().map(|(_, body)| S::corners(body)).collect());
         let driven: Vec<_> =
@@ -179,11 +179,11 @@ impl<S: Sight> Stand<S> {
         for i in 0..RAYS * RAYS * RAYS {
             let share = |i: usize| 0.1 + 0.8 * (i % RAYS) as f64 / (RAYS - 1) as f64;
             let to = low + (high - low) * DVec3::new(share(i), share(i / RAYS), share(i / RAYS / RAYS));
-            S::between(&game.world, view.eye(), to, &mut found);
+            S::between(&game.stepper.world, view.eye(), to, &mut found);
             found.iter().for_each(|&key| *counts.entry(key).or_default() += 1);
         }
         for (key, count) in counts {
-            let radius = game.world.get(key).map_or(0.0, |body| S::ball(body).1);
+            let radius = game.stepper.world.get(key).map_or(0.0, |body| S::ball(body).1);
             if count >= HIDES && radius > large {
                 self.hidden.push(key);
             }
@@ -196,7 +196,7 @@ impl<S: Sight> Stand<S> {
         }
         let eye = view.eye();
         let mut seen: Vec<(f64, S::Key, &Collider<S>)> = Vec::new();
-        for (key, body) in game.world.iter().filter(|(_, body)| body.is_enabled()) {
+        for (key, body) in game.stepper.world.iter().filter(|(_, body)| body.is_enabled()) {
             let (center, radius) = S::ball(body);
             if view.sees(center, radius) && self.hidden.binary_search(&key).is_err() {
                 let distance = if S::FLAT { view.target.distance(center) } else { eye.distance(center) };
@@ -211,7 +211,7 @@ impl<S: Sight> Stand<S> {
         // In the plane scenery lies below all else.
         for is_fixed in [true, false] {
             for &(_, key, body) in seen.iter().filter(|seen| seen.2.is_fixed() == is_fixed) {
-                let Some(number) = game.number(key) else { continue };
+                let Some(number) = game.stepper.number(key) else { continue };
                 let paint = self.paint(number, body, toggles);
                 let form = self.form(number, body);
                 let Some(form) = self.forms.get(form as usize) else { continue };
@@ -267,7 +267,7 @@ impl<S: Sight> Stand<S> {
             endless: self.bounds.0.distance(self.bounds.1) as f32,
         };
         let Self { thin, over, .. } = self;
-        S::lines(&game.world, &options, &mut |from, to, what| {
+        S::lines(&game.stepper.world, &options, &mut |from, to, what| {
             if !view.sees((from + to) * 0.5, 0.5 * from.distance(to)) {
                 return;
             }
@@ -279,8 +279,8 @@ impl<S: Sight> Stand<S> {
             }
         });
         if toggles.shows(Layer::Pairs) {
-            for (a, b) in game.world.candidates() {
-                let ends = [a, b].map(|key| game.world.get(key).map(S::ball));
+            for (a, b) in game.stepper.world.candidates() {
+                let ends = [a, b].map(|key| game.stepper.world.get(key).map(S::ball));
                 let [Some((from, _)), Some((to, _))] = ends else { continue };
                 if from.is_finite() && to.is_finite() && view.sees((from + to) * 0.5, 0.5 * from.distance(to))
                 {
@@ -338,8 +338,8 @@ fn both(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
 impl Tiers {
     fn of<S: Sight>(game: &Game<S>) -> Self {
         let mut tiers = Self { step: Some(game.steps()), of_body: vec![None; game.len()], ..Self::default() };
-        S::tiers(&game.world, |keys, tier, places| {
-            for number in keys.into_iter().filter_map(|key| game.number(key)) {
+        S::tiers(&game.stepper.world, |keys, tier, places| {
+            for number in keys.into_iter().filter_map(|key| game.stepper.number(key)) {
                 if let Some(highest) = tiers.of_body.get_mut(number) {
                     *highest = (*highest).max(Some(tier));
                 }

@@ -13,12 +13,8 @@ use asunder_examples::picture::mesh;
 impl Sight for Plane {
     const FLAT: bool = true;
 
-    fn in_space(place: DVec2) -> DVec3 {
-        place.extend(0.0)
-    }
-
-    fn of_space(v: DVec3) -> DVec2 {
-        v.truncate()
+    fn within(v: DVec3) -> DVec3 {
+        v.truncate().extend(0.0)
     }
 
     fn position(body: &Collider2) -> DVec3 {

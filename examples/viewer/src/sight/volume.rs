@@ -14,11 +14,7 @@ use asunder_examples::picture::mesh;
 impl Sight for Volume {
     const FLAT: bool = false;
 
-    fn in_space(place: DVec3) -> DVec3 {
-        place
-    }
-
-    fn of_space(v: DVec3) -> DVec3 {
+    fn within(v: DVec3) -> DVec3 {
         v
     }
 

@@ -6,49 +6,42 @@
 //! of the step in which it arrives is lost, as in Box2D's continuous collision (Catto, "Continuous Collision", Game
 //! Developers Conference 2013).
 
-use crate::game::Body;
-use crate::physics::{Linear, Physics};
+use crate::stepper::Body;
+use asunder::glam::DVec3;
 
 /// A bullet that is turned aside flies blind for the rest of a step: so far at most, as a share of its reach.
 const BLIND: f64 = 0.25;
 
 /// What a bullet is expected to do in the next step.
-struct Flight<S: Physics> {
-    number: u32,
-    moved: S::Vector,
-    turned: S::Spin,
+pub(super) struct Flight {
+    pub(super) number: usize,
+    moved: DVec3,
+    turned: DVec3,
     /// How much of it may be done.
     share: f64,
     /// How far what is hit goes on by itself in the rest of the step: the bullet goes along.
-    carried: S::Vector,
+    carried: DVec3,
     /// Whether a contact that is there already bends it.
     is_held: bool,
 }
 
 /// The flights of the next step, by the bullets' numbers, ascending.
-pub(crate) struct Flights<S: Physics>(Vec<Flight<S>>);
+#[derive(Default)]
+pub(super) struct Flights(Vec<Flight>);
 
-impl<S: Physics> Flights<S> {
-    pub(crate) const NONE: Self = Self(Vec::new());
-
-    pub(crate) fn clear(&mut self) {
+impl Flights {
+    pub(super) fn clear(&mut self) {
         self.0.clear();
     }
 
     /// A bullet sets off; bullets are told of by their numbers, ascending.
-    pub(crate) fn push(&mut self, number: u32, moved: S::Vector, turned: S::Spin) {
-        self.0.push(Flight {
-            number,
-            moved,
-            turned,
-            share: 1.0,
-            carried: S::Vector::default(),
-            is_held: false,
-        });
+    pub(super) fn push(&mut self, number: usize, moved: DVec3, turned: DVec3) {
+        let (share, carried, is_held) = (1.0, DVec3::ZERO, false);
+        self.0.push(Flight { number, moved, turned, share, carried, is_held });
     }
 
     /// A bullet hits something after a share of its flight, which itself moves so far in a step.
-    pub(crate) fn note(&mut self, number: u32, (share, along): (f64, S::Vector), is_contact: bool) {
+    pub(super) fn note(&mut self, number: usize, (share, along): (f64, DVec3), is_contact: bool) {
         if let Ok(index) = self.0.binary_search_by_key(&number, |flight| flight.number) {
             let flight = &mut self.0[index];
             if is_contact {
@@ -59,29 +52,23 @@ impl<S: Physics> Flights<S> {
         }
     }
 
-    /// How much of what the response says a body does.
-    pub(crate) fn limit(
-        &self,
-        body: &Body<S>,
-        number: u32,
-        moved: S::Vector,
-        turned: S::Spin,
-    ) -> (S::Vector, S::Spin) {
-        if !body.is_bullet {
-            return (moved, turned);
-        }
-        let Ok(index) = self.0.binary_search_by_key(&number, |flight| flight.number) else {
-            return (moved, turned);
-        };
-        let flight = &self.0[index];
-        let aside = moved - flight.moved;
-        let blind = BLIND * body.matter.reach;
-        if aside.dot(aside) > blind * blind || flight.is_held {
-            let (way, most) = (moved.length(), blind.min(blind * flight.share.max(BLIND)));
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Flight> {
+        self.0.iter()
+    }
+}
+
+impl Flight {
+    /// How much of what the solver says a bullet does.
+    pub(super) fn limited(&self, body: &Body) -> (DVec3, DVec3) {
+        let (moved, turned) = (body.moved, body.turned);
+        let aside = moved - self.moved;
+        let blind = BLIND * body.mass.reach;
+        if aside.dot(aside) > blind * blind || self.is_held {
+            let (way, most) = (moved.length(), blind.min(blind * self.share.max(BLIND)));
             return (if way > most { moved * (most / way) } else { moved }, turned);
         }
-        if flight.share < 1.0 {
-            return (flight.moved * flight.share + flight.carried, flight.turned * flight.share);
+        if self.share < 1.0 {
+            return (self.moved * self.share + self.carried, self.turned * self.share);
         }
         (moved, turned)
     }
