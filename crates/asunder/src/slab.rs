@@ -27,6 +27,12 @@ impl<T> Slab<T> {
         self.items.get(place as usize)
     }
 
+    /// The same, to be changed.
+    #[inline]
+    pub(crate) fn get_mut(&mut self, place: u32) -> Option<&mut T> {
+        self.items.get_mut(place as usize)
+    }
+
     /// Gives a place up, which may be [`NOWHERE`]. What is in it stays until the place is handed out again.
     pub(crate) fn vacate(&mut self, place: u32) {
         if place != NOWHERE {

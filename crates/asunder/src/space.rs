@@ -108,13 +108,15 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     #[doc(hidden)]
     fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
 
-    /// What can be kept of an answer to bodies that went so far in the last frame, in metres.
+    /// What can be kept of an answer to bodies that went so far in the last frame, in metres; what was kept before may lend
+    /// its memory.
     #[doc(hidden)]
     fn persistent(
         job: &Self::Job<'_>,
         answer: &Answer,
         manifolds: &[Self::Manifold],
         step: f64,
+        before: Option<&mut Self::Persistent>,
     ) -> Option<Self::Persistent>;
 
     /// Appends what was kept, moved along, unless it has to be made anew: bodies drifted, margins changed, or one has
@@ -207,6 +209,7 @@ impl Space for Plane {
         answer: &Answer,
         manifolds: &[Manifold2],
         step: f64,
+        _: Option<&mut Persistent2>,
     ) -> Option<Persistent2> {
         Persistent2::lasting(job, answer, manifolds, step)
     }
@@ -301,8 +304,9 @@ impl Space for Volume {
         answer: &Answer,
         manifolds: &[Manifold3],
         step: f64,
+        before: Option<&mut Persistent3>,
     ) -> Option<Persistent3> {
-        Persistent3::lasting(job, answer, manifolds, step)
+        Persistent3::lasting(job, answer, manifolds, step, before)
     }
 
     fn carry_on(

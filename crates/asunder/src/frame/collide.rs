@@ -156,7 +156,8 @@ fn candidate_of<S: Space>(
         Outcome::Answered(answer @ &Answer::Contact { hint, .. }, manifolds) => {
             let step = ways[0].step() + ways[1].step();
             let kept = lasting.and_then(|(a, b)| {
-                S::persistent(&S::job(a, b, a.margin + b.margin, hint), answer, manifolds, step)
+                let (job, before) = (S::job(a, b, a.margin + b.margin, hint), persistent.get_mut(place));
+                S::persistent(&job, answer, manifolds, step, before)
             });
             (hint, persistent.put(place, kept), f64::NEG_INFINITY)
         }
