@@ -11,7 +11,7 @@ use crate::answer::{Answer, Manifold3};
 use crate::jobs3::Job3;
 use crate::persistent::widest_reach_of;
 use asunder_geometry::{Ground, Pose3};
-use grounded::Grounded;
+use grounded::{Grounded, Memory};
 use solids::Solids;
 
 /// Manifolds, and how their two bodies stood to each other when they were made: until they drift, they are moved along for
@@ -27,7 +27,7 @@ use solids::Solids;
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::{Batch3, Hint, Job3, Persistent3, collide3};
+/// use asunder_narrow::{Batch3, Hint, Job3, Persistent3, Spare3, collide3};
 /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let (pose_a, pose_b) = (Pose3::IDENTITY, Pose3::at([0.5, 0.25, 1.875])?);
 /// let job = Job3 {
@@ -41,7 +41,7 @@ use solids::Solids;
 /// let sunk = Pose3::at([0.5, 0.25, 1.875 - 4e-6])?;
 /// assert!(persistent.carry_on([&pose_a, &sunk], &mut moved) && persistent.overlapping());
 /// assert!(persistent.reach() > 1e-3 && persistent.reach() <= Persistent3::most_reach(&job));
-/// assert_eq!(Persistent3::lasting(&job, &batch.answers[0], &batch.manifolds, 0.1, None), None, "bodies as fast as that");
+/// assert_eq!(Persistent3::lasting(&job, &batch.answers[0], &batch.manifolds, 0.1, &mut Spare3::default()), None, "bodies as fast as that");
 /// assert!((moved[0].points[0].separation + 0.125 + 4e-6).abs() < 1e-8);
 /// assert_eq!(moved[0].points[0].feature, persistent.manifolds()[0].points[0].feature);
 /// let gone = Pose3::at([0.5, 0.25, 1.875 - 4e-3])?;
@@ -59,6 +59,37 @@ enum Kind {
     Grounded(Grounded),
 }
 
+/// Memory of what is no longer kept, for what is kept after it: so a steady frame allocates nothing.
+///
+/// ```
+/// use asunder_geometry::{Cuboid, HeightField, Pose3, Shape3, glam::{Vec2, Vec3}};
+/// use asunder_narrow::{Batch3, Hint, Job3, Persistent3, Spare3, collide3};
+/// let floor = Shape3::from(HeightField::new(3, 3, vec![0.0; 9], Vec2::ONE)?);
+/// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?);
+/// let (pose_a, pose_b) = (Pose3::IDENTITY, Pose3::at([0.1, 0.499, 0.2])?);
+/// let job = Job3 {
+///     shape_a: &floor, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.02, hint: Hint::NONE, sensor: false,
+/// };
+/// let (mut batch, mut spare) = (Batch3::default(), Spare3::default());
+/// collide3(&[job], &mut batch);
+/// let kept = Persistent3::lasting(&job, &batch.answers[0], &batch.manifolds, 0.0, &mut spare).expect("it lies still");
+/// let slid = Pose3::at([0.102, 0.499, 0.2])?;
+/// assert!(kept.carry_on([&pose_a, &slid], &mut batch.manifolds), "by two millimetres");
+/// spare.take(kept);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Spare3(Vec<Memory>);
+
+impl Spare3 {
+    /// Keeps the memory of what is kept no longer. Of what has none, nothing. Cost: constant.
+    pub fn take(&mut self, kept: Persistent3) {
+        if let Kind::Grounded(kept) = kept.0 {
+            self.0.push(kept.into_memory());
+        }
+    }
+}
+
 impl Persistent3 {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
@@ -68,38 +99,40 @@ impl Persistent3 {
     /// a corner and an edge. Cost: some square roots, and linear in the vertices of a face; on ground that of finding the
     /// triangles near the points.
     pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
-        Self::renewed(job, answer, manifolds, None)
+        Self::made((job, answer, manifolds), &mut Spare3::default())
     }
 
     /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of no
-    /// use in the next. What was kept before may lend its memory.
+    /// use in the next.
     pub fn lasting(
         job: &Job3<'_>,
         answer: &Answer,
         manifolds: &[Manifold3],
         step: f64,
-        before: Option<&mut Self>,
+        spare: &mut Spare3,
     ) -> Option<Self> {
         if step > f64::from(Self::most_reach(job)) {
             return None;
         }
-        Self::renewed(job, answer, manifolds, before).filter(|made| step <= f64::from(made.reach()))
+        let made = Self::made((job, answer, manifolds), spare)?;
+        if step > f64::from(made.reach()) {
+            spare.take(made);
+            return None;
+        }
+        Some(made)
     }
 
-    fn renewed(
-        job: &Job3<'_>,
-        answer: &Answer,
-        manifolds: &[Manifold3],
-        before: Option<&mut Self>,
-    ) -> Option<Self> {
+    fn made(found: (&Job3<'_>, &Answer, &[Manifold3]), spare: &mut Spare3) -> Option<Self> {
+        let (job, answer, manifolds) = found;
         if Ground::of(job.shape_a).is_none() && Ground::of(job.shape_b).is_none() {
             return Solids::of(job, answer, manifolds).map(|kept| Self(Kind::Solids(kept)));
         }
-        let memory = match before {
-            Some(Self(Kind::Grounded(before))) => before.give_up(),
-            _ => Default::default(),
-        };
-        Grounded::of(job, answer, manifolds, memory).map(|kept| Self(Kind::Grounded(kept)))
+        let mut memory = spare.0.pop().unwrap_or_default();
+        let kept = Grounded::of(job, answer, manifolds, &mut memory);
+        if kept.is_none() {
+            spare.0.push(memory);
+        }
+        kept.map(|kept| Self(Kind::Grounded(kept)))
     }
 
     /// Up to which drift manifolds of this job can be moved along at most, in metres.

@@ -71,6 +71,18 @@ pub(super) struct Memory {
     grips: Vec<[Grip; 4]>,
 }
 
+/// Manifolds of most bodies: for so many there is room from the start.
+const MANY: usize = 6;
+
+impl Memory {
+    fn clear(&mut self) {
+        self.manifolds.clear();
+        self.grips.clear();
+        self.manifolds.reserve(MANY);
+        self.grips.reserve(MANY);
+    }
+}
+
 /// The body of a job that has ground, if it is of one part and has an end; whether the ground is B.
 fn body_of<'a>(job: &Job3<'a>) -> Option<(&'a Shape3, bool)> {
     let (body, is_ground_b) = match (Ground::of(job.shape_a), Ground::of(job.shape_b)) {
@@ -96,7 +108,7 @@ impl Grounded {
         job: &Job3<'_>,
         answer: &Answer,
         manifolds: &[Manifold3],
-        mut memory: Memory,
+        memory: &mut Memory,
     ) -> Option<Self> {
         let Answer::Contact { overlapping, manifolds: range, .. } = answer else { return None };
         let found = manifolds.get(range.start as usize..range.end as usize)?;
@@ -116,7 +128,7 @@ impl Grounded {
         }
         let near = NearPoints::of(&on, found, reach);
         let mut bend = 0.0_f64;
-        memory.grips.clear();
+        memory.clear();
         for manifold in found {
             let mut grips = [Grip::NONE; 4];
             for (grip, point) in grips.iter_mut().zip(&manifold.points) {
@@ -129,16 +141,16 @@ impl Grounded {
         let bend = if bend == 0.0 { 0.0 } else { (bend.min(1.0) as f32).next_up() };
         reach = reach.min(most_loss(body.outer_radius()) / (2.0 * bend));
         let witness = if *overlapping { Some(Witness::of(&on, found, &near, arm)?) } else { None };
-        memory.manifolds.clear();
         memory.manifolds.extend_from_slice(found);
         let (is_ball, margin) = (matches!(body, Shape3::Sphere(_)), job.margin);
         let poses = [*job.pose_a, *job.pose_b];
+        let memory = core::mem::take(memory);
         Some(Self { memory, witness, is_ground_b, is_ball, bend, margin, reach, arm, poses })
     }
 
     /// Its memory, for what comes after it.
-    pub(super) fn give_up(&mut self) -> Memory {
-        core::mem::take(&mut self.memory)
+    pub(super) fn into_memory(self) -> Memory {
+        self.memory
     }
 
     pub(super) const fn reach(&self) -> f32 {
