@@ -1,6 +1,8 @@
 //! A steady scene allocates nothing per frame.
 
-use asunder::{Hooks, Plane, Volume};
+use asunder::glam::{DVec3, Quat, Vec3};
+use asunder::{Collider3, Cuboid, Hooks, Plane, Pose3, TriMesh, Volume, World3};
+use asunder_scenes::terrain::Terrain;
 use asunder_scenes::worlds::WorldScene;
 use asunder_tests::counting::{allocations, counted, counted_here};
 use asunder_tests::recorded::{Fnv1a, Recorded, Recording};
@@ -81,6 +83,43 @@ fn nor_do_sweeps_of_many_threads() {
 fn a_thread_of_no_pool_allocates_a_block_of_the_queue_now_and_then() {
     let taken = counted_here(|| third_cycle::<Volume>(WorldScene::ManyPyramids, 4201, false));
     assert!(taken <= u64::from(CYCLE) / 10, "{taken} in {CYCLE} frames");
+}
+
+/// Bodies that slide to and fro on hills: their contacts are moved along for some frames, and then made anew.
+#[test]
+fn nor_do_contacts_with_a_level() {
+    let terrain = Terrain::new(800, 1.0, 20);
+    let level = TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap();
+    let taken = counted(1, || {
+        let mut world = World3::new();
+        world.insert(Collider3::new(level).fixed());
+        let cube = Cuboid::from_half_extents(Vec3::splat(0.3)).unwrap();
+        let bodies: Vec<_> = (0..16)
+            .map(|number| {
+                let place = [2.3 + f64::from(number % 4) * 3.7, 2.1 + f64::from(number / 4) * 3.9];
+                let (height, normal) = terrain.under(place);
+                let upright = Quat::from_rotation_arc(Vec3::Y, normal.as_vec3());
+                let at = DVec3::new(place[0], height, place[1]) + normal * 0.299;
+                let pose = Pose3::new(at, upright).unwrap();
+                let body = Collider3::new(cube.clone()).at(pose).margin(0.02).unwrap();
+                (world.insert(body), pose, normal.any_orthonormal_vector())
+            })
+            .collect();
+        let mut taken = 0;
+        for frame in 0..3 * CYCLE {
+            let turn = frame % CYCLE;
+            let way = 2e-4 * f64::from(turn.min(CYCLE - turn));
+            let before = allocations();
+            for (key, pose, along) in &bodies {
+                world.set_pose(*key, pose.shifted(*along * way).unwrap()).unwrap();
+            }
+            world.update();
+            taken = if frame < 2 * CYCLE { 0 } else { taken + allocations() - before };
+        }
+        assert!(world.stats().manifolds >= bodies.len());
+        taken
+    });
+    assert_eq!(taken, 0);
 }
 
 #[test]

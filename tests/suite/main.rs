@@ -104,6 +104,7 @@ mod motions;
 mod oracles;
 mod peer;
 mod persistent;
+mod persistent_ground;
 mod plane;
 mod polygons;
 mod questions;

@@ -7,7 +7,7 @@ use crate::clock::{Effort, time};
 use crate::race::Race;
 use crate::row::Row;
 use asunder_geometry::{Pose3, Shape3};
-use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Persistent3, collide3};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Persistent3, Spare3, collide3};
 use core::borrow::Borrow;
 
 /// Frames that a pair at rest is asked about with what the last one left; the first is not timed.
@@ -126,7 +126,7 @@ impl Memory {
             kept.hint = *hint;
             let is_contact = matches!(answer, Answer::Contact { .. });
             kept.persistent = if is_contact {
-                Persistent3::lasting(job, answer, &batch.manifolds, went(last, job))
+                Persistent3::lasting(job, answer, &batch.manifolds, went(last, job), &mut Spare3::default())
             } else {
                 None
             };

@@ -4,7 +4,7 @@ use crate::collider::Collider;
 use asunder_geometry::{Aabb2, Aabb3, Bounds, Motion2, Motion3, Pose2, Pose3, Shape2, Shape3};
 use asunder_narrow::{
     Answer, Batch, Batch2, Batch3, Hint, Impact2, Impact3, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3,
-    Persistent2, Persistent3, collide2, collide3,
+    Persistent2, Persistent3, Spare3, collide2, collide3,
 };
 use core::fmt::Debug;
 
@@ -45,6 +45,9 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     /// A manifold that is moved along while its bodies hardly drift.
     #[doc(hidden)]
     type Persistent: Clone + PartialEq + Debug + Send + Sync;
+    /// Memory of what is kept no longer.
+    #[doc(hidden)]
+    type Spare: Clone + Default + Debug + Send + Sync;
     /// How a body moves within a frame.
     type Motion: Copy + PartialEq + Debug + Send + Sync;
     /// When two bodies first touch.
@@ -115,7 +118,12 @@ pub trait Space: sealed::Sealed + Sized + 'static {
         answer: &Answer,
         manifolds: &[Self::Manifold],
         step: f64,
+        spare: &mut Self::Spare,
     ) -> Option<Self::Persistent>;
+
+    /// Keeps the memory of what is kept no longer.
+    #[doc(hidden)]
+    fn reclaim(spare: &mut Self::Spare, kept: Self::Persistent);
 
     /// Appends what was kept, moved along, unless it has to be made anew: bodies drifted, margins changed, or one has
     /// become a sensor.
@@ -135,6 +143,7 @@ impl Space for Plane {
     type Aabb = Aabb2;
     type Manifold = Manifold2;
     type Persistent = Persistent2;
+    type Spare = ();
     type Motion = Motion2;
     type Impact = Impact2;
     type Job<'a> = Job2<'a>;
@@ -207,9 +216,12 @@ impl Space for Plane {
         answer: &Answer,
         manifolds: &[Manifold2],
         step: f64,
+        (): &mut (),
     ) -> Option<Persistent2> {
         Persistent2::lasting(job, answer, manifolds, step)
     }
+
+    fn reclaim((): &mut (), _: Persistent2) {}
 
     fn carry_on(
         persistent: &Persistent2,
@@ -229,6 +241,7 @@ impl Space for Volume {
     type Aabb = Aabb3;
     type Manifold = Manifold3;
     type Persistent = Persistent3;
+    type Spare = Spare3;
     type Motion = Motion3;
     type Impact = Impact3;
     type Job<'a> = Job3<'a>;
@@ -301,8 +314,13 @@ impl Space for Volume {
         answer: &Answer,
         manifolds: &[Manifold3],
         step: f64,
+        spare: &mut Spare3,
     ) -> Option<Persistent3> {
-        Persistent3::lasting(job, answer, manifolds, step)
+        Persistent3::lasting(job, answer, manifolds, step, spare)
+    }
+
+    fn reclaim(spare: &mut Spare3, kept: Persistent3) {
+        spare.take(kept);
     }
 
     fn carry_on(

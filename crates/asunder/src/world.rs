@@ -103,6 +103,8 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) last_records: Vec<Record<S::Key>>,
     pub(crate) last_askings: Vec<Asking<S>>,
     pub(crate) last_carried: Vec<S::Manifold>,
+    /// Memory of persistent manifolds that are kept no longer.
+    pub(crate) spare: S::Spare,
     pub(crate) ended: Vec<Record<S::Key>>,
     /// The manifolds that a contact hook is editing.
     pub(crate) editing: Vec<S::Manifold>,
@@ -161,6 +163,7 @@ impl<S: Space> World<S> {
                 last_records: Vec::new(),
                 last_askings: Vec::new(),
                 last_carried: Vec::new(),
+                spare: S::Spare::default(),
                 ended: Vec::new(),
                 editing: Vec::new(),
                 of_bullets: Vec::new(),

@@ -96,4 +96,4 @@ pub use jobs3::{Job3, collide3, separations3};
 pub use pair2::Pair2;
 pub use pair3::Pair3;
 pub use persistent2::Persistent2;
-pub use persistent3::Persistent3;
+pub use persistent3::{Persistent3, Spare3};

@@ -43,8 +43,10 @@ enum Way {
 /// What came of a pair whose manifold was moved along, with what is told of its bodies: they have just been read.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moved {
-    /// Which manifold of the batch.
+    /// The first of its manifolds in the batch.
     at: u32,
+    /// How many they are: no more than a part of a body has on ground.
+    count: u8,
     pub(super) overlapping: bool,
     pub(super) user_data: (u64, u64),
 }
@@ -126,7 +128,8 @@ impl<S: Space> Asker<'_, S> {
                 match persistent.and_then(|persistent| S::carry_on(persistent, [a, b], margin, to)) {
                     Some(overlapping) => {
                         let user_data = (a.user_data, b.user_data);
-                        asking.ways.push(Way::Moved(Moved { at, overlapping, user_data }));
+                        let count = (to.len() as u32 - at) as u8;
+                        asking.ways.push(Way::Moved(Moved { at, count, overlapping, user_data }));
                     }
                     None => {
                         asking.ways.push(Way::Answered);
@@ -182,7 +185,8 @@ impl<'a, S: Space> Outcomes<'a, S> {
             };
             self.way += 1;
             if let Way::Moved(moved) = *way {
-                return Some((Outcome::Moved(moved), Place { batch, range: moved.at..moved.at + 1 }));
+                let range = moved.at..moved.at + u32::from(moved.count);
+                return Some((Outcome::Moved(moved), Place { batch, range }));
             }
             let answer = asking.answered.answers.get(self.answer)?;
             self.answer += 1;

@@ -94,7 +94,8 @@ pub(super) fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
 fn gather<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, candidates, records, askings, carried, persistent, .. } = world;
     let World { motions, odometers, scratch, .. } = world;
-    let Scratch { pairs, asked, last_candidates, last_records, last_askings, last_carried, .. } = scratch;
+    let Scratch { pairs, asked, spare, .. } = scratch;
+    let Scratch { last_candidates, last_records, last_askings, last_carried, .. } = scratch;
     candidates.clear();
     records.clear();
     carried.clear();
@@ -124,7 +125,7 @@ fn gather<S: Space>(world: &mut World<S>) {
         let both = if is_new || is_going { bodies.get(keys.0).zip(bodies.get(keys.1)) } else { None };
         let ways = [odometers[pair.a as usize], odometers[pair.b as usize]];
         let lasting = both.filter(|_| !is_going);
-        candidates.push(candidate_of::<S>((asked, keys), &outcome, (ways, lasting), persistent));
+        candidates.push(candidate_of::<S>((asked, keys), &outcome, (ways, lasting), (persistent, spare)));
         if let Some(met) = met_of(&outcome, both) {
             // Only that is beyond the margins: else no manifold need be read.
             let found = manifolds_at(&place, askings, carried);
@@ -145,20 +146,25 @@ fn candidate_of<S: Space>(
     (asked, keys): (&Asked, (S::Key, S::Key)),
     outcome: &Outcome<'_, S>,
     (ways, lasting): ([Odometer; 2], Option<Both<'_, S>>),
-    persistent: &mut Slab<S::Persistent>,
+    (persistent, spare): (&mut Slab<S::Persistent>, &mut S::Spare),
 ) -> Candidate<S::Key> {
     let Asked { pair, hint, persistent: place } = *asked;
     let (hint, place, until) = match *outcome {
         Outcome::Moved(_) => (hint, place, f64::NEG_INFINITY),
         Outcome::Answered(&Answer::Apart { hint, beyond }, _) => {
-            (hint, persistent.put(place, None), Odometer::until(ways, beyond))
+            (hint, persistent.put(place, None).0, Odometer::until(ways, beyond))
         }
         Outcome::Answered(answer @ &Answer::Contact { hint, .. }, manifolds) => {
             let step = ways[0].step() + ways[1].step();
             let kept = lasting.and_then(|(a, b)| {
-                S::persistent(&S::job(a, b, a.margin + b.margin, hint), answer, manifolds, step)
+                let job = S::job(a, b, a.margin + b.margin, hint);
+                S::persistent(&job, answer, manifolds, step, spare)
             });
-            (hint, persistent.put(place, kept), f64::NEG_INFINITY)
+            let (place, before) = persistent.put(place, kept);
+            if let Some(before) = before {
+                S::reclaim(spare, before);
+            }
+            (hint, place, f64::NEG_INFINITY)
         }
     };
     Candidate { pair, keys, hint, persistent: place, until }

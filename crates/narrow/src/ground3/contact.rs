@@ -54,9 +54,9 @@
 //!    caches, and 7 % slower on an idle machine;
 //! 10. triangles read without blanks, nothing counted around a furthest vertex that is alone: 2 to 4 % fewer instructions.
 //!
-//! The kernels take some 20 k instructions still each time, for one rolling cuboid in eight and three hulls in four.
-//! parry3d keeps manifolds from frame to frame while no point has slipped by a millimetre, and moves their points along:
-//! cuboids and hulls that all but rest cost it 1.3 to 2.5 times less than rolling ones. Here everything is answered anew.
+//! The kernels take some 20 k instructions still each time, for one rolling cuboid in eight and three hulls in four. Here
+//! everything is answered anew; a world asks only about bodies that went so far that what they had cannot be moved along
+//! (`persistent3::grounded`).
 //!
 //! **Yes or no** is exact, as everywhere: of all triangles that see the part. What is not settled by rounding bounds is
 //! asked last, the likeliest first, and no further than the first yes.

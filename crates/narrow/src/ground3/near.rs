@@ -99,4 +99,10 @@ impl OnGround<'_> {
     pub(crate) fn in_order<T>(&self, of_body: T, of_ground: T) -> [T; 2] {
         if self.is_b { [of_body, of_ground] } else { [of_ground, of_body] }
     }
+
+    /// What belongs to A and to B, as the body's and the ground's.
+    #[inline]
+    pub(crate) fn in_body_order<T>(&self, [a, b]: [T; 2]) -> [T; 2] {
+        if self.is_b { [a, b] } else { [b, a] }
+    }
 }

@@ -64,13 +64,17 @@ fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
         OnFace::OfA(face) => (job.shape_a, job.pose_a, face as usize, 1.0),
         OnFace::OfB(face) => (job.shape_b, job.pose_b, face as usize, -1.0),
     };
-    let normal = match shape {
+    let off = |normal: DVec3| pose.turn(normal * out) - manifold.normal.as_dvec3();
+    face_normal(shape, face).is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
+}
+
+/// The unit normal out of a face, in the axes of the shape.
+pub(super) fn face_normal(shape: &Shape3, face: usize) -> Option<DVec3> {
+    match shape {
         // A core of cuboids is made when it is asked for.
         Shape3::Cuboid(_) if face < 6 => Some(DVec3::AXES[face / 2] * if face % 2 == 1 { 1.0 } else { -1.0 }),
         _ => shape.core().normals().get(face).copied(),
-    };
-    let off = |normal: DVec3| pose.turn(normal * out) - manifold.normal.as_dvec3();
-    normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
+    }
 }
 
 /// By how much two edges reach out to every side of where they cross: nothing unless they do at more than half a degree,
@@ -91,15 +95,15 @@ fn crossing(job: &Job3<'_>, edges: [u32; 2], manifold: &Manifold3) -> Option<f64
 }
 
 /// An edge of a shape, in its axes.
-struct Edge {
-    from: DVec3,
-    along: DVec3,
-    length: f64,
+pub(super) struct Edge {
+    pub(super) from: DVec3,
+    pub(super) along: DVec3,
+    pub(super) length: f64,
 }
 
 impl Edge {
     /// Nothing of one that is not there, or has no length.
-    fn of(shape: &Shape3, edge: u32) -> Option<Self> {
+    pub(super) fn of(shape: &Shape3, edge: u32) -> Option<Self> {
         let core = shape.core();
         core.topology().half_edges().get(edge as usize)?;
         let (from, to) = core.topology().ends(edge as usize);
@@ -145,7 +149,7 @@ fn least_width(points: &[DVec3], normal: DVec3) -> f64 {
 
 /// How far inside a face a point above it is, in the axes of the shape; negative outside. Cost: linear in the face's
 /// vertices.
-fn inside(shape: &Shape3, face: usize, point: DVec3) -> f64 {
+pub(super) fn inside(shape: &Shape3, face: usize, point: DVec3) -> f64 {
     if let Shape3::Cuboid(cuboid) = shape {
         let within = cuboid.half_extents().as_dvec3() - point.abs();
         let [u, v] = [(face / 2 + 1) % 3, (face / 2 + 2) % 3];

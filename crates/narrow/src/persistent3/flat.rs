@@ -1,0 +1,129 @@
+//! The triangles around the contact points of a body, and how far ground bends there.
+
+use crate::answer::Manifold3;
+use crate::ground3::OnGround;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Aabb3, Ground, NearTriangle};
+use core::ops::ControlFlow;
+
+/// Most triangles that are looked at: bodies with more around them are not kept for long.
+const MOST: usize = 48;
+
+/// Triangles near some points, in the ground's axes.
+pub(super) struct NearPoints<'a> {
+    ground: Ground<'a>,
+    triangles: ArrayVec<NearTriangle, MOST>,
+    /// Whether there were more.
+    is_cut: bool,
+}
+
+impl<'a> NearPoints<'a> {
+    /// Around all points of some manifolds, as far as so many metres.
+    pub(super) fn of(on: &OnGround<'a>, manifolds: &[Manifold3], reach: f32) -> Self {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for manifold in manifolds {
+            let normal = if on.is_b { -manifold.normal.as_dvec3() } else { manifold.normal.as_dvec3() };
+            for point in &manifold.points {
+                let [on_body, _] = on.in_body_order([point.anchor_a, point.anchor_b]);
+                let foot = on.to_body + on_body.as_dvec3() - normal * f64::from(point.separation);
+                let foot = on.basis.turn_back(foot);
+                (low, high) = (low.min(foot), high.max(foot));
+            }
+        }
+        let grow = DVec3::splat(2.0 * f64::from(reach));
+        let bounds = Aabb3::new((low - grow).as_vec3(), (high + grow).as_vec3());
+        let mut near = Self { ground: on.ground, triangles: ArrayVec::new_const(), is_cut: false };
+        let _ = on.ground.read_near(&bounds, |triangle| match near.triangles.try_push(*triangle) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => {
+                near.is_cut = true;
+                ControlFlow::Break(())
+            }
+        });
+        near
+    }
+
+    /// How far ground bends within so many metres of a point on it: the sine of the greatest angle to a unit normal. One where
+    /// it ends, or nobody knows.
+    pub(super) fn bend_around(&self, foot: DVec3, (normal, patch): (DVec3, u32), reach: f64) -> f64 {
+        let (mut bend, mut is_on) = (0.0_f64, false);
+        for triangle in &self.triangles {
+            let [a, b, c] = widened(triangle.corners);
+            let cross = (b - a).cross(c - a);
+            let square = reach * reach * cross.length_squared();
+            let is_beside = |from: DVec3, to: DVec3| {
+                let side = to - from;
+                let out = side.cross(cross).dot(foot - from);
+                out > 0.0 && out * out > square * side.length_squared()
+            };
+            let height = cross.dot(foot - a);
+            if height * height > square || is_beside(a, b) || is_beside(b, c) || is_beside(c, a) {
+                continue;
+            }
+            is_on = true;
+            if triangle.patch != patch {
+                bend = bend.max(bend_of(cross, normal));
+            }
+            for (edge, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+                let (along, across) = (to - from, foot - from);
+                let is_near = along.cross(across).length_squared() <= reach * reach * along.length_squared();
+                if is_near && self.ground.neighbor(triangle.number, edge).is_none() {
+                    return 1.0;
+                }
+            }
+        }
+        if is_on && !self.is_cut { bend } else { 1.0 }
+    }
+
+    /// How far ground bends at an edge, by its number.
+    pub(super) fn bend_at(&self, edge: u32, normal: DVec3) -> f64 {
+        let (triangle, edge) = (edge / 3, edge as usize % 3);
+        let Some((other, _)) = self.ground.neighbor(triangle, edge) else { return 1.0 };
+        let bend = |triangle: u32| {
+            let [a, b, c] = widened(self.ground.corners(triangle));
+            bend_of((b - a).cross(c - a), normal)
+        };
+        bend(triangle).max(bend(other))
+    }
+
+    /// The ends of an edge of ground by its number, if it is a triangle's that is near.
+    pub(super) fn edge(&self, number: u32) -> Option<[DVec3; 2]> {
+        let (triangle, edge) = (number / 3, number as usize % 3);
+        if triangle >= self.ground.triangle_count() {
+            return None;
+        }
+        let corners = widened(self.ground.corners(triangle));
+        Some([corners[edge], corners[(edge + 1) % 3]])
+    }
+
+    /// The triangle that a point is the furthest inside of, as seen along a normal of ground; of one patch, or of any.
+    pub(super) fn under(&self, foot: DVec3, normal: DVec3, patch: Option<u32>) -> Option<[DVec3; 3]> {
+        let mut best = (f64::NEG_INFINITY, None);
+        for triangle in &self.triangles {
+            let [a, b, c] = widened(triangle.corners);
+            let facing = (b - a).cross(c - a).dot(normal);
+            let is_behind = self.ground.is_one_sided() && facing < 0.0;
+            if is_behind || facing == 0.0 || patch.is_some_and(|patch| patch != triangle.patch) {
+                continue;
+            }
+            let beside = |from: DVec3, to: DVec3| (to - from).cross(foot - from).dot(normal) / facing;
+            let inside = beside(a, b).min(beside(b, c)).min(beside(c, a));
+            if inside > best.0 {
+                best = (inside, Some(if facing > 0.0 { [a, b, c] } else { [a, c, b] }));
+            }
+        }
+        best.1
+    }
+}
+
+fn widened([a, b, c]: [Vec3; 3]) -> [DVec3; 3] {
+    [a.as_dvec3(), b.as_dvec3(), c.as_dvec3()]
+}
+
+/// The sine of the angle between a direction of any length, either way, and a unit normal.
+fn bend_of(direction: DVec3, normal: DVec3) -> f64 {
+    let sine = direction.cross(normal).length() / direction.length();
+    // What has no direction may have any.
+    if sine <= 1.0 { sine } else { 1.0 }
+}

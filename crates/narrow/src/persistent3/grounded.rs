@@ -1,0 +1,303 @@
+//! The manifolds of a body on ground, moved along.
+//!
+//! A body that rests on a level is answered anew at several times the cost of one that rests on a box: triangles are found,
+//! read, and each is asked about. But ground does not move, and its normals do not: while the body slides a little, each
+//! point goes on being where the same two features meet, and rises as they do.
+//!
+//! ```text
+//! t   how far the body's position moved; R how it turned; u = t + (R - 1) a, how its matter at a point moved
+//! each point rises by g . u, where n is the normal from ground to body, and                                   (grip)
+//!     a corner of the body over a face f of ground, or a corner of ground against a face f of the body:
+//!                                                     g = f / (f . n)
+//!     an edge u' of it that crosses an edge v:        g = c / (c . n),  c = u' x v
+//! that is exact for t, as long as the features go on meeting: corners stay over faces, edges go on crossing    (flat)
+//! turning by `spin` adds  |g| |u| spin  and lets what was not told get deeper by up to  3 spin * arm
+//! yes or no:   no, while the drift is less than what parts them
+//!              yes, while a segment of the body crosses a triangle, or a point of ground is in the box      (witness)
+//! ```
+//! **How far.** Up to 2^-8 of the radius, of a cube of a metre 3.4 mm. Which directions ground lets through is chosen anew
+//! only then. And no further than the margin: all that the body can come to overlap has been within the margin, and so has
+//! been told. With a smaller margin, or where points may leave their features, up to 2^-15 as for solids, at the price of
+//! twice the drift.
+//!
+//! parry3d keeps a manifold a triangle until a point of it slips by a millimetre.
+
+use super::flat::NearPoints;
+use super::grip::Grip;
+use super::witness::Witness;
+use crate::answer::{Answer, ContactPoint3, Manifold3};
+use crate::ground3::OnGround;
+use crate::jobs3::Job3;
+use crate::pair3::Pair3;
+use crate::persistent::{lost, reach_of};
+use crate::precision::signed;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Basis3, Ground, Pose3, Shape3};
+
+/// Share of the bounding radius by which a body may slide on ground, 2^-8.
+const SLIDE: f32 = 1.0 / 256.0;
+
+/// Most that an error may grow by, in metres: as much as that of two solids.
+fn most_loss(radius: f32) -> f32 {
+    2.0 * reach_of([radius; 2])
+}
+
+/// The manifolds of a body of one part on ground, and how it stood when they were made.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Grounded {
+    memory: Memory,
+    /// What shows that they overlap; nothing where they do not.
+    witness: Option<Witness>,
+    is_ground_b: bool,
+    /// Nothing of it depends on how it is turned.
+    is_ball: bool,
+    /// By how much what points slide on may rise beside them, as a share of the way: zero where none leaves its features.
+    bend: f32,
+    margin: f32,
+    /// Up to which drift they hold, in metres.
+    reach: f32,
+    /// How far the body reaches from its position, in metres.
+    arm: f32,
+    /// Where the bodies were.
+    poses: [Pose3; 2],
+}
+
+/// The manifolds, and what holds the points of each.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Memory {
+    manifolds: Vec<Manifold3>,
+    grips: Vec<[Grip; 4]>,
+}
+
+/// Manifolds of most bodies: for so many there is room from the start.
+const MANY: usize = 6;
+
+impl Memory {
+    fn clear(&mut self) {
+        self.manifolds.clear();
+        self.grips.clear();
+        self.manifolds.reserve(MANY);
+        self.grips.reserve(MANY);
+    }
+}
+
+/// The body of a job that has ground, if it is of one part and has an end; whether the ground is B.
+fn body_of<'a>(job: &Job3<'a>) -> Option<(&'a Shape3, bool)> {
+    let (body, is_ground_b) = match (Ground::of(job.shape_a), Ground::of(job.shape_b)) {
+        (None, Some(_)) => (job.shape_a, true),
+        (Some(_), None) => (job.shape_b, false),
+        _ => return None,
+    };
+    (!matches!(body, Shape3::Compound(_) | Shape3::HalfSpace(_))).then_some((body, is_ground_b))
+}
+
+/// Up to which drift manifolds of a job can be moved along at most, in metres; nothing where there is no ground.
+pub(super) fn most_reach(job: &Job3<'_>) -> Option<f32> {
+    body_of(job).map(|(body, _)| most_slide(body, job.margin))
+}
+
+fn most_slide(body: &Shape3, margin: f32) -> f32 {
+    let radius = body.outer_radius();
+    (SLIDE * radius).min(margin).max(reach_of([radius; 2]))
+}
+
+impl Grounded {
+    pub(super) fn of(
+        job: &Job3<'_>,
+        answer: &Answer,
+        manifolds: &[Manifold3],
+        memory: &mut Memory,
+    ) -> Option<Self> {
+        let Answer::Contact { overlapping, manifolds: range, .. } = answer else { return None };
+        let found = manifolds.get(range.start as usize..range.end as usize)?;
+        let (body, is_ground_b) = body_of(job)?;
+        let pair = Pair3::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
+        let on = OnGround::of(&pair)?;
+        let arm = (body.center().length() + body.outer_radius()).next_up();
+        let mut reach = most_slide(body, job.margin);
+        if !overlapping {
+            let least = |bound: f32, of: &Manifold3| bound.min(of.separation - of.error);
+            let gap = found.iter().fold(f32::INFINITY, least);
+            let most = found.iter().fold(f32::INFINITY, |bound: f32, of| bound.min(of.separation + of.error));
+            reach = reach.min(gap).min(job.margin - most).next_down();
+        }
+        if found.is_empty() || !(reach > 0.0) {
+            return None;
+        }
+        let near = NearPoints::of(&on, found, reach);
+        let mut bend = 0.0_f64;
+        memory.clear();
+        for manifold in found {
+            let mut grips = [Grip::NONE; 4];
+            for (grip, point) in grips.iter_mut().zip(&manifold.points) {
+                let beside;
+                (*grip, beside) = Grip::of(&on, manifold, point, (&near, reach))?;
+                bend = bend.max(beside);
+            }
+            memory.grips.push(grips);
+        }
+        let bend = if bend == 0.0 { 0.0 } else { (bend.min(1.0) as f32).next_up() };
+        reach = reach.min(most_loss(body.outer_radius()) / (2.0 * bend));
+        let witness = if *overlapping { Some(Witness::of(&on, found, &near, arm)?) } else { None };
+        memory.manifolds.extend_from_slice(found);
+        let (is_ball, margin) = (matches!(body, Shape3::Sphere(_)), job.margin);
+        let poses = [*job.pose_a, *job.pose_b];
+        let memory = core::mem::take(memory);
+        Some(Self { memory, witness, is_ground_b, is_ball, bend, margin, reach, arm, poses })
+    }
+
+    /// Its memory, for what comes after it.
+    pub(super) fn into_memory(self) -> Memory {
+        self.memory
+    }
+
+    pub(super) const fn reach(&self) -> f32 {
+        self.reach
+    }
+
+    pub(super) fn manifolds(&self) -> &[Manifold3] {
+        &self.memory.manifolds
+    }
+
+    pub(super) const fn overlapping(&self) -> bool {
+        self.witness.is_some()
+    }
+
+    pub(super) const fn margin(&self) -> f32 {
+        self.margin
+    }
+
+    pub(super) fn is_sound(&self) -> bool {
+        let Memory { manifolds, grips } = &self.memory;
+        !manifolds.is_empty()
+            && manifolds.len() == grips.len()
+            && self.margin.is_finite()
+            && self.arm.is_finite()
+            && (0.0..=self.arm).contains(&self.reach)
+            && (0.0..=2.0).contains(&self.bend)
+            && grips.iter().flatten().all(Grip::is_sound)
+            && self.witness.as_ref().is_none_or(Witness::is_sound)
+    }
+
+    /// Which of two things is the body's and which the ground's.
+    #[inline(always)]
+    const fn sides<T: Copy>(&self, [a, b]: [T; 2]) -> [T; 2] {
+        if self.is_ground_b { [a, b] } else { [b, a] }
+    }
+
+    pub(super) fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
+        let [body_then, ground_then] = self.sides([&self.poses[0], &self.poses[1]]);
+        let [body, ground] = self.sides(poses);
+        if !ground.same_bits(ground_then) {
+            return false;
+        }
+        if body.same_bits(body_then) {
+            to.extend_from_slice(&self.memory.manifolds);
+            return true;
+        }
+        let turn = if self.is_ball || body.same_rotation(body_then) {
+            Basis3::UNIT
+        } else {
+            body.turn_since(body_then)
+        };
+        let offset = body.position() - ground.position();
+        let step = body.position() - body_then.position();
+        let (arm, spin) = (f64::from(self.arm), turn.spin_from(&Basis3::UNIT));
+        let drift = step.length() + spin * arm + lost(offset.abs().element_sum(), arm);
+        let moved = Moved { turn, step, offset, drift, spin };
+        // What is not a number is not close.
+        let is_close = drift <= f64::from(self.reach);
+        let is_certain =
+            || self.witness.as_ref().is_none_or(|witness| witness.holds(&moved, body.basis(), arm));
+        is_close && is_certain() && self.move_along(&moved, to)
+    }
+
+    /// Appends all of them as they are now; or nothing, where they would be off by too much.
+    fn move_along(&self, moved: &Moved, to: &mut Vec<Manifold3>) -> bool {
+        let start = to.len();
+        let most = f64::from(most_loss(self.arm));
+        for (of, grips) in self.memory.manifolds.iter().zip(&self.memory.grips) {
+            let loss = self.loss(of, grips, moved);
+            if !(loss <= most) {
+                to.truncate(start);
+                return false;
+            }
+            to.push(Manifold3::BLANK);
+            if let Some(to) = to.last_mut() {
+                self.fill(of, grips, moved, to);
+                let known = f64::from(of.error);
+                to.error = ((known + loss) as f32).next_up();
+            }
+        }
+        // The deepest of all has the sign of the decision.
+        let deepest = to[start..]
+            .iter_mut()
+            .reduce(|least, next| if next.separation < least.separation { next } else { least });
+        if let Some(deepest) = deepest {
+            deepest.separation = signed(deepest.separation.into(), self.overlapping());
+        }
+        true
+    }
+
+    /// What a manifold's separation may be off by more than it was.
+    fn loss(&self, of: &Manifold3, grips: &[Grip; 4], moved: &Moved) -> f64 {
+        let Moved { drift, spin, .. } = *moved;
+        let (mut lean, mut steep) = (0.0_f64, 1.0_f64);
+        for grip in grips.iter().take(of.points.len()) {
+            (lean, steep) = (lean.max(grip.lean().into()), steep.max(grip.steep().into()));
+        }
+        // Of more points than four, those that are not told may rise by less.
+        let untold = if of.points.is_full() { lean * drift } else { 0.0 };
+        let left = 2.0 * f64::from(self.bend) * drift;
+        // The way around a ball.
+        let round = if self.is_ball { drift * drift / f64::from(self.arm) } else { 0.0 };
+        let rounding = f64::from(f32::EPSILON) * (f64::from(of.separation.abs()) + steep * drift);
+        let turned = spin * (3.0 * f64::from(self.arm) + 4.0 * steep * steep * drift);
+        untold + left + round + rounding + turned
+    }
+
+    fn fill(&self, of: &Manifold3, grips: &[Grip; 4], moved: &Moved, to: &mut Manifold3) {
+        (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, of.normal);
+        let towards = if self.is_ground_b { -of.normal.as_dvec3() } else { of.normal.as_dvec3() };
+        let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
+        to.points.extend(of.points.iter().zip(grips).map(|(point, grip)| {
+            let [on_body, on_ground] = self.sides([point.anchor_a, point.anchor_b]);
+            let (on_body, then) = (on_body.as_dvec3(), f64::from(point.separation));
+            let turned = moved.turn.turn(on_body);
+            let rise = grip.rise(moved.step + (turned - on_body));
+            let height = then + rise;
+            let (body, ground) = if grip.is_of_ground() {
+                ((on_body - moved.step + towards * rise).as_vec3(), on_ground)
+            } else {
+                let way = moved.step + (turned - on_body) - towards * rise;
+                (turned.as_vec3(), (on_ground.as_dvec3() + way).as_vec3())
+            };
+            (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
+            let [anchor_a, anchor_b] = self.sides([body, ground]);
+            ContactPoint3 { separation: height as f32, anchor_a, anchor_b, feature: point.feature }
+        }));
+        to.separation = (f64::from(of.separation) + (deepest - deepest_then)) as f32;
+    }
+}
+
+/// How a body moved since, in world axes.
+pub(super) struct Moved {
+    pub(super) turn: Basis3,
+    /// Of its position.
+    pub(super) step: DVec3,
+    /// From the ground's position to its own, now.
+    pub(super) offset: DVec3,
+    /// No point of it moved further than that, in metres.
+    drift: f64,
+    /// By how much it turned, in radians.
+    spin: f64,
+}
+
+impl Moved {
+    /// Not at all.
+    pub(super) const fn none(offset: DVec3) -> Self {
+        Self { turn: Basis3::UNIT, step: DVec3::ZERO, offset, drift: 0.0, spin: 0.0 }
+    }
+}

@@ -1,0 +1,227 @@
+//! The one manifold of two solids, moved along: see `persistent`.
+
+use super::hold::{Hold, footing_of};
+use crate::answer::{Answer, ContactPoint3, Manifold3};
+use crate::jobs3::Job3;
+use crate::persistent::{Terms, Way, lost, single, slack_of};
+use crate::precision::signed;
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Basis3, Pose3, Shape3};
+
+/// A manifold of two solids, and how they stood to each other when it was made.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Solids {
+    manifold: Manifold3,
+    terms: Terms,
+    /// Where the bodies were.
+    poses: [Pose3; 2],
+}
+
+impl Solids {
+    /// What can be kept of an answer to a job, of the batch that these manifolds are from.
+    ///
+    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where they
+    /// touch in several parts; and where points are neither on a face, nor where two edges cross, nor, of single solids, across a
+    /// gap from each other. Cost: some square roots, and linear in the vertices of a face.
+    pub(super) fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
+        let (hint, index, overlapping) = single(answer)?;
+        let manifold = manifolds.get(index)?;
+        let hold = Hold::of(job, hint, manifold, overlapping)?;
+        let found = [manifold.separation, manifold.error];
+        let slack = slack_of(
+            found,
+            overlapping,
+            job.margin,
+            [job.shape_a.outer_radius(), job.shape_b.outer_radius()],
+        )?;
+        let slack = if hold.is_gap { slack.min(LEAN * manifold.separation) } else { slack };
+        let arm = |shape: &Shape3| (shape.center().length() + shape.outer_radius()).next_up();
+        let terms = Terms {
+            overlapping,
+            is_from_b: hold.is_from_b,
+            margin: job.margin,
+            slack,
+            arms: [arm(job.shape_a), arm(job.shape_b)],
+            footing: footing_of(job, manifold, hold.width),
+        };
+        let poses = [*job.pose_a, *job.pose_b];
+        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, poses })
+    }
+
+    /// Up to which drift this one can be moved along, in metres.
+    pub(super) fn reach(&self) -> f32 {
+        self.terms.reach()
+    }
+
+    /// The manifold as it was made.
+    pub(super) const fn manifold(&self) -> &Manifold3 {
+        &self.manifold
+    }
+
+    /// Whether the shapes overlapped, and do for as long as the manifold is carried on.
+    pub(super) const fn overlapping(&self) -> bool {
+        self.terms.overlapping
+    }
+
+    /// The margin that the manifold was made for, in metres.
+    pub(super) const fn margin(&self) -> f32 {
+        self.terms.margin
+    }
+
+    /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
+    pub(super) fn is_sound(&self) -> bool {
+        self.terms.are_sound()
+    }
+
+    /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
+    /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
+    pub(super) fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
+        if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
+            to.push(self.manifold.clone());
+            return true;
+        }
+        if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
+            return self.shift(between(poses), to);
+        }
+        let moved = self.turned(poses);
+        // What is not a number is not close.
+        let is_close = moved.drift <= f64::from(self.terms.reach());
+        if is_close {
+            to.push(Manifold3::BLANK);
+            if to.last_mut().is_some_and(|manifold| self.fill(&moved, manifold)) {
+                return true;
+            }
+            to.pop();
+        }
+        false
+    }
+
+    /// The same where neither body turned: all points rise alike, and stay where they are on one body. That is known before
+    /// anything is written: a quarter fewer instructions than by the general way, which moves each point by itself.
+    #[inline(always)]
+    fn shift(&self, offset: DVec3, to: &mut Vec<Manifold3>) -> bool {
+        let of = &self.manifold;
+        let step = offset - between(self.poses.each_ref());
+        let normal = of.normal.as_dvec3();
+        let arm = f64::from(self.terms.arms[0].min(self.terms.arms[1]));
+        let drift = step.length() + lost(offset.abs().element_sum(), arm);
+        let rise = normal.dot(step);
+        let way = Way { drift, spun: 0.0, rise };
+        let Some(error) = self.terms.error_after([of.separation, of.error], &way) else { return false };
+        to.push(Manifold3::BLANK);
+        let Some(to) = to.last_mut() else { return false };
+        (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, of.normal);
+        to.separation = signed(f64::from(of.separation) + rise, self.terms.overlapping);
+        to.error = error;
+        let _ = to.points.try_extend_from_slice(&of.points);
+        if self.terms.is_from_b {
+            for point in &mut to.points {
+                let height = f64::from(point.separation) + rise;
+                point.separation = height as f32;
+                point.anchor_b = (point.anchor_a.as_dvec3() - offset + normal * height).as_vec3();
+            }
+        } else {
+            for point in &mut to.points {
+                let height = f64::from(point.separation) + rise;
+                point.separation = height as f32;
+                point.anchor_a = (point.anchor_b.as_dvec3() + offset - normal * height).as_vec3();
+            }
+        }
+        true
+    }
+
+    /// How bodies moved, of which one turned.
+    #[inline(never)]
+    fn turned(&self, poses: [&Pose3; 2]) -> Moved {
+        let (offset, offset_then) = (between(poses), between(self.poses.each_ref()));
+        let normal_then = self.manifold.normal.as_dvec3();
+        let of_a = poses[0].turn_since(&self.poses[0]);
+        let of_b = poses[1].turn_since(&self.poses[1]);
+        let spin = of_b.spin_from(&of_a);
+        // As seen from a body that does not turn: what either says of the drift is true.
+        let drift_from = |seen_from: &Basis3, arm: f32| {
+            let step = (offset - seen_from.turn(offset_then)).length();
+            step + spin * f64::from(arm) + lost(offset.abs().element_sum(), arm.into())
+        };
+        let [arm_a, arm_b] = self.terms.arms;
+        let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
+        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as wholes.
+        let (drift, arm, seen_from) =
+            if from_a <= from_b { (from_a, arm_b, of_a) } else { (from_b, arm_a, of_b) };
+        let (spun, normal) = (spin * f64::from(arm), seen_from.turn(normal_then));
+        Moved { drift, spun, offset, normal, of_a, of_b, offset_then, normal_then }
+    }
+
+    /// The manifold as it is now, of bodies of which one turned; says no where it has to be made anew.
+    #[inline(never)]
+    fn fill(&self, moved: &Moved, to: &mut Manifold3) -> bool {
+        let of = &self.manifold;
+        (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, moved.normal.as_vec3());
+        let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
+        to.points.extend(of.points.iter().map(|point| {
+            let then = f64::from(point.separation);
+            let (held, rise) = moved.held([point.anchor_a, point.anchor_b], self.terms.is_from_b);
+            let height = then + rise;
+            let out = moved.normal * height;
+            // Its foot on the face, from the other position.
+            let (on_a, on_b) = if self.terms.is_from_b {
+                (held, held - moved.offset + out)
+            } else {
+                (held + moved.offset - out, held)
+            };
+            (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
+            ContactPoint3 {
+                separation: height as f32,
+                anchor_a: on_a.as_vec3(),
+                anchor_b: on_b.as_vec3(),
+                feature: point.feature,
+            }
+        }));
+        let rise = deepest - deepest_then;
+        to.separation = signed(f64::from(of.separation) + rise, self.terms.overlapping);
+        let way = Way { drift: moved.drift, spun: moved.spun, rise };
+        let error = self.terms.error_after([of.separation, of.error], &way);
+        to.error = error.unwrap_or_default();
+        error.is_some()
+    }
+}
+
+/// How bodies moved since, of which one turned; in world axes.
+struct Moved {
+    drift: f64,
+    /// Their spin against each other times the arm of the one that is seen to move.
+    spun: f64,
+    /// From A's position to B's, now.
+    offset: DVec3,
+    /// From A to B, now.
+    normal: DVec3,
+    of_a: Basis3,
+    of_b: Basis3,
+    offset_then: DVec3,
+    normal_then: DVec3,
+}
+
+impl Moved {
+    /// Where the point is now that is held by the body whose face it is not, and by how much it rose over the other's.
+    ///
+    /// What rose is the way from A's point to B's, along the normal: short vectors, whose rounding is nothing beside the
+    /// drift.
+    #[inline(always)]
+    fn held(&self, [on_a, on_b]: [Vec3; 2], is_from_b: bool) -> (DVec3, f64) {
+        let (on_a, on_b) = (on_a.as_dvec3(), on_b.as_dvec3());
+        let (a, b) = (self.of_a.turn(on_a), self.of_b.turn(on_b));
+        let rise =
+            self.normal.dot(self.offset + b - a) - self.normal_then.dot(self.offset_then + on_b - on_a);
+        (if is_from_b { a } else { b }, rise)
+    }
+}
+
+/// Most that a normal may lean that leads across a gap between corners and edges, by drift over gap.
+const LEAN: f32 = 1.0 / 16.0;
+
+/// From A's position to B's.
+#[inline(always)]
+fn between([a, b]: [&Pose3; 2]) -> DVec3 {
+    b.position() - a.position()
+}

@@ -1,0 +1,422 @@
+//! Manifolds of bodies on ground that are moved along: they say what new ones would, within the error that they state.
+//!
+//! The judges are exact overlap, heights of vertices over planes, what is made anew at the same poses, and drifts measured
+//! at the vertices.
+
+use asunder::{Collider3, World3};
+use asunder_geometry::tolerance::EVEN_DEPTH;
+use asunder_geometry::{Capsule3, Cuboid, Ground, Hull, Pose3, Shape3, Sphere, TriMesh};
+use asunder_narrow::{Batch3, Feature, Hint, Job3, Manifold3, Pair3, Persistent3, collide3};
+use asunder_scenes::random::Random;
+use asunder_scenes::terrain::Terrain;
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+const MARGIN: f32 = 0.02;
+
+/// A body on ground.
+struct Stand {
+    body: Shape3,
+    pose: Pose3,
+    ground: Shape3,
+    field: Pose3,
+    /// The ground is A.
+    is_turned: bool,
+}
+
+impl Stand {
+    fn job<'a>(&'a self, poses: &'a [Pose3; 2], margin: f32) -> Job3<'a> {
+        let [a, b] = self.ordered([(&self.body, &poses[0]), (&self.ground, &poses[1])]);
+        Job3 { shape_a: a.0, pose_a: a.1, shape_b: b.0, pose_b: b.1, margin, hint: Hint::NONE, sensor: false }
+    }
+
+    fn ordered<T>(&self, [body, ground]: [T; 2]) -> [T; 2] {
+        if self.is_turned { [ground, body] } else { [body, ground] }
+    }
+
+    fn made(&self, pose: &Pose3) -> (Option<bool>, Vec<Manifold3>, Option<Persistent3>) {
+        let poses = [*pose, self.field];
+        let job = self.job(&poses, MARGIN);
+        let mut batch = Batch3::default();
+        collide3(&[job], &mut batch);
+        let job = self.job(&poses, MARGIN);
+        let kept = Persistent3::of(&job, &batch.answers[0], &batch.manifolds);
+        let overlapping = match &batch.answers[0] {
+            asunder_narrow::Answer::Contact { overlapping, .. } => Some(*overlapping),
+            asunder_narrow::Answer::Apart { .. } => None,
+        };
+        (overlapping, batch.manifolds.clone(), kept)
+    }
+
+    fn carried(&self, kept: &Persistent3, pose: &Pose3) -> Option<Vec<Manifold3>> {
+        let mut found = Vec::new();
+        let [a, b] = self.ordered([pose, &self.field]);
+        kept.carry_on([a, b], &mut found).then_some(found)
+    }
+
+    /// From the ground to the body.
+    fn towards(&self, manifold: &Manifold3) -> DVec3 {
+        if self.is_turned { manifold.normal.as_dvec3() } else { -manifold.normal.as_dvec3() }
+    }
+
+    fn size(&self) -> f64 {
+        self.body.outer_radius().into()
+    }
+}
+
+fn bodies(random: &mut Random) -> [Shape3; 5] {
+    let cloud: Vec<Vec3> = (0..24).map(|_| (random.direction() * 0.4).as_vec3()).collect();
+    [
+        Cuboid::from_half_extents(Vec3::new(0.4, 0.3, 0.5)).unwrap().into(),
+        Hull::from_points(&cloud).unwrap().into(),
+        Hull::from_points(&cloud).unwrap().rounded(0.05).unwrap().into(),
+        Sphere::new(0.4).unwrap().into(),
+        Capsule3::from_half_height(0.3, 0.2).unwrap().into(),
+    ]
+}
+
+fn grounds() -> Vec<(&'static str, Terrain, Shape3)> {
+    let mesh = |terrain: &Terrain| TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap();
+    let [flat, hills] = [Terrain::flat(800, 1.0), Terrain::new(800, 1.0, 20)];
+    let [plain, bumps] = [mesh(&flat), mesh(&hills)];
+    let one_sided = mesh(&hills).one_sided();
+    vec![
+        ("flat", flat, plain.into()),
+        ("hills", hills.clone(), bumps.into()),
+        ("front alone", hills, one_sided.into()),
+    ]
+}
+
+/// Bodies that stand on ground a little deep, or a little above it, flat or as they fell.
+fn stands(ground: &(&str, Terrain, Shape3), random: &mut Random, count: usize) -> Vec<Stand> {
+    let (_, terrain, shape) = ground;
+    let mut stands = Vec::new();
+    for number in 0..count {
+        let body = bodies(random)[number % 5].clone();
+        let cell = [random.range(3.0, terrain.side() - 3.0), random.range(3.0, terrain.side() - 3.0)];
+        let (height, normal) = terrain.under(cell);
+        let any = random.direction();
+        let rotation = match number / 5 % 3 {
+            0 => Quat::from_rotation_arc(Vec3::Y, normal.as_vec3()),
+            1 => Quat::from_xyzw(any.x as f32, any.y as f32, any.z as f32, 1.0).normalize(),
+            _ => (DQuat::from_rotation_arc(DVec3::Y, normal) * DQuat::from_rotation_y(any.x * 3.0)).as_quat(),
+        };
+        // The whole may stand far out, and turned.
+        let (out, lean) = match number % 4 {
+            0 => (DVec3::ZERO, DQuat::IDENTITY),
+            1 => (DVec3::new(3e5, -1e5, 2e5), DQuat::IDENTITY),
+            _ => (DVec3::new(4.0, 1.0, 3.0), DQuat::from_rotation_z(random.range(0.0, 6.0))),
+        };
+        let field = Pose3::new(out, lean.as_quat()).unwrap();
+        let above = DVec3::new(cell[0], height, cell[1]) + normal * 1.5;
+        let into = |at: DVec3, turn: Quat| Pose3::new(field.transform(at), field.rotation() * turn).unwrap();
+        let start = into(above, rotation);
+        let down = field.turn(-normal * 3.0);
+        let Some(hit) = Pair3::new(&body, &start, shape, &field).cast(down.as_vec3()) else { continue };
+        let depth = [1e-3, 2e-5, -4e-4, 4e-3][random.range(0.0, 4.0) as usize % 4];
+        let at = start.position() + down * hit.fraction + down.normalize() * depth;
+        let pose = Pose3::new(at, start.rotation()).unwrap();
+        stands.push(Stand { body, pose, ground: shape.clone(), field, is_turned: number % 2 == 0 });
+    }
+    stands
+}
+
+/// A pose, moved by so much and turned by so many radians.
+fn moved(pose: &Pose3, step: DVec3, spin: DVec3) -> Pose3 {
+    let turn = DQuat::from_xyzw(spin.x * 0.5, spin.y * 0.5, spin.z * 0.5, 1.0).normalize();
+    let rotation = if spin == DVec3::ZERO {
+        pose.rotation()
+    } else {
+        (turn * pose.rotation().as_dquat().normalize()).as_quat()
+    };
+    Pose3::new(pose.position() + step, rotation).unwrap()
+}
+
+/// What is told of a body that went so far, of those that were looked at.
+#[derive(Default)]
+struct Tally {
+    carried: usize,
+    turned: usize,
+    far: usize,
+    manifolds: usize,
+    unmatched: usize,
+}
+
+/// How far the body's vertices went.
+fn drift(stand: &Stand, now: &Pose3) -> f64 {
+    let core = stand.body.core();
+    let of_vertices = core
+        .vertices()
+        .iter()
+        .map(|vertex| (now.transform(*vertex) - stand.pose.transform(*vertex)).length());
+    of_vertices.fold(0.0, f64::max)
+}
+
+/// Corners of the body over faces of ground are as high as they are told to be.
+fn check_heights(stand: &Stand, now: &Pose3, manifold: &Manifold3, story: &str) {
+    let ground = Ground::of(&stand.ground).unwrap();
+    let (core, radius) = (stand.body.core(), f64::from(stand.body.radius()));
+    for point in &manifold.points {
+        let [of_body, of_ground] = if stand.is_turned {
+            [point.feature.b(), point.feature.a()]
+        } else {
+            [point.feature.a(), point.feature.b()]
+        };
+        let between = if stand.is_turned {
+            now.position() - stand.field.position() + point.anchor_b.as_dvec3() - point.anchor_a.as_dvec3()
+        } else {
+            stand.field.position() - now.position() + point.anchor_b.as_dvec3() - point.anchor_a.as_dvec3()
+        };
+        let straight = manifold.normal.as_dvec3() * f64::from(point.separation);
+        // Anchors on ground are f32 of where they are on it.
+        let coarse = 1e-6 * (stand.size() + 30.0);
+        assert!((between - straight).length() <= coarse, "{story}: one is not over the other, {point:?}");
+        if let (Feature::Vertex(vertex), Feature::Face(patch)) = (of_body, of_ground) {
+            let place = stand.field.transform_back(now.transform(core.vertices()[vertex as usize]));
+            // Of the triangles that are one patch the one below it: they lie in one plane up to their rounding.
+            let inside = |triangle: u32| {
+                let [a, b, c] = ground.corners(triangle).map(|corner| corner.as_dvec3());
+                let cross = (b - a).cross(c - a);
+                let beside = |from: DVec3, to: DVec3| cross.cross(to - from).normalize().dot(place - from);
+                beside(a, b).min(beside(b, c)).min(beside(c, a))
+            };
+            let below = (0..ground.triangle_count())
+                .filter(|&triangle| ground.patch(triangle) == patch)
+                .max_by(|&one, &other| inside(one).total_cmp(&inside(other)))
+                .unwrap();
+            let [a, b, c] = ground.corners(below).map(|corner| corner.as_dvec3());
+            let cross = (b - a).cross(c - a).normalize();
+            let up =
+                if cross.dot(stand.field.turn_back(stand.towards(manifold))) > 0.0 { cross } else { -cross };
+            // Along the normal that is told.
+            let lean = up.dot(stand.field.turn_back(stand.towards(manifold)));
+            let height = (up.dot(place - a) - radius) / lean;
+            let off = (height - f64::from(point.separation)).abs();
+            let may = f64::from(manifold.error) + 2e-6 * stand.size();
+            // What is less deep of a round body is measured out along its own face.
+            let is_round = radius > 0.0 && !matches!(stand.body, Shape3::Sphere(_));
+            assert!(is_round || off <= may, "{story}: {height} above, {point:?}, error {}", manifold.error);
+        }
+    }
+}
+
+fn check(stand: &Stand, kept: &Persistent3, now: &Pose3, story: &str, tally: &mut Tally) {
+    let Some(found) = stand.carried(kept, now) else { return };
+    let drift = drift(stand, now);
+    let is_ball = matches!(stand.body, Shape3::Sphere(_));
+    let went = if is_ball { (now.position() - stand.pose.position()).length() } else { drift };
+    assert!(went <= f64::from(kept.reach()), "{story}: {went} of {}", kept.reach());
+    tally.carried += 1;
+    tally.far += usize::from(went > 1e-3 * stand.size());
+    tally.turned += usize::from(now.rotation() != stand.pose.rotation());
+    let overlaps = Pair3::new(&stand.body, now, &stand.ground, &stand.field).overlaps();
+    assert_eq!(kept.overlapping(), overlaps, "{story}: {found:?}");
+    let least = found.iter().map(|manifold| manifold.separation).fold(f32::INFINITY, f32::min);
+    assert_eq!(least <= 0.0, overlaps, "{story}: {found:?}");
+    let (_, fresh, _) = stand.made(now);
+    let even = EVEN_DEPTH * 2.0 * stand.size() + 4e-6 * stand.size();
+    let is_near = |one: &Manifold3, other: &Manifold3| {
+        (one.normal.as_dvec3() - other.normal.as_dvec3()).length() <= 0.3
+    };
+    let errors = |one: &Manifold3, other: &Manifold3| f64::from(one.error + other.error) + even;
+    for manifold in &found {
+        // Twice a drift of 2^-15 of how far the body reaches, and rounding.
+        let arm = stand.size() + f64::from(stand.body.center().length());
+        assert!(f64::from(manifold.error) <= 6.2e-5 * arm, "{story}: {manifold:?}");
+        check_heights(stand, now, manifold, story);
+        tally.manifolds += 1;
+        let as_fresh = |new: &&Manifold3| {
+            is_near(manifold, new)
+                && f64::from((manifold.separation - new.separation).abs()) <= errors(manifold, new)
+        };
+        tally.unmatched += usize::from(!fresh.iter().any(|new| as_fresh(&new)));
+    }
+    for new in &fresh {
+        let is_told = |manifold: &Manifold3| {
+            is_near(manifold, new)
+                && f64::from(manifold.separation) <= f64::from(new.separation) + errors(manifold, new)
+        };
+        let is_shallow = f64::from(new.separation) >= -went - 1e-6 * stand.size();
+        assert!(is_shallow || found.iter().any(is_told), "{story}: {new:?} is not told of by {found:?}");
+    }
+}
+
+#[test]
+fn what_is_moved_along_on_ground_is_what_would_be_made_anew() {
+    let mut random = Random::new(91);
+    let (mut tally, mut kept_count, mut count) = (Tally::default(), 0, 0);
+    for ground in grounds() {
+        for (number, stand) in stands(&ground, &mut random, 300).into_iter().enumerate() {
+            count += 1;
+            let (.., Some(kept)) = stand.made(&stand.pose) else { continue };
+            kept_count += 1;
+            for round in 0..10 {
+                let share = random.range(0.0, 1.1) * [1.0, 0.1, 0.01][round % 3];
+                let step = random.direction() * share * f64::from(kept.reach());
+                let spin = if round % 2 == 0 { 0.0 } else { random.range(0.0, 2e-5) };
+                let spin = random.direction() * spin;
+                let now = moved(&stand.pose, step, spin);
+                let story = format!("{} {number} {round}", ground.0);
+                check(&stand, &kept, &now, &story, &mut tally);
+            }
+        }
+    }
+    let Tally { carried, turned, far, manifolds, unmatched } = tally;
+    println!("{count} {kept_count} {carried} {turned} {far} {manifolds} {unmatched}");
+    assert!(kept_count * 10 > count * 6, "{kept_count} of {count}");
+    assert!(carried > 3000 && turned > 800 && far > 600, "{carried} {turned} {far}");
+    assert!(
+        unmatched * 100 <= manifolds * 2,
+        "{unmatched} of {manifolds} are of normals that are told no more"
+    );
+}
+
+/// A slab that slides over a floor cut into triangles: nothing is lost, and a wall that comes near is told of in time.
+#[test]
+fn a_crate_slides_on_a_floor_as_if_it_were_made_anew() {
+    let terrain = Terrain::flat(800, 1.0);
+    let floor = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
+    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap());
+    let (height, _) = terrain.under([10.0, 10.0]);
+    // Its corners stand on seams.
+    for x in [10.0, 10.4, 10.1234] {
+        let pose = Pose3::at(DVec3::new(x, height + 0.4 - 1e-3, 10.4)).unwrap();
+        let stand = Stand {
+            body: body.clone(),
+            pose,
+            ground: floor.clone(),
+            field: Pose3::IDENTITY,
+            is_turned: false,
+        };
+        let (.., Some(kept)) = stand.made(&pose) else { panic!("it rests at {x}") };
+        for step in 0..25 {
+            let now = moved(&pose, DVec3::new(1e-4, -2e-6, 0.5e-4) * f64::from(step), DVec3::ZERO);
+            let found = stand.carried(&kept, &now).expect("two and a half millimetres");
+            let (_, fresh, _) = stand.made(&now);
+            assert_eq!((found.len(), fresh.len()), (1, 1));
+            let (found, fresh) = (&found[0], &fresh[0]);
+            assert!((found.separation - fresh.separation).abs() <= 1e-7, "{x}: {found:?} {fresh:?}");
+            assert!(found.error <= fresh.error + 1e-8, "{x}: {found:?} {fresh:?}");
+            assert_eq!(found.normal, fresh.normal);
+            let named = |manifold: &Manifold3| {
+                let mut all: Vec<_> = manifold.points.iter().map(|p| (p.feature, p.anchor_a)).collect();
+                all.sort_by_key(|(feature, _)| *feature);
+                all
+            };
+            for (one, other) in named(found).iter().zip(named(fresh)) {
+                assert_eq!(one.0, other.0);
+                assert!((one.1 - other.1).length() <= 1e-6);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_known_is_made_anew() {
+    let terrain = Terrain::flat(200, 1.0);
+    let floor = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
+    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap());
+    let (height, _) = terrain.under([5.3, 5.3]);
+    let at = |up: f64| Pose3::at(DVec3::new(5.3, height + 0.4 + up, 5.3)).unwrap();
+    let stand_at = |up: f64| Stand {
+        body: body.clone(),
+        pose: at(up),
+        ground: floor.clone(),
+        field: Pose3::IDENTITY,
+        is_turned: false,
+    };
+    let stand = stand_at(-1e-3);
+    let (.., Some(kept)) = stand.made(&stand.pose) else { panic!("it rests") };
+    assert!(
+        stand.carried(&kept, &at(-1e-6)).is_some() && stand.carried(&kept, &at(1e-6)).is_none(),
+        "no more"
+    );
+    assert!(stand.carried(&kept, &moved(&stand.pose, DVec3::X * 3e-3, DVec3::ZERO)).is_none(), "too far");
+    assert!(
+        stand.carried(&kept, &moved(&stand.pose, DVec3::ZERO, DVec3::X * 1e-3)).is_none(),
+        "too much turned"
+    );
+    let mut found = Vec::new();
+    let lifted = Pose3::at(DVec3::Y * -1e-9).unwrap();
+    assert!(!kept.carry_on([&stand.pose, &lifted], &mut found) && found.is_empty(), "ground has moved");
+    // A gap is kept until it may have closed, or may be beyond the margin.
+    for (up, may, never) in [(1e-4, 0.9e-4, 1.1e-4), (0.0199, 0.9e-4, 1.1e-4)] {
+        let stand = stand_at(up);
+        let (.., Some(kept)) = stand.made(&stand.pose) else { panic!("it is near, at {up}") };
+        assert!(!kept.overlapping());
+        for way in [DVec3::Y, DVec3::NEG_Y, DVec3::X] {
+            assert!(
+                stand.carried(&kept, &moved(&stand.pose, way * may, DVec3::ZERO)).is_some(),
+                "{up} {way}"
+            );
+            assert!(
+                stand.carried(&kept, &moved(&stand.pose, way * never, DVec3::ZERO)).is_none(),
+                "{up} {way}"
+            );
+        }
+    }
+}
+
+/// No margin, no notice: what the body has not been near enough to be told of may come to overlap after a small drift.
+#[test]
+fn without_a_margin_nothing_slides_far() {
+    let terrain = Terrain::flat(200, 1.0);
+    let floor = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
+    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap());
+    let (height, _) = terrain.under([5.3, 5.3]);
+    let poses = [Pose3::at(DVec3::new(5.3, height + 0.399, 5.3)).unwrap(), Pose3::IDENTITY];
+    let reach = |margin: f32| {
+        let stand = Stand {
+            body: body.clone(),
+            pose: poses[0],
+            ground: floor.clone(),
+            field: poses[1],
+            is_turned: false,
+        };
+        let job = stand.job(&poses, margin);
+        let mut batch = Batch3::default();
+        collide3(&[stand.job(&poses, margin)], &mut batch);
+        Persistent3::of(&job, &batch.answers[0], &batch.manifolds).map_or(0.0, |kept| kept.reach())
+    };
+    assert!((reach(0.02) - body.outer_radius() / 256.0).abs() < 1e-9);
+    assert_eq!(reach(1e-3), 1e-3);
+    assert!(reach(0.0) > 0.0 && reach(0.0) <= 3.1e-5 * body.outer_radius());
+}
+
+/// In a world, resting bodies on a level keep their contacts from frame to frame, and give them up when the level goes.
+#[test]
+fn a_world_moves_contacts_with_a_level_along() {
+    let terrain = Terrain::new(800, 1.0, 20);
+    let level = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
+    let mut world = World3::new();
+    let ground = world.insert(Collider3::new(level.clone()).fixed());
+    let mut random = Random::new(5);
+    let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.3)).unwrap());
+    let mut keys = Vec::new();
+    for _ in 0..20 {
+        let place = [random.range(3.0, 17.0), random.range(3.0, 17.0)];
+        let (height, normal) = terrain.under(place);
+        let upright = Quat::from_rotation_arc(Vec3::Y, normal.as_vec3());
+        let pose = Pose3::new(DVec3::new(place[0], height, place[1]) + normal * 0.299, upright).unwrap();
+        keys.push((world.insert(Collider3::new(cube.clone()).at(pose).margin(MARGIN).unwrap()), pose));
+    }
+    world.update();
+    for frame in 1..30 {
+        for (key, pose) in &keys {
+            let step = random.direction() * 1e-5;
+            world.set_pose(*key, moved(pose, step, DVec3::ZERO)).unwrap();
+        }
+        world.update();
+        let mut afresh = World3::new();
+        let floor = afresh.insert(Collider3::new(level.clone()).fixed());
+        for (key, _) in &keys {
+            let pose = *world.get(*key).unwrap().pose();
+            let body = afresh.insert(Collider3::new(cube.clone()).at(pose).margin(MARGIN).unwrap());
+            afresh.update();
+            let (one, other) = (world.contact(*key, ground), afresh.contact(body, floor));
+            let told = |contact: Option<asunder::Contact<'_, _, Manifold3>>| {
+                contact.map(|contact| (contact.overlapping, contact.manifolds.len()))
+            };
+            assert_eq!(told(one), told(other), "frame {frame}");
+        }
+    }
+}
