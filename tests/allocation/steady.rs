@@ -101,7 +101,7 @@ fn nor_do_contacts_with_a_level() {
                 let upright = Quat::from_rotation_arc(Vec3::Y, normal.as_vec3());
                 let at = DVec3::new(place[0], height, place[1]) + normal * 0.299;
                 let pose = Pose3::new(at, upright).unwrap();
-                let body = Collider3::new(cube.clone()).at(pose).margin(0.02).unwrap();
+                let body = Collider3::new(cube).at(pose).margin(0.02).unwrap();
                 (world.insert(body), pose, normal.any_orthonormal_vector())
             })
             .collect();

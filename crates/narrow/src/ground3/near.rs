@@ -1,5 +1,6 @@
 //! Which triangles of ground a convex part may touch.
 
+use crate::answer::{ContactPoint3, Manifold3};
 use crate::pair3::{Pair3, Part};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
@@ -104,5 +105,19 @@ impl OnGround<'_> {
     #[inline]
     pub(crate) fn in_body_order<T>(&self, [a, b]: [T; 2]) -> [T; 2] {
         if self.is_b { [a, b] } else { [b, a] }
+    }
+
+    /// The normal of a manifold from the ground to the body, in world axes.
+    pub(crate) fn towards(&self, manifold: &Manifold3) -> DVec3 {
+        let normal = manifold.normal.as_dvec3();
+        if self.is_b { -normal } else { normal }
+    }
+
+    /// Where a point of a manifold is on the body, from its position, and on ground, from the ground's; in world axes. The
+    /// latter better than by its anchor, which is as coarse as ground is large.
+    pub(crate) fn ends(&self, manifold: &Manifold3, point: &ContactPoint3) -> [DVec3; 2] {
+        let [on_body, _] = self.in_body_order([point.anchor_a, point.anchor_b]);
+        let on_body = on_body.as_dvec3();
+        [on_body, self.to_body + on_body - self.towards(manifold) * f64::from(point.separation)]
     }
 }

@@ -23,10 +23,8 @@ impl<'a> NearPoints<'a> {
     pub(super) fn of(on: &OnGround<'a>, manifolds: &[Manifold3], reach: f32) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for manifold in manifolds {
-            let normal = if on.is_b { -manifold.normal.as_dvec3() } else { manifold.normal.as_dvec3() };
             for point in &manifold.points {
-                let [on_body, _] = on.in_body_order([point.anchor_a, point.anchor_b]);
-                let foot = on.to_body + on_body.as_dvec3() - normal * f64::from(point.separation);
+                let [_, foot] = on.ends(manifold, point);
                 let foot = on.basis.turn_back(foot);
                 (low, high) = (low.min(foot), high.max(foot));
             }

@@ -35,12 +35,10 @@ impl Grip {
         point: &ContactPoint3,
         (near, reach): (&NearPoints, f32),
     ) -> Option<(Self, f64)> {
-        let normal = if on.is_b { -manifold.normal.as_dvec3() } else { manifold.normal.as_dvec3() };
+        let (normal, reach) = (on.towards(manifold), f64::from(reach));
         let [of_body, of_ground] = on.in_body_order([point.feature.a(), point.feature.b()]);
-        let [on_body, _] = on.in_body_order([point.anchor_a, point.anchor_b]);
-        let (on_body, reach) = (on_body.as_dvec3(), f64::from(reach));
-        let local = on.body_basis.turn_back(on_body);
-        let foot = on.basis.turn_back(on.to_body + on_body - normal * f64::from(point.separation));
+        let [on_body, foot] = on.ends(manifold, point);
+        let (local, foot) = (on.body_basis.turn_back(on_body), on.basis.turn_back(foot));
         let normal_there = on.basis.turn_back(normal);
         match (of_body, of_ground) {
             (Feature::Vertex(_), Feature::Face(patch)) => {
@@ -84,10 +82,7 @@ impl Grip {
     /// Of what is measured along a normal from what this direction is square to.
     fn along(direction: DVec3, normal: DVec3, is_of_ground: bool) -> Option<Self> {
         let cosine = direction.dot(normal);
-        if !(cosine.abs() >= LEAST_COSINE) {
-            return None;
-        }
-        let gradient = direction / cosine;
+        let gradient = direction / Some(cosine).filter(|cosine| cosine.abs() >= LEAST_COSINE)?;
         // Triangles of one patch are in one plane up to their rounding.
         let lean = (gradient - normal).length();
         let lean = if lean <= SAME_NORMAL { 0.0 } else { (lean as f32).next_up() };

@@ -123,7 +123,9 @@ impl Grounded {
             let most = found.iter().fold(f32::INFINITY, |bound: f32, of| bound.min(of.separation + of.error));
             reach = reach.min(gap).min(job.margin - most).next_down();
         }
-        if found.is_empty() || !(reach > 0.0) {
+        // What is not a number is no reach.
+        let is_some = !found.is_empty() && reach > 0.0;
+        if !is_some {
             return None;
         }
         let near = NearPoints::of(&on, found, reach);
@@ -220,7 +222,8 @@ impl Grounded {
         let most = f64::from(most_loss(self.arm));
         for (of, grips) in self.memory.manifolds.iter().zip(&self.memory.grips) {
             let loss = self.loss(of, grips, moved);
-            if !(loss <= most) {
+            let is_told = loss <= most;
+            if !is_told {
                 to.truncate(start);
                 return false;
             }

@@ -46,39 +46,31 @@ impl Witness {
 
     /// From what is in the middle of some points to the body's centre.
     fn crossing(on: &OnGround, of: &Manifold3, points: Range<usize>, near: &NearPoints) -> Option<Self> {
-        let normal = if on.is_b { -of.normal.as_dvec3() } else { of.normal.as_dvec3() };
-        let (mut from, mut height, mut all) = (DVec3::ZERO, 0.0, 0.0);
+        let (mut from, mut foot, mut all) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for (point, share) in of.points.get(points)?.iter().zip(SHARES) {
-            let [on_body, _] = on.in_body_order([point.anchor_a, point.anchor_b]);
-            from += on_body.as_dvec3() * share;
-            height += f64::from(point.separation) * share;
-            all += share;
+            let [on_body, on_ground] = on.ends(of, point);
+            (from, foot, all) = (from + on_body * share, foot + on_ground * share, all + share);
         }
-        (from, height) = (from / all, height / all);
+        (from, foot) = (from / all, foot / all);
         let to = on.body_basis.turn(on.body.center().as_dvec3());
-        let foot = on.basis.turn_back(on.to_body + from - normal * height);
-        let [a, b, c] = near.under(foot, on.basis.turn_back(normal), None)?;
+        let [a, b, c] = near.under(on.basis.turn_back(foot), on.basis.turn_back(on.towards(of)), None)?;
         Some(Self::Crossing { from, to, corners: [on.basis.turn(a), on.basis.turn(b), on.basis.turn(c)] })
     }
 
     /// The point of ground that is deepest in a ball.
     fn in_ball(on: &OnGround, deepest: &Manifold3, radius: f64) -> Option<Self> {
-        let point = deepest.points.first()?;
-        let normal = if on.is_b { -deepest.normal.as_dvec3() } else { deepest.normal.as_dvec3() };
-        let [on_body, _] = on.in_body_order([point.anchor_a, point.anchor_b]);
-        let point = on.to_body + on_body.as_dvec3() - normal * f64::from(point.separation);
+        let [_, point] = on.ends(deepest, deepest.points.first()?);
         Some(Self::InBall { point, radius })
     }
 
     /// A corner of ground, or a point on an edge of it between two, in a cuboid.
     fn inside(on: &OnGround, deepest: &Manifold3) -> Option<Self> {
         let Shape3::Cuboid(cuboid) = on.body else { return None };
-        let normal = if on.is_b { -deepest.normal.as_dvec3() } else { deepest.normal.as_dvec3() };
         let point_of = |i: usize| {
             let point = &deepest.points[i];
-            let [on_body, _] = on.in_body_order([point.anchor_a, point.anchor_b]);
+            let [_, on_ground] = on.ends(deepest, point);
             let [_, feature] = on.in_body_order([point.feature.a(), point.feature.b()]);
-            (on.to_body + on_body.as_dvec3() - normal * f64::from(point.separation), feature)
+            (on_ground, feature)
         };
         let mut best: Option<(f64, DVec3)> = None;
         for i in 0..deepest.points.len() {
@@ -102,25 +94,21 @@ impl Witness {
     /// Whether it shows that they overlap.
     pub(super) fn holds(&self, moved: &Moved, basis: Basis3, arm: f64) -> bool {
         let offset = moved.offset;
+        // Anchors are rounded to f32.
+        let doubt = |point: DVec3| {
+            let lengths = offset.abs().element_sum() + point.abs().element_sum();
+            4.0 * f64::from(f32::EPSILON) * arm + lost(lengths, arm)
+        };
         match *self {
             Self::Crossing { from, to, corners } => {
-                let lengths = offset.abs().element_sum() + corners[0].abs().element_sum();
-                // Anchors are rounded to f32.
-                let doubt = 4.0 * f64::from(f32::EPSILON) * arm + lost(lengths, arm);
                 let ends = [offset + moved.turn.turn(from), offset + moved.turn.turn(to)];
-                do_cross(ends, corners, doubt)
+                do_cross(ends, corners, doubt(corners[0]))
             }
             Self::InCuboid { point, half } => {
-                let lengths = offset.abs().element_sum() + point.abs().element_sum();
-                let doubt = 4.0 * f64::from(f32::EPSILON) * arm + lost(lengths, arm);
                 let local = basis.turn_back(point - offset);
-                (half - local.abs()).min_element() > doubt
+                (half - local.abs()).min_element() > doubt(point)
             }
-            Self::InBall { point, radius } => {
-                let lengths = offset.abs().element_sum() + point.abs().element_sum();
-                let doubt = 4.0 * f64::from(f32::EPSILON) * arm + lost(lengths, arm);
-                (point - offset).length() < radius - doubt
-            }
+            Self::InBall { point, radius } => (point - offset).length() < radius - doubt(point),
         }
     }
 
