@@ -42,9 +42,9 @@ impl<'a> NearPoints<'a> {
         near
     }
 
-    /// How far ground bends within so many metres of a point on it: the sine of the greatest angle to a unit normal. One where
-    /// it ends, or nobody knows.
-    pub(super) fn bend_around(&self, foot: DVec3, (normal, patch): (DVec3, u32), reach: f64) -> f64 {
+    /// How far ground bends within so many metres of a point on it: the sine of the greatest angle to a unit normal. Nothing
+    /// where it ends, or nobody knows.
+    pub(super) fn bend_around(&self, foot: DVec3, (normal, patch): (DVec3, u32), reach: f64) -> Option<f64> {
         let (mut bend, mut is_on) = (0.0_f64, false);
         for triangle in &self.triangles {
             let [a, b, c] = widened(triangle.corners);
@@ -67,22 +67,22 @@ impl<'a> NearPoints<'a> {
                 let (along, across) = (to - from, foot - from);
                 let is_near = along.cross(across).length_squared() <= reach * reach * along.length_squared();
                 if is_near && self.ground.neighbor(triangle.number, edge).is_none() {
-                    return 1.0;
+                    return None;
                 }
             }
         }
-        if is_on && !self.is_cut { bend } else { 1.0 }
+        (is_on && !self.is_cut).then_some(bend)
     }
 
     /// How far ground bends at an edge, by its number.
-    pub(super) fn bend_at(&self, edge: u32, normal: DVec3) -> f64 {
+    pub(super) fn bend_at(&self, edge: u32, normal: DVec3) -> Option<f64> {
         let (triangle, edge) = (edge / 3, edge as usize % 3);
-        let Some((other, _)) = self.ground.neighbor(triangle, edge) else { return 1.0 };
+        let (other, _) = self.ground.neighbor(triangle, edge)?;
         let bend = |triangle: u32| {
             let [a, b, c] = widened(self.ground.corners(triangle));
             bend_of((b - a).cross(c - a), normal)
         };
-        bend(triangle).max(bend(other))
+        Some(bend(triangle).max(bend(other)))
     }
 
     /// The ends of an edge of ground by its number, if it is a triangle's that is near.

@@ -21,14 +21,18 @@ pub(super) struct Grip {
     is_of_ground: bool,
 }
 
+/// What it costs where nobody knows what comes next: by the way, the truth may have gone, and by as much what is told, the other
+/// way.
+pub(super) const UNKNOWN: f64 = 2.0;
+
 /// Cosine of the angle between a normal and what a point is measured from, above which it is.
 const LEAST_COSINE: f64 = 0.125;
 
 impl Grip {
     pub(super) const NONE: Self = Self { gradient: Vec3::ZERO, lean: 0.0, is_of_ground: false };
 
-    /// What holds a point, and by how much what it slides on may rise beside it, as a share of the way, once it leaves its
-    /// features within the reach; nothing where nobody knows what holds it.
+    /// What holds a point, and what it costs, as a share of the way, if it leaves its features within the reach; nothing where
+    /// nobody knows what holds it.
     pub(super) fn of(
         on: &OnGround,
         manifold: &Manifold3,
@@ -36,6 +40,10 @@ impl Grip {
         (near, reach): (&NearPoints, f32),
     ) -> Option<(Self, f64)> {
         let (normal, reach) = (on.towards(manifold), f64::from(reach));
+        if matches!(on.body, Shape3::Sphere(_)) {
+            // Whatever ground is under it next, its normal turns from this one by no more than the way over the radius.
+            return Some((Self::along(normal, normal, false)?, 0.0));
+        }
         let [of_body, of_ground] = on.in_body_order([point.feature.a(), point.feature.b()]);
         let [on_body, foot] = on.ends(manifold, point);
         let (local, foot) = (on.body_basis.turn_back(on_body), on.basis.turn_back(foot));
@@ -45,35 +53,31 @@ impl Grip {
                 // Kernels may tell of it along another normal than the triangle's own.
                 let [a, b, c] = near.under(foot, normal_there, Some(patch))?;
                 let own = (b - a).cross(c - a).try_normalize()?;
-                let bend = near.bend_around(foot, (own, patch), reach);
-                Some((Self::along(on.basis.turn(own), normal, false)?, bend))
-            }
-            (Feature::Vertex(_), _) if matches!(on.body, Shape3::Sphere(_)) => {
-                Some((Self::along(normal, normal, true)?, 0.0))
+                let cost = near.bend_around(foot, (own, patch), reach).unwrap_or(UNKNOWN);
+                Some((Self::along(on.basis.turn(own), normal, false)?, cost))
             }
             (Feature::Face(face), Feature::Vertex(_)) => {
                 let out = on.body_basis.turn(face_normal(on.body, face as usize)?);
                 let is_over = inside(on.body, face as usize, local) >= reach;
-                Some((Self::along(out, normal, true)?, if is_over { 0.0 } else { 1.0 }))
+                Some((Self::along(out, normal, true)?, if is_over { 0.0 } else { UNKNOWN }))
             }
             (Feature::Edge(own), Feature::Edge(theirs)) => {
                 let own = Edge::of(on.body, own)?;
                 let [from, stop] = near.edge(theirs)?;
-                let along = on.basis.turn((stop - from).try_normalize()?);
-                let across = on.body_basis.turn(own.along).cross(along);
-                let place = own.along.dot(local - own.from);
+                let across =
+                    on.body_basis.turn(own.along).cross(on.basis.turn((stop - from).try_normalize()?));
+                let (sine, place) = (across.length(), own.along.dot(local - own.from));
                 // How far either end is at least: it slides along by no more than the drift over the sine.
                 let ends =
                     place.min(own.length - place).min((foot - from).length()).min((foot - stop).length());
-                let bend = match on.body {
-                    _ if ends * across.length() >= 2.0 * reach => 0.0,
-                    // From one side of its lowest face to the next.
-                    Shape3::Cuboid(_) => {
-                        near.bend_at(theirs, normal_there) + tilt_of(on.body_basis.turn_back(normal))
-                    }
-                    _ => 1.0,
+                let cost = match on.body {
+                    _ if ends * sine >= 2.0 * reach => 0.0,
+                    Shape3::Cuboid(_) => around_corner(on.body_basis.turn_back(normal), sine)
+                        .zip(near.bend_at(theirs, normal_there))
+                        .map_or(UNKNOWN, |(corner, bend)| corner + bend),
+                    _ => UNKNOWN,
                 };
-                Some((Self::along(across, normal, false)?, bend))
+                Some((Self::along(across, normal, false)?, cost))
             }
             _ => None,
         }
@@ -114,8 +118,12 @@ impl Grip {
     }
 }
 
-/// The sine of the angle between a unit direction and the axis of a cuboid that is nearest to it, in its axes.
-fn tilt_of(direction: DVec3) -> f64 {
-    let cosine = direction.abs().max_element();
-    (1.0 - cosine * cosine).max(0.0).sqrt()
+/// What it costs, as a share of the way, where an edge of ground stops to cross one side of a cuboid's face, at an angle of
+/// this sine, and crosses the next: both places are on the face, and so far from the corner; how steep it is by a direction
+/// in the cuboid's axes. Nothing where it is all but along either.
+fn around_corner(normal: DVec3, sine: f64) -> Option<f64> {
+    let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+    let level = normal.abs().max_element();
+    let steep = (1.0 - level * level).max(0.0).sqrt() / level;
+    (sine.min(cosine) >= LEAST_COSINE).then(|| steep * (1.0 / sine + 1.0 / cosine))
 }

@@ -23,7 +23,7 @@
 //! parry3d keeps a manifold a triangle until a point of it slips by a millimetre.
 
 use super::flat::NearPoints;
-use super::grip::Grip;
+use super::grip::{Grip, UNKNOWN};
 use super::witness::Witness;
 use crate::answer::{Answer, ContactPoint3, Manifold3};
 use crate::ground3::OnGround;
@@ -52,8 +52,8 @@ pub(super) struct Grounded {
     is_ground_b: bool,
     /// Nothing of it depends on how it is turned.
     is_ball: bool,
-    /// By how much what points slide on may rise beside them, as a share of the way: zero where none leaves its features.
-    bend: f32,
+    /// What it costs where points leave their features, as a share of the way: zero where none does.
+    cost: f32,
     margin: f32,
     /// Up to which drift they hold, in metres.
     reach: f32,
@@ -129,25 +129,25 @@ impl Grounded {
             return None;
         }
         let near = NearPoints::of(&on, found, reach);
-        let mut bend = 0.0_f64;
+        let mut cost = 0.0_f64;
         memory.clear();
         for manifold in found {
             let mut grips = [Grip::NONE; 4];
             for (grip, point) in grips.iter_mut().zip(&manifold.points) {
                 let beside;
                 (*grip, beside) = Grip::of(&on, manifold, point, (&near, reach))?;
-                bend = bend.max(beside);
+                cost = cost.max(beside);
             }
             memory.grips.push(grips);
         }
-        let bend = if bend == 0.0 { 0.0 } else { (bend.min(1.0) as f32).next_up() };
-        reach = reach.min(most_loss(body.outer_radius()) / (2.0 * bend));
+        let cost = if cost == 0.0 { 0.0 } else { (cost.min(UNKNOWN) as f32).next_up() };
+        reach = reach.min(most_loss(body.outer_radius()) / cost);
         let witness = if *overlapping { Some(Witness::of(&on, found, &near, arm)?) } else { None };
         memory.manifolds.extend_from_slice(found);
         let (is_ball, margin) = (matches!(body, Shape3::Sphere(_)), job.margin);
         let poses = [*job.pose_a, *job.pose_b];
         let memory = core::mem::take(memory);
-        Some(Self { memory, witness, is_ground_b, is_ball, bend, margin, reach, arm, poses })
+        Some(Self { memory, witness, is_ground_b, is_ball, cost, margin, reach, arm, poses })
     }
 
     /// Its memory, for what comes after it.
@@ -178,7 +178,7 @@ impl Grounded {
             && self.margin.is_finite()
             && self.arm.is_finite()
             && (0.0..=self.arm).contains(&self.reach)
-            && (0.0..=2.0).contains(&self.bend)
+            && (0.0..=4.0).contains(&self.cost)
             && grips.iter().flatten().all(Grip::is_sound)
             && self.witness.as_ref().is_none_or(Witness::is_sound)
     }
@@ -253,7 +253,7 @@ impl Grounded {
         }
         // Of more points than four, those that are not told may rise by less.
         let untold = if of.points.is_full() { lean * drift } else { 0.0 };
-        let left = 2.0 * f64::from(self.bend) * drift;
+        let left = f64::from(self.cost) * drift;
         // The way around a ball.
         let round = if self.is_ball { drift * drift / f64::from(self.arm) } else { 0.0 };
         let rounding = f64::from(f32::EPSILON) * (f64::from(of.separation.abs()) + steep * drift);
