@@ -11,12 +11,12 @@
 //! What makes it fast: the ray is turned into the ground's axes, once, and not the triangles out of them; a triangle
 //! that is missed costs no root and one quotient.
 
-use super::planes::EDGE_ON;
-use super::{Cast, length};
+use super::planes::{self, EDGE_ON};
+use super::{Cast, Meeting, length};
 use crate::impact3::RayHit3;
 use crate::pair3::Part;
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Basis3, Ground, Shape3};
+use asunder_geometry::{Basis3, Ground, Shape3, Triangle3};
 
 /// A ray in the ground's axes.
 struct Local {
@@ -26,6 +26,7 @@ struct Local {
     /// How far a point on it may be beside its place, in metres: at the origin, and more for each length of the way.
     doubt: [f64; 2],
     is_one_sided: bool,
+    shadow: Shadow,
 }
 
 impl Cast<'_> {
@@ -35,24 +36,29 @@ impl Cast<'_> {
         let pace = length(self.way);
         // Twice what any triangle takes for itself.
         let doubt = [128.0 * f64::EPSILON * (length(self.from) + size), 128.0 * f64::EPSILON * pace];
+        let (origin, way) = (basis.turn_back(self.from), basis.turn_back(self.way));
         let local = Local {
-            origin: basis.turn_back(self.from),
-            way: basis.turn_back(self.way),
+            origin,
+            way,
             squared: self.squared,
             doubt,
             is_one_sided: ground.is_one_sided(),
+            shadow: Shadow::new(origin, way, length(self.from) + size),
         };
         // Boxes are met early and late enough for what their triangles give away.
         let grown = Vec3::splat((4.0 * doubt[0]) as f32);
         let mut first: Option<RayHit3> = None;
         let mut within = limit;
-        ground.visit_along(local.origin, local.way, grown, limit, |number| {
-            if !local.passes(ground.corners(number), within)
-                && let Some(triangle) = ground.triangle(number).map(Shape3::Triangle)
-            {
-                let meeting = self.meeting(&triangle, basis, DVec3::ZERO, limit);
-                let hit = Cast { shape: &triangle, ..*self }
-                    .answer(meeting, within, || Part::whole(&triangle, basis));
+        ground.read_along(origin, way, grown, limit, |number, corners| {
+            let side = local.shadow.side(corners);
+            if side == Side::Beside {
+                return within;
+            }
+            // What is crossed for certain, and is the first, answers at once; of nothing else a sphere is asked.
+            let is_plain = side == Side::Inside && first.is_none() && !local.is_one_sided;
+            if is_plain || !local.passes(corners, within) {
+                let triangle = ground.triangle_with(corners);
+                let hit = self.on(triangle, basis, within, side == Side::Inside);
                 if let Some(hit) = hit.map(|hit| RayHit3 { part: number, ..hit })
                     && first.is_none_or(|known| (hit.distance, number) < (known.distance, known.part))
                 {
@@ -64,7 +70,97 @@ impl Cast<'_> {
         });
         first
     }
+
+    /// What a triangle alone answers. Where the ray's line crosses it, it meets the sphere around it, too.
+    #[inline(always)]
+    fn on(&self, triangle: Triangle3, basis: &Basis3, limit: f64, is_crossed: bool) -> Option<RayHit3> {
+        if is_crossed {
+            let size = f64::from(triangle.outer_radius()) + length(triangle.center().as_dvec3());
+            let meeting = planes::triangle(&self.line(DVec3::ZERO, size), basis, &triangle);
+            if !matches!(meeting, Meeting::Open) {
+                return self.told(meeting, limit);
+            }
+        }
+        self.slowly_on(&triangle.into(), basis, limit)
+    }
+
+    #[inline(never)]
+    fn slowly_on(&self, triangle: &Shape3, basis: &Basis3, limit: f64) -> Option<RayHit3> {
+        let meeting = self.meeting(triangle, basis, DVec3::ZERO, limit);
+        Cast { shape: triangle, ..*self }.answer(meeting, limit, || Part::whole(triangle, basis))
+    }
 }
+
+/// On which side of a triangle's edges a ray's line is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    /// Certainly outside of one.
+    Beside,
+    /// Certainly inside of all.
+    Inside,
+    Unclear,
+}
+
+/// A plane across a ray, into which points are thrown along it: the ray is a point there, at zero.
+#[derive(Clone, Copy, Debug)]
+struct Shadow {
+    /// What each coordinate adds to both places in the plane.
+    along: [[f64; 2]; 3],
+    /// Where the ray's origin would be.
+    origin: [f64; 2],
+    /// Twice an area: more than rounding makes of that between zero and an edge, and what an edge within rounding spans.
+    slack: f64,
+}
+
+impl Shadow {
+    /// `reach` is no less than the distance of ray's origin from any point, nor than that between two of them halved.
+    #[inline(always)]
+    fn new(origin: DVec3, way: DVec3, reach: f64) -> Self {
+        let size = way.abs();
+        // Any two of a right-handed three stay as they are: only that signs agree counts.
+        let along = if size.x >= size.y && size.x >= size.z {
+            [[-way.y / way.x, -way.z / way.x], [1.0, 0.0], [0.0, 1.0]]
+        } else if size.y >= size.z {
+            [[0.0, 1.0], [-way.z / way.y, -way.x / way.y], [1.0, 0.0]]
+        } else {
+            [[1.0, 0.0], [0.0, 1.0], [-way.x / way.z, -way.y / way.z]]
+        };
+        let mut shadow = Self { along, origin: [0.0; 2], slack: SLACK * reach * reach };
+        shadow.origin = shadow.place(origin);
+        shadow
+    }
+
+    #[inline(always)]
+    fn place(&self, point: DVec3) -> [f64; 2] {
+        let [[ax, ay], [bx, by], [cx, cy]] = self.along;
+        [
+            point.x * ax + point.y * bx + point.z * cx - self.origin[0],
+            point.x * ay + point.y * by + point.z * cy - self.origin[1],
+        ]
+    }
+
+    #[inline(always)]
+    fn side(&self, corners: [Vec3; 3]) -> Side {
+        let [a, b, c] = [
+            self.place(corners[0].as_dvec3()),
+            self.place(corners[1].as_dvec3()),
+            self.place(corners[2].as_dvec3()),
+        ];
+        let span = |one: [f64; 2], other: [f64; 2]| one[0] * other[1] - one[1] * other[0];
+        let (ab, bc, ca) = (span(a, b), span(b, c), span(c, a));
+        let (least, most) = (ab.min(bc).min(ca), ab.max(bc).max(ca));
+        if least < -self.slack && most > self.slack {
+            Side::Beside
+        } else if least > self.slack || most < -self.slack {
+            Side::Inside
+        } else {
+            Side::Unclear
+        }
+    }
+}
+
+/// In squares of what is far: see [`Shadow::side`].
+const SLACK: f64 = 8192.0 * f64::EPSILON;
 
 impl Local {
     /// Whether the ray certainly passes by a triangle, or through it from behind where that is no hindrance.
