@@ -183,12 +183,12 @@ fn overlapping(sides: &Rows, one: &Sides) -> u32 {
 pub(crate) struct Line {
     /// On which axes the greater side of a box is met first.
     is_backward: [bool; 3],
-    /// From where that is measured.
-    from_near: [f32; 3],
-    from_far: [f32; 3],
+    /// From where that is measured: four times the same, to go with four lanes.
+    from_near: [[f32; 4]; 3],
+    from_far: [[f32; 4]; 3],
     /// Times a metre, rounded down and up by more than all that follows can lose. Infinite where nothing moves.
-    per_near: [f32; 3],
-    per_far: [f32; 3],
+    per_near: [[f32; 4]; 3],
+    per_far: [[f32; 4]; 3],
     /// Times in a length of the direction as it was given, a power of two.
     unit: f64,
 }
@@ -225,10 +225,10 @@ impl Line {
         let z = axis(from.z, direction.z, grown.z);
         Some(Self {
             is_backward: [x.0, y.0, z.0],
-            from_near: [x.1, y.1, z.1],
-            from_far: [x.2, y.2, z.2],
-            per_near: [x.3, y.3, z.3],
-            per_far: [x.4, y.4, z.4],
+            from_near: [[x.1; 4], [y.1; 4], [z.1; 4]],
+            from_far: [[x.2; 4], [y.2; 4], [z.2; 4]],
+            per_near: [[x.3; 4], [y.3; 4], [z.3; 4]],
+            per_far: [[x.4; 4], [y.4; 4], [z.4; 4]],
             unit,
         })
     }
@@ -243,8 +243,8 @@ impl Ask for Line {
             let (low, high) = (&sides[axis], &sides[axis + 3]);
             let (near, far) = if self.is_backward[axis] { (high, low) } else { (low, high) };
             for lane in 0..WIDTH {
-                let first = (near[lane] - self.from_near[axis]) * self.per_near[axis];
-                let last = (far[lane] - self.from_far[axis]) * self.per_far[axis];
+                let first = (near[lane] - self.from_near[axis][lane % 4]) * self.per_near[axis][lane % 4];
+                let last = (far[lane] - self.from_far[axis][lane % 4]) * self.per_far[axis][lane % 4];
                 enter[lane] = if first > enter[lane] { first } else { enter[lane] };
                 leave[lane] = if last < leave[lane] { last } else { leave[lane] };
             }

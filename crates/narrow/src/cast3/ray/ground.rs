@@ -76,7 +76,7 @@ impl Cast<'_> {
     fn on(&self, triangle: Triangle3, basis: &Basis3, limit: f64, is_crossed: bool) -> Option<RayHit3> {
         if is_crossed {
             let size = f64::from(triangle.outer_radius()) + length(triangle.center().as_dvec3());
-            let meeting = planes::triangle(&self.line(DVec3::ZERO, size), basis, &triangle);
+            let meeting = planes::crossed_triangle(&self.line(DVec3::ZERO, size), basis, &triangle);
             if !matches!(meeting, Meeting::Open) {
                 return self.told(meeting, limit);
             }
