@@ -193,4 +193,29 @@ mod tests {
             assert!((found - truth).length() < 1e-15, "{found} is not {truth}");
         }
     }
+
+    #[test]
+    fn what_rounds_nothing_has_the_bits_of_what_rounds() {
+        let (mut bits, mut short, mut long) = (0x9E37_79B9_7F4A_7C15_u64, 0, 0);
+        let mut next = |below: u64| {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (bits >> 33) % below
+        };
+        for round in 0..20_000_u64 {
+            // Corners whose places have more and more digits between them, down to where the difference is rounded.
+            let mut part = || {
+                let (value, place) = (next(1 << 24) as f32 - 8_388_608.0, next(1 + round % 40) as f32);
+                value * place.exp2() * 1e-9
+            };
+            let mut corner = || Vec3::new(part(), part(), if round % 3 == 0 { 0.0 } else { part() });
+            let [a, b, c] = [corner(), corner(), corner()];
+            let (u, v) = (difference(b, a), difference(c, a));
+            let (found, full) = (triangle([a, b, c]), exactly([u.0, u.1], [v.0, v.1]));
+            assert_eq!(found.to_array().map(f64::to_bits), full.to_array().map(f64::to_bits), "{a} {b} {c}");
+            let is_long =
+                [u.0, v.0].iter().any(|arm| arm.to_array().iter().any(|&part| split(part).1 != 0.0));
+            (short, long) = (short + usize::from(!is_long), long + usize::from(is_long));
+        }
+        assert!(short > 400 && long > 10_000, "{short} {long}");
+    }
 }

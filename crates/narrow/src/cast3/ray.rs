@@ -25,6 +25,7 @@
 
 mod ground;
 mod planes;
+mod projection;
 mod round;
 
 use super::advance::{End, advance};

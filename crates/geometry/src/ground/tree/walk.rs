@@ -107,7 +107,7 @@ impl Tree {
                 } else {
                     let leaf = &self.leaves[(slot & !IS_LEAF) as usize];
                     ask.find(&leaf.sides(), &leaf.slots, limit, &mut found);
-                    (IS_BOX | (slot & !IS_LEAF) * WIDTH as u32, &LANES)
+                    (IS_BOX | ((slot & !IS_LEAF) * WIDTH as u32), &LANES)
                 };
                 let mut bits = u64::from_le_bytes(found.within);
                 if bits == 0 {
@@ -118,13 +118,7 @@ impl Tree {
                     let lane = bits.trailing_zeros() as usize / 8 % WIDTH;
                     bits &= bits - 1;
                     let place = found.places[lane];
-                    // The nearest goes on top; of equals, the one in the earlier place.
-                    let mut at = waiting;
-                    while at > bottom && stack[at - 1].0 <= place {
-                        stack[at] = stack[at - 1];
-                        at -= 1;
-                    }
-                    stack[at] = (place, first | slots[lane]);
+                    insert(&mut stack, [bottom, waiting], (place, first | slots[lane]));
                     waiting += 1;
                 }
                 // The last of them: on with it at once, where it is the nearest.
@@ -133,12 +127,7 @@ impl Tree {
                 slot = first | slots[lane];
                 if waiting > bottom && stack[waiting - 1].0 <= place {
                     let nearest = stack[waiting - 1].1;
-                    let mut at = waiting - 1;
-                    while at > bottom && stack[at - 1].0 <= place {
-                        stack[at] = stack[at - 1];
-                        at -= 1;
-                    }
-                    stack[at] = (place, slot);
+                    insert(&mut stack, [bottom, waiting - 1], (place, slot));
                     slot = nearest;
                 }
             }
@@ -151,6 +140,17 @@ impl Tree {
             limit = if wanted < limit { wanted } else { limit };
         }
     }
+}
+
+/// Puts a box among those between two heights of a stack. The nearest goes on top; of equals, the one in the earlier place.
+#[inline(always)]
+fn insert(stack: &mut [(f32, u32); STACK], [bottom, top]: [usize; 2], one: (f32, u32)) {
+    let mut at = top;
+    while at > bottom && stack[at - 1].0 <= one.0 {
+        stack[at] = stack[at - 1];
+        at -= 1;
+    }
+    stack[at] = one;
 }
 
 /// Places of a leaf.
@@ -236,6 +236,9 @@ impl Line {
 
 impl Ask for Line {
     /// A NaN comes from a side that is touched all the way, and bounds nothing: comparisons drop it.
+    ///
+    /// A call of its own, with all it finds in memory: compiled into the walk, lanes were taken apart (250 instructions a
+    /// node, and 95 as it is; AMD EPYC, Zen 4, 2026-11-22).
     #[inline(never)]
     fn find(&self, sides: &Rows, slots: &[u32; WIDTH], limit: f32, found: &mut Found) {
         let (mut enter, mut leave) = ([0.0; WIDTH], [limit; WIDTH]);
@@ -249,9 +252,7 @@ impl Ask for Line {
                 leave[lane] = if last < leave[lane] { last } else { leave[lane] };
             }
         }
-        for lane in 0..WIDTH {
-            found.places[lane] = enter[lane];
-        }
+        found.places = enter;
         for lane in 0..WIDTH {
             found.within[lane] = u8::from((enter[lane] <= leave[lane]) & (slots[lane] != EMPTY));
         }
@@ -289,14 +290,12 @@ impl Ask for Near {
                 *square += gap * gap;
             }
         }
-        for lane in 0..WIDTH {
+        for square in &mut squares {
             // Denormal squares have lost too much to say who is nearer; infinite ones are the limit of what can be told.
-            let square = if squares[lane] >= f32::MIN_POSITIVE { squares[lane] } else { 0.0 };
-            squares[lane] = if square < f32::MAX { square } else { f32::MAX };
+            *square = if *square >= f32::MIN_POSITIVE { *square } else { 0.0 };
+            *square = if *square < f32::MAX { *square } else { f32::MAX };
         }
-        for lane in 0..WIDTH {
-            found.places[lane] = squares[lane];
-        }
+        found.places = squares;
         for lane in 0..WIDTH {
             found.within[lane] = u8::from((squares[lane] <= limit) & (slots[lane] != EMPTY));
         }
