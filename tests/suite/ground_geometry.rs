@@ -109,13 +109,19 @@ fn stored_ground_that_is_none_is_refused_by_what_its_constructor_says() {
 fn a_million_triangles_take_less_than_100_bytes_each() {
     let mesh = land(&mut Random::new(801), 707);
     let count = mesh.triangles().len();
-    assert!(count > 1_000_000 && mesh.bytes() < 75 * count, "{} of {count}", mesh.bytes());
+    // 12 of them for corners in the leaves of the tree, which make rays half as long again as fast.
+    assert!(count > 1_000_000 && mesh.bytes() < 82 * count, "{} of {count}", mesh.bytes());
     // Nothing shared, as careless exporters write it.
     let corners: Vec<Vec3> =
         mesh.triangles().as_flattened().iter().map(|&vertex| mesh.vertices()[vertex as usize]).collect();
     let triangles: Vec<[u32; 3]> = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let soup = TriMesh::new(corners, triangles).unwrap();
     assert!(soup.bytes() < 100 * count, "{} of {count}", soup.bytes());
+    // As many as may be, where the tree holds corners.
+    let mut spare = mesh.vertices().to_vec();
+    spare.resize(2 * count, Vec3::ZERO);
+    let spare = TriMesh::new(spare, mesh.triangles()).unwrap();
+    assert!(spare.bytes() < 100 * count, "{} of {count}", spare.bytes());
     // Which triangles are dropped, joined and flat does not depend on how vertices were given.
     assert_eq!(soup.dropped(), mesh.dropped());
     let shapes = [Shape3::from(mesh), Shape3::from(soup)];

@@ -170,6 +170,13 @@ impl<'a> Ground<'a> {
         }
     }
 
+    /// The triangle of such corners as [`read_along`](Self::read_along) hands over, without another look.
+    #[doc(hidden)]
+    #[inline]
+    pub fn triangle_with(self, corners: [Vec3; 3]) -> Triangle3 {
+        Triangle3::known(corners)
+    }
+
     /// The numbers of a triangle's vertices, in the order of its corners.
     #[inline]
     pub fn vertex_numbers(self, triangle: u32) -> [u32; 3] {
@@ -244,15 +251,56 @@ impl<'a> Ground<'a> {
         direction: DVec3,
         grown: Vec3,
         limit: f64,
-        visitor: impl FnMut(u32) -> f64,
+        mut visitor: impl FnMut(u32) -> f64,
     ) {
-        let (Some(line), Some(slab)) = (Line::new(from, direction, grown), Slab::new(from, direction, grown))
-        else {
-            return;
-        };
+        self.meet_along([from, direction], grown, limit, |number, _| visitor(number));
+    }
+
+    /// As [`visit_along`](Self::visit_along), with [`corners`](Self::corners). Cost: as that, with fewer waits for memory.
+    ///
+    /// ```
+    /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
+    /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
+    /// let shape = Shape3::from(mesh);
+    /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
+    /// ground.read_along(DVec3::new(0.1, 2.0, 0.1), DVec3::NEG_Y, Vec3::ZERO, 10.0, |triangle, corners| {
+    ///     assert_eq!(corners, ground.corners(triangle));
+    ///     10.0
+    /// });
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn read_along(
+        self,
+        from: DVec3,
+        direction: DVec3,
+        grown: Vec3,
+        limit: f64,
+        mut visitor: impl FnMut(u32, [Vec3; 3]) -> f64,
+    ) {
+        self.meet_along([from, direction], grown, limit, |number, corners| {
+            let corners = match corners {
+                Some(corners) => corners,
+                None => self.corners(number),
+            };
+            visitor(number, corners)
+        });
+    }
+
+    #[inline]
+    fn meet_along(
+        self,
+        [from, direction]: [DVec3; 2],
+        grown: Vec3,
+        limit: f64,
+        mut visitor: impl FnMut(u32, Option<[Vec3; 3]>) -> f64,
+    ) {
+        let Some(line) = Line::new(from, direction, grown) else { return };
         match self {
             Self::Mesh(mesh) => mesh.tree().visit_in_order(&line, limit, visitor),
             Self::Field(field) => {
+                let Some(slab) = Slab::new(from, direction, grown) else { return };
+                let visitor = |number| visitor(number, None);
                 field.visit_in_order(&line, |low, high| slab.enters(low, high), limit, visitor);
             }
         }
@@ -275,10 +323,10 @@ impl<'a> Ground<'a> {
     /// assert_eq!(near, [0, 1]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn visit_nearest(self, bounds: &Aabb3, limit: f64, visitor: impl FnMut(u32) -> f64) {
+    pub fn visit_nearest(self, bounds: &Aabb3, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
         let Some(near) = Near::new(bounds) else { return };
         match self {
-            Self::Mesh(mesh) => mesh.tree().visit_in_order(&near, limit, visitor),
+            Self::Mesh(mesh) => mesh.tree().visit_in_order(&near, limit, |number, _| visitor(number)),
             Self::Field(field) => {
                 field.visit_in_order(&near, |low, high| Some(gap(bounds, low, high)), limit, visitor);
             }

@@ -83,7 +83,7 @@ impl HeightField {
         mut visitor: impl FnMut(u32) -> f64,
     ) {
         let (grid, mut limit) = (&self.data.grid, limit);
-        self.data.blocks.visit_in_order(ask, limit, |block| {
+        self.data.blocks.visit_in_order(ask, limit, |block, _| {
             let mut found = [(0.0, 0); (2 * BLOCK.side * BLOCK.side) as usize];
             let mut count = 0;
             for cell in cells_of(grid, block).filter(|&cell| !grid.is_hole(cell)) {

@@ -42,7 +42,11 @@ pub(super) fn build(mut vertices: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Re
     let mut marks = sights.edges(kept());
     sights.corners(kept(), &mut marks);
     (0..count).filter(|&triangle| is_dropped[triangle as usize]).for_each(|t| marks[t as usize] = DROPPED);
-    let tree = Tree::new(kept(), |triangle| sides(corners(triangle)));
+    let tree = if vertices.len() <= MOST_VERTICES * triangles.len() {
+        Tree::of_triangles(kept(), corners)
+    } else {
+        Tree::new(kept(), |triangle| sides(corners(triangle)))
+    };
     let reach = |corner: Vec3| (corner.as_dvec3() - center.as_dvec3()).length_squared();
     let outer = kept().flat_map(corners).map(reach).fold(0.0, f64::max).sqrt();
     let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
@@ -51,6 +55,9 @@ pub(super) fn build(mut vertices: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Re
     triangles.shrink_to_fit();
     Ok(Data { vertices, triangles, twins, patches, marks, tree, dropped, low, high, center, outer_radius })
 }
+
+/// Vertices a triangle up to which the tree holds corners, too: 12 bytes more a triangle, and 100 in all are promised.
+const MOST_VERTICES: usize = 2;
 
 /// Set in the marks of a triangle that was dropped, and no [`Prominent`]'s.
 pub(super) const DROPPED: u16 = 1 << 15;

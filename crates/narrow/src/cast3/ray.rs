@@ -25,6 +25,7 @@
 
 mod ground;
 mod planes;
+mod projection;
 mod round;
 
 use super::advance::{End, advance};
@@ -198,6 +199,18 @@ impl<'a> Cast<'a> {
     #[inline]
     fn answer(&self, meeting: Meeting, limit: f64, part: impl FnOnce() -> Part<'a>) -> Option<RayHit3> {
         match meeting {
+            Meeting::Unclear | Meeting::Open => {
+                let hit = self.by_steps(&part(), matches!(meeting, Meeting::Unclear));
+                hit.filter(|hit| hit.distance <= limit)
+            }
+            closed => self.told(closed, limit),
+        }
+    }
+
+    /// The same of what had a closed form.
+    #[inline(always)]
+    fn told(&self, meeting: Meeting, limit: f64) -> Option<RayHit3> {
+        match meeting {
             Meeting::At(distance, normal, error) if distance <= limit => Some(RayHit3 {
                 distance,
                 error: (error as f32).next_up(),
@@ -205,12 +218,8 @@ impl<'a> Cast<'a> {
                 inside: false,
                 part: 0,
             }),
-            Meeting::At(..) | Meeting::Never => None,
             Meeting::Inside => Some(self.inside()),
-            Meeting::Unclear | Meeting::Open => {
-                let hit = self.by_steps(&part(), matches!(meeting, Meeting::Unclear));
-                hit.filter(|hit| hit.distance <= limit)
-            }
+            _ => None,
         }
     }
 

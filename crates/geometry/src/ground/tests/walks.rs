@@ -18,7 +18,38 @@ fn shapes() -> Vec<(String, Shape3)> {
         "large".to_owned(),
         mesh_of(&grid("large", 70, |column, row| (column * row % 7) as f32)).into(),
     ));
+    // So many vertices a triangle that the tree holds boxes alone.
+    let mut spare = grid("spare", 40, |column, row| (column * row % 5) as f32);
+    spare.vertices.resize(3 * spare.triangles.len(), Vec3::ZERO);
+    shapes.push(("spare".to_owned(), mesh_of(&spare).into()));
     shapes
+}
+
+#[test]
+fn corners_that_are_handed_over_are_those_of_the_number() {
+    let mut count = 0;
+    for (name, shape) in shapes() {
+        let Some(ground) = Ground::of(&shape) else { panic!("{name}") };
+        let mut dice = Dice::new(17);
+        for _ in 0..40 {
+            let ((from, _), (to, _)) = (somewhere(&mut dice, &shape), somewhere(&mut dice, &shape));
+            let (mut found, mut read) = (vec![], vec![]);
+            let (from, along) = (from.as_dvec3(), (to - from).as_dvec3());
+            ground.visit_along(from, along, Vec3::ZERO, 2.0, |number| {
+                found.push(number);
+                2.0
+            });
+            ground.read_along(from, along, Vec3::ZERO, 2.0, |number, corners| {
+                assert_eq!(corners, ground.corners(number), "{name} {number}");
+                assert_eq!(Some(ground.triangle_with(corners)), ground.triangle(number), "{name} {number}");
+                read.push(number);
+                2.0
+            });
+            assert_eq!(found, read, "{name}");
+            count += read.len();
+        }
+    }
+    assert!(count > 1000, "{count}");
 }
 
 fn box_of(ground: Ground<'_>, number: u32) -> Option<Aabb3> {

@@ -2,21 +2,32 @@
 //!
 //! ```text
 //! for each triangle whose box the ray meets, nearest first, until boxes are beyond the nearest hit
-//!   clearly beside it, behind the origin or beyond the nearest hit:   no          (passes)
+//!   its projection along the ray is clearly beside zero:              no          (Projection::side)
+//!   zero is clearly within it, and nothing was hit yet:               where its plane is met
+//!   else: clearly beside it, behind the origin or beyond the hit:     no          (passes)
 //!   else:                                                             what the triangle alone answers
 //! ```
 //! Watertight: a triangle is hit by what passes within rounding of it, and is not passed over here unless the ray is
 //! twice as far beside it; so a ray through an edge that two triangles share, or a vertex, hits at least one of them.
 //!
-//! What makes it fast: the ray is turned into the ground's axes, once, and not the triangles out of them; a triangle
-//! that is missed costs no root and one quotient.
+//! What makes it fast, in instructions of a ray on 20,000 triangles of rolling land that took 3970 before and takes 2530:
+//!
+//! 1. the ray is turned into the ground's axes, once, and not the triangles out of them; a triangle that is missed costs
+//!    no root and no quotient;
+//! 2. corners come out of the tree's leaves, not by numbers out of tables: on a million triangles that wait for memory was a
+//!    third of the time;
+//! 3. a triangle that is crossed for certain is asked neither for the sphere around it nor for its edges again (350);
+//! 4. what is written by parts and read whole at once waits a dozen cycles: the projection and the ray are made in
+//!    registers, and the visitor is called in one place, so that it is compiled into the walk (a quarter of the time, and
+//!    few instructions).
 
-use super::planes::EDGE_ON;
-use super::{Cast, length};
+use super::planes::{self, EDGE_ON};
+use super::projection::{Projection, Side};
+use super::{Cast, Meeting, length};
 use crate::impact3::RayHit3;
 use crate::pair3::Part;
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Basis3, Ground, Shape3};
+use asunder_geometry::{Basis3, Ground, Shape3, Triangle3};
 
 /// A ray in the ground's axes.
 struct Local {
@@ -26,6 +37,7 @@ struct Local {
     /// How far a point on it may be beside its place, in metres: at the origin, and more for each length of the way.
     doubt: [f64; 2],
     is_one_sided: bool,
+    projection: Projection,
 }
 
 impl Cast<'_> {
@@ -35,24 +47,29 @@ impl Cast<'_> {
         let pace = length(self.way);
         // Twice what any triangle takes for itself.
         let doubt = [128.0 * f64::EPSILON * (length(self.from) + size), 128.0 * f64::EPSILON * pace];
+        let (origin, way) = (basis.turn_back(self.from), basis.turn_back(self.way));
         let local = Local {
-            origin: basis.turn_back(self.from),
-            way: basis.turn_back(self.way),
+            origin,
+            way,
             squared: self.squared,
             doubt,
             is_one_sided: ground.is_one_sided(),
+            projection: Projection::new(origin, way, length(self.from) + size),
         };
         // Boxes are met early and late enough for what their triangles give away.
         let grown = Vec3::splat((4.0 * doubt[0]) as f32);
         let mut first: Option<RayHit3> = None;
         let mut within = limit;
-        ground.visit_along(local.origin, local.way, grown, limit, |number| {
-            if !local.passes(ground.corners(number), within)
-                && let Some(triangle) = ground.triangle(number).map(Shape3::Triangle)
-            {
-                let meeting = self.meeting(&triangle, basis, DVec3::ZERO, limit);
-                let hit = Cast { shape: &triangle, ..*self }
-                    .answer(meeting, within, || Part::whole(&triangle, basis));
+        ground.read_along(origin, way, grown, limit, |number, corners| {
+            let side = local.projection.side(corners);
+            if side == Side::Beside {
+                return within;
+            }
+            // What is crossed for certain, and is the first, answers at once; of nothing else a sphere is asked.
+            let is_plain = side == Side::Inside && first.is_none() && !local.is_one_sided;
+            if is_plain || !local.passes(corners, within) {
+                let triangle = ground.triangle_with(corners);
+                let hit = self.on(triangle, basis, within, side == Side::Inside);
                 if let Some(hit) = hit.map(|hit| RayHit3 { part: number, ..hit })
                     && first.is_none_or(|known| (hit.distance, number) < (known.distance, known.part))
                 {
@@ -63,6 +80,25 @@ impl Cast<'_> {
             within
         });
         first
+    }
+
+    /// What a triangle alone answers. Where the ray's line crosses it, it meets the sphere around it, too.
+    #[inline(always)]
+    fn on(&self, triangle: Triangle3, basis: &Basis3, limit: f64, is_crossed: bool) -> Option<RayHit3> {
+        if is_crossed {
+            let size = f64::from(triangle.outer_radius()) + length(triangle.center().as_dvec3());
+            let meeting = planes::crossed_triangle(&self.line(DVec3::ZERO, size), basis, &triangle);
+            if !matches!(meeting, Meeting::Open) {
+                return self.told(meeting, limit);
+            }
+        }
+        self.slowly_on(&triangle.into(), basis, limit)
+    }
+
+    #[inline(never)]
+    fn slowly_on(&self, triangle: &Shape3, basis: &Basis3, limit: f64) -> Option<RayHit3> {
+        let meeting = self.meeting(triangle, basis, DVec3::ZERO, limit);
+        Cast { shape: triangle, ..*self }.answer(meeting, limit, || Part::whole(triangle, basis))
     }
 }
 

@@ -86,24 +86,59 @@ pub(super) fn half_space(line: &Line, basis: &Basis3, half_space: &HalfSpace) ->
 
 /// Where it meets the triangle's plane, if that is on the inner side of all edges up to rounding.
 pub(super) fn triangle(line: &Line, basis: &Basis3, triangle: &Triangle3) -> Meeting {
+    let crossing = match Crossing::new(line, basis, triangle) {
+        Ok(crossing) => crossing,
+        Err(meeting) => return meeting,
+    };
+    let (at, error) = (line.at(crossing.distance), crossing.error);
     let [a, b, c] = triangle.vertices();
     let (a, b, c) = (basis.turn(a.as_dvec3()), basis.turn(b.as_dvec3()), basis.turn(c.as_dvec3()));
-    let normal = basis.turn(triangle.normals()[0]);
-    let (height, pace) = (normal.dot(line.origin - a), normal.dot(line.way));
-    if height.abs() <= line.doubt || pace * pace < EDGE_ON * EDGE_ON * line.squared {
-        return Meeting::Open;
-    }
-    let distance = -height / pace;
-    if distance < 0.0 {
-        return Meeting::Never;
-    }
-    let (at, error) = (line.at(distance), line.error(distance, pace.abs(), 0.0));
     for (from, to) in [(a, b), (b, c), (c, a)] {
-        let inwards = normal.cross(to - from);
+        let inwards = crossing.normal.cross(to - from);
         let height = inwards.dot(at - from);
         if height < 0.0 && height * height > error * error * inwards.length_squared() {
             return Meeting::Never;
         }
     }
-    Meeting::At(distance, if pace < 0.0 { normal } else { -normal }, error)
+    crossing.meeting()
+}
+
+/// The same of one whose edges the ray is within for certain.
+#[inline]
+pub(super) fn crossed_triangle(line: &Line, basis: &Basis3, triangle: &Triangle3) -> Meeting {
+    match Crossing::new(line, basis, triangle) {
+        Ok(crossing) => crossing.meeting(),
+        Err(meeting) => meeting,
+    }
+}
+
+/// Where a ray meets a triangle's plane.
+struct Crossing {
+    distance: f64,
+    /// The front's.
+    normal: DVec3,
+    is_from_front: bool,
+    error: f64,
+}
+
+impl Crossing {
+    #[inline(always)]
+    fn new(line: &Line, basis: &Basis3, triangle: &Triangle3) -> Result<Self, Meeting> {
+        let corner = basis.turn(triangle.vertices()[0].as_dvec3());
+        let normal = basis.turn(triangle.normals()[0]);
+        let (height, pace) = (normal.dot(line.origin - corner), normal.dot(line.way));
+        if height.abs() <= line.doubt || pace * pace < EDGE_ON * EDGE_ON * line.squared {
+            return Err(Meeting::Open);
+        }
+        let distance = -height / pace;
+        if distance < 0.0 {
+            return Err(Meeting::Never);
+        }
+        let error = line.error(distance, pace.abs(), 0.0);
+        Ok(Self { distance, normal, is_from_front: pace < 0.0, error })
+    }
+
+    fn meeting(&self) -> Meeting {
+        Meeting::At(self.distance, if self.is_from_front { self.normal } else { -self.normal }, self.error)
+    }
 }
