@@ -420,3 +420,48 @@ fn a_world_moves_contacts_with_a_level_along() {
         }
     }
 }
+
+/// On ground in narrow strips another normal often stands in for one that is refused: along it bodies are told to be further
+/// apart than they are. They are kept no longer than what truly parts them.
+#[test]
+fn a_gap_is_kept_no_longer_than_what_parts_them() {
+    let mut random = Random::new(17);
+    let (mut wide, mut kept_count) = (0, 0);
+    for _ in 0..400 {
+        let mut vertices = Vec::new();
+        for row in 0..12_u16 {
+            for column in 0..3_u16 {
+                let place = DVec3::new(
+                    (f64::from(row) - 6.0) * 0.01,
+                    random.range(-0.5, 0.5),
+                    f64::from(column) - 1.0,
+                );
+                vertices.push(place.as_vec3());
+            }
+        }
+        let cell = |at: u32| [[at, at + 1, at + 3], [at + 1, at + 4, at + 3]];
+        let triangles: Vec<_> = (0..11).flat_map(|row| [row * 3, row * 3 + 1]).flat_map(cell).collect();
+        let ground = Shape3::from(TriMesh::new(vertices, triangles).unwrap());
+        for body in bodies(&mut random) {
+            let from = random.direction();
+            let start = Pose3::new(from * 2.0 + random.direction() * 0.1, random.rotation()).unwrap();
+            let down = from * -4.0;
+            let field = Pose3::IDENTITY;
+            let Some(hit) = Pair3::new(&body, &start, &ground, &field).cast(down.as_vec3()) else { continue };
+            let up = from * f64::from(MARGIN) * random.log_range(1e-4, 0.5);
+            let pose = Pose3::at(start.position() + down * hit.fraction + up).unwrap();
+            let pose = Pose3::new(pose.position(), start.rotation()).unwrap();
+            let stand = Stand { body, pose, ground: ground.clone(), field, is_turned: random.unit() < 0.5 };
+            let (Some(false), found, Some(kept)) = stand.made(&pose) else { continue };
+            let Some(nearest) = Pair3::new(&stand.body, &pose, &stand.ground, &field).distance() else {
+                continue;
+            };
+            let parted = f64::from(nearest.distance) + f64::from(nearest.error);
+            let told = found.iter().map(|of| of.separation - of.error).fold(f32::INFINITY, f32::min);
+            wide += usize::from(f64::from(told) > parted);
+            kept_count += 1;
+            assert!(f64::from(kept.reach()) <= parted, "{} of {parted}, told {told}", kept.reach());
+        }
+    }
+    assert!(kept_count > 60 && wide > 5, "{wide} of {kept_count}");
+}

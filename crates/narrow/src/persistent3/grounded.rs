@@ -25,7 +25,7 @@
 use super::flat::NearPoints;
 use super::grip::{Grip, UNKNOWN};
 use super::witness::Witness;
-use crate::answer::{Answer, ContactPoint3, Manifold3};
+use crate::answer::{Answer, ContactPoint3, Manifold3, Separation3};
 use crate::ground3::OnGround;
 use crate::jobs3::Job3;
 use crate::pair3::Pair3;
@@ -118,8 +118,11 @@ impl Grounded {
         let arm = (body.center().length() + body.outer_radius()).next_up();
         let mut reach = most_slide(body, job.margin);
         if !overlapping {
-            let least = |bound: f32, of: &Manifold3| bound.min(of.separation - of.error);
-            let gap = found.iter().fold(f32::INFINITY, least);
+            // Where another normal stands in for one that ground refuses, what is told may be more than what parts them.
+            let gap = match pair.separation(reach) {
+                Separation3::Measured(near) => near.separation - near.error,
+                Separation3::AtLeast(bound) => bound,
+            };
             let most = found.iter().fold(f32::INFINITY, |bound: f32, of| bound.min(of.separation + of.error));
             reach = reach.min(gap).min(job.margin - most).next_down();
         }
@@ -255,7 +258,8 @@ impl Grounded {
         let untold = if of.points.is_full() { lean * drift } else { 0.0 };
         let left = f64::from(self.cost) * drift;
         // The way around a ball.
-        let round = if self.is_ball { drift * drift / f64::from(self.arm) } else { 0.0 };
+        let round =
+            if self.is_ball { around(f64::from(self.arm) + f64::from(of.separation), drift) } else { 0.0 };
         let rounding = f64::from(f32::EPSILON) * (f64::from(of.separation.abs()) + steep * drift);
         let turned = spin * (3.0 * f64::from(self.arm) + 4.0 * steep * steep * drift);
         untold + left + round + rounding + turned
@@ -283,6 +287,12 @@ impl Grounded {
         }));
         to.separation = (f64::from(of.separation) + (deepest - deepest_then)) as f32;
     }
+}
+
+/// By how much more than in a line the distance to a point so far away changes on the way: too much, where that is not far
+/// beyond the way.
+fn around(distance: f64, way: f64) -> f64 {
+    if distance > 2.0 * way { way * way / distance } else { f64::INFINITY }
 }
 
 /// How a body moved since, in world axes.

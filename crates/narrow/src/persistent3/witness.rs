@@ -34,14 +34,20 @@ impl Witness {
             .reduce(|least, next| if next.separation < least.separation { next } else { least })?;
         let still = Moved::none(on.to_body);
         let holds = |witness: &Self| witness.holds(&still, on.body_basis, arm.into());
-        if let Shape3::Sphere(sphere) = on.body {
+        // A point of a triangle in the body shows nothing once its front no longer sees the body's centre.
+        let is_any_side = !on.ground.is_one_sided();
+        if let Shape3::Sphere(sphere) = on.body
+            && is_any_side
+        {
             return Self::in_ball(on, deepest, sphere.radius().into()).filter(holds);
         }
         let all = 0..deepest.points.len();
         let some = all.clone().map(|i| i..i + 1);
         let mut crossings =
             core::iter::once(all).chain(some).filter_map(|points| Self::crossing(on, deepest, points, near));
-        crossings.find(holds).or_else(|| Self::inside(on, deepest).filter(holds))
+        crossings
+            .find(holds)
+            .or_else(|| Self::inside(on, deepest).filter(|inside| is_any_side && holds(inside)))
     }
 
     /// From what is in the middle of some points to the body's centre.
