@@ -3,6 +3,8 @@
 //! The judges are exact overlap, heights of vertices over planes, what is made anew at the same poses, and drifts measured
 //! at the vertices.
 
+mod spikes;
+
 use asunder::{Collider3, World3};
 use asunder_geometry::tolerance::EVEN_DEPTH;
 use asunder_geometry::{Capsule3, Cuboid, Ground, Hull, Pose3, Shape3, Sphere, TriMesh};

@@ -42,10 +42,13 @@ impl<'a> NearPoints<'a> {
         near
     }
 
-    /// How far ground bends within so many metres of a point on it: the sine of the greatest angle to a unit normal. Nothing
-    /// where it ends, or nobody knows.
+    /// How far ground bends within so many metres of a point on it: the sine of the greatest angle to the unit normal of the
+    /// patch there. Nothing where it ends, folds back, or nobody knows.
     pub(super) fn bend_around(&self, foot: DVec3, (normal, patch): (DVec3, u32), reach: f64) -> Option<f64> {
         let (mut bend, mut is_on) = (0.0_f64, false);
+        // Seen from behind, all that goes on from it is.
+        let own = self.triangles.iter().find(|triangle| triangle.patch == patch)?;
+        let front = if front_of(own.corners).dot(normal) < 0.0 { -normal } else { normal };
         for triangle in &self.triangles {
             let [a, b, c] = widened(triangle.corners);
             let cross = (b - a).cross(c - a);
@@ -61,7 +64,7 @@ impl<'a> NearPoints<'a> {
             }
             is_on = true;
             if triangle.patch != patch {
-                bend = bend.max(bend_of(cross, normal));
+                bend = bend.max(bend_of(cross, front)?);
             }
             for (edge, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
                 let (along, across) = (to - from, foot - from);
@@ -78,14 +81,12 @@ impl<'a> NearPoints<'a> {
     pub(super) fn bend_at(&self, edge: u32, normal: DVec3) -> Option<f64> {
         let (triangle, edge) = (edge / 3, edge as usize % 3);
         let (other, _) = self.ground.neighbor(triangle, edge)?;
-        let bend = |triangle: u32| {
-            let [a, b, c] = widened(self.ground.corners(triangle));
-            bend_of((b - a).cross(c - a), normal)
-        };
-        Some(bend(triangle).max(bend(other)))
+        let [one, other] = [triangle, other].map(|triangle| front_of(self.ground.corners(triangle)));
+        let front = if one.dot(normal) < 0.0 { -normal } else { normal };
+        Some(bend_of(one, front)?.max(bend_of(other, front)?))
     }
 
-    /// The ends of an edge of ground by its number, if it is a triangle's that is near.
+    /// The ends of an edge of ground by its number.
     pub(super) fn edge(&self, number: u32) -> Option<[DVec3; 2]> {
         let (triangle, edge) = (number / 3, number as usize % 3);
         if triangle >= self.ground.triangle_count() {
@@ -119,9 +120,14 @@ fn widened([a, b, c]: [Vec3; 3]) -> [DVec3; 3] {
     [a.as_dvec3(), b.as_dvec3(), c.as_dvec3()]
 }
 
-/// The sine of the angle between a direction of any length, either way, and a unit normal.
-fn bend_of(direction: DVec3, normal: DVec3) -> f64 {
+/// The normal of a triangle's front, of any length.
+fn front_of(corners: [Vec3; 3]) -> DVec3 {
+    let [a, b, c] = widened(corners);
+    (b - a).cross(c - a)
+}
+
+/// The sine of the angle between a direction of any length and a unit normal; nothing beyond a right angle.
+fn bend_of(direction: DVec3, normal: DVec3) -> Option<f64> {
     let sine = direction.cross(normal).length() / direction.length();
-    // What has no direction may have any.
-    if sine <= 1.0 { sine } else { 1.0 }
+    (direction.dot(normal) > 0.0).then_some(sine.min(1.0))
 }
