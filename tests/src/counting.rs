@@ -18,7 +18,7 @@ use rayon::ThreadPoolBuilder;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::atomic::{AtomicI64, AtomicU64, Ordering::Relaxed};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Barrier, Mutex, PoisonError};
 
 /// The system's allocator, and two sums.
 pub struct Counting;
@@ -56,7 +56,14 @@ pub fn counted_here<T>(work: impl FnOnce() -> T) -> T {
 pub fn counted<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let pool = ThreadPoolBuilder::new().num_threads(threads);
-    pool.start_handler(|_| IS_COUNTED.set(true)).build().unwrap().install(work)
+    let pool = pool.start_handler(|_| IS_COUNTED.set(true)).build().unwrap();
+    // The first time that a thread takes work from another it registers itself, with 2304 bytes: some time, unless now.
+    let all = Barrier::new(threads);
+    pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| drop(all.wait()))));
+    let done = pool.install(work);
+    // Threads end after their pool does, and what they give back then is nobody's.
+    pool.broadcast(|_| IS_COUNTED.set(false));
+    done
 }
 
 fn count(calls: u64, bytes: i64) {
