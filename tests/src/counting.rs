@@ -59,7 +59,7 @@ pub fn counted<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = pool.start_handler(|_| IS_COUNTED.set(true)).build().unwrap();
     // The first time that a thread takes work from another it registers itself, with 2304 bytes: some time, unless now.
     let all = Barrier::new(threads);
-    pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| drop(all.wait()))));
+    pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| _ = all.wait())));
     let done = pool.install(work);
     // Threads end after their pool does, and what they give back then is nobody's.
     pool.broadcast(|_| IS_COUNTED.set(false));
