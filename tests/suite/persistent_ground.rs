@@ -263,7 +263,6 @@ fn what_is_moved_along_on_ground_is_what_would_be_made_anew() {
         }
     }
     let Tally { carried, turned, far, manifolds, unmatched } = tally;
-    println!("{count} {kept_count} {carried} {turned} {far} {manifolds} {unmatched}");
     assert!(kept_count * 10 > count * 6, "{kept_count} of {count}");
     assert!(carried > 3000 && turned > 800 && far > 600, "{carried} {turned} {far}");
     assert!(
@@ -272,23 +271,29 @@ fn what_is_moved_along_on_ground_is_what_would_be_made_anew() {
     );
 }
 
+/// How high a floor cut into triangles is at a place, and a crate 0.8 m wide on it wherever it is wanted.
+fn crates_on_a_floor(count: usize, place: [f64; 2]) -> (f64, impl Fn(Pose3) -> Stand) {
+    let terrain = Terrain::flat(count, 1.0);
+    let ground = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
+    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap());
+    let stand_at = move |pose: Pose3| Stand {
+        body: body.clone(),
+        pose,
+        ground: ground.clone(),
+        field: Pose3::IDENTITY,
+        is_turned: false,
+    };
+    (terrain.under(place).0, stand_at)
+}
+
 /// A slab that slides over a floor cut into triangles: nothing is lost, and a wall that comes near is told of in time.
 #[test]
 fn a_crate_slides_on_a_floor_as_if_it_were_made_anew() {
-    let terrain = Terrain::flat(800, 1.0);
-    let floor = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
-    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap());
-    let (height, _) = terrain.under([10.0, 10.0]);
+    let (height, crate_at) = crates_on_a_floor(800, [10.0, 10.0]);
     // Its corners stand on seams.
     for x in [10.0, 10.4, 10.1234] {
         let pose = Pose3::at(DVec3::new(x, height + 0.4 - 1e-3, 10.4)).unwrap();
-        let stand = Stand {
-            body: body.clone(),
-            pose,
-            ground: floor.clone(),
-            field: Pose3::IDENTITY,
-            is_turned: false,
-        };
+        let stand = crate_at(pose);
         let (.., Some(kept)) = stand.made(&pose) else { panic!("it rests at {x}") };
         for step in 0..25 {
             let now = moved(&pose, DVec3::new(1e-4, -2e-6, 0.5e-4) * f64::from(step), DVec3::ZERO);
@@ -314,18 +319,9 @@ fn a_crate_slides_on_a_floor_as_if_it_were_made_anew() {
 
 #[test]
 fn what_cannot_be_known_is_made_anew() {
-    let terrain = Terrain::flat(200, 1.0);
-    let floor = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
-    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap());
-    let (height, _) = terrain.under([5.3, 5.3]);
+    let (height, crate_at) = crates_on_a_floor(200, [5.3, 5.3]);
     let at = |up: f64| Pose3::at(DVec3::new(5.3, height + 0.4 + up, 5.3)).unwrap();
-    let stand_at = |up: f64| Stand {
-        body: body.clone(),
-        pose: at(up),
-        ground: floor.clone(),
-        field: Pose3::IDENTITY,
-        is_turned: false,
-    };
+    let stand_at = |up: f64| crate_at(at(up));
     let stand = stand_at(-1e-3);
     let (.., Some(kept)) = stand.made(&stand.pose) else { panic!("it rests") };
     assert!(
@@ -361,27 +357,19 @@ fn what_cannot_be_known_is_made_anew() {
 /// No margin, no notice: what the body has not been near enough to be told of may come to overlap after a small drift.
 #[test]
 fn without_a_margin_nothing_slides_far() {
-    let terrain = Terrain::flat(200, 1.0);
-    let floor = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
-    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap());
-    let (height, _) = terrain.under([5.3, 5.3]);
+    let (height, crate_at) = crates_on_a_floor(200, [5.3, 5.3]);
     let poses = [Pose3::at(DVec3::new(5.3, height + 0.399, 5.3)).unwrap(), Pose3::IDENTITY];
     let reach = |margin: f32| {
-        let stand = Stand {
-            body: body.clone(),
-            pose: poses[0],
-            ground: floor.clone(),
-            field: poses[1],
-            is_turned: false,
-        };
+        let stand = crate_at(poses[0]);
         let job = stand.job(&poses, margin);
         let mut batch = Batch3::default();
         collide3(&[stand.job(&poses, margin)], &mut batch);
         Persistent3::of(&job, &batch.answers[0], &batch.manifolds).map_or(0.0, |kept| kept.reach())
     };
-    assert!((reach(0.02) - body.outer_radius() / 256.0).abs() < 1e-9);
+    let radius = crate_at(poses[0]).body.outer_radius();
+    assert!((reach(0.02) - radius / 256.0).abs() < 1e-9);
     assert_eq!(reach(1e-3), 1e-3);
-    assert!(reach(0.0) > 0.0 && reach(0.0) <= 3.1e-5 * body.outer_radius());
+    assert!(reach(0.0) > 0.0 && reach(0.0) <= 3.1e-5 * radius);
 }
 
 /// In a world, resting bodies on a level keep their contacts from frame to frame, and give them up when the level goes.

@@ -170,13 +170,6 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The triangle of such corners as [`read_along`](Self::read_along) hands over, without another look.
-    #[doc(hidden)]
-    #[inline]
-    pub fn triangle_with(self, corners: [Vec3; 3]) -> Triangle3 {
-        Triangle3::known(corners)
-    }
-
     /// The numbers of a triangle's vertices, in the order of its corners.
     #[inline]
     pub fn vertex_numbers(self, triangle: u32) -> [u32; 3] {

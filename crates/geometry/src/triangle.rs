@@ -62,7 +62,8 @@ impl Triangle3 {
 
     /// One that [`Triangle3::new`] has not refused.
     #[inline]
-    pub(crate) fn known(vertices: [Vec3; 3]) -> Self {
+    #[doc(hidden)]
+    pub fn known(vertices: [Vec3; 3]) -> Self {
         let mut triangle = Self { vertices, outer_radius: 0.0 };
         let center = triangle.center().as_dvec3();
         let squared = |corner: Vec3| (corner.as_dvec3() - center).length_squared();

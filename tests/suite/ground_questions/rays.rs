@@ -32,9 +32,39 @@ fn one_sided(ground: &Shape3) -> Shape3 {
     }
 }
 
+/// What rays met, and how often the triangles one by one told other bits.
+#[derive(Default)]
+struct Tally {
+    hits: usize,
+    misses: usize,
+    differ: usize,
+}
+
+impl Tally {
+    /// Asks ground, and all of its triangles one by one: the same bits, since by whatever way a triangle was found, it
+    /// answers for itself; but for ties, up to so many errors.
+    fn check(&mut self, (ground, at): (&Shape3, &Pose3), ray: &Ray3, limit: f64, errors: f64) {
+        for ground in [ground, &one_sided(ground)] {
+            let (found, slow) = (cast_ray3(ground, at, ray, limit), slowly(ground, at, ray, limit));
+            self.hits += usize::from(slow.is_some());
+            self.misses += usize::from(slow.is_none());
+            if found != slow {
+                self.differ += 1;
+                let (found, slow) = (found.unwrap(), slow.unwrap());
+                let pace = f64::from(ray.direction().length());
+                let slack = (found.error + slow.error) as f64 * errors;
+                assert!(
+                    (found.distance - slow.distance).abs() * pace <= slack,
+                    "{ray:?}: {found:?} {slow:?}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn a_ray_meets_the_nearest_of_all_triangles() {
-    let (mut hits, mut misses, mut differ) = (0, 0, 0);
+    let mut tally = Tally::default();
     for seed in 0..3000 {
         let mut random = Random::new(seed as u128);
         let (ground, at) = level(&mut random, seed);
@@ -47,27 +77,16 @@ fn a_ray_meets_the_nearest_of_all_triangles() {
         let direction = direction * random.pick(&[1e-3, 1.0, 1.0, 1e4]);
         let ray = Ray3::new(from, direction.as_vec3()).unwrap();
         let limit = random.pick(&[f64::INFINITY, f64::INFINITY, 1.0, 0.3, 0.0]);
-        for ground in [&ground, &one_sided(&ground)] {
-            let (found, slow) = (cast_ray3(ground, &at, &ray, limit), slowly(ground, &at, &ray, limit));
-            hits += usize::from(slow.is_some());
-            misses += usize::from(slow.is_none());
-            // The same bits: by whatever way the triangle was found, it answers for itself.
-            if found != slow {
-                differ += 1;
-                let (found, slow) = (found.unwrap(), slow.unwrap());
-                let pace = f64::from(ray.direction().length());
-                let slack = (found.error + slow.error) as f64;
-                assert!((found.distance - slow.distance).abs() * pace <= slack, "{seed}: {found:?} {slow:?}");
-            }
-        }
+        tally.check((&ground, &at), &ray, limit, 1.0);
     }
+    let Tally { hits, misses, differ } = tally;
     assert!(hits > 1500 && misses > 500, "{hits} {misses}");
     assert!(differ * 500 < hits, "{differ} of {hits}");
 }
 
 #[test]
 fn thin_triangles_at_any_slant_place_and_scale_are_met_as_one_by_one() {
-    let (mut hits, mut misses, mut differ) = (0, 0, 0);
+    let mut tally = Tally::default();
     for seed in 0..1500 {
         let mut random = Random::new(120_000 + seed as u128);
         let scale = random.pick(&[1e-3, 0.1, 1.0, 30.0, 1e3]);
@@ -94,22 +113,11 @@ fn thin_triangles_at_any_slant_place_and_scale_are_met_as_one_by_one() {
         let direction = way.as_vec3();
         let back = direction.as_dvec3().normalize() * f64::from(scale) * random.between(0.0, 20.0);
         let ray = Ray3::new(at.transform(aim) - back, direction).unwrap();
-        for ground in [&ground, &one_sided(&ground)] {
-            let limit = f64::INFINITY;
-            let (found, slow) = (cast_ray3(ground, &at, &ray, limit), slowly(ground, &at, &ray, limit));
-            hits += usize::from(slow.is_some());
-            misses += usize::from(slow.is_none());
-            if found != slow {
-                differ += 1;
-                let (found, slow) = (found.unwrap(), slow.unwrap());
-                let pace = f64::from(ray.direction().length());
-                // Within rounding of both edges of a sharp corner is further beyond it, by as much as it is sharp: out of
-                // the triangle's box, and one by one nobody looks at that.
-                let slack = (found.error + slow.error) as f64 * 4.0 / f64::from(thin);
-                assert!((found.distance - slow.distance).abs() * pace <= slack, "{seed}: {found:?} {slow:?}");
-            }
-        }
+        // Within rounding of both edges of a sharp corner is further beyond it, by as much as it is sharp: out of the
+        // triangle's box, and one by one nobody looks at that.
+        tally.check((&ground, &at), &ray, f64::INFINITY, 4.0 / f64::from(thin));
     }
+    let Tally { hits, misses, differ } = tally;
     assert!(hits > 1500 && misses > 50, "{hits} {misses}");
     assert!(differ * 100 < hits, "{differ} of {hits}");
 }

@@ -72,7 +72,7 @@ impl Search<'_> {
         let on = self.on;
         let bounds = placed.bounds(0.0, part);
         let (mut low, mut high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-        let [of_body, of_ground] = on.in_order(0, 1);
+        let [of_body, of_ground] = on.in_order([0, 1]);
         if self.passage.turns[of_ground].is_some() || !low.is_finite() {
             // Seen from ground that turns, a body flies in curves.
             let _ = on.ground.visit_near(
@@ -111,7 +111,7 @@ impl Search<'_> {
         }
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return until };
         let of_ground = Part::whole(&triangle, &on.basis);
-        let parts = on.in_order(*part, of_ground);
+        let parts = on.in_order([*part, of_ground]);
         let Some(stretch) = self.passage.stretch([&parts[0], &parts[1]], until) else { return until };
         let met = match part_end(self.passage, parts, &stretch, until) {
             End::Apart => return until,
@@ -137,7 +137,7 @@ impl Search<'_> {
 /// A touch in the direction that is the ground's there.
 fn told(on: &OnGround, passage: &Passage, first: &First) -> Impact3 {
     let met = &first.met;
-    let [_, of_ground] = on.in_order(0, 1);
+    let [_, of_ground] = on.in_order([0, 1]);
     let basis = passage.turns[of_ground].map_or(on.basis, |turn| turn.basis_at(met.fraction));
     let towards_body = if on.is_b { -met.normal } else { met.normal };
     let touched = Touched {
@@ -148,5 +148,5 @@ fn told(on: &OnGround, passage: &Passage, first: &First) -> Impact3 {
     let (triangle, away) = on.facing(&touched, first.center);
     let away = basis.turn(away);
     let normal = if on.is_b { -away } else { away };
-    impact_of(&Met { normal, ..*met }, on.in_order(first.part, triangle))
+    impact_of(&Met { normal, ..*met }, on.in_order([first.part, triangle]))
 }

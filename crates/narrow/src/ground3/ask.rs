@@ -98,7 +98,7 @@ impl Pair3<'_> {
 
     /// Whether the answer is yes for any part and a triangle near it.
     fn any_on(&self, on: &OnGround, only_seen: bool, mut ask: impl FnMut(&Parts) -> bool) -> bool {
-        let bases = on.in_order(on.body_basis, on.basis);
+        let bases = on.in_order([on.body_basis, on.basis]);
         on.for_body_parts(0.0, |part| {
             let placed = Corners::of(on, part);
             let flow = on.ground.visit_near(&placed.bounds(0.0, part), |number| {
@@ -127,7 +127,7 @@ impl Pair3<'_> {
     ) -> Parts<'s> {
         let mut of_ground = Part::whole(triangle, &on.basis);
         of_ground.index = number;
-        let [a, b] = on.in_order(part, of_ground);
+        let [a, b] = on.in_order([part, of_ground]);
         self.parts(bases, a, b)
     }
 
@@ -156,7 +156,7 @@ impl Pair3<'_> {
         let mut least = Least::within(limit);
         // What no box within reach holds.
         least.give_up(rounded_down(limit));
-        let bases = on.in_order(on.body_basis, on.basis);
+        let bases = on.in_order([on.body_basis, on.basis]);
         let mut look = |part: &Part| self.look_around(on, &bases, (part, wanted), &mut least);
         if let Some(body) = Ground::of(on.body) {
             body.visit_nearest(&on.bounds_for(0.0), limit, |number| {

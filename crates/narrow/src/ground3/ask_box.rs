@@ -9,7 +9,7 @@
 //! An axis is any: what all corners of both show along it is proved, however it was found. And any two points bound a
 //! separation from above.
 
-use super::near::OnGround;
+use super::near::{OnGround, box_around};
 use crate::pair3::Part;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -112,10 +112,7 @@ impl Corners {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
         }
         let grow = DVec3::splat(f64::from(part.shape.radius()) + reach + 64.0 * f64::EPSILON * self.lengths);
-        let next = |v: DVec3, up: bool| {
-            v.as_vec3().to_array().map(|value| if up { value.next_up() } else { value.next_down() })
-        };
-        Aabb3::new(next(self.low - grow, false).into(), next(self.high + grow, true).into())
+        box_around([self.low - grow, self.high + grow])
     }
 
     /// A triangle as it lies beside the part: what all bounds start from.

@@ -1,10 +1,10 @@
 //! From which side ground is seen, and which way it faces where it is touched.
 
-use super::near::OnGround;
+use super::near::{OnGround, box_around};
 use arrayvec::ArrayVec;
+use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{ON_TRIANGLE, SAME_NORMAL};
-use asunder_geometry::{Aabb3, Ground};
 use core::ops::ControlFlow;
 
 /// Triangles around a touched point that are looked at: beyond, the ground is a fan that no normal is owed to.
@@ -83,12 +83,7 @@ impl OnGround<'_> {
     fn around(&self, point: DVec3, corners: [DVec3; 3], center: DVec3) -> ArrayVec<Around, MOST_AROUND> {
         let mut around = ArrayVec::new();
         let slack = ON_TRIANGLE * extent(corners);
-        let low = (point - DVec3::splat(slack)).as_vec3();
-        let high = (point + DVec3::splat(slack)).as_vec3();
-        let next = |v: Vec3, is_up: bool| {
-            v.to_array().map(|value| if is_up { value.next_up() } else { value.next_down() })
-        };
-        let bounds = Aabb3::new(next(low, false).into(), next(high, true).into());
+        let bounds = box_around([point - DVec3::splat(slack), point + DVec3::splat(slack)]);
         let _ = self.ground.visit_near(&bounds, |number| {
             let seen = self.ground.corners(number);
             let corners = seen.map(|corner| corner.as_dvec3());

@@ -89,6 +89,7 @@ use ball::{Nearest, nearest_to};
 use core::cell::Cell;
 use core::ops::ControlFlow;
 use facet::{Facet, is_same};
+pub(crate) use facet::{front_of, widened};
 use groups::Groups;
 use meeting::{Meeting, Met};
 use prism::{Incident, Prism};

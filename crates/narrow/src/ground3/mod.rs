@@ -8,5 +8,5 @@ mod near;
 
 pub(crate) use ask_box::Corners;
 pub(crate) use ask_sides::Touched;
-pub(crate) use contact::contact_on_ground;
-pub(crate) use near::OnGround;
+pub(crate) use contact::{contact_on_ground, front_of, widened};
+pub(crate) use near::{OnGround, box_around};

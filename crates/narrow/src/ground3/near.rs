@@ -84,27 +84,22 @@ impl<'a> OnGround<'a> {
         let lengths = self.to_body.length() + shift.length() + f64::from(part.shape.outer_radius());
         let lengths = lengths + part.shape.center().as_dvec3().length();
         let grow = DVec3::splat(radius + reach + 64.0 * f64::EPSILON * lengths);
-        let (low, high) = (low - grow, high + grow);
-        let down = |value: f64| (value as f32).next_down();
-        let up = |value: f64| (value as f32).next_up();
-        Aabb3::new(
-            Vec3::new(down(low.x), down(low.y), down(low.z)),
-            Vec3::new(up(high.x), up(high.y), up(high.z)),
-        )
+        box_around([low - grow, high + grow])
     }
 }
 
-impl OnGround<'_> {
-    /// What belongs to the body and to the ground, as A's and B's.
-    #[inline]
-    pub(crate) fn in_order<T>(&self, of_body: T, of_ground: T) -> [T; 2] {
-        if self.is_b { [of_body, of_ground] } else { [of_ground, of_body] }
-    }
+/// A box that holds all between two corners: rounded outwards, one step further than the nearest.
+pub(crate) fn box_around([low, high]: [DVec3; 2]) -> Aabb3 {
+    let low = low.as_vec3().to_array().map(f32::next_down);
+    let high = high.as_vec3().to_array().map(f32::next_up);
+    Aabb3::new(low.into(), high.into())
+}
 
-    /// What belongs to A and to B, as the body's and the ground's.
+impl OnGround<'_> {
+    /// What belongs to the body and to the ground, as A's and B's; or what is A's and B's, as the body's and the ground's.
     #[inline]
-    pub(crate) fn in_body_order<T>(&self, [a, b]: [T; 2]) -> [T; 2] {
-        if self.is_b { [a, b] } else { [b, a] }
+    pub(crate) fn in_order<T>(&self, [one, other]: [T; 2]) -> [T; 2] {
+        if self.is_b { [one, other] } else { [other, one] }
     }
 
     /// The normal of a manifold from the ground to the body, in world axes.
@@ -116,7 +111,7 @@ impl OnGround<'_> {
     /// Where a point of a manifold is on the body, from its position, and on ground, from the ground's; in world axes. The
     /// latter better than by its anchor, which is as coarse as ground is large.
     pub(crate) fn ends(&self, manifold: &Manifold3, point: &ContactPoint3) -> [DVec3; 2] {
-        let [on_body, _] = self.in_body_order([point.anchor_a, point.anchor_b]);
+        let [on_body, _] = self.in_order([point.anchor_a, point.anchor_b]);
         let on_body = on_body.as_dvec3();
         [on_body, self.to_body + on_body - self.towards(manifold) * f64::from(point.separation)]
     }

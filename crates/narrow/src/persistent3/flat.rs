@@ -1,10 +1,10 @@
 //! The triangles around the contact points of a body, and how far ground bends there.
 
 use crate::answer::Manifold3;
-use crate::ground3::OnGround;
+use crate::ground3::{OnGround, box_around, front_of, widened};
 use arrayvec::ArrayVec;
-use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Aabb3, Ground, NearTriangle};
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Ground, NearTriangle};
 use core::ops::ControlFlow;
 
 /// Most triangles that are looked at: bodies with more around them are not kept for long.
@@ -30,7 +30,7 @@ impl<'a> NearPoints<'a> {
             }
         }
         let grow = DVec3::splat(2.0 * f64::from(reach));
-        let bounds = Aabb3::new((low - grow).as_vec3(), (high + grow).as_vec3());
+        let bounds = box_around([low - grow, high + grow]);
         let mut near = Self { ground: on.ground, triangles: ArrayVec::new_const(), is_cut: false };
         let _ = on.ground.read_near(&bounds, |triangle| match near.triangles.try_push(*triangle) {
             Ok(()) => ControlFlow::Continue(()),
@@ -114,16 +114,6 @@ impl<'a> NearPoints<'a> {
         }
         best.1
     }
-}
-
-fn widened([a, b, c]: [Vec3; 3]) -> [DVec3; 3] {
-    [a.as_dvec3(), b.as_dvec3(), c.as_dvec3()]
-}
-
-/// The normal of a triangle's front, of any length.
-fn front_of(corners: [Vec3; 3]) -> DVec3 {
-    let [a, b, c] = widened(corners);
-    (b - a).cross(c - a)
 }
 
 /// The sine of the angle between a direction of any length and a unit normal; nothing beyond a right angle.

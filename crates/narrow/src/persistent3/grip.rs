@@ -41,10 +41,11 @@ impl Grip {
     ) -> Option<(Self, f64)> {
         let (normal, reach) = (on.towards(manifold), f64::from(reach));
         if matches!(on.body, Shape3::Sphere(_)) {
-            // Whatever ground is under it next, its normal turns from this one by no more than the way over the radius.
+            // Whatever ground is under it next, its normal turns from this one by no more than the way over how far
+            // the centre is from it: the way around the ball, which moving along charges for.
             return Some((Self::along(normal, normal, false)?, 0.0));
         }
-        let [of_body, of_ground] = on.in_body_order([point.feature.a(), point.feature.b()]);
+        let [of_body, of_ground] = on.in_order([point.feature.a(), point.feature.b()]);
         let [on_body, foot] = on.ends(manifold, point);
         let (local, foot) = (on.body_basis.turn_back(on_body), on.basis.turn_back(foot));
         let normal_there = on.basis.turn_back(normal);

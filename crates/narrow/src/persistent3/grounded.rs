@@ -17,13 +17,15 @@
 //! ```
 //! **How far.** Up to 2^-8 of the radius, of a cube of a metre 3.4 mm. Which directions ground lets through is chosen anew
 //! only then. And no further than the margin: all that the body can come to overlap has been within the margin, and so has
-//! been told. With a smaller margin, or where points may leave their features, up to 2^-15 as for solids, at the price of
-//! twice the drift.
+//! been told; with a smaller margin, up to 2^-15 as for solids. Where a point may leave its features on the way, that costs a
+//! share of the drift: by how steeply ground bends at the next, and twice the drift only where nobody knows; no further than
+//! that is 2^-14 of the radius. A ball has no features to leave, and pays for the way around itself.
 //!
 //! parry3d keeps a manifold a triangle until a point of it slips by a millimetre.
 
 use super::flat::NearPoints;
 use super::grip::{Grip, UNKNOWN};
+use super::hold::arm_of;
 use super::witness::Witness;
 use crate::answer::{Answer, ContactPoint3, Manifold3, Separation3};
 use crate::ground3::OnGround;
@@ -52,7 +54,7 @@ pub(super) struct Grounded {
     is_ground_b: bool,
     /// Nothing of it depends on how it is turned.
     is_ball: bool,
-    /// What it costs where points leave their features, as a share of the way: zero where none does.
+    /// What it costs where points leave their features, as a share of the way: zero where none does, which bounds no reach.
     cost: f32,
     margin: f32,
     /// Up to which drift they hold, in metres.
@@ -115,7 +117,7 @@ impl Grounded {
         let (body, is_ground_b) = body_of(job)?;
         let pair = Pair3::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
         let on = OnGround::of(&pair)?;
-        let arm = (body.center().length() + body.outer_radius()).next_up();
+        let arm = arm_of(body);
         let mut reach = most_slide(body, job.margin);
         if !overlapping {
             // Where another normal stands in for one that ground refuses, what is told may be more than what parts them.
@@ -181,7 +183,7 @@ impl Grounded {
             && self.margin.is_finite()
             && self.arm.is_finite()
             && (0.0..=self.arm).contains(&self.reach)
-            && (0.0..=4.0).contains(&self.cost)
+            && (0.0..=UNKNOWN as f32 * 1.001).contains(&self.cost)
             && grips.iter().flatten().all(Grip::is_sound)
             && self.witness.as_ref().is_none_or(Witness::is_sound)
     }

@@ -112,6 +112,11 @@ impl Edge {
     }
 }
 
+/// How far a shape reaches from its position, in metres.
+pub(super) fn arm_of(shape: &Shape3) -> f32 {
+    (shape.center().length() + shape.outer_radius()).next_up()
+}
+
 /// By how much the bodies stand on each other to every side: the least width of three or four points, else how far the
 /// middle of the points is inside the face.
 fn width_on(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> f64 {

@@ -1,12 +1,12 @@
 //! The one manifold of two solids, moved along: see `persistent`.
 
-use super::hold::{Hold, footing_of};
+use super::hold::{Hold, arm_of, footing_of};
 use crate::answer::{Answer, ContactPoint3, Manifold3};
 use crate::jobs3::Job3;
 use crate::persistent::{Terms, Way, lost, single, slack_of};
 use crate::precision::signed;
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Basis3, Pose3, Shape3};
+use asunder_geometry::{Basis3, Pose3};
 
 /// A manifold of two solids, and how they stood to each other when it was made.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,13 +36,12 @@ impl Solids {
             [job.shape_a.outer_radius(), job.shape_b.outer_radius()],
         )?;
         let slack = if hold.is_gap { slack.min(LEAN * manifold.separation) } else { slack };
-        let arm = |shape: &Shape3| (shape.center().length() + shape.outer_radius()).next_up();
         let terms = Terms {
             overlapping,
             is_from_b: hold.is_from_b,
             margin: job.margin,
             slack,
-            arms: [arm(job.shape_a), arm(job.shape_b)],
+            arms: [arm_of(job.shape_a), arm_of(job.shape_b)],
             footing: footing_of(job, manifold, hold.width),
         };
         let poses = [*job.pose_a, *job.pose_b];

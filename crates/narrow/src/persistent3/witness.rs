@@ -75,7 +75,7 @@ impl Witness {
         let point_of = |i: usize| {
             let point = &deepest.points[i];
             let [_, on_ground] = on.ends(deepest, point);
-            let [_, feature] = on.in_body_order([point.feature.a(), point.feature.b()]);
+            let [_, feature] = on.in_order([point.feature.a(), point.feature.b()]);
             (on_ground, feature)
         };
         let mut best: Option<(f64, DVec3)> = None;

@@ -5,6 +5,7 @@ use super::{Dice, fields, mesh_of};
 use crate::aabb::Aabb3;
 use crate::ground::Ground;
 use crate::shape::Shape3;
+use crate::triangle::Triangle3;
 use core::ops::ControlFlow;
 use glam::{DVec3, Vec3};
 
@@ -41,7 +42,7 @@ fn corners_that_are_handed_over_are_those_of_the_number() {
             });
             ground.read_along(from, along, Vec3::ZERO, 2.0, |number, corners| {
                 assert_eq!(corners, ground.corners(number), "{name} {number}");
-                assert_eq!(Some(ground.triangle_with(corners)), ground.triangle(number), "{name} {number}");
+                assert_eq!(Some(Triangle3::known(corners)), ground.triangle(number), "{name} {number}");
                 read.push(number);
                 2.0
             });

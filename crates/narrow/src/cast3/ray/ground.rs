@@ -68,7 +68,7 @@ impl Cast<'_> {
             // What is crossed for certain, and is the first, answers at once; of nothing else a sphere is asked.
             let is_plain = side == Side::Inside && first.is_none() && !local.is_one_sided;
             if is_plain || !local.passes(corners, within) {
-                let triangle = ground.triangle_with(corners);
+                let triangle = Triangle3::known(corners);
                 let hit = self.on(triangle, basis, within, side == Side::Inside);
                 if let Some(hit) = hit.map(|hit| RayHit3 { part: number, ..hit })
                     && first.is_none_or(|known| (hit.distance, number) < (known.distance, known.part))

@@ -332,8 +332,7 @@ impl Facet {
         if ground.patch(other) == ground.patch(self.number) {
             return true;
         }
-        let [a, b, c] = widened(ground.corners(other));
-        let cross = (b - a).cross(c - a);
+        let cross = front_of(ground.corners(other));
         let front = if self.is_front { self.normal } else { -self.normal };
         is_same(front, cross)
     }
@@ -341,7 +340,7 @@ impl Facet {
 
 /// Corners in f64. Not by `map`: a kernel's arrays stay in registers only without its calls.
 #[inline(always)]
-pub(super) fn widened([a, b, c]: [Vec3; 3]) -> [DVec3; 3] {
+pub(crate) fn widened([a, b, c]: [Vec3; 3]) -> [DVec3; 3] {
     [a.as_dvec3(), b.as_dvec3(), c.as_dvec3()]
 }
 
@@ -354,8 +353,13 @@ pub(super) fn edge_number(ground: Ground, triangle: u32, edge: usize) -> u32 {
 
 /// The unit normal of a triangle's front; zero where it has none.
 fn unit_normal(ground: Ground, triangle: u32) -> DVec3 {
-    let [a, b, c] = widened(ground.corners(triangle));
-    (b - a).cross(c - a).normalize_or_zero()
+    front_of(ground.corners(triangle)).normalize_or_zero()
+}
+
+/// The normal of a triangle's front, as long as twice its area.
+pub(crate) fn front_of(corners: [Vec3; 3]) -> DVec3 {
+    let [a, b, c] = widened(corners);
+    (b - a).cross(c - a)
 }
 
 /// The normal of a triangle's front, as long as the sine of its angle at a corner.
