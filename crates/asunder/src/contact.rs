@@ -3,7 +3,6 @@
 use crate::space::{BodyKey2, BodyKey3};
 use asunder_broad::PairId;
 use asunder_narrow::{Hint, Manifold2, Manifold3};
-use core::ops::Range;
 
 /// Two bodies within their margins of each other, as of the last update.
 #[derive(Debug, PartialEq)]
@@ -42,7 +41,7 @@ pub type Contact2<'a> = Contact<'a, BodyKey2, Manifold2>;
 pub type Contact3<'a> = Contact<'a, BodyKey3, Manifold3>;
 
 /// A pair of boxes that overlapped at the last update, and what was learnt about it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate<K> {
     pub(crate) pair: PairId,
     pub(crate) keys: (K, K),
@@ -53,30 +52,25 @@ pub(crate) struct Candidate<K> {
     pub(crate) until: f64,
 }
 
-/// Where the manifolds of a contact stand: in the list of the batch that made them, or of what was carried on.
+/// Where the manifolds of a contact stand: in the list of the chunk that the pair was in.
 ///
 /// Nobody moves them from there: see `frame::collide` for what that bought.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
-    pub(crate) batch: u32,
-    pub(crate) range: Range<u32>,
+    pub(crate) chunk: u32,
+    pub(crate) start: u32,
+    pub(crate) end: u32,
 }
 
 impl Place {
-    /// In place of a batch: among those that were carried on.
-    pub(crate) const CARRIED: u32 = u32::MAX;
-
-    /// No manifold.
-    pub(crate) const NOWHERE: Self = Self { batch: Self::CARRIED, range: 0..0 };
-
-    /// The last of a list, from `start` on, of what was carried on.
-    pub(crate) fn carried<M>(start: usize, carried: &[M]) -> Self {
-        Self { batch: Self::CARRIED, range: start as u32..carried.len() as u32 }
+    /// How many stand there.
+    pub(crate) const fn count(&self) -> usize {
+        (self.end - self.start) as usize
     }
 }
 
 /// A contact as the world keeps it. Records are sorted by pair.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Record<K> {
     pub(crate) pair: PairId,
     pub(crate) keys: (K, K),
@@ -89,4 +83,22 @@ pub(crate) struct Record<K> {
     pub(crate) is_new: bool,
     /// Beyond the margins, and within what motions may bring.
     pub(crate) speculative: bool,
+}
+
+#[cfg(test)]
+impl<K: slotmap::Key> Record<K> {
+    /// A contact of nobody.
+    pub(crate) fn of_nobody(pair: PairId) -> Self {
+        Self {
+            pair,
+            keys: (K::null(), K::null()),
+            user_data: (0, 0),
+            manifolds: Place { chunk: 0, start: 0, end: 0 },
+            sensor: false,
+            overlapping: true,
+            begun: true,
+            is_new: false,
+            speculative: false,
+        }
+    }
 }

@@ -5,11 +5,12 @@
 //! 1. **refit**: a box is a function of one body alone.
 //! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between
 //!    updates.
-//! 3. **collide**: an answer is a function of one job; batches are cut by count, never by thread, and are put together
-//!    in order. A hint can save work, and choose among features that are equally good up to rounding. Where the bodies
+//! 3. **collide**: an answer is a function of one job; chunks of pairs are cut by count, never by thread, and are put
+//!    together in order. A hint can save work, and choose among features that are equally good up to rounding. Where the bodies
 //!    hardly drifted since their manifold was made, it is moved along, within its error. Where neither body moved, or
 //!    they were apart by more than they went since, the answer is last update's.
-//! 4. **merge**: two lists sorted by pair, walked side by side.
+//!    What was before is found by walking two lists sorted by pair, side by side.
+//! 4. **merge**: what the chunks found, in their order.
 //! 5. **report**: events in pair order.
 //!
 //! Hooks are asked between the stages, by one thread, in pair order: who may pair after the sweep, what to make of
@@ -23,10 +24,12 @@ mod impacts;
 mod merge;
 mod refit;
 mod report;
+mod settle;
 mod sweep;
 
-pub(crate) use ask::{Asked, Asking, manifolds_at};
+pub(crate) use ask::manifolds_at;
 pub(crate) use impacts::Found;
+pub(crate) use settle::{Most, Settled};
 
 use crate::clock::Moment;
 use crate::hooks::{Hooks, edit_contacts};

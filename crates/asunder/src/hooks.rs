@@ -181,12 +181,15 @@ pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>
         world.edited = None;
         return;
     };
-    let World { bodies, records, askings, carried, edited, scratch, .. } = world;
+    let World { bodies, records, answered, edited, scratch, .. } = world;
     let edited = edited.get_or_insert_with(|| Edited { manifolds: Vec::new(), ends: Vec::new() });
     edited.manifolds.clear();
     edited.ends.clear();
-    for Record { keys, manifolds: place, overlapping, is_new, .. } in &*records {
-        let found = manifolds_at(place, askings, carried);
+    for (number, record) in records.iter() {
+        let Record { keys, manifolds: place, overlapping, is_new, .. } = record;
+        // Numbers that no record has, have none.
+        edited.ends.resize(number, edited.manifolds.len() as u32);
+        let found = manifolds_at(place, answered);
         if let (false, Some(a), Some(b)) = (found.is_empty(), bodies.get(keys.0), bodies.get(keys.1)) {
             scratch.editing.clear();
             scratch.editing.extend_from_slice(found);

@@ -70,6 +70,7 @@ mod hooks;
 mod motion;
 mod odometer;
 mod query;
+mod records;
 mod slab;
 #[cfg(feature = "serde")]
 mod snapshot;

@@ -36,13 +36,8 @@ impl<T> Slab<T> {
 }
 
 impl<T> Slab<T> {
-    /// Puts something in the place it had, or where there is one if it had none; or gives the place up where there is
-    /// nothing. Says where it is now, and what was there.
-    pub(crate) fn put(&mut self, own: u32, item: Option<T>) -> (u32, Option<T>) {
-        let Some(item) = item else {
-            self.vacate(own);
-            return (NOWHERE, None);
-        };
+    /// Puts something in the place it had, or where there is one if it had none. Says where it is now, and what was there.
+    pub(crate) fn put(&mut self, own: u32, item: T) -> (u32, Option<T>) {
         let place = if own == NOWHERE { self.vacant.pop().unwrap_or(NOWHERE) } else { own };
         match self.items.get_mut(place as usize) {
             Some(old) => (place, Some(core::mem::replace(old, item))),
@@ -61,14 +56,12 @@ mod tests {
     #[test]
     fn places_stay_and_are_used_again() {
         let mut slab = Slab::new();
-        assert_eq!([slab.put(NOWHERE, Some('a')), slab.put(NOWHERE, Some('b'))], [(0, None), (1, None)]);
-        assert_eq!(
-            (slab.put(0, Some('c')), slab.get(0), slab.get(1)),
-            ((0, Some('a')), Some(&'c'), Some(&'b'))
-        );
-        assert_eq!((slab.put(0, None), slab.put(NOWHERE, None)), ((NOWHERE, None), (NOWHERE, None)));
-        assert_eq!((slab.put(NOWHERE, Some('d')), slab.get(0)), ((0, Some('c')), Some(&'d')));
-        assert_eq!(slab.put(NOWHERE, Some('e')), (2, None));
+        assert_eq!([slab.put(NOWHERE, 'a'), slab.put(NOWHERE, 'b')], [(0, None), (1, None)]);
+        assert_eq!((slab.put(0, 'c'), slab.get(0), slab.get(1)), ((0, Some('a')), Some(&'c'), Some(&'b')));
+        slab.vacate(0);
+        slab.vacate(NOWHERE);
+        assert_eq!((slab.put(NOWHERE, 'd'), slab.get(0)), ((0, Some('c')), Some(&'d')));
+        assert_eq!(slab.put(NOWHERE, 'e'), (2, None));
         assert_eq!((slab.get(2), slab.get(NOWHERE)), (Some(&'e'), None));
     }
 }

@@ -111,6 +111,10 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     #[doc(hidden)]
     fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
 
+    /// Up to which drift what is kept of an answer can be moved along at most, in metres.
+    #[doc(hidden)]
+    fn most_reach(job: &Self::Job<'_>) -> f32;
+
     /// What can be kept of an answer to bodies that went so far in the last frame, in metres.
     #[doc(hidden)]
     fn persistent(
@@ -211,6 +215,10 @@ impl Space for Plane {
         collide2(jobs, batch);
     }
 
+    fn most_reach(job: &Job2<'_>) -> f32 {
+        Persistent2::most_reach(job)
+    }
+
     fn persistent(
         job: &Job2<'_>,
         answer: &Answer,
@@ -307,6 +315,10 @@ impl Space for Volume {
 
     fn collide(jobs: &[Job3<'_>], batch: &mut Batch3) {
         collide3(jobs, batch);
+    }
+
+    fn most_reach(job: &Job3<'_>) -> f32 {
+        Persistent3::most_reach(job)
     }
 
     fn persistent(

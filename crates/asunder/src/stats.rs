@@ -18,9 +18,9 @@ pub struct Stats {
     pub refit: Duration,
     /// Stage 2: boxes to candidate pairs.
     pub sweep: Duration,
-    /// Stage 3: candidate pairs to contacts.
+    /// Stage 3: candidate pairs to contacts, beside last update's.
     pub collide: Duration,
-    /// Stage 4: last update's contacts beside this one's.
+    /// Stage 4: what the threads found, put together.
     pub merge: Duration,
     /// Between stages 4 and 5: the contact hook; nothing without one.
     pub hooks: Duration,

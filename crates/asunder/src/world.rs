@@ -3,15 +3,17 @@
 use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
-use crate::frame::{Asked, Asking, Found, manifolds_at};
+use crate::frame::{Found, Most, Settled, manifolds_at};
 use crate::hooks::Edited;
 use crate::motion::{Hit, Motions};
 use crate::odometer::Odometer;
 use crate::query::Boxes;
+use crate::records::Records;
 use crate::slab::Slab;
 use crate::space::Space;
 use crate::stats::Stats;
 use asunder_broad::{CoherentSweep, PairId};
+use asunder_narrow::Batch;
 use slotmap::{Key, SlotMap};
 
 /// A key whose body is gone.
@@ -72,10 +74,9 @@ pub struct World<S: Space> {
     pub(crate) questions: Boxes<S>,
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,
-    pub(crate) records: Vec<Record<S::Key>>,
-    /// What came of the pairs that were asked about, with their manifolds; and the manifolds of those carried on.
-    pub(crate) askings: Vec<Asking<S>>,
-    pub(crate) carried: Vec<S::Manifold>,
+    pub(crate) records: Records<S::Key>,
+    /// What was answered about the pairs, chunk by chunk, with the manifolds of all of them.
+    pub(crate) answered: Vec<Batch<S::Manifold>>,
     /// Manifolds that can be moved along while their bodies hardly drift, as they were made: one a candidate at most,
     /// each in a place that it keeps.
     pub(crate) persistent: Slab<S::Persistent>,
@@ -83,7 +84,7 @@ pub struct World<S: Space> {
     pub(crate) edited: Option<Edited<S>>,
     pub(crate) events: Vec<Event<S::Key>>,
     pub(crate) impacts: Vec<Hit<S::Key, S::Impact>>,
-    /// Records by their second body, then their first: with the records themselves, every body's contacts.
+    /// Numbers of records by their second body, then their first: with the records themselves, every body's contacts.
     pub(crate) by_second: Vec<u32>,
     pub(crate) stats: Stats,
     pub(crate) scratch: Scratch<S>,
@@ -94,17 +95,13 @@ pub struct World<S: Space> {
 pub(crate) struct Scratch<S: Space> {
     pub(crate) sweep: CoherentSweep<S::Aabb>,
     pub(crate) pairs: Vec<PairId>,
-    /// For each pair, the candidate of last update that it carries on as it is, or [`ASKED`].
-    pub(crate) carried: Vec<u32>,
-    /// The other pairs, with what last update left.
-    pub(crate) asked: Vec<Asked>,
+    /// What the chunks hand over.
+    pub(crate) settled: Vec<Settled<S>>,
+    pub(crate) most: Most,
     pub(crate) refitted: Vec<S::Aabb>,
     pub(crate) last_candidates: Vec<Candidate<S::Key>>,
-    pub(crate) last_records: Vec<Record<S::Key>>,
-    pub(crate) last_askings: Vec<Asking<S>>,
-    pub(crate) last_carried: Vec<S::Manifold>,
-    /// Memory of persistent manifolds that are kept no longer.
-    pub(crate) spare: S::Spare,
+    pub(crate) last_records: Records<S::Key>,
+    pub(crate) last_answered: Vec<Batch<S::Manifold>>,
     pub(crate) ended: Vec<Record<S::Key>>,
     /// The manifolds that a contact hook is editing.
     pub(crate) editing: Vec<S::Manifold>,
@@ -112,13 +109,11 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) of_bullets: Vec<(S::Key, S::Key)>,
     pub(crate) found: Vec<Found<S>>,
     #[cfg(feature = "parallel")]
-    pub(crate) answered: Vec<Option<Found<S>>>,
-    /// Where each slot's records end, in order of their second body.
+    pub(crate) impacts: Vec<Option<Found<S>>>,
+    /// Where each slot's records end, in order of their second body; and these with their numbers.
     pub(crate) ends: Vec<u32>,
+    pub(crate) seconds: Vec<(u32, u32)>,
 }
-
-/// The pair is asked about anew.
-pub(crate) const ASKED: u32 = u32::MAX;
 
 impl<S: Space> Default for World<S> {
     fn default() -> Self {
@@ -144,9 +139,8 @@ impl<S: Space> World<S> {
             max_pairs: 1 << 24,
             questions: Boxes::default(),
             candidates: Vec::new(),
-            records: Vec::new(),
-            askings: Vec::new(),
-            carried: Vec::new(),
+            records: Records::new(),
+            answered: Vec::new(),
             persistent: Slab::new(),
             edited: None,
             events: Vec::new(),
@@ -156,21 +150,20 @@ impl<S: Space> World<S> {
             scratch: Scratch {
                 sweep: CoherentSweep::new(),
                 pairs: Vec::new(),
-                carried: Vec::new(),
-                asked: Vec::new(),
+                settled: Vec::new(),
+                most: Most::default(),
                 refitted: Vec::new(),
                 last_candidates: Vec::new(),
-                last_records: Vec::new(),
-                last_askings: Vec::new(),
-                last_carried: Vec::new(),
-                spare: S::Spare::default(),
+                last_records: Records::new(),
+                last_answered: Vec::new(),
                 ended: Vec::new(),
                 editing: Vec::new(),
                 of_bullets: Vec::new(),
                 found: Vec::new(),
                 #[cfg(feature = "parallel")]
-                answered: Vec::new(),
+                impacts: Vec::new(),
                 ends: Vec::new(),
+                seconds: Vec::new(),
             },
         }
     }
@@ -213,49 +206,51 @@ impl<S: Space> World<S> {
     pub(crate) fn show_contacts(
         &self,
     ) -> impl ExactSizeIterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone {
-        (0..self.records.len()).map(|index| self.show(index))
+        self.records.iter().map(|(number, record)| self.show_record(number, record))
     }
 
-    /// The contact of a record, with its manifolds as the contact hook left them.
-    pub(crate) fn show(&self, index: usize) -> Contact<'_, S::Key, S::Manifold> {
-        let record = &self.records[index];
+    /// The contact of a record by its number, with its manifolds as the contact hook left them.
+    pub(crate) fn show(&self, number: usize) -> Contact<'_, S::Key, S::Manifold> {
+        self.show_record(number, self.records.get(number))
+    }
+
+    fn show_record<'a>(&'a self, number: usize, record: &Record<S::Key>) -> Contact<'a, S::Key, S::Manifold> {
         let Record { keys: (a, b), sensor, overlapping, is_new, speculative, .. } = *record;
         let manifolds = match &self.edited {
-            Some(edited) => edited.of(index),
-            None => manifolds_at(&record.manifolds, &self.askings, &self.carried),
+            Some(edited) => edited.of(number),
+            None => manifolds_at(&record.manifolds, &self.answered),
         };
         Contact { a, b, sensor, overlapping, is_new, speculative, manifolds }
     }
 
-    /// The record of two bodies, by its index.
+    /// The number of the record of two bodies.
     pub(crate) fn record_of(&self, one: S::Key, other: S::Key) -> Option<usize> {
         if !self.bodies.contains_key(one) || !self.bodies.contains_key(other) {
             return None;
         }
         let pair = PairId::new(slot_of(one), slot_of(other));
-        let index = self.records.binary_search_by_key(&pair, |record| record.pair).ok()?;
-        let record = &self.records[index];
+        let (number, record) = self.records.from(pair).next().filter(|(_, record)| record.pair == pair)?;
         // A slot may have had another tenant when the record was made.
-        (record.keys == (one, other) || record.keys == (other, one)).then_some(index)
+        (record.keys == (one, other) || record.keys == (other, one)).then_some(number)
     }
 
     /// Whether the contact of two bodies has begun.
     pub(crate) fn has_begun(&self, one: S::Key, other: S::Key) -> bool {
-        self.record_of(one, other).is_some_and(|index| self.records[index].begun)
+        self.record_of(one, other).is_some_and(|number| self.records.get(number).begun)
     }
 
-    /// Records of one body, by their indices, in order of the other body's slot.
+    /// Records of one body, by their numbers, in order of the other body's slot.
     pub(crate) fn records_of(&self, key: S::Key) -> impl Iterator<Item = usize> + Clone {
         // A stale key gets an empty range, and so does a slot whose records were another tenant's.
         let slot = if self.bodies.contains_key(key) { slot_of(key) } else { u32::MAX };
-        let second = |&index: &u32| self.records[index as usize].pair.b;
-        let start = self.by_second.partition_point(|index| second(index) < slot);
-        let as_second = self.by_second[start..].iter().take_while(move |index| second(index) == slot);
-        let start = self.records.partition_point(|record| record.pair.a < slot);
+        let second = |&number: &u32| self.records.get(number as usize).pair.b;
+        let start = self.by_second.partition_point(|number| second(number) < slot);
+        let as_second = self.by_second[start..].iter().take_while(move |number| second(number) == slot);
+        let as_first = self.records.from(PairId { a: slot, b: 0 });
         let as_first =
-            (start..self.records.len()).take_while(move |&index| self.records[index].pair.a == slot);
-        as_second.map(|&index| index as usize).chain(as_first).filter(move |&index| {
-            let (a, b) = self.records[index].keys;
+            as_first.take_while(move |(_, record)| record.pair.a == slot).map(|(number, _)| number);
+        as_second.map(|&number| number as usize).chain(as_first).filter(move |&number| {
+            let (a, b) = self.records.get(number).keys;
             // The other body may have been removed since.
             (a == key || b == key) && self.bodies.contains_key(a) && self.bodies.contains_key(b)
         })
@@ -263,7 +258,7 @@ impl<S: Space> World<S> {
 
     /// The bodies that touch this one.
     pub(crate) fn touched_by(&self, key: S::Key) -> impl Iterator<Item = S::Key> + Clone {
-        let begun = self.records_of(key).map(|index| &self.records[index]).filter(|record| record.begun);
+        let begun = self.records_of(key).map(|number| self.records.get(number)).filter(|record| record.begun);
         begun.map(move |record| if record.keys.0 == key { record.keys.1 } else { record.keys.0 })
     }
 }

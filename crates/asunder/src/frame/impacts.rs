@@ -63,8 +63,8 @@ fn ask<S: Space>(world: &mut World<S>) {
     #[cfg(feature = "parallel")]
     if scratch.of_bullets.len() >= MIN_PARALLEL {
         use rayon::prelude::*;
-        scratch.of_bullets.par_iter().map(impact).collect_into_vec(&mut scratch.answered);
-        scratch.found.extend(scratch.answered.drain(..).flatten());
+        scratch.of_bullets.par_iter().map(impact).collect_into_vec(&mut scratch.impacts);
+        scratch.found.extend(scratch.impacts.drain(..).flatten());
         return;
     }
     scratch.found.extend(scratch.of_bullets.iter().filter_map(impact));

@@ -1,54 +1,34 @@
-//! Stage 4: last update's contacts beside this one's.
+//! Stage 4: what the chunks hand over.
 
-use super::collide::of_another_shape;
-use crate::contact::Record;
+use crate::records::chunk_of;
 use crate::space::Space;
-use crate::world::World;
-use slotmap::Key;
+use crate::world::{Scratch, World};
 
-/// Carries over what has begun, and sets aside what is gone. Two lists sorted by pair, walked once.
+/// Puts together what of last update's contacts is over, and what is kept to be moved along in its place.
 pub(super) fn merge<S: Space>(world: &mut World<S>) {
-    let World { records, reshaped, stats, scratch, .. } = world;
-    scratch.ended.clear();
+    let World { candidates, records, answered, persistent, reshaped, stats, scratch, .. } = world;
+    let Scratch { settled, most, ended, .. } = scratch;
+    ended.clear();
     if stats.overflow {
         // Last update's contacts stay; their events were reported then.
-        records.iter_mut().for_each(|record| record.is_new = false);
+        records.all_mut().for_each(|record| record.is_new = false);
         return;
     }
-    let mut last = scratch.last_records.iter().peekable();
-    for record in records.iter_mut() {
-        while let Some(gone) = last.next_if(|last| last.pair < record.pair) {
-            set_aside(gone, &mut scratch.ended);
+    let size = chunk_of(candidates.len());
+    for ((settled, answered), chunk) in settled.iter_mut().zip(&*answered).zip(0..) {
+        most.see(answered, settled);
+        ended.append(&mut settled.ended);
+        for place in settled.vacated.drain(..) {
+            persistent.vacate(place);
         }
-        let before = last.next_if(|last| last.pair == record.pair);
-        let had_begun = match before {
-            // A reused slot is a new body: its predecessor's contact ended.
-            Some(before) if before.keys != record.keys => {
-                set_aside(before, &mut scratch.ended);
-                false
+        for (number, kept) in settled.kept.drain(..) {
+            let Some(candidate) = candidates.get_mut(chunk * size + number as usize) else { break };
+            let (place, before) = persistent.put(candidate.persistent, kept);
+            candidate.persistent = place;
+            if let Some(before) = before {
+                S::reclaim(&mut settled.spare, before);
             }
-            // The margin's memory does not outlive a shape: a contact that the new one does not touch is over. So
-            // is one beyond the margin, whatever a motion may bring.
-            Some(before)
-                if record.speculative || (!record.overlapping && of_another_shape(reshaped, record.pair)) =>
-            {
-                set_aside(before, &mut scratch.ended);
-                false
-            }
-            Some(before) => before.begun,
-            None => false,
-        };
-        record.begun |= had_begun;
-        record.is_new = record.begun && !had_begun;
-    }
-    for gone in last {
-        set_aside(gone, &mut scratch.ended);
+        }
     }
     reshaped.clear();
-}
-
-fn set_aside<K: Key>(gone: &Record<K>, ended: &mut Vec<Record<K>>) {
-    if gone.begun {
-        ended.push(gone.clone());
-    }
 }

@@ -7,7 +7,7 @@ use slotmap::Key;
 
 /// Below this many bodies, handing them to other threads costs more than it saves.
 #[cfg(feature = "parallel")]
-const MIN_PARALLEL: usize = 4096;
+const MIN_PARALLEL: usize = 1024;
 
 /// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went, or are
 /// disabled, are empty sets.

@@ -2,16 +2,22 @@
 
 use crate::contact::Record;
 use crate::event::Event;
+use crate::records::CHUNK;
 use crate::space::Space;
-use crate::world::World;
+use crate::world::{Scratch, World};
 use slotmap::Key;
 
-/// Writes the events in pair order, then the index of records by their second body.
+/// Writes the events in pair order, then the index of records by their second body. Of records, only those of chunks with a
+/// new one are read.
 pub(super) fn report<S: Space>(world: &mut World<S>) {
     let World { keys, candidates, records, edited, events, by_second, stats, scratch, .. } = world;
+    let Scratch { ended, settled, seconds, ends, .. } = scratch;
     events.clear();
-    let mut ended = scratch.ended.iter().peekable();
-    for began in records.iter().filter(|record| record.is_new) {
+    let tallies = || settled.iter().map(|settled| &settled.tally);
+    let mut ended = ended.iter().peekable();
+    let with_new = records.chunks().iter().zip(tallies()).filter(|(_, tally)| tally.new > 0);
+    let has_new = |record: &&Record<S::Key>| record.is_new;
+    for began in with_new.flat_map(|(chunk, _)| chunk).filter(has_new) {
         // Where a slot was reused, what ended comes before what began.
         while let Some(gone) = ended.next_if(|gone| gone.pair <= began.pair) {
             events.push(end(gone));
@@ -21,44 +27,57 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
     }
     events.extend(ended.map(end));
 
-    if !stats.overflow {
-        index_by_second(records, keys.len(), by_second, &mut scratch.ends);
-    }
     stats.candidates = candidates.len();
-    stats.contacts = records.len();
-    stats.touching = records.iter().filter(|record| record.overlapping).count();
-    stats.manifolds = match edited {
-        Some(edited) => edited.len(),
-        None => records.iter().map(|record| record.manifolds.range.len()).sum(),
-    };
+    if stats.overflow {
+        // Nobody has counted those that stay.
+        stats.contacts = records.all().count();
+        stats.touching = records.all().filter(|record| record.overlapping).count();
+        stats.manifolds = records.all().map(|record| record.manifolds.count()).sum();
+    } else {
+        stats.contacts = tallies().map(|tally| tally.seconds.len()).sum();
+        stats.touching = tallies().map(|tally| tally.touching).sum();
+        stats.manifolds = tallies().map(|tally| tally.manifolds).sum();
+        let lists = || tallies().map(|tally| &*tally.seconds);
+        index_by_second((lists, stats.contacts), keys.len(), by_second, (seconds, ends));
+    }
+    if let Some(edited) = edited {
+        stats.manifolds = edited.len();
+    }
 }
 
-/// The records in order of their second body, then of the first, in which order they come.
+/// The numbers of the records in order of their second bodies, which are listed chunk by chunk; then of the first, in which
+/// order they come.
 ///
 /// By counting, which is twice as fast as sorting where most bodies touch; where few do, there are more slots than
 /// worth counting in.
-fn index_by_second<K: Key>(records: &[Record<K>], slots: usize, into: &mut Vec<u32>, ends: &mut Vec<u32>) {
-    into.clear();
-    let second = |index: u32| records[index as usize].pair.b;
-    let all = 0..records.len() as u32;
-    if slots > 16 * records.len() {
-        into.extend(all);
-        into.sort_unstable_by_key(|&index| (second(index), index));
+fn index_by_second<'a, L: Iterator<Item = &'a [u32]>>(
+    (lists, count): (impl Fn() -> L, usize),
+    slots: usize,
+    by_second: &mut Vec<u32>,
+    (seconds, ends): (&mut Vec<(u32, u32)>, &mut Vec<u32>),
+) {
+    by_second.clear();
+    let numbered = || (0..).step_by(CHUNK).zip(lists()).flat_map(|(first, list)| list.iter().zip(first..));
+    if slots > 16 * count {
+        seconds.clear();
+        seconds.extend(numbered().map(|(&second, number)| (second, number)));
+        seconds.sort_unstable();
+        by_second.extend(seconds.iter().map(|&(_, number)| number));
         return;
     }
     ends.clear();
     ends.resize(slots, 0);
-    for index in all.clone() {
-        ends[second(index) as usize] += 1;
+    for &second in lists().flatten() {
+        ends[second as usize] += 1;
     }
     let mut sum = 0;
     for end in ends.iter_mut() {
         sum += core::mem::replace(end, sum);
     }
-    into.resize(records.len(), 0);
-    for index in all {
-        let end = &mut ends[second(index) as usize];
-        into[*end as usize] = index;
+    by_second.resize(count, 0);
+    for (&second, number) in numbered() {
+        let end = &mut ends[second as usize];
+        by_second[*end as usize] = number;
         *end += 1;
     }
 }
@@ -71,30 +90,18 @@ fn end<K: Key>(gone: &Record<K>) -> Event<K> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::Place;
-    use crate::space::BodyKey3;
-    use asunder_broad::PairId;
 
     #[test]
     fn counting_and_sorting_give_the_same_index() {
-        let record = |(a, b): (u32, u32)| Record {
-            pair: PairId { a, b },
-            keys: (BodyKey3::null(), BodyKey3::null()),
-            user_data: (0, 0),
-            manifolds: Place::NOWHERE,
-            sensor: false,
-            overlapping: true,
-            begun: true,
-            is_new: false,
-            speculative: false,
-        };
-        let pairs = (0..40).flat_map(|a| (a + 1..60).step_by(7).map(move |b| (a, b)));
-        let records: Vec<Record<BodyKey3>> = pairs.map(record).collect();
-        let (mut counted, mut sorted, mut ends) = (vec![9], vec![], vec![7; 3]);
-        index_by_second(&records, 60, &mut counted, &mut ends);
-        index_by_second(&records, 20 * records.len(), &mut sorted, &mut ends);
-        let by_second = |&index: &u32| (records[index as usize].pair.b, records[index as usize].pair.a);
-        assert!(counted.is_sorted_by_key(by_second) && counted.len() == records.len());
+        // Numbers have gaps: a chunk is never full.
+        let lists: Vec<Vec<u32>> = (0..40).map(|a| (a + 1..60).step_by(7).collect()).collect();
+        let all = || lists.iter().map(Vec::as_slice);
+        let count = lists.iter().map(Vec::len).sum();
+        let second = |&number: &u32| (lists[number as usize / CHUNK][number as usize % CHUNK], number);
+        let (mut counted, mut sorted, mut seconds, mut ends) = (vec![9], vec![], vec![(1, 2)], vec![7; 3]);
+        index_by_second((all, count), 60, &mut counted, (&mut seconds, &mut ends));
+        assert!(counted.is_sorted_by_key(second) && counted.len() == count);
+        index_by_second((all, count), 20 * count, &mut sorted, (&mut seconds, &mut ends));
         assert_eq!(counted, sorted);
     }
 }

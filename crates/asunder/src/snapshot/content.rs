@@ -106,8 +106,7 @@ impl<S: Saved> Content<S> {
             max_pairs,
             candidates,
             records,
-            askings,
-            carried,
+            answered,
             persistent,
             odometers,
             edited,
@@ -148,10 +147,10 @@ impl<S: Saved> Content<S> {
             max_pairs: *max_pairs as u64,
             candidates: candidates.iter().map(|candidate| CandidateForm::of(candidate, persistent)).collect(),
             contacts: records
-                .iter()
-                .map(|record| ContactForm::of(record, manifolds_at(&record.manifolds, askings, carried)))
+                .all()
+                .map(|record| ContactForm::of(record, manifolds_at(&record.manifolds, answered)))
                 .collect(),
-            edited: edited.as_ref().map(|_| (0..records.len()).map(list).collect()),
+            edited: edited.as_ref().map(|_| records.iter().map(|(number, _)| list(number)).collect()),
             events: events.clone(),
             impacts: impacts.clone(),
             counts: Counts::of(stats),

@@ -124,7 +124,7 @@ impl<S: Saved> Judge<'_, S> {
                 pair: candidate.pair,
                 keys: *keys,
                 user_data: *user_data,
-                manifolds: Place::carried(start, &all),
+                manifolds: Place { chunk: 0, start: start as u32, end: all.len() as u32 },
                 sensor: *sensor,
                 overlapping: *overlapping,
                 begun: *begun,

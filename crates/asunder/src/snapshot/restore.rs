@@ -10,9 +10,11 @@ use crate::hooks::Edited;
 use crate::motion::Motions;
 use crate::odometer::Odometer;
 use crate::query::Boxes;
+use crate::records::Records;
 use crate::slab::Slab;
 use crate::world::World;
 use asunder_geometry::Bounds;
+use asunder_narrow::Batch;
 use slotmap::Key;
 
 /// The world, if the data are those of one. Memory and time are linear in the data.
@@ -48,7 +50,7 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
     judge.impacts(impacts)?;
     let (candidates, persistent) = judge.candidates(candidates)?;
     let odometers = revived_odometers(odometers, slots.len())?;
-    let (records, carried) = judge.records(contacts, &candidates)?;
+    let (records, manifolds) = judge.records(contacts, &candidates)?;
     if let Some(index) = edited.as_ref().map(Vec::len).filter(|&lists| lists != records.len()) {
         return Err(SnapshotError::Contact { index });
     }
@@ -72,9 +74,8 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
         motions: Motions::of_list(motions),
         max_pairs: usize::try_from(*max_pairs).unwrap_or(usize::MAX),
         candidates,
-        records,
-        askings: Vec::new(),
-        carried,
+        records: Records::of(&records),
+        answered: vec![Batch { answers: Vec::new(), manifolds }],
         persistent: Slab::of(persistent),
         odometers,
         edited: edited.as_deref().map(Edited::of_lists),

@@ -1,0 +1,297 @@
+//! What came of the pairs of a chunk, as candidates and records, beside last update's.
+
+use super::ask::{Asker, Chunk, Way, manifolds_at, of_another_shape};
+use crate::collider::Collider;
+use crate::contact::{Candidate, Place, Record};
+use crate::odometer::Odometer;
+use crate::records::Walk;
+use crate::slab::NOWHERE;
+use crate::space::Space;
+use asunder_broad::PairId;
+use asunder_narrow::{Answer, Batch};
+use core::iter::Peekable;
+
+/// What is left of last update's records.
+type LastRecords<'c, K> = Peekable<Walk<'c, K>>;
+
+/// Two bodies.
+pub(super) type Both<'a, S> = (&'a Collider<S>, &'a Collider<S>);
+
+/// Two bodies within their margins.
+struct Met {
+    overlapping: bool,
+    user_data: (u64, u64),
+    sensor: bool,
+}
+
+/// The most that any chunk has held so far, of what it keeps lists of. All have room for it: left to themselves, each would
+/// grow when it meets its own largest frame, and double.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Most {
+    answers: usize,
+    manifolds: usize,
+    records: usize,
+}
+
+impl Most {
+    /// Takes a chunk into account.
+    pub(super) fn see<S: Space>(&mut self, answered: &Batch<S::Manifold>, settled: &Settled<S>) {
+        self.answers = self.answers.max(answered.answers.len());
+        self.manifolds = self.manifolds.max(answered.manifolds.len());
+        self.records = self.records.max(settled.tally.seconds.len());
+    }
+
+    /// Makes a chunk ready, with room for all of it.
+    pub(super) fn prepare<S: Space>(&self, chunk: &mut Chunk<'_, S>) {
+        let Chunk { pairs, answered, records, settled, .. } = chunk;
+        answered.clear();
+        settled.clear();
+        answered.answers.reserve_exact(self.answers);
+        answered.manifolds.reserve_exact(self.manifolds);
+        records.reserve_exact(self.records);
+        settled.ways.reserve_exact(pairs.len());
+        settled.tally.seconds.reserve_exact(self.records);
+    }
+}
+
+/// What a chunk hands over: what is everybody's is made of it when all chunks are done.
+#[derive(Clone, Debug)]
+pub(crate) struct Settled<S: Space> {
+    /// What is done about each pair.
+    pub(super) ways: Vec<Way>,
+    /// Contacts of last update that are over, and had begun.
+    pub(super) ended: Vec<Record<S::Key>>,
+    /// What is kept to be moved along, and of which pair of the chunk.
+    pub(super) kept: Vec<(u32, S::Persistent)>,
+    /// Places of what is kept no longer.
+    pub(super) vacated: Vec<u32>,
+    /// Memory of what was kept.
+    pub(super) spare: S::Spare,
+    pub(super) tally: Tally,
+}
+
+/// What is told of a chunk's records without reading them again: they are large, and far away by then.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tally {
+    /// The second body of each.
+    pub(super) seconds: Vec<u32>,
+    pub(super) new: usize,
+    pub(super) touching: usize,
+    pub(super) manifolds: usize,
+}
+
+impl Tally {
+    fn clear(&mut self) {
+        self.seconds.clear();
+        (self.new, self.touching, self.manifolds) = (0, 0, 0);
+    }
+
+    fn count<K>(&mut self, record: &Record<K>) {
+        self.seconds.push(record.pair.b);
+        self.new += usize::from(record.is_new);
+        self.touching += usize::from(record.overlapping);
+        self.manifolds += record.manifolds.count();
+    }
+}
+
+impl<S: Space> Default for Settled<S> {
+    fn default() -> Self {
+        Self {
+            ways: Vec::new(),
+            ended: Vec::new(),
+            kept: Vec::new(),
+            vacated: Vec::new(),
+            spare: S::Spare::default(),
+            tally: Tally::default(),
+        }
+    }
+}
+
+impl<S: Space> Settled<S> {
+    /// Of what was handed over, keeps the memory.
+    pub(super) fn clear(&mut self) {
+        self.ways.clear();
+        self.ended.clear();
+        self.kept.clear();
+        self.vacated.clear();
+        self.tally.clear();
+    }
+
+    /// Gives up the place of what is kept no longer, if it has one.
+    pub(super) fn vacate(&mut self, place: u32) {
+        if place != NOWHERE {
+            self.vacated.push(place);
+        }
+    }
+
+    fn set_aside(&mut self, gone: &Record<S::Key>) {
+        if gone.begun {
+            self.ended.push(*gone);
+        }
+    }
+
+    /// Whether a contact has begun, and is new: what had begun goes on, until it is over.
+    #[inline(always)]
+    fn begin(&mut self, record: &mut Record<S::Key>, before: Option<&Record<S::Key>>, is_reshaped: bool) {
+        let goes_on = before.filter(|before| {
+            // A reused slot is a new body: its predecessor's contact ended. The margin's memory does not outlive a shape: a
+            // contact that the new one does not touch is over. So is one beyond the margin, whatever a motion may bring.
+            let is_over = record.speculative || (is_reshaped && !record.overlapping);
+            before.keys == record.keys && !is_over
+        });
+        if let (Some(gone), None) = (before, goes_on) {
+            self.set_aside(gone);
+        }
+        let had_begun = goes_on.is_some_and(|before| before.begun);
+        record.begun = record.overlapping || had_begun;
+        record.is_new = record.begun && !had_begun;
+    }
+
+    /// Last update's record of a pair; those before it are gone.
+    #[inline]
+    fn before<'r>(&mut self, pair: PairId, last: &mut LastRecords<'r, S::Key>) -> Option<&'r Record<S::Key>> {
+        while let Some((_, gone)) = last.next_if(|(_, last)| last.pair < pair) {
+            self.set_aside(gone);
+        }
+        last.next_if(|(_, last)| last.pair == pair).map(|(_, last)| last)
+    }
+}
+
+impl<S: Space> Asker<'_, S> {
+    /// Settles the candidates of a chunk and makes its records, in order of the pairs.
+    pub(super) fn settle(&self, chunk: Chunk<'_, S>) {
+        let Chunk {
+            number: chunk, pairs, last_records, until, candidates, records, answered, settled, ..
+        } = chunk;
+        let last = match pairs.first() {
+            Some(&first) if chunk > 0 => last_records.from(first),
+            _ => last_records.iter(),
+        };
+        let (mut last, mut next) = (last.peekable(), 0);
+        for (number, candidate) in candidates.iter_mut().enumerate() {
+            let pair = candidate.pair;
+            let before = settled.before(pair, &mut last);
+            let record = match settled.ways[number] {
+                Way::Carried => before.map(|before| self.carried(before, answered, chunk)),
+                Way::Moved { at, count, overlapping, user_data } => {
+                    let place = Place { chunk, start: at, end: at + count };
+                    let met = Met { overlapping, user_data, sensor: false };
+                    Some(self.record_of(candidate, met, place, answered))
+                }
+                Way::Asked => {
+                    let (a, b) = candidate.keys;
+                    let both = self.bodies.get(a).zip(self.bodies.get(b));
+                    let Some((answer, both)) = answered.answers.get(next).zip(both) else { break };
+                    next += 1;
+                    self.learn(candidate, answer);
+                    match self.kept_of((pair, both), answer, answered, settled) {
+                        Some(kept) => settled.kept.push((number as u32, kept)),
+                        None => settled.vacate(core::mem::replace(&mut candidate.persistent, NOWHERE)),
+                    }
+                    match *answer {
+                        Answer::Apart { .. } => None,
+                        Answer::Contact { overlapping, ref manifolds, .. } => {
+                            let place = Place { chunk, start: manifolds.start, end: manifolds.end };
+                            let user_data = (both.0.user_data, both.1.user_data);
+                            let met = Met { overlapping, user_data, sensor: both.0.sensor || both.1.sensor };
+                            Some(self.record_of(candidate, met, place, answered))
+                        }
+                    }
+                }
+                // A body of it is gone.
+                Way::Open => None,
+            };
+            match record {
+                Some(mut record) => {
+                    settled.begin(&mut record, before, of_another_shape(self.reshaped, pair));
+                    settled.tally.count(&record);
+                    records.push(record);
+                }
+                None => before.into_iter().for_each(|gone| settled.set_aside(gone)),
+            }
+        }
+        let is_its_own = |record: &Record<S::Key>| until.is_none_or(|until| record.pair < until);
+        while let Some((_, gone)) = last.next_if(|(_, last)| is_its_own(last)) {
+            settled.set_aside(gone);
+        }
+    }
+
+    /// What an answer says of a pair for the next update.
+    fn learn(&self, candidate: &mut Candidate<S::Key>, answer: &Answer) {
+        (candidate.hint, candidate.until) = match *answer {
+            Answer::Apart { hint, beyond } => {
+                let PairId { a, b } = candidate.pair;
+                let ways = [self.odometers[a as usize], self.odometers[b as usize]];
+                (hint, Odometer::until(ways, beyond))
+            }
+            Answer::Contact { hint, .. } => (hint, f64::NEG_INFINITY),
+        };
+    }
+
+    /// What is kept of an answer, to be moved along: of bodies that touch, and last.
+    fn kept_of(
+        &self,
+        (pair, (a, b)): (PairId, Both<'_, S>),
+        answer: &Answer,
+        answered: &Batch<S::Manifold>,
+        settled: &mut Settled<S>,
+    ) -> Option<S::Persistent> {
+        let &Answer::Contact { hint, .. } = answer else { return None };
+        if self.is_going(pair) {
+            return None;
+        }
+        let job = S::job(a, b, a.margin + b.margin, hint);
+        let step = self.odometers[pair.a as usize].step() + self.odometers[pair.b as usize].step();
+        S::persistent(&job, answer, &answered.manifolds, step, &mut settled.spare)
+    }
+
+    /// Whether either body has a motion: what that may bring is looked for within other margins in every frame.
+    #[inline]
+    fn is_going(&self, pair: PairId) -> bool {
+        let motions = self.motions;
+        !motions.is_empty() && (motions.of(pair.a).is_some() || motions.of(pair.b).is_some())
+    }
+
+    /// A contact of last update as it was, with its manifolds.
+    fn carried(
+        &self,
+        before: &Record<S::Key>,
+        answered: &mut Batch<S::Manifold>,
+        chunk: u32,
+    ) -> Record<S::Key> {
+        let to = &mut answered.manifolds;
+        let start = to.len() as u32;
+        to.extend_from_slice(manifolds_at(&before.manifolds, self.last_answered));
+        Record { manifolds: Place { chunk, start, end: to.len() as u32 }, ..*before }
+    }
+
+    /// A contact as the narrow phase alone knows it.
+    #[inline(always)]
+    fn record_of(
+        &self,
+        &Candidate { pair, keys, .. }: &Candidate<S::Key>,
+        met: Met,
+        manifolds: Place,
+        answered: &Batch<S::Manifold>,
+    ) -> Record<S::Key> {
+        // Where nothing is on its way, no manifold need be read.
+        let speculative = !met.overlapping && self.is_going(pair) && {
+            let found = &answered.manifolds[manifolds.start as usize..manifolds.end as usize];
+            let both = self.bodies.get(keys.0).zip(self.bodies.get(keys.1));
+            let is_beyond = |(a, b): Both<'_, S>| S::least_separation(found) > a.margin + b.margin;
+            !found.is_empty() && both.is_some_and(is_beyond)
+        };
+        let Met { overlapping, user_data, sensor } = met;
+        Record {
+            pair,
+            keys,
+            user_data,
+            sensor,
+            overlapping,
+            begun: overlapping,
+            is_new: false,
+            speculative,
+            manifolds,
+        }
+    }
+}
