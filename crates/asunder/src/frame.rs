@@ -29,7 +29,7 @@ mod sweep;
 
 pub(crate) use ask::manifolds_at;
 pub(crate) use impacts::Found;
-pub(crate) use settle::{Most, Settled};
+pub(crate) use settle::Settled;
 
 use crate::clock::Moment;
 use crate::hooks::{Hooks, edit_contacts};

@@ -10,10 +10,10 @@ use asunder_broad::PairId;
 pub(crate) const CHUNK: usize = 1024;
 
 /// How many chunks there are at most, but for those of so many pairs.
-const MANY: usize = 48;
+const MANY: usize = 96;
 
 /// Fewest pairs in a chunk, but for the last.
-const FEW: usize = 128;
+const FEW: usize = 256;
 
 /// Pairs in a chunk, of so many: enough chunks to share out, and no more. Each has lists of its own, and begins with waiting
 /// for each of them: 2 to 4 us (AMD EPYC, Zen 4, 2026-11-23). Never by the number of threads.

@@ -3,7 +3,7 @@
 use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
-use crate::frame::{Found, Most, Settled, manifolds_at};
+use crate::frame::{Found, Settled, manifolds_at};
 use crate::hooks::Edited;
 use crate::motion::{Hit, Motions};
 use crate::odometer::Odometer;
@@ -97,7 +97,6 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) pairs: Vec<PairId>,
     /// What the chunks hand over.
     pub(crate) settled: Vec<Settled<S>>,
-    pub(crate) most: Most,
     pub(crate) refitted: Vec<S::Aabb>,
     pub(crate) last_candidates: Vec<Candidate<S::Key>>,
     pub(crate) last_records: Records<S::Key>,
@@ -151,7 +150,6 @@ impl<S: Space> World<S> {
                 sweep: CoherentSweep::new(),
                 pairs: Vec::new(),
                 settled: Vec::new(),
-                most: Most::default(),
                 refitted: Vec::new(),
                 last_candidates: Vec::new(),
                 last_records: Records::new(),

@@ -11,7 +11,7 @@
 //! ```
 //! What becomes of a chunk is a function of its pairs and of what was before.
 
-use super::settle::{Both, Most, Settled};
+use super::settle::{Both, Settled};
 use crate::collider::Collider;
 use crate::contact::{Candidate, Place, Record};
 use crate::motion::{Motions, approach};
@@ -57,7 +57,6 @@ pub(super) struct Asker<'a, S: Space> {
     pub(super) odometers: &'a [Odometer],
     pub(super) motions: &'a Motions<S>,
     pub(super) last_answered: &'a [Batch<S::Manifold>],
-    pub(super) most: Most,
     pub(super) persistent: &'a Slab<S::Persistent>,
 }
 
@@ -77,7 +76,8 @@ pub(super) enum Way {
 impl<S: Space> Asker<'_, S> {
     /// Works through a chunk.
     pub(super) fn ask(&self, mut chunk: Chunk<'_, S>) {
-        self.most.prepare(&mut chunk);
+        chunk.answered.clear();
+        chunk.settled.clear();
         self.choose(&mut chunk);
         self.answer(&mut chunk);
         self.settle(chunk);

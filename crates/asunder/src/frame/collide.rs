@@ -54,7 +54,7 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
 fn ask<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, is_moved, reshaped, odometers, motions, persistent, .. } = world;
     let World { candidates, records, answered, scratch, .. } = world;
-    let Scratch { pairs, settled, most, last_candidates, last_records, last_answered, .. } = scratch;
+    let Scratch { pairs, settled, last_candidates, last_records, last_answered, .. } = scratch;
     // Without a pair there is a chunk still: of what is gone.
     let size = chunk_of(pairs.len());
     let records = records.chunks_of(pairs, size);
@@ -62,17 +62,7 @@ fn ask<S: Space>(world: &mut World<S>) {
     let settled = room_for(records.len(), settled, Settled::clear);
     // What is there already is written over.
     candidates.resize(pairs.len(), blank());
-    let asker = Asker {
-        bodies,
-        keys,
-        is_moved,
-        reshaped,
-        odometers,
-        motions,
-        persistent,
-        last_answered,
-        most: *most,
-    };
+    let asker = Asker { bodies, keys, is_moved, reshaped, odometers, motions, persistent, last_answered };
     let part =
         Part { first: 0, size, pairs, last_candidates, until: None, candidates, records, answered, settled };
     part.work(&asker, last_records);

@@ -6,8 +6,8 @@ use crate::world::{Scratch, World};
 
 /// Puts together what of last update's contacts is over, and what is kept to be moved along in its place.
 pub(super) fn merge<S: Space>(world: &mut World<S>) {
-    let World { candidates, records, answered, persistent, reshaped, stats, scratch, .. } = world;
-    let Scratch { settled, most, ended, .. } = scratch;
+    let World { candidates, records, persistent, reshaped, stats, scratch, .. } = world;
+    let Scratch { settled, ended, last_records, .. } = scratch;
     ended.clear();
     if stats.overflow {
         // Last update's contacts stay; their events were reported then.
@@ -15,9 +15,8 @@ pub(super) fn merge<S: Space>(world: &mut World<S>) {
         return;
     }
     let size = chunk_of(candidates.len());
-    for ((settled, answered), chunk) in settled.iter_mut().zip(&*answered).zip(0..) {
-        most.see(answered, settled);
-        ended.append(&mut settled.ended);
+    for (settled, chunk) in settled.iter_mut().zip(0..) {
+        ended.extend(settled.ended.drain(..).map(|number| *last_records.get(number as usize)));
         for place in settled.vacated.drain(..) {
             persistent.vacate(place);
         }

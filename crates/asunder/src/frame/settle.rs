@@ -11,7 +11,10 @@ use asunder_broad::PairId;
 use asunder_narrow::{Answer, Batch};
 use core::iter::Peekable;
 
-/// What is left of last update's records.
+/// One of last update's records, and its number.
+type Numbered<'r, K> = (usize, &'r Record<K>);
+
+/// What is left of them.
 type LastRecords<'c, K> = Peekable<Walk<'c, K>>;
 
 /// Two bodies.
@@ -24,43 +27,13 @@ struct Met {
     sensor: bool,
 }
 
-/// The most that any chunk has held so far, of what it keeps lists of. All have room for it: left to themselves, each would
-/// grow when it meets its own largest frame, and double.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Most {
-    answers: usize,
-    manifolds: usize,
-    records: usize,
-}
-
-impl Most {
-    /// Takes a chunk into account.
-    pub(super) fn see<S: Space>(&mut self, answered: &Batch<S::Manifold>, settled: &Settled<S>) {
-        self.answers = self.answers.max(answered.answers.len());
-        self.manifolds = self.manifolds.max(answered.manifolds.len());
-        self.records = self.records.max(settled.tally.seconds.len());
-    }
-
-    /// Makes a chunk ready, with room for all of it.
-    pub(super) fn prepare<S: Space>(&self, chunk: &mut Chunk<'_, S>) {
-        let Chunk { pairs, answered, records, settled, .. } = chunk;
-        answered.clear();
-        settled.clear();
-        answered.answers.reserve_exact(self.answers);
-        answered.manifolds.reserve_exact(self.manifolds);
-        records.reserve_exact(self.records);
-        settled.ways.reserve_exact(pairs.len());
-        settled.tally.seconds.reserve_exact(self.records);
-    }
-}
-
 /// What a chunk hands over: what is everybody's is made of it when all chunks are done.
 #[derive(Clone, Debug)]
 pub(crate) struct Settled<S: Space> {
     /// What is done about each pair.
     pub(super) ways: Vec<Way>,
-    /// Contacts of last update that are over, and had begun.
-    pub(super) ended: Vec<Record<S::Key>>,
+    /// Contacts of last update that are over, and had begun, by their numbers.
+    pub(super) ended: Vec<u32>,
     /// What is kept to be moved along, and of which pair of the chunk.
     pub(super) kept: Vec<(u32, S::Persistent)>,
     /// Places of what is kept no longer.
@@ -124,16 +97,21 @@ impl<S: Space> Settled<S> {
         }
     }
 
-    fn set_aside(&mut self, gone: &Record<S::Key>) {
+    fn set_aside(&mut self, (number, gone): Numbered<'_, S::Key>) {
         if gone.begun {
-            self.ended.push(*gone);
+            self.ended.push(number as u32);
         }
     }
 
     /// Whether a contact has begun, and is new: what had begun goes on, until it is over.
     #[inline(always)]
-    fn begin(&mut self, record: &mut Record<S::Key>, before: Option<&Record<S::Key>>, is_reshaped: bool) {
-        let goes_on = before.filter(|before| {
+    fn begin(
+        &mut self,
+        record: &mut Record<S::Key>,
+        before: Option<Numbered<'_, S::Key>>,
+        is_reshaped: bool,
+    ) {
+        let goes_on = before.filter(|(_, before)| {
             // A reused slot is a new body: its predecessor's contact ended. The margin's memory does not outlive a shape: a
             // contact that the new one does not touch is over. So is one beyond the margin, whatever a motion may bring.
             let is_over = record.speculative || (is_reshaped && !record.overlapping);
@@ -142,18 +120,22 @@ impl<S: Space> Settled<S> {
         if let (Some(gone), None) = (before, goes_on) {
             self.set_aside(gone);
         }
-        let had_begun = goes_on.is_some_and(|before| before.begun);
+        let had_begun = goes_on.is_some_and(|(_, before)| before.begun);
         record.begun = record.overlapping || had_begun;
         record.is_new = record.begun && !had_begun;
     }
 
     /// Last update's record of a pair; those before it are gone.
     #[inline]
-    fn before<'r>(&mut self, pair: PairId, last: &mut LastRecords<'r, S::Key>) -> Option<&'r Record<S::Key>> {
-        while let Some((_, gone)) = last.next_if(|(_, last)| last.pair < pair) {
+    fn before<'r>(
+        &mut self,
+        pair: PairId,
+        last: &mut LastRecords<'r, S::Key>,
+    ) -> Option<Numbered<'r, S::Key>> {
+        while let Some(gone) = last.next_if(|(_, last)| last.pair < pair) {
             self.set_aside(gone);
         }
-        last.next_if(|(_, last)| last.pair == pair).map(|(_, last)| last)
+        last.next_if(|(_, last)| last.pair == pair)
     }
 }
 
@@ -172,7 +154,7 @@ impl<S: Space> Asker<'_, S> {
             let pair = candidate.pair;
             let before = settled.before(pair, &mut last);
             let record = match settled.ways[number] {
-                Way::Carried => before.map(|before| self.carried(before, answered, chunk)),
+                Way::Carried => before.map(|(_, before)| self.carried(before, answered, chunk)),
                 Way::Moved { at, count, overlapping, user_data } => {
                     let place = Place { chunk, start: at, end: at + count };
                     let met = Met { overlapping, user_data, sensor: false };
@@ -211,7 +193,7 @@ impl<S: Space> Asker<'_, S> {
             }
         }
         let is_its_own = |record: &Record<S::Key>| until.is_none_or(|until| record.pair < until);
-        while let Some((_, gone)) = last.next_if(|(_, last)| is_its_own(last)) {
+        while let Some(gone) = last.next_if(|(_, last)| is_its_own(last)) {
             settled.set_aside(gone);
         }
     }
