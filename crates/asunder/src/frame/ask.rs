@@ -1,7 +1,7 @@
 //! Works through the candidate pairs, chunk by chunk.
 //!
 //! ```text
-//! walk the pairs of a chunk beside last update's candidates:                                           (choose)
+//! walk the pairs of a chunk beside last update's candidates:                                (choose)
 //!   neither body moved: the pair is carried on, with its hint, contact and manifolds
 //!   they were apart, and have not gone as far since as they would have to: it is carried on too
 //! look at the others:                                                                       (answer)
@@ -29,8 +29,8 @@ const JOBS: usize = 64;
 /// The manifolds that stand in a place.
 #[inline]
 pub(crate) fn manifolds_at<'a, M>(place: &Place, chunks: &'a [Batch<M>]) -> &'a [M] {
-    let list = chunks.get(place.chunk as usize).map_or(&[][..], |answered| &*answered.manifolds);
-    &list[place.start as usize..place.end as usize]
+    let range = place.start as usize..place.end as usize;
+    chunks.get(place.chunk as usize).and_then(|answered| answered.manifolds.get(range)).unwrap_or_default()
 }
 
 /// A chunk of pairs, and where what becomes of them goes.
