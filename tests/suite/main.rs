@@ -53,6 +53,7 @@
 //!
 //! World
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
+//! - [`world_crowds`]: pairs that come and go by tens of thousands are those of a double loop
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
 //! - [`snapshots`]: a world restored from text has the same outputs, keys and future, bit for bit; no damaged file
 //!   breaks one
@@ -118,6 +119,7 @@ mod snapshots;
 mod solver;
 mod steady;
 mod theory;
+mod world_crowds;
 mod world_events;
 mod world_model;
 mod world_threads;
