@@ -1,6 +1,7 @@
 //! A million operations without growth of memory.
 
-use asunder::{Plane, Volume, World};
+use asunder::glam::{Vec2, Vec3};
+use asunder::{Collider3, Cuboid, HeightField, Plane, Pose3, Volume, World, World3};
 use asunder_tests::cases::Random;
 use asunder_tests::counting::{counted, live_bytes};
 use asunder_tests::engine::{Change, Engine};
@@ -76,4 +77,51 @@ fn changes_between_updates_take_no_memory_each() {
         live_bytes() - before
     });
     assert!(grown < 1000, "{grown} bytes");
+}
+
+/// Cubes that hop on and off a level, while others elsewhere hop onto each other: what was kept of one pair serves another,
+/// however far apart they are in the list of pairs.
+#[test]
+fn what_hops_takes_no_memory_each_time() {
+    let grown = counted(1, || {
+        let mut world = World3::new();
+        let floor = HeightField::new(2, 2, vec![0.0; 4], Vec2::splat(100.0)).unwrap();
+        world.insert(Collider3::new(floor).fixed());
+        let cube = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap();
+        let at = |number: usize, height: f64| {
+            let cell = [number % 20, number / 20].map(|cell| cell as f64 * 2.0 + 2.0);
+            Pose3::at([cell[0], height, cell[1]]).unwrap()
+        };
+        let mut insert = |number: usize, height: f64, is_fixed: bool| {
+            let cube = Collider3::new(cube).margin(0.02).unwrap().at(at(number, height));
+            world.insert(if is_fixed { cube.fixed() } else { cube })
+        };
+        let on_floor: Vec<_> = (0..40).map(|number| insert(number, 10.0, false)).collect();
+        // Pairs that stay, between theirs and those of the others.
+        for number in 0..300 {
+            insert(number, 50.0, true);
+            insert(number, 50.999, false);
+        }
+        for number in 0..40 {
+            insert(number, 100.0, true);
+        }
+        let on_cubes: Vec<_> = (0..40).map(|number| insert(number, 110.0, false)).collect();
+        let mut held = [0; 2];
+        for cycle in 0..60 {
+            for heights in [[0.499, 110.0], [10.0, 110.0], [10.0, 100.999], [10.0, 110.0]] {
+                for tremble in [0.0, 1e-6] {
+                    for (number, pair) in on_floor.iter().zip(&on_cubes).enumerate() {
+                        world.set_pose(*pair.0, at(number, heights[0] + tremble)).unwrap();
+                        world.set_pose(*pair.1, at(number, heights[1] + tremble)).unwrap();
+                    }
+                    world.update();
+                }
+            }
+            held[usize::from(cycle >= 20)] = live_bytes();
+        }
+        assert!(world.stats().touching >= 300);
+        held[1] - held[0]
+    });
+    // Kept by the wrong one, it was 70,000 a cycle.
+    assert!(grown < 10_000, "{grown} bytes in forty cycles");
 }

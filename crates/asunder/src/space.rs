@@ -111,10 +111,6 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     #[doc(hidden)]
     fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
 
-    /// Up to which drift what is kept of an answer can be moved along at most, in metres.
-    #[doc(hidden)]
-    fn most_reach(job: &Self::Job<'_>) -> f32;
-
     /// What can be kept of an answer to bodies that went so far in the last frame, in metres.
     #[doc(hidden)]
     fn persistent(
@@ -124,6 +120,10 @@ pub trait Space: sealed::Sealed + Sized + 'static {
         step: f64,
         spare: &mut Self::Spare,
     ) -> Option<Self::Persistent>;
+
+    /// Hands memory over from one store to another that has none.
+    #[doc(hidden)]
+    fn lend(from: &mut Self::Spare, to: &mut Self::Spare);
 
     /// Keeps the memory of what is kept no longer.
     #[doc(hidden)]
@@ -215,10 +215,6 @@ impl Space for Plane {
         collide2(jobs, batch);
     }
 
-    fn most_reach(job: &Job2<'_>) -> f32 {
-        Persistent2::most_reach(job)
-    }
-
     fn persistent(
         job: &Job2<'_>,
         answer: &Answer,
@@ -228,6 +224,8 @@ impl Space for Plane {
     ) -> Option<Persistent2> {
         Persistent2::lasting(job, answer, manifolds, step)
     }
+
+    fn lend((): &mut (), (): &mut ()) {}
 
     fn reclaim((): &mut (), _: Persistent2) {}
 
@@ -317,10 +315,6 @@ impl Space for Volume {
         collide3(jobs, batch);
     }
 
-    fn most_reach(job: &Job3<'_>) -> f32 {
-        Persistent3::most_reach(job)
-    }
-
     fn persistent(
         job: &Job3<'_>,
         answer: &Answer,
@@ -329,6 +323,10 @@ impl Space for Volume {
         spare: &mut Spare3,
     ) -> Option<Persistent3> {
         Persistent3::lasting(job, answer, manifolds, step, spare)
+    }
+
+    fn lend(from: &mut Spare3, to: &mut Spare3) {
+        from.lend(to);
     }
 
     fn reclaim(spare: &mut Spare3, kept: Persistent3) {

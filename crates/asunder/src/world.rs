@@ -95,6 +95,8 @@ pub struct World<S: Space> {
 pub(crate) struct Scratch<S: Space> {
     pub(crate) sweep: CoherentSweep<S::Aabb>,
     pub(crate) pairs: Vec<PairId>,
+    /// Memory of persistent manifolds that are kept no longer.
+    pub(crate) spare: S::Spare,
     /// What the chunks hand over.
     pub(crate) settled: Vec<Settled<S>>,
     pub(crate) refitted: Vec<S::Aabb>,
@@ -149,6 +151,7 @@ impl<S: Space> World<S> {
             scratch: Scratch {
                 sweep: CoherentSweep::new(),
                 pairs: Vec::new(),
+                spare: S::Spare::default(),
                 settled: Vec::new(),
                 refitted: Vec::new(),
                 last_candidates: Vec::new(),

@@ -88,6 +88,25 @@ impl Spare3 {
             self.0.push(kept.into_memory());
         }
     }
+
+    /// Hands memory for one to another store that has none. Cost: constant.
+    ///
+    /// ```
+    /// use asunder_narrow::Spare3;
+    /// let (mut all, mut own) = (Spare3::default(), Spare3::default());
+    /// all.lend(&mut own);
+    /// assert!(own.is_empty(), "there was none");
+    /// ```
+    pub fn lend(&mut self, to: &mut Self) {
+        if to.is_empty() {
+            to.0.extend(self.0.pop());
+        }
+    }
+
+    /// Whether it has none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
 }
 
 impl Persistent3 {

@@ -22,6 +22,7 @@ use crate::space::Space;
 use asunder_broad::PairId;
 use asunder_narrow::{ArrayVec, Batch, Hint};
 use slotmap::SlotMap;
+use std::sync::Mutex;
 
 /// Jobs handed to the narrow phase at once: enough to fill wide kernels, few enough to stay on the stack.
 const JOBS: usize = 64;
@@ -57,6 +58,8 @@ pub(super) struct Asker<'a, S: Space> {
     pub(super) odometers: &'a [Odometer],
     pub(super) motions: &'a Motions<S>,
     pub(super) last_answered: &'a [Batch<S::Manifold>],
+    /// Memory of what was kept to be moved along.
+    pub(super) spare: Mutex<&'a mut S::Spare>,
     pub(super) persistent: &'a Slab<S::Persistent>,
 }
 

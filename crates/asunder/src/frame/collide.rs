@@ -32,6 +32,7 @@ use crate::world::{Scratch, World};
 use asunder_broad::PairId;
 use asunder_narrow::{Batch, Hint};
 use slotmap::Key;
+use std::sync::Mutex;
 
 /// Brings candidates up to date, and finds the contacts of each chunk.
 pub(super) fn collide<S: Space>(world: &mut World<S>) {
@@ -54,7 +55,7 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
 fn ask<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, is_moved, reshaped, odometers, motions, persistent, .. } = world;
     let World { candidates, records, answered, scratch, .. } = world;
-    let Scratch { pairs, settled, last_candidates, last_records, last_answered, .. } = scratch;
+    let Scratch { pairs, settled, spare, last_candidates, last_records, last_answered, .. } = scratch;
     // Without a pair there is a chunk still: of what is gone.
     let size = chunk_of(pairs.len());
     let records = records.chunks_of(pairs, size);
@@ -62,7 +63,17 @@ fn ask<S: Space>(world: &mut World<S>) {
     let settled = room_for(records.len(), settled, Settled::clear);
     // What is there already is written over.
     candidates.resize(pairs.len(), blank());
-    let asker = Asker { bodies, keys, is_moved, reshaped, odometers, motions, persistent, last_answered };
+    let asker = Asker {
+        bodies,
+        keys,
+        is_moved,
+        reshaped,
+        odometers,
+        motions,
+        persistent,
+        last_answered,
+        spare: Mutex::new(spare),
+    };
     let part =
         Part { first: 0, size, pairs, last_candidates, until: None, candidates, records, answered, settled };
     part.work(&asker, last_records);

@@ -7,7 +7,7 @@ use crate::world::{Scratch, World};
 /// Puts together what of last update's contacts is over, and what is kept to be moved along in its place.
 pub(super) fn merge<S: Space>(world: &mut World<S>) {
     let World { candidates, records, persistent, reshaped, stats, scratch, .. } = world;
-    let Scratch { settled, ended, last_records, .. } = scratch;
+    let Scratch { settled, spare, ended, last_records, .. } = scratch;
     ended.clear();
     if stats.overflow {
         // Last update's contacts stay; their events were reported then.
@@ -25,7 +25,7 @@ pub(super) fn merge<S: Space>(world: &mut World<S>) {
             let (place, before) = persistent.put(candidate.persistent, kept);
             candidate.persistent = place;
             if let Some(before) = before {
-                S::reclaim(&mut settled.spare, before);
+                S::reclaim(spare, before);
             }
         }
     }

@@ -10,6 +10,7 @@ use crate::space::Space;
 use asunder_broad::PairId;
 use asunder_narrow::{Answer, Batch};
 use core::iter::Peekable;
+use std::sync::PoisonError;
 
 /// One of last update's records, and its number.
 type Numbered<'r, K> = (usize, &'r Record<K>);
@@ -38,8 +39,8 @@ pub(crate) struct Settled<S: Space> {
     pub(super) kept: Vec<(u32, S::Persistent)>,
     /// Places of what is kept no longer.
     pub(super) vacated: Vec<u32>,
-    /// Memory of what was kept.
-    pub(super) spare: S::Spare,
+    /// Memory for the next that is kept, at most.
+    spare: S::Spare,
     pub(super) tally: Tally,
 }
 
@@ -221,6 +222,11 @@ impl<S: Space> Asker<'_, S> {
         let &Answer::Contact { hint, .. } = answer else { return None };
         if self.is_going(pair) {
             return None;
+        }
+        if S::is_ground(&a.shape) || S::is_ground(&b.shape) {
+            // Which memory it is changes nothing. Kept by the chunk it would gather where no ground is, and be made anew where it
+            // is: places of what is kept wander between chunks.
+            S::lend(&mut self.spare.lock().unwrap_or_else(PoisonError::into_inner), &mut settled.spare);
         }
         let job = S::job(a, b, a.margin + b.margin, hint);
         let step = self.odometers[pair.a as usize].step() + self.odometers[pair.b as usize].step();
