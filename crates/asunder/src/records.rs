@@ -1,7 +1,7 @@
 //! The contacts of an update, sorted by pair, in the chunks of pairs in which they were found.
 //!
 //! A list in one piece would be written twice: nobody knows where a chunk's contacts go before all others are counted. Tried:
-//! putting 30,000 of them together took 4 to 7 % of the frame (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22 and -23).
+//! putting 30,000 of them together took 7 % of the frame (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
 
 use crate::contact::Record;
 use asunder_broad::PairId;
@@ -16,7 +16,7 @@ const MANY: usize = 96;
 const FEW: usize = 256;
 
 /// Pairs in a chunk, of so many: enough chunks to share out, and no more. Each has lists of its own, and begins with waiting
-/// for each of them: 2 to 4 us (AMD EPYC, Zen 4, 2026-11-23). Never by the number of threads.
+/// for each of them: some 3 us (AMD EPYC, Zen 4, 2026-11-23). Never by the number of threads.
 pub(crate) fn chunk_of(pairs: usize) -> usize {
     pairs.div_ceil(MANY).next_multiple_of(FEW).clamp(FEW, CHUNK)
 }

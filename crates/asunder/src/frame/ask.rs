@@ -121,7 +121,7 @@ impl<S: Space> Asker<'_, S> {
     /// Moves manifolds along, or asks the narrow phase.
     ///
     /// A loop of its own, and a short one: bodies and what is kept lie all over memory, and the next ones are fetched while
-    /// these are waited for. In one loop with the choice, a frame took 3 % longer (2026-11-23).
+    /// these are waited for. In one loop with the choice, moving along took 13 to 19 % more samples (2026-11-23).
     fn answer(&self, chunk: &mut Chunk<'_, S>) {
         let Chunk { candidates, answered, settled, .. } = chunk;
         let mut jobs: ArrayVec<S::Job<'_>, JOBS> = ArrayVec::new_const();

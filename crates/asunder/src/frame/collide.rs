@@ -13,11 +13,11 @@
 //! 1. manifolds stay in the list of the chunk that made them: 17 % of the time was copying, and 3 % is;
 //! 2. bodies are read once, while a pair is asked about: a twentieth;
 //! 3. candidates, contacts and whether they are new are written down chunk by chunk, too, and no longer by one thread for all:
-//!    0.77 to 0.87 of a frame on two threads; on one thread nothing.
+//!    0.78 to 0.90 of a frame on two threads. On one thread it costs 3 to 10 % of frames that all but rest.
 //!
-//! Tried, on one thread (medians of runs next to each other): chunks of 128 pairs, 9 % slower than 256, and those slower than
-//! a thousand: each has lists of its own, and begins with waiting for each of them. One loop for choice and answers, 3 %.
-//! What is kept to be moved along in a box of its own, 8 %, of pyramids; it lies in one list, about in the order of the pairs.
+//! Tried, on one thread (medians of runs next to each other, on a busy machine): chunks of 128 pairs, 9 % slower than 256: each
+//! has lists of its own, and begins with waiting for each of them. What is kept to be moved along in a box of its own: pyramids
+//! 8 % slower, hulls faster.
 //!
 //! Kernels here and below shun `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the time
 //! of such a frame and half of a sweep's; by default they are not, and nothing is gained.

@@ -39,7 +39,7 @@ pub(crate) struct Settled<S: Space> {
     pub(super) kept: Vec<(u32, S::Persistent)>,
     /// Places of what is kept no longer.
     pub(super) vacated: Vec<u32>,
-    /// Memory for the next that is kept, at most.
+    /// Memory for one that is kept, at most: lent by what is everybody's.
     spare: S::Spare,
     pub(super) tally: Tally,
 }
