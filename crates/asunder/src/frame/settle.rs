@@ -263,7 +263,7 @@ impl<S: Space> Asker<'_, S> {
         answered: &Batch<S::Manifold>,
     ) -> Record<S::Key> {
         // Where nothing is on its way, no manifold need be read.
-        let speculative = !met.overlapping && self.is_going(pair) && {
+        let speculative = self.is_going(pair) && !met.overlapping && {
             let found = &answered.manifolds[manifolds.start as usize..manifolds.end as usize];
             let both = self.bodies.get(keys.0).zip(self.bodies.get(keys.1));
             let is_beyond = |(a, b): Both<'_, S>| S::least_separation(found) > a.margin + b.margin;
