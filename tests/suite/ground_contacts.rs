@@ -6,5 +6,6 @@ mod brute;
 mod curves;
 mod edges;
 mod order;
+mod rims;
 mod scenes;
 mod slide;

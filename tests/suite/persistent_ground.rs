@@ -411,12 +411,12 @@ fn a_world_moves_contacts_with_a_level_along() {
     }
 }
 
-/// On ground in narrow strips another normal often stands in for one that is refused: along it bodies are told to be further
-/// apart than they are. They are kept no longer than what truly parts them.
+/// On ground in narrow strips another normal often stands in for one that is refused: along it bodies were told to be further
+/// apart than they are, 20 times in these. What is told is what parts them, and they are kept no longer than that.
 #[test]
 fn a_gap_is_kept_no_longer_than_what_parts_them() {
     let mut random = Random::new(17);
-    let (mut wide, mut kept_count) = (0, 0);
+    let mut kept_count = 0;
     for _ in 0..400 {
         let mut vertices = Vec::new();
         for row in 0..12_u16 {
@@ -448,10 +448,12 @@ fn a_gap_is_kept_no_longer_than_what_parts_them() {
             };
             let parted = f64::from(nearest.distance) + f64::from(nearest.error);
             let told = found.iter().map(|of| of.separation - of.error).fold(f32::INFINITY, f32::min);
-            wide += usize::from(f64::from(told) > parted);
             kept_count += 1;
+            // Ground takes what differs by less than a millionth of the body for the same place.
+            let allowed = 1e-6 * f64::from(stand.body.outer_radius());
+            assert!(f64::from(told) <= parted + allowed, "{parted}, told {told}");
             assert!(f64::from(kept.reach()) <= parted, "{} of {parted}, told {told}", kept.reach());
         }
     }
-    assert!(kept_count > 60 && wide > 5, "{wide} of {kept_count}");
+    assert!(kept_count > 1000, "{kept_count}");
 }

@@ -18,6 +18,7 @@
 //!         else the triangle's own normal, unless a contact with others frees the part from it, too
 //!   points go to the group of their normal                                                            (groups)
 //!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
+//!   no, and nothing told is as near as what was refused: that                                       (unsaid)
 //!   groups are told as manifolds                                                                      (answer)
 //! ```
 //! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature among *all* ground
@@ -76,6 +77,7 @@ mod plane;
 mod prism;
 mod round;
 mod standing;
+mod unsaid;
 
 use super::OnGround;
 use crate::pair3::{Pair3, Part, for_parts, reach_of};
@@ -85,7 +87,7 @@ use against::Against;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, NearTriangle, Pose3, Shape3};
-use ball::{Nearest, nearest_to};
+use ball::nearest_to;
 use core::cell::Cell;
 use core::ops::ControlFlow;
 use facet::{Facet, is_same};
@@ -95,6 +97,7 @@ use meeting::{Meeting, Met};
 use prism::{Incident, Prism};
 use round::Round;
 use standing::{Extent, Octets, Place, Standing};
+use unsaid::Unsaid;
 
 /// Triangles whose yes or no waits until all have been seen.
 const MOST_UNCLEAR: usize = 32;
@@ -154,6 +157,7 @@ struct Known {
     unclear: ArrayVec<(bool, f64, u32), MOST_UNCLEAR>,
     /// Triangles whose axis was refused.
     refused: ArrayVec<u32, MOST_REFUSED>,
+    unsaid: Option<Unsaid>,
     incident: Option<Incident>,
     plane: Option<Plane>,
     /// The short way for spheres met what it cannot settle.
@@ -235,6 +239,7 @@ impl Known {
             shown_by: None,
             unclear: ArrayVec::new(),
             refused: ArrayVec::new(),
+            unsaid: None,
             incident: None,
             plane: None,
             is_open: false,
@@ -303,12 +308,16 @@ impl Seen<'_> {
             return self.refuse(prism, known);
         }
         let met = self.meeting.add_points((ground, facet), standing, self.asking, &mut known.groups);
-        let Met::Near { overlapping, has_points } = met else { return };
-        if overlapping {
-            known.settle(number);
-        }
-        if !has_points {
-            self.refuse(prism, known);
+        match met {
+            Met::Apart | Met::Told(false) => {}
+            Met::Told(true) => known.settle(number),
+            Met::Refused(gap) => {
+                match gap {
+                    Some(unsaid) => known.leave_unsaid(unsaid),
+                    None => known.settle(number),
+                }
+                self.refuse(prism, known);
+            }
         }
     }
 
@@ -374,35 +383,6 @@ impl Seen<'_> {
         prism.add_points(&incident, &mut known.groups)
     }
 
-    fn look_at_from_ball(&self, number: u32, known: &mut Known) {
-        let ground = self.asking.on.ground;
-        let Some(facet) = &Facet::seen(ground, number, self.standing.center) else { return };
-        let doubt = self.doubt_over(facet);
-        if facet.height(self.standing.center) - self.standing.radius > self.asking.reach + doubt {
-            return;
-        }
-        let nearest = Nearest::of(self.standing, facet, doubt);
-        if nearest.separation > self.asking.reach + doubt {
-            return;
-        }
-        let is_within = nearest.separation <= self.asking.reach;
-        let has_points = is_within
-            && nearest.add_point(
-                (self.standing.center, self.standing.radius),
-                facet,
-                ground,
-                doubt,
-                &mut known.groups,
-            );
-        if known.overlapping || nearest.separation > doubt {
-            return;
-        }
-        if nearest.separation < -doubt {
-            return known.settle(facet.number);
-        }
-        self.doubt_of(facet.number, (has_points, nearest.separation), known);
-    }
-
     /// Keeps a triangle for later, or asks at once where there is no room.
     fn doubt_of(&self, number: u32, (has_points, separation): (bool, f64), known: &mut Known) {
         if known.overlapping {
@@ -461,6 +441,7 @@ impl Seen<'_> {
         {
             self.add_last(number, known);
         }
+        self.say_nearest(known);
     }
 
     /// The part's lowest point over a triangle that it overlaps, where every point was cut away.

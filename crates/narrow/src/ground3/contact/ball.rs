@@ -3,6 +3,8 @@
 use super::facet::{Facet, Furthest, edge_number, is_same};
 use super::groups::{Base, Groups, Pin};
 use super::standing::Standing;
+use super::unsaid::Unsaid;
+use super::{Known, Seen};
 use crate::feature::Feature;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
@@ -42,6 +44,13 @@ impl Nearest {
         Self { at, feature, separation: distance - radius, towards: between / distance }
     }
 
+    /// What is kept of it where ground does not let the direction through.
+    #[inline]
+    pub(super) fn unsaid(&self, (center, radius): (DVec3, f64), number: u32, doubt: f64) -> Unsaid {
+        let Self { at, separation, towards, .. } = *self;
+        Unsaid { number, separation, doubt, ends: [center - towards * radius, at], towards }
+    }
+
     /// Adds the contact point, where ground lets the direction through; whether it did.
     pub(super) fn add_point(
         &self,
@@ -79,6 +88,42 @@ impl Nearest {
         };
         groups.add(&Base { normal, patch, weight: if is_face { facet.area() } else { 0.0 } }, pin);
         true
+    }
+}
+
+impl Seen<'_> {
+    /// Looks at one triangle, for a ball.
+    pub(super) fn look_at_from_ball(&self, number: u32, known: &mut Known) {
+        let ground = self.asking.on.ground;
+        let Some(facet) = &Facet::seen(ground, number, self.standing.center) else { return };
+        let doubt = self.doubt_over(facet);
+        if facet.height(self.standing.center) - self.standing.radius > self.asking.reach + doubt {
+            return;
+        }
+        let nearest = Nearest::of(self.standing, facet, doubt);
+        if nearest.separation > self.asking.reach + doubt {
+            return;
+        }
+        let is_within = nearest.separation <= self.asking.reach;
+        let has_points = is_within
+            && nearest.add_point(
+                (self.standing.center, self.standing.radius),
+                facet,
+                ground,
+                doubt,
+                &mut known.groups,
+            );
+        if is_within && !has_points {
+            let ball = (self.standing.center, self.standing.radius);
+            known.leave_unsaid(nearest.unsaid(ball, number, doubt));
+        }
+        if known.overlapping || nearest.separation > doubt {
+            return;
+        }
+        if nearest.separation < -doubt {
+            return known.settle(facet.number);
+        }
+        self.doubt_of(facet.number, (has_points, nearest.separation), known);
     }
 }
 

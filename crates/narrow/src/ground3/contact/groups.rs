@@ -45,11 +45,14 @@ pub(super) struct Base {
     pub(super) weight: f64,
 }
 
+/// Of points that have not been reduced.
+const NOTHING_TOLD: [f64; 2] = [f64::INFINITY, 0.0];
+
 /// A normal and its points.
 pub(super) struct Group {
     pub(super) base: Base,
     pub(super) pins: ArrayVec<Pin, MOST_POINTS>,
-    /// Once it is reduced, the least separation of all that it had, and by how much that may be off.
+    /// Once it is reduced, the least separation of all that it had, or that was told of it, and by how much that may be off.
     pub(super) told: [f64; 2],
 }
 
@@ -112,16 +115,24 @@ impl Groups {
                 .iter_mut()
                 .reduce(|most, next| if next.least() > most.least() { next } else { most });
             if let Some(shallowest) = shallowest.filter(|group| group.least() > pin.separation) {
-                shallowest.base = *base;
+                (shallowest.base, shallowest.told) = (*base, NOTHING_TOLD);
                 shallowest.pins.clear();
                 shallowest.pins.push(pin);
             }
             return;
         }
         // Made empty and filled where it stays: it is large.
-        self.groups.push(Group { base: *base, pins: ArrayVec::new_const(), told: [f64::INFINITY, 0.0] });
+        self.groups.push(Group { base: *base, pins: ArrayVec::new_const(), told: NOTHING_TOLD });
         if let Some(group) = self.groups.last_mut() {
             group.pins.push(pin);
+        }
+    }
+
+    /// Tells how near a normal's points are, and by how much that may be off, where they stand for more than there are.
+    pub(super) fn tell(&mut self, normal: DVec3, told: [f64; 2]) {
+        let group = self.groups.iter_mut().find(|group| is_same(group.base.normal, normal));
+        if let Some(group) = group.filter(|group| told[0] < group.told[0]) {
+            group.told = told;
         }
     }
 

@@ -4,6 +4,7 @@ use super::Asking;
 use super::facet::{Facet, edge_number};
 use super::groups::{Base, Groups, Pin};
 use super::standing::{Place, Standing};
+use super::unsaid::Unsaid;
 use crate::exact::Site3;
 use crate::feature::{Feature, Hint};
 use crate::ground3::OnGround;
@@ -28,8 +29,10 @@ pub(super) struct Meeting<'a> {
 pub(super) enum Met {
     /// They are further apart than the margin.
     Apart,
-    /// They are not; whether they share a point, and whether points were made of it.
-    Near { overlapping: bool, has_points: bool },
+    /// They are not, and points were made of it; whether they share a point.
+    Told(bool),
+    /// They are not, and ground refused the direction; where they are nearest, if they share no point.
+    Refused(Option<Unsaid>),
 }
 
 impl<'a> Meeting<'a> {
@@ -63,33 +66,50 @@ impl<'a> Meeting<'a> {
         asking: &Asking,
         groups: &mut Groups,
     ) -> Met {
-        let (place, margin) = (&standing.place, asking.margin);
+        let place = &standing.place;
         let mut touch = Touch::NONE;
-        let asked = Asked { limit: asking.reach, hint: Hint::NONE, wanted: Wanted::Points };
-        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
         // No points are made along what ground refuses, as it does most often.
         let is_let_through =
             |near: &Near| asking.is_plain || facet.lets_through(ground, -place.axes.turn(near.normal));
-        let found = self.with(ground, facet.number, |convex| {
-            let accept = |near: &Near| is_near(near) && is_let_through(near);
-            let (probe, _) = convex.contact(asked, accept, &mut touch);
-            match probe {
-                Probe::Near(near) if is_near(&near) => {
-                    Some((near.verdict.overlapping, f64::from(near.error)))
-                }
-                _ => None,
-            }
-        });
-        let Some(Some((overlapping, error))) = found else { return Met::Apart };
-        let has_points = self.add_touch((ground, facet), place, (&touch, error), groups);
-        Met::Near { overlapping, has_points }
+        let Some(near) = self.near((ground, facet), asking, is_let_through, &mut touch) else {
+            return Met::Apart;
+        };
+        let told = [near.separation.into(), near.error.into()];
+        if self.add_touch((ground, facet), place, (&touch, told), groups) {
+            return Met::Told(near.verdict.overlapping);
+        }
+        Met::Refused(unsaid_of(facet, place, &near))
+    }
+
+    /// Where the part is nearest to a triangle, if it is within the margin and overlaps it in no point.
+    pub(super) fn gap(&self, of: (Ground, &Facet), place: &Place, asking: &Asking) -> Option<Unsaid> {
+        let mut touch = Touch::NONE;
+        let near = self.near(of, asking, |_| false, &mut touch)?;
+        unsaid_of(of.1, place, &near)
+    }
+
+    /// What the kernels say, if the two are within the margin; with points, where they are wanted.
+    fn near(
+        &self,
+        (ground, facet): (Ground, &Facet),
+        asking: &Asking,
+        is_wanted: impl Fn(&Near) -> bool,
+        touch: &mut Touch,
+    ) -> Option<Near> {
+        let asked = Asked { limit: asking.reach, hint: Hint::NONE, wanted: Wanted::Points };
+        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= asking.margin;
+        let accept = |near: &Near| is_near(near) && is_wanted(near);
+        match self.with(ground, facet.number, |convex| convex.contact(asked, accept, touch).0)? {
+            Probe::Near(near) if is_near(&near) => Some(near),
+            _ => None,
+        }
     }
 
     fn add_touch(
         &self,
         (ground, facet): (Ground, &Facet),
         place: &Place,
-        (touch, error): (&Touch, f64),
+        (touch, told): (&Touch, [f64; 2]),
         groups: &mut Groups,
     ) -> bool {
         let towards = -place.axes.turn(touch.normal);
@@ -102,18 +122,31 @@ impl<'a> Meeting<'a> {
                 on_body: place.point(point.on_a),
                 on_ground: place.point(point.on_b),
                 separation: point.separation,
-                doubt: error,
+                doubt: told[1],
                 of_body: point.feature.a(),
                 of_ground: feature_on(ground, facet.number, point.feature.b()),
             };
             groups.add(&base, pin);
         }
+        // Of four points, which may stand for more, none need be as near.
+        groups.tell(towards, told);
         true
     }
 }
 
+/// The nearest points of a gap, in the ground's axes.
+fn unsaid_of(facet: &Facet, place: &Place, near: &Near) -> Option<Unsaid> {
+    near.closest.map(|[on_a, on_b]| Unsaid {
+        number: facet.number,
+        separation: near.separation.into(),
+        doubt: near.error.into(),
+        ends: [place.point(on_a), place.point(on_b)],
+        towards: -place.axes.turn(near.normal),
+    })
+}
+
 /// The name of a triangle's own feature on the ground.
-fn feature_on(ground: Ground, triangle: u32, feature: Feature) -> Feature {
+pub(super) fn feature_on(ground: Ground, triangle: u32, feature: Feature) -> Feature {
     match feature {
         Feature::Vertex(corner) => {
             let numbers = ground.vertex_numbers(triangle);

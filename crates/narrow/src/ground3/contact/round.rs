@@ -57,7 +57,8 @@ impl Round {
         if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
             known.groups.keep_within(-slack);
         }
-        if known.groups.least() > slack && known.shown_by.is_some() {
+        let is_unsaid = !asking.on.ground.is_one_sided() && known.unsaid_within(slack).is_some();
+        if is_unsaid || known.groups.least() > slack && known.shown_by.is_some() {
             return None;
         }
         Some(asking.answer(part, &mut known, is_settled, manifolds))
@@ -106,11 +107,20 @@ impl Round {
         if nearest.separation > most {
             return true;
         }
-        if nearest.separation <= self.reach && may_add(&nearest, &facet, near.prominent) {
-            if on.0 != Furthest::Face && !ground.is_one_sided() && !facet.is_before(ground, self.center, on) {
-                facet.turn_over();
+        if nearest.separation <= self.reach {
+            let ball = (self.center, self.radius);
+            let is_added = may_add(&nearest, &facet, near.prominent) && {
+                if on.0 != Furthest::Face
+                    && !ground.is_one_sided()
+                    && !facet.is_before(ground, self.center, on)
+                {
+                    facet.turn_over();
+                }
+                nearest.add_point(ball, &facet, ground, doubt, &mut known.groups)
+            };
+            if !is_added {
+                known.leave_unsaid(nearest.unsaid(ball, near.number, doubt));
             }
-            nearest.add_point((self.center, self.radius), &facet, ground, doubt, &mut known.groups);
         }
         if nearest.separation < -doubt {
             known.settle(near.number);
