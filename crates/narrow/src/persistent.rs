@@ -22,6 +22,7 @@
 use crate::answer::Answer;
 use crate::feature::{Feature, Hint, OnFace};
 use crate::footing::{Footing, SLIDE};
+use asunder_geometry::tolerance::MAX_POSITION;
 
 /// Share of the smaller bounding radius by which two bodies may drift without a footing, 2^-15: of cubes of a metre, 26
 /// micrometres. The reported error is up to twice that.
@@ -57,12 +58,18 @@ pub(crate) struct Way {
     pub(crate) rise: f64,
 }
 
+/// Whether these can be the lengths of a manifold that is kept, in metres: so far from what f32 holds that nothing that is made
+/// of them is infinite.
+pub(crate) fn are_lengths(lengths: &[f32]) -> bool {
+    lengths.iter().all(|length| length.abs() <= MAX_POSITION as f32)
+}
+
 impl Terms {
-    /// Whether they can be those of a manifold.
-    pub(crate) fn are_sound(&self) -> bool {
-        let most = reach_of(self.arms);
-        self.margin.is_finite()
-            && self.arms.iter().all(|arm| arm.is_finite() && *arm >= 0.0)
+    /// Whether they can be those of a manifold with this separation, and this error.
+    pub(crate) fn are_sound(&self, found: [f32; 2]) -> bool {
+        let most = slack_of(found, self.overlapping, self.margin, self.arms).unwrap_or(-1.0);
+        are_lengths(&[found[0], found[1], self.margin, self.arms[0], self.arms[1]])
+            && self.arms.iter().all(|arm| *arm >= 0.0)
             && (0.0..=most).contains(&self.slack)
             && self.footing.is_none_or(|footing| footing.is_sound(self.arms))
     }

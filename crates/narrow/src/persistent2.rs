@@ -76,7 +76,7 @@ impl Persistent2 {
             footing: footing_of(job, edge, manifold),
         };
         let poses = [*job.pose_a, *job.pose_b];
-        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, poses })
+        terms.are_sound(found).then(|| Self { manifold: manifold.clone(), terms, poses })
     }
 
     /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of no
@@ -115,7 +115,7 @@ impl Persistent2 {
 
     /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
     pub fn is_sound(&self) -> bool {
-        self.terms.are_sound()
+        self.terms.are_sound([self.manifold.separation, self.manifold.error])
     }
 
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin

@@ -1,7 +1,8 @@
 //! Snapshots that were cut, changed or made up: an error that says what is wrong, or a world that works.
 
 use super::{ROOM, Stored, act, assert_equal_texts, shown};
-use asunder::{Snapshot3, SnapshotError, Volume, World3};
+use asunder::glam::Vec3;
+use asunder::{Collider3, Cuboid, Pose3, Snapshot3, SnapshotError, TriMesh, Volume, World3};
 use asunder_tests::cases::Random;
 use asunder_tests::engine::Engine;
 use serde_json::{Value, json};
@@ -258,4 +259,61 @@ fn damaged_text_is_refused() {
             assert_equal_texts(&Volume::text(&world), &text, 0);
         }
     }
+}
+
+/// A crate on another, and one on a level of two triangles, all at rest.
+fn resting() -> Value {
+    let mut world = World3::new();
+    let cube = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap();
+    let corners = [[-2.0, 0.0, -2.0], [-2.0, 0.0, 2.0], [2.0, 0.0, 2.0], [2.0, 0.0, -2.0]].map(Vec3::from);
+    let level = TriMesh::new(corners.to_vec(), vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+    world.insert(Collider3::new(level).fixed().margin(0.01).unwrap());
+    let at = |height: f64| Pose3::at([0.1, height, 0.2]).unwrap();
+    let crates = [0.499, 1.498].map(|height| {
+        let body = Collider3::new(cube.clone()).at(at(height)).margin(0.01).unwrap();
+        (world.insert(body), height)
+    });
+    world.update();
+    // What has just come is not known to rest.
+    for (key, height) in crates {
+        world.set_pose(key, at(height - 1e-7)).unwrap();
+    }
+    world.update();
+    serde_json::to_value(world.snapshot()).unwrap()
+}
+
+/// Symptom: an error of the greatest f32 was restored with what is kept to be moved along, and told as infinite.
+#[test]
+fn what_is_kept_has_lengths_that_can_be() {
+    let whole = resting();
+    judged(whole.clone()).unwrap();
+    let kept = |of: &str| {
+        let candidates = whole["content"]["candidates"].as_array().unwrap();
+        let is_of = |candidate: &Value| !candidate["persistent"][of].is_null();
+        candidates.iter().position(is_of).unwrap_or_else(|| panic!("{candidates:?}"))
+    };
+    let (solids, grounded) = (kept("Solids"), kept("Grounded"));
+    let refused = |number: usize, of: &str, path: &[&str], to: Value| {
+        let mut changed = whole.clone();
+        let mut at = &mut changed["content"]["candidates"][number]["persistent"][of];
+        for step in path {
+            at = match step.parse::<usize>() {
+                Ok(index) => &mut at[index],
+                Err(_) => &mut at[step],
+            };
+        }
+        assert!(at.is_number(), "{path:?}");
+        *at = to;
+        let said = judged(changed).err().unwrap_or_else(|| panic!("taken, though: {of} {path:?}"));
+        assert!(said.contains(&format!("candidate {number} keeps")), "{said}");
+    };
+    let (much, more) = (json!(f64::from(f32::MAX)), json!(0.5));
+    refused(solids, "Solids", &["manifold", "error"], much.clone());
+    refused(solids, "Solids", &["manifold", "error"], more.clone());
+    refused(solids, "Solids", &["manifold", "separation"], json!(-f64::from(f32::MAX)));
+    refused(solids, "Solids", &["terms", "slack"], more);
+    refused(solids, "Solids", &["terms", "arms", "1"], much.clone());
+    refused(grounded, "Grounded", &["memory", "manifolds", "0", "error"], much.clone());
+    refused(grounded, "Grounded", &["memory", "manifolds", "0", "separation"], much.clone());
+    refused(grounded, "Grounded", &["arm"], much);
 }

@@ -31,7 +31,7 @@ use crate::answer::{Answer, ContactPoint3, Manifold3, Separation3};
 use crate::ground3::OnGround;
 use crate::jobs3::Job3;
 use crate::pair3::Pair3;
-use crate::persistent::{lost, reach_of};
+use crate::persistent::{are_lengths, lost, reach_of};
 use crate::precision::signed;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Ground, Pose3, Shape3};
@@ -180,8 +180,8 @@ impl Grounded {
         let Memory { manifolds, grips } = &self.memory;
         !manifolds.is_empty()
             && manifolds.len() == grips.len()
-            && self.margin.is_finite()
-            && self.arm.is_finite()
+            && manifolds.iter().all(|of| are_lengths(&[of.separation, of.error]))
+            && are_lengths(&[self.margin, self.arm])
             && (0.0..=self.arm).contains(&self.reach)
             && (0.0..=UNKNOWN as f32 * 1.001).contains(&self.cost)
             && grips.iter().flatten().all(Grip::is_sound)

@@ -45,7 +45,7 @@ impl Solids {
             footing: footing_of(job, manifold, hold.width),
         };
         let poses = [*job.pose_a, *job.pose_b];
-        terms.are_sound().then(|| Self { manifold: manifold.clone(), terms, poses })
+        terms.are_sound(found).then(|| Self { manifold: manifold.clone(), terms, poses })
     }
 
     /// Up to which drift this one can be moved along, in metres.
@@ -70,7 +70,7 @@ impl Solids {
 
     /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
     pub(super) fn is_sound(&self) -> bool {
-        self.terms.are_sound()
+        self.terms.are_sound([self.manifold.separation, self.manifold.error])
     }
 
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
