@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// The largest f32 that is not above `value`.
 ///
-/// Whether what is nearest is on the wrong side is a coin's toss, six times a box: a number that is added, and no branch. A box
-/// of a cuboid took 60 ns with branches and takes 35 without (AMD EPYC, Zen 4, 2026-11-23).
+/// Whether what is nearest is on the wrong side is a coin's toss, six times a box: a number that is added, and no branch. With
+/// branches the boxes of cuboids were 14 % of a frame of pyramids, and are 4 % (samples; AMD EPYC, Zen 4, 2026-11-23).
 #[inline]
 pub(crate) fn round_down(value: f64) -> f32 {
     let nearest = value as f32;
