@@ -109,3 +109,41 @@ fn what_reaches_around_a_rim_is_told() {
     }
     assert!(told > 3000 && behind > 300, "{told} told, {behind} of them on the other side than the middle");
 }
+
+/// Symptom: a rounded crate in a groove was told to be 4 mm from both its slopes, or to have no contact, and was 0.9 mm from
+/// either. Cause: the rounds of its lower edges lead over the narrow slopes from rim to rim, no corner is over them, and along
+/// the slopes' own normals only what crosses the rims was told.
+#[test]
+fn a_rounded_crate_in_a_groove_stands_on_both_slopes() {
+    let vertices: Vec<Vec3> = [-1.0_f32, 0.0, 1.0]
+        .into_iter()
+        .flat_map(|x| [-0.05, 0.05].map(|z| Vec3::new(x, 0.5 * x.abs(), z)))
+        .collect();
+    let slopes = TriMesh::new(vertices, vec![[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]]).unwrap();
+    let margin = 0.005;
+    for (half, radius) in [([0.12, 0.05, 0.07], 0.03), ([0.27, 0.06, 0.11], 0.11)] {
+        let half = Vec3::from(half);
+        let body: Shape3 = Cuboid::from_half_extents(half).unwrap().rounded(radius).unwrap().into();
+        for ground in [slopes.clone(), slopes.clone().one_sided()].map(Shape3::from) {
+            for aside in [0.0, 3e-4, -3e-4] {
+                // A slope of one half, as far from the round of the edge over it as is wanted.
+                let (gap, cosine) = (1e-3, 1.0 / 1.25_f64.sqrt());
+                let (wide, round) = (f64::from(half.x), f64::from(radius));
+                let up = 0.5 * wide + (round + gap) / cosine + f64::from(half.y);
+                let at = Pose3::at([aside, up, 0.0]).unwrap();
+                let manifolds = Pair3::new(&body, &at, &ground, &Pose3::IDENTITY).manifolds(margin);
+                assert_eq!(manifolds.len(), 2, "{half} {aside}: {manifolds:?}");
+                for manifold in manifolds {
+                    // The body is A, and leans on the slope that its normal leads down to.
+                    let side = f64::from(manifold.normal.x.signum());
+                    let truth = gap - side * aside * 0.5 * cosine;
+                    let off = (f64::from(manifold.separation) - truth).abs();
+                    assert!(off <= f64::from(manifold.error) + 2e-8, "{half} {aside}: {truth}, {manifold:?}");
+                    let least =
+                        manifold.points.iter().map(|point| point.separation).fold(f32::INFINITY, f32::min);
+                    assert!((f64::from(least) - truth).abs() <= 1e-6, "{truth}, {manifold:?}");
+                }
+            }
+        }
+    }
+}

@@ -18,7 +18,7 @@
 //!         else the triangle's own normal, unless a contact with others frees the part from it, too
 //!   points go to the group of their normal                                                            (groups)
 //!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
-//!   no, and nothing told is as near as what was refused: that                                       (unsaid)
+//!   what is nearer, in a gap along what ground refused                                              (unsaid)
 //!   groups are told as manifolds                                                                      (answer)
 //! ```
 //! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature among *all* ground
@@ -97,7 +97,7 @@ use meeting::{Meeting, Met};
 use prism::{Incident, Prism};
 use round::Round;
 use standing::{Extent, Octets, Place, Standing};
-use unsaid::Unsaid;
+use unsaid::AllUnsaid;
 
 /// Triangles whose yes or no waits until all have been seen.
 const MOST_UNCLEAR: usize = 32;
@@ -157,7 +157,7 @@ struct Known {
     unclear: ArrayVec<(bool, f64, u32), MOST_UNCLEAR>,
     /// Triangles whose axis was refused.
     refused: ArrayVec<u32, MOST_REFUSED>,
-    unsaid: Option<Unsaid>,
+    unsaid: AllUnsaid,
     incident: Option<Incident>,
     plane: Option<Plane>,
     /// The short way for spheres met what it cannot settle.
@@ -239,7 +239,7 @@ impl Known {
             shown_by: None,
             unclear: ArrayVec::new(),
             refused: ArrayVec::new(),
-            unsaid: None,
+            unsaid: ArrayVec::new_const(),
             incident: None,
             plane: None,
             is_open: false,
@@ -311,10 +311,11 @@ impl Seen<'_> {
         match met {
             Met::Apart | Met::Told(false) => {}
             Met::Told(true) => known.settle(number),
-            Met::Refused(gap) => {
-                match gap {
-                    Some(unsaid) => known.leave_unsaid(unsaid),
-                    None => known.settle(number),
+            Met::Refused { overlapping, gap } => {
+                if overlapping {
+                    known.settle(number);
+                } else if let Some(unsaid) = gap {
+                    known.leave_unsaid(unsaid);
                 }
                 self.refuse(prism, known);
             }
@@ -441,7 +442,7 @@ impl Seen<'_> {
         {
             self.add_last(number, known);
         }
-        self.say_nearest(known);
+        self.say(known);
     }
 
     /// The part's lowest point over a triangle that it overlaps, where every point was cut away.

@@ -98,6 +98,12 @@ impl Groups {
         self.groups.iter().map(Group::least).fold(f64::INFINITY, f64::min)
     }
 
+    /// The least separation of the points along a normal; infinite without any.
+    pub(super) fn least_along(&self, normal: DVec3) -> f64 {
+        let group = self.groups.iter().find(|group| is_same(group.base.normal, normal));
+        group.map_or(f64::INFINITY, |group| group.least().min(group.told[0]))
+    }
+
     /// Adds a point. Cost: linear in the normals and in the points of its own.
     pub(super) fn add(&mut self, base: &Base, pin: Pin) {
         let slack = self.slack;
@@ -145,6 +151,9 @@ impl Groups {
     pub(super) fn keep_within(&mut self, least: f64) {
         for group in &mut self.groups {
             group.pins.retain(|pin| pin.separation >= least - pin.doubt);
+            if group.told[0] < least - group.told[1] {
+                group.told = NOTHING_TOLD;
+            }
         }
         self.groups.retain(|group| !group.pins.is_empty());
     }

@@ -31,8 +31,8 @@ pub(super) enum Met {
     Apart,
     /// They are not, and points were made of it; whether they share a point.
     Told(bool),
-    /// They are not, and ground refused the direction; where they are nearest, if they share no point.
-    Refused(Option<Unsaid>),
+    /// They are not, and ground refused the direction; whether they share a point, and where they are nearest if they do not.
+    Refused { overlapping: bool, gap: Option<Unsaid> },
 }
 
 impl<'a> Meeting<'a> {
@@ -78,14 +78,14 @@ impl<'a> Meeting<'a> {
         if self.add_touch((ground, facet), place, (&touch, told), groups) {
             return Met::Told(near.verdict.overlapping);
         }
-        Met::Refused(unsaid_of(facet, place, &near))
+        Met::Refused { overlapping: near.verdict.overlapping, gap: unsaid_of(facet, place, &near) }
     }
 
     /// Where the part is nearest to a triangle, if it is within the margin and overlaps it in no point.
     pub(super) fn gap(&self, of: (Ground, &Facet), place: &Place, asking: &Asking) -> Option<Unsaid> {
         let mut touch = Touch::NONE;
         let near = self.near(of, asking, |_| false, &mut touch)?;
-        unsaid_of(of.1, place, &near)
+        unsaid_of(of.1, place, &near).filter(|_| !near.verdict.overlapping)
     }
 
     /// What the kernels say, if the two are within the margin; with points, where they are wanted.
@@ -128,7 +128,7 @@ impl<'a> Meeting<'a> {
             };
             groups.add(&base, pin);
         }
-        // Of four points, which may stand for more, none need be as near.
+        // Points may stand for more than there are, and then none need be as near.
         groups.tell(towards, told);
         true
     }
@@ -146,7 +146,7 @@ fn unsaid_of(facet: &Facet, place: &Place, near: &Near) -> Option<Unsaid> {
 }
 
 /// The name of a triangle's own feature on the ground.
-pub(super) fn feature_on(ground: Ground, triangle: u32, feature: Feature) -> Feature {
+fn feature_on(ground: Ground, triangle: u32, feature: Feature) -> Feature {
     match feature {
         Feature::Vertex(corner) => {
             let numbers = ground.vertex_numbers(triangle);

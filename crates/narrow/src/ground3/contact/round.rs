@@ -57,7 +57,7 @@ impl Round {
         if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
             known.groups.keep_within(-slack);
         }
-        let is_unsaid = !asking.on.ground.is_one_sided() && known.unsaid_within(slack).is_some();
+        let is_unsaid = !asking.on.ground.is_one_sided() && known.is_unsaid(slack);
         if is_unsaid || known.groups.least() > slack && known.shown_by.is_some() {
             return None;
         }

@@ -1,20 +1,23 @@
-//! The nearest point of ground that no triangle told of, in a gap within the margin.
+//! What ground is near in a gap, along directions that it refused, and nobody told of.
 //!
 //! What is nearest of all ground lies in its own Voronoi region, and ground lets it through. Not so
 //!
-//! - where the part's nearest point stands a hair outside the triangle: that direction is the triangle's own normal up to the
-//!   tolerance, and along the normal all of the part's face is cut away;
+//! - where that direction is the triangle's own normal up to the tolerance, and along the normal all of the part's face is cut
+//!   away, or the nearest of it: the part's nearest point stands a hair outside the triangle; or the part is rounded, and what
+//!   is nearest is the round of an edge that leads over the triangle from side to side;
 //! - of two-sided ground, where the part reaches around a rim or a fold: its centre is on one side, and what is nearest on the
 //!   other, from where the triangle is not looked at, or taken for deep; and at corners so crumpled that they have no sides.
 //!
-//! Then nothing would be told of a part within the margin: 58 times in 2.8 M random poses beside rims, folds and fans of
-//! triangles, half of them capsules. So the kernels' own answer is kept, and told if no other is as near.
+//! Then nothing was told of a part within the margin, 58 times in 2.8 M random poses beside rims, folds and fans of triangles,
+//! half of them capsules; or, of rounded boxes in a groove, by millimetres too much. So the kernels' own answers are kept,
+//! one a direction, and told at last: along a triangle's own normal where nothing there is as near, along others where nothing
+//! at all is.
 
-use super::facet::{Facet, Furthest, is_same};
+use super::facet::{Facet, edge_number, is_same};
 use super::groups::{Base, Pin};
-use super::meeting::feature_on;
 use super::{Known, Seen};
 use crate::feature::Feature;
+use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
 /// A triangle in a gap from the part, of which no point was made.
@@ -30,50 +33,74 @@ pub(super) struct Unsaid {
     pub(super) towards: DVec3,
 }
 
+/// One a direction; of many the nearest.
+pub(super) type AllUnsaid = ArrayVec<Unsaid, 8>;
+
+impl Unsaid {
+    /// Whether it comes before another; of equals the one of the lower number.
+    fn is_before(&self, other: &Self) -> bool {
+        self.separation < other.separation
+            || self.separation == other.separation && self.number < other.number
+    }
+}
+
 impl Known {
-    /// Keeps the nearest; of equals the lowest number.
+    /// Keeps the nearest of each direction.
     pub(super) fn leave_unsaid(&mut self, unsaid: Unsaid) {
-        let is_nearer = |known: &Unsaid| {
-            unsaid.separation < known.separation
-                || unsaid.separation == known.separation && unsaid.number < known.number
-        };
-        if self.unsaid.as_ref().is_none_or(is_nearer) {
-            self.unsaid = Some(unsaid);
+        let all = &mut self.unsaid;
+        let same = all.iter().position(|known| is_same(known.towards, unsaid.towards));
+        let last =
+            || (0..all.len()).reduce(|last, next| if all[last].is_before(&all[next]) { next } else { last });
+        let place = if same.is_some() || !all.is_full() { same } else { last() };
+        match place.and_then(|place| all.get_mut(place)) {
+            Some(known) if unsaid.is_before(known) => *known = unsaid,
+            Some(_) => {}
+            None => {
+                let _ = all.try_push(unsaid);
+            }
         }
     }
 
-    /// What is kept, of a part that overlaps no triangle, if it is nearer than all that was told: by more than `slack` metres.
-    pub(super) fn unsaid_within(&self, slack: f64) -> Option<Unsaid> {
-        let is_nearer = |unsaid: &Unsaid| unsaid.separation < self.groups.least() - slack;
-        self.unsaid.filter(|unsaid| !self.overlapping && is_nearer(unsaid))
+    /// Whether something is nearer than all that was told of a part that overlaps no triangle: by more than `slack` metres.
+    pub(super) fn is_unsaid(&self, slack: f64) -> bool {
+        let least = self.groups.least() - slack;
+        !self.overlapping && self.unsaid.iter().any(|unsaid| unsaid.separation < least)
     }
 }
 
 impl Seen<'_> {
-    /// Tells what was left unsaid of a part that overlaps no triangle, where it is nearer there than anywhere else that was
-    /// told.
-    pub(super) fn say_nearest(&self, known: &mut Known) {
-        if known.overlapping {
-            return;
+    /// Tells what was left unsaid. Cost: some kernels for a part that is near two-sided ground from behind, and touches nothing.
+    pub(super) fn say(&self, known: &mut Known) {
+        if !known.overlapping {
+            self.look_behind(known);
         }
-        self.look_behind(known);
         let (ground, standing) = (self.asking.on.ground, self.standing);
-        let Some(unsaid) = known.unsaid_within(standing.slack) else { return };
-        let Unsaid { number, separation, doubt, ends: [on_body, on_ground], towards } = unsaid;
-        let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
-        let is_own = is_same(facet.normal, towards);
-        if ground.is_one_sided() && !is_own {
-            // Its rims and its back were meant to be refused.
-            return;
+        let slack = standing.slack;
+        let least = known.groups.least() - slack;
+        let mut all = core::mem::take(&mut known.unsaid);
+        all.sort_unstable_by(|a, b| a.separation.total_cmp(&b.separation).then(a.number.cmp(&b.number)));
+        for unsaid in &all {
+            let Some(facet) = Facet::seen(ground, unsaid.number, standing.center) else { continue };
+            if is_same(facet.normal, unsaid.towards) {
+                if unsaid.separation < known.groups.least_along(facet.normal) - slack {
+                    self.add_unsaid(&facet, facet.normal, unsaid, known);
+                }
+            } else if !known.overlapping && !ground.is_one_sided() && unsaid.separation < least {
+                // Of one-sided ground rims and backs were meant to be refused.
+                self.add_unsaid(&facet, unsaid.towards, unsaid, known);
+            }
         }
-        let normal = if is_own { facet.normal } else { towards };
+    }
+
+    fn add_unsaid(&self, facet: &Facet, normal: DVec3, unsaid: &Unsaid, known: &mut Known) {
+        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let Unsaid { number, separation, doubt, ends: [on_body, on_ground], .. } = *unsaid;
+        // Named after a side of the triangle, wherever it is: what is held by a corner and a side is never moved along, and
+        // whoever was refused once may come nearer on the way.
+        let away = |edge: usize| facet.inside(on_ground, |other| other == edge).abs();
+        let edge = (1..3).fold(0, |best, edge| if away(edge) < away(best) { edge } else { best });
         let of_body = Feature::Vertex(standing.extent(normal, on_ground).lowest as u32);
-        let of_ground = match facet.furthest(towards) {
-            Furthest::Corner(corner) => Feature::Vertex(corner as u32),
-            Furthest::Edge(edge) => Feature::Edge(edge as u32),
-            Furthest::Face => Feature::Face(0),
-        };
-        let of_ground = feature_on(ground, number, of_ground);
+        let of_ground = Feature::Edge(edge_number(ground, number, edge));
         let pin = Pin { on_body, on_ground, separation, doubt, of_body, of_ground };
         known.groups.add(&Base { normal, patch: ground.patch(number), weight: 0.0 }, pin);
     }
