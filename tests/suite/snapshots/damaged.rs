@@ -270,7 +270,7 @@ fn resting() -> Value {
     world.insert(Collider3::new(level).fixed().margin(0.01).unwrap());
     let at = |height: f64| Pose3::at([0.1, height, 0.2]).unwrap();
     let crates = [0.499, 1.498].map(|height| {
-        let body = Collider3::new(cube.clone()).at(at(height)).margin(0.01).unwrap();
+        let body = Collider3::new(cube).at(at(height)).margin(0.01).unwrap();
         (world.insert(body), height)
     });
     world.update();
