@@ -412,7 +412,7 @@ fn a_world_moves_contacts_with_a_level_along() {
 }
 
 /// On ground in narrow strips another normal often stands in for one that is refused: along it bodies were told to be further
-/// apart than they are, 20 times in these. What is told is what parts them, and they are kept no longer than that.
+/// apart than they are, more than five times in these. What is told is what parts them, and they are kept no longer than that.
 #[test]
 fn a_gap_is_kept_no_longer_than_what_parts_them() {
     let mut random = Random::new(17);
