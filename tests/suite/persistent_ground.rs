@@ -413,11 +413,13 @@ fn a_world_moves_contacts_with_a_level_along() {
 
 /// On ground in narrow strips another normal often stands in for one that is refused: along it bodies were told to be further
 /// apart than they are, more than five times in these. What is told is what parts them, and they are kept no longer than that.
+/// One-sided ground does not tell of its rims and its back: there what is told is still more, and they are kept no longer all the
+/// same.
 #[test]
 fn a_gap_is_kept_no_longer_than_what_parts_them() {
     let mut random = Random::new(17);
-    let mut kept_count = 0;
-    for _ in 0..400 {
+    let (mut wide, mut kept_count) = (0, 0);
+    for case in 0..800 {
         let mut vertices = Vec::new();
         for row in 0..12_u16 {
             for column in 0..3_u16 {
@@ -431,7 +433,9 @@ fn a_gap_is_kept_no_longer_than_what_parts_them() {
         }
         let cell = |at: u32| [[at, at + 1, at + 3], [at + 1, at + 4, at + 3]];
         let triangles: Vec<_> = (0..11).flat_map(|row| [row * 3, row * 3 + 1]).flat_map(cell).collect();
-        let ground = Shape3::from(TriMesh::new(vertices, triangles).unwrap());
+        let ground = TriMesh::new(vertices, triangles).unwrap();
+        let is_one_sided = case % 2 == 1;
+        let ground = Shape3::from(if is_one_sided { ground.one_sided() } else { ground });
         for body in bodies(&mut random) {
             let from = random.direction();
             let start = Pose3::new(from * 2.0 + random.direction() * 0.1, random.rotation()).unwrap();
@@ -451,9 +455,11 @@ fn a_gap_is_kept_no_longer_than_what_parts_them() {
             kept_count += 1;
             // Ground takes what differs by less than a millionth of the body for the same place.
             let allowed = 1e-6 * f64::from(stand.body.outer_radius());
-            assert!(f64::from(told) <= parted + allowed, "{parted}, told {told}");
+            let is_wide = f64::from(told) > parted + allowed;
+            assert!(!is_wide || is_one_sided, "{parted}, told {told}");
+            wide += usize::from(is_wide);
             assert!(f64::from(kept.reach()) <= parted, "{} of {parted}, told {told}", kept.reach());
         }
     }
-    assert!(kept_count > 1000, "{kept_count}");
+    assert!(kept_count > 1500 && wide > 5, "{wide} of {kept_count}");
 }

@@ -100,7 +100,7 @@ impl World<Volume> {
     }
 
     /// Moves many bodies, in this order. Cost: some 5 to 11 ns a body that is in the cache, 50 of one that must be fetched;
-    /// their boxes, 30 ns each, are made by the next update, in parallel.
+    /// their boxes, 25 ns each, are made by the next update, in parallel.
     ///
     /// # Errors
     /// A stale key among them; all the others are moved.

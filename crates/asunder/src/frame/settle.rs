@@ -253,7 +253,7 @@ impl<S: Space> Asker<'_, S> {
         Record { manifolds: Place { chunk, start, end: to.len() as u32 }, ..*before }
     }
 
-    /// A contact as the narrow phase alone knows it.
+    /// A contact as the narrow phase alone knows it: whether it has begun, and is new, is [`Settled::begin`]'s to say.
     #[inline(always)]
     fn record_of(
         &self,
@@ -276,7 +276,7 @@ impl<S: Space> Asker<'_, S> {
             user_data,
             sensor,
             overlapping,
-            begun: overlapping,
+            begun: false,
             is_new: false,
             speculative,
             manifolds,

@@ -157,6 +157,7 @@ struct Known {
     unclear: ArrayVec<(bool, f64, u32), MOST_UNCLEAR>,
     /// Triangles whose axis was refused.
     refused: ArrayVec<u32, MOST_REFUSED>,
+    /// Triangles in a gap whose axis was refused.
     unsaid: AllUnsaid,
     incident: Option<Incident>,
     plane: Option<Plane>,
@@ -314,8 +315,9 @@ impl Seen<'_> {
             Met::Refused { overlapping, gap } => {
                 if overlapping {
                     known.settle(number);
-                } else if let Some(unsaid) = gap {
-                    known.leave_unsaid(unsaid);
+                }
+                if let Some(unsaid) = gap {
+                    known.leave_unsaid(ground, unsaid);
                 }
                 self.refuse(prism, known);
             }

@@ -120,7 +120,7 @@ impl Grounded {
         let arm = arm_of(body);
         let mut reach = most_slide(body, job.margin);
         if !overlapping {
-            // Where another normal stands in for one that ground refuses, what is told may be more than what parts them.
+            // What one-sided ground refuses is not told, and may part them by less than what is.
             let gap = match pair.separation(reach) {
                 Separation3::Measured(near) => near.separation - near.error,
                 Separation3::AtLeast(bound) => bound,

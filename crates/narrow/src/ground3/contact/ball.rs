@@ -44,11 +44,12 @@ impl Nearest {
         Self { at, feature, separation: distance - radius, towards: between / distance }
     }
 
-    /// What is kept of it where ground does not let the direction through.
+    /// What is kept of it where ground does not let the direction through, which is not the triangle's own.
     #[inline]
     pub(super) fn unsaid(&self, (center, radius): (DVec3, f64), number: u32, doubt: f64) -> Unsaid {
         let Self { at, separation, towards, .. } = *self;
-        Unsaid { number, separation, doubt, ends: [center - towards * radius, at], towards }
+        let ends = [center - towards * radius, at];
+        Unsaid { number, separation, doubt, ends, normal: towards, is_own: false }
     }
 
     /// Adds the contact point, where ground lets the direction through; whether it did.
@@ -104,18 +105,11 @@ impl Seen<'_> {
         if nearest.separation > self.asking.reach + doubt {
             return;
         }
+        let ball = (self.standing.center, self.standing.radius);
         let is_within = nearest.separation <= self.asking.reach;
-        let has_points = is_within
-            && nearest.add_point(
-                (self.standing.center, self.standing.radius),
-                facet,
-                ground,
-                doubt,
-                &mut known.groups,
-            );
+        let has_points = is_within && nearest.add_point(ball, facet, ground, doubt, &mut known.groups);
         if is_within && !has_points {
-            let ball = (self.standing.center, self.standing.radius);
-            known.leave_unsaid(nearest.unsaid(ball, number, doubt));
+            known.leave_unsaid(ground, nearest.unsaid(ball, number, doubt));
         }
         if known.overlapping || nearest.separation > doubt {
             return;

@@ -93,15 +93,15 @@ impl Groups {
         self.groups.iter()
     }
 
-    /// The least separation of all points; infinite without any.
+    /// The least separation that was found; infinite without any.
     pub(super) fn least(&self) -> f64 {
-        self.groups.iter().map(Group::least).fold(f64::INFINITY, f64::min)
+        self.groups.iter().map(Group::found).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least separation of the points along a normal; infinite without any.
+    /// The same along a normal.
     pub(super) fn least_along(&self, normal: DVec3) -> f64 {
         let group = self.groups.iter().find(|group| is_same(group.base.normal, normal));
-        group.map_or(f64::INFINITY, |group| group.least().min(group.told[0]))
+        group.map_or(f64::INFINITY, Group::found)
     }
 
     /// Adds a point. Cost: linear in the normals and in the points of its own.
@@ -169,6 +169,11 @@ impl Groups {
 }
 
 impl Group {
+    /// The least separation of its points, or what was told of them.
+    fn found(&self) -> f64 {
+        self.least().min(self.told[0])
+    }
+
     /// The least separation of its points.
     pub(super) fn least(&self) -> f64 {
         self.pins.iter().map(|pin| pin.separation).fold(f64::INFINITY, f64::min)

@@ -1,7 +1,7 @@
 //! A convex part and one triangle by the general kernels, and which of their axes ground lets through.
 
 use super::Asking;
-use super::facet::{Facet, edge_number};
+use super::facet::{Facet, edge_number, is_same};
 use super::groups::{Base, Groups, Pin};
 use super::standing::{Place, Standing};
 use super::unsaid::Unsaid;
@@ -85,7 +85,7 @@ impl<'a> Meeting<'a> {
     pub(super) fn gap(&self, of: (Ground, &Facet), place: &Place, asking: &Asking) -> Option<Unsaid> {
         let mut touch = Touch::NONE;
         let near = self.near(of, asking, |_| false, &mut touch)?;
-        unsaid_of(of.1, place, &near).filter(|_| !near.verdict.overlapping)
+        unsaid_of(of.1, place, &near)
     }
 
     /// What the kernels say, if the two are within the margin; with points, where they are wanted.
@@ -134,14 +134,18 @@ impl<'a> Meeting<'a> {
     }
 }
 
-/// The nearest points of a gap, in the ground's axes.
+/// Where part and triangle are nearest, in the ground's axes; nothing where they overlap.
 fn unsaid_of(facet: &Facet, place: &Place, near: &Near) -> Option<Unsaid> {
-    near.closest.map(|[on_a, on_b]| Unsaid {
+    let [on_a, on_b] = near.closest.filter(|_| !near.verdict.overlapping)?;
+    let towards = -place.axes.turn(near.normal);
+    let is_own = is_same(facet.normal, towards);
+    Some(Unsaid {
         number: facet.number,
         separation: near.separation.into(),
         doubt: near.error.into(),
         ends: [place.point(on_a), place.point(on_b)],
-        towards: -place.axes.turn(near.normal),
+        normal: if is_own { facet.normal } else { towards },
+        is_own,
     })
 }
 

@@ -6,6 +6,7 @@
 //!   neither is in front for certain, and no side of it may give that direction: no point
 //!   else, and only then: which side the centre is on, which takes a walk around the corner       (Facet::is_before)
 //!   the point, where ground lets the direction through                                           (Nearest::add_point)
+//! what ground refused is nearer than all points: the general way                                (unsaid)
 //! ```
 //! Answers are those of the general way to the last bit. Where rounding leaves it open whether the two share a point, or
 //! the centre is on the triangle, that way is asked instead: it knows how to go on.
@@ -57,8 +58,7 @@ impl Round {
         if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
             known.groups.keep_within(-slack);
         }
-        let is_unsaid = !asking.on.ground.is_one_sided() && known.is_unsaid(slack);
-        if is_unsaid || known.groups.least() > slack && known.shown_by.is_some() {
+        if known.is_unsaid(slack) || known.groups.least() > slack && known.shown_by.is_some() {
             return None;
         }
         Some(asking.answer(part, &mut known, is_settled, manifolds))
@@ -119,7 +119,7 @@ impl Round {
                 nearest.add_point(ball, &facet, ground, doubt, &mut known.groups)
             };
             if !is_added {
-                known.leave_unsaid(nearest.unsaid(ball, near.number, doubt));
+                known.leave_unsaid(ground, nearest.unsaid(ball, near.number, doubt));
             }
         }
         if nearest.separation < -doubt {

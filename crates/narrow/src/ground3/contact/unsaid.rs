@@ -18,6 +18,7 @@ use super::groups::{Base, Pin};
 use super::{Known, Seen};
 use crate::feature::Feature;
 use arrayvec::ArrayVec;
+use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
 
 /// A triangle in a gap from the part, of which no point was made.
@@ -29,42 +30,44 @@ pub(super) struct Unsaid {
     pub(super) doubt: f64,
     /// The nearest points, on the part and on the ground.
     pub(super) ends: [DVec3; 2],
-    /// Unit direction from the ground to the part.
-    pub(super) towards: DVec3,
+    /// Unit direction from the ground to the part: the triangle's own normal where it is the same, and whether it is.
+    pub(super) normal: DVec3,
+    pub(super) is_own: bool,
 }
 
-/// One a direction; of many the nearest.
+/// One a direction, the nearest first; of many those.
 pub(super) type AllUnsaid = ArrayVec<Unsaid, 8>;
 
 impl Unsaid {
     /// Whether it comes before another; of equals the one of the lower number.
     fn is_before(&self, other: &Self) -> bool {
-        self.separation < other.separation
-            || self.separation == other.separation && self.number < other.number
+        (self.separation, self.number) < (other.separation, other.number)
     }
 }
 
 impl Known {
-    /// Keeps the nearest of each direction.
-    pub(super) fn leave_unsaid(&mut self, unsaid: Unsaid) {
-        let all = &mut self.unsaid;
-        let same = all.iter().position(|known| is_same(known.towards, unsaid.towards));
-        let last =
-            || (0..all.len()).reduce(|last, next| if all[last].is_before(&all[next]) { next } else { last });
-        let place = if same.is_some() || !all.is_full() { same } else { last() };
-        match place.and_then(|place| all.get_mut(place)) {
-            Some(known) if unsaid.is_before(known) => *known = unsaid,
-            Some(_) => {}
-            None => {
-                let _ = all.try_push(unsaid);
-            }
+    /// Keeps the nearest of each direction. Of one-sided ground rims and backs were meant to be refused.
+    pub(super) fn leave_unsaid(&mut self, ground: Ground, unsaid: Unsaid) {
+        if ground.is_one_sided() && !unsaid.is_own {
+            return;
         }
+        let all = &mut self.unsaid;
+        let same = all.iter().position(|known| is_same(known.normal, unsaid.normal));
+        let in_place = same.or_else(|| all.is_full().then(|| all.len() - 1));
+        if let Some(place) = in_place {
+            if !unsaid.is_before(&all[place]) {
+                return;
+            }
+            all.remove(place);
+        }
+        let place = all.partition_point(|known| known.is_before(&unsaid));
+        let _ = all.try_insert(place, unsaid);
     }
 
     /// Whether something is nearer than all that was told of a part that overlaps no triangle: by more than `slack` metres.
     pub(super) fn is_unsaid(&self, slack: f64) -> bool {
         let least = self.groups.least() - slack;
-        !self.overlapping && self.unsaid.iter().any(|unsaid| unsaid.separation < least)
+        !self.overlapping && self.unsaid.first().is_some_and(|nearest| nearest.separation < least)
     }
 }
 
@@ -74,27 +77,24 @@ impl Seen<'_> {
         if !known.overlapping {
             self.look_behind(known);
         }
-        let (ground, standing) = (self.asking.on.ground, self.standing);
-        let slack = standing.slack;
-        let least = known.groups.least() - slack;
-        let mut all = core::mem::take(&mut known.unsaid);
-        all.sort_unstable_by(|a, b| a.separation.total_cmp(&b.separation).then(a.number.cmp(&b.number)));
-        for unsaid in &all {
-            let Some(facet) = Facet::seen(ground, unsaid.number, standing.center) else { continue };
-            if is_same(facet.normal, unsaid.towards) {
-                if unsaid.separation < known.groups.least_along(facet.normal) - slack {
-                    self.add_unsaid(&facet, facet.normal, unsaid, known);
-                }
-            } else if !known.overlapping && !ground.is_one_sided() && unsaid.separation < least {
-                // Of one-sided ground rims and backs were meant to be refused.
-                self.add_unsaid(&facet, unsaid.towards, unsaid, known);
+        let slack = self.standing.slack;
+        let least = known.groups.least();
+        for unsaid in core::mem::take(&mut known.unsaid) {
+            let is_nearer = if unsaid.is_own {
+                unsaid.separation < known.groups.least_along(unsaid.normal) - slack
+            } else {
+                !known.overlapping && unsaid.separation < least - slack
+            };
+            if is_nearer {
+                self.add_unsaid(&unsaid, known);
             }
         }
     }
 
-    fn add_unsaid(&self, facet: &Facet, normal: DVec3, unsaid: &Unsaid, known: &mut Known) {
+    fn add_unsaid(&self, unsaid: &Unsaid, known: &mut Known) {
         let (ground, standing) = (self.asking.on.ground, self.standing);
-        let Unsaid { number, separation, doubt, ends: [on_body, on_ground], .. } = *unsaid;
+        let Unsaid { number, separation, doubt, ends: [on_body, on_ground], normal, .. } = *unsaid;
+        let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
         // Named after a side of the triangle, wherever it is: what is held by a corner and a side is never moved along, and
         // whoever was refused once may come nearer on the way.
         let away = |edge: usize| facet.inside(on_ground, |other| other == edge).abs();
@@ -116,7 +116,7 @@ impl Seen<'_> {
                 && let Some(facet) = Facet::seen(ground, number, standing.center)
                 && let Some(gap) = self.meeting.gap((ground, &facet), &standing.place, self.asking)
             {
-                known.leave_unsaid(gap);
+                known.leave_unsaid(ground, gap);
             }
         }
     }
