@@ -87,6 +87,13 @@ pub const IMPACT_REST: f64 = 1e-9;
 /// refused.
 pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 
+/// Share of its inner radius that a core's ball keeps on its arm, which is a segment about the centre.
+///
+/// A face that the arm runs along but for rounding leaves the whole ball no way at all, and a slightly smaller one as much as
+/// there is. Only proofs that spare work depend on it: a smaller value proves less of what overlaps deeply, a larger one
+/// less of hulls that are long only nearly along an edge.
+pub const ARM_SHARE: f64 = 63.0 / 64.0;
+
 /// Share of a hull's half diagonal up to which a stored hull's vertices may lie beyond one of its faces: what
 /// merging at [`COPLANAR`] may leave, with room.
 ///

@@ -279,6 +279,7 @@ fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullE
         center,
         outer_radius,
         inner_radius,
+        inner_arm: Vec3::ZERO,
         planarity_error: round_up(planarity),
         error: 0.0,
     }

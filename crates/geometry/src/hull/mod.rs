@@ -1,5 +1,6 @@
 //! Convex hulls of points in space.
 
+mod arm;
 mod build;
 mod check;
 mod cloud;
@@ -60,6 +61,8 @@ struct HullData {
     outer_radius: f32,
     /// Below zero by the centre's distance where rounding put the centre beside a hull without volume.
     inner_radius: f32,
+    /// Half of a segment about the centre on which nearly all of that ball stays inside: see `ARM_SHARE`.
+    inner_arm: Vec3,
     planarity_error: f32,
     error: f32,
 }
@@ -132,6 +135,12 @@ impl Hull {
     #[inline]
     pub(crate) fn core_inner_radius(&self) -> f32 {
         self.data.inner_radius
+    }
+
+    /// Half of a segment about the centre on which all but that ball stays inside the core.
+    #[inline]
+    pub(crate) fn core_inner_arm(&self) -> Vec3 {
+        self.data.inner_arm
     }
 
     /// The centre that both radii are about: the centre of volume, area or length, rounded to f32.
@@ -211,6 +220,7 @@ impl HullData {
     /// The same with all that kernels load, once vertices and faces have their last order.
     fn finished(mut self) -> Self {
         self.octets = Octets::new(&self.vertices, &self.normals, &self.topology);
+        self.inner_arm = self.longest_arm();
         self
     }
 

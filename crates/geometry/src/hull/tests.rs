@@ -325,3 +325,46 @@ fn a_tampered_hull_is_found_out() {
     let square = Hull::from_points(&points[..5]).unwrap();
     assert!(matches!(square.check(&points), Err(HullFault::PointOutside { index: 5, .. })));
 }
+
+#[test]
+fn balls_along_the_arm_stay_inside_and_of_what_is_long_it_is_long() {
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut number = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 40) as f32 / (1_u32 << 23) as f32 - 1.0
+    };
+    let (mut long, mut none) = (0, 0);
+    for case in 0..400 {
+        let scale =
+            [Vec3::ONE, Vec3::new(1.0, 8.0, 1.0), Vec3::new(0.02, 1.0, 3.0), Vec3::new(1.0, 1.0, 1e-6)]
+                [case % 4];
+        let shift = Vec3::new(number(), number(), number()) * [0.0, 1.0, 100.0][case % 3];
+        let mut corner = |i: usize| match case % 8 {
+            // Boxes, whose edges run along their faces but for rounding.
+            0..4 => Vec3::new(1.0 - 2.0 * (i & 1) as f32, 1.0 - (i & 2) as f32, 1.0 - 0.5 * (i & 4) as f32),
+            _ => Vec3::new(number(), number(), number()),
+        };
+        let turn = glam::Quat::from_xyzw(0.1, 0.2, 0.3, 0.9).normalize();
+        let points: Vec<Vec3> = (0..24).map(|i| turn * (corner(i) * scale) + shift).collect();
+        let Ok(hull) = Hull::from_points(&points) else { continue };
+        let (arm, radius) = (hull.data.inner_arm.as_dvec3(), f64::from(hull.data.inner_radius));
+        none += usize::from(arm == DVec3::ZERO);
+        long += usize::from(arm.length() > radius);
+        let ball = radius.max(0.0) * crate::tolerance::ARM_SHARE;
+        for end in [-1.0, 1.0] {
+            let center = hull.center().as_dvec3() + arm * end;
+            for _ in 0..50 {
+                let any = Vec3::new(number(), number(), number()).as_dvec3().normalize_or_zero();
+                assert!(arm == DVec3::ZERO || hull.contains(center + any * ball), "case {case}: {hull:?}");
+            }
+            // And straight towards each face.
+            for normal in hull.normals() {
+                let at = center + normal * ball;
+                assert!(arm == DVec3::ZERO || hull.contains(at), "case {case}: {arm}, {radius}");
+            }
+        }
+    }
+    assert!(long > 150 && none < 150, "{long}, {none}");
+}

@@ -57,6 +57,7 @@ mod cross;
 mod cull;
 mod facet;
 mod hinted;
+mod level;
 
 use super::solid::Solid;
 use crate::counted::count_steps;
@@ -249,11 +250,18 @@ impl Found {
     }
 
     /// Whether the best of the first faces is the best axis of all, and is known to be.
-    fn is_proved(&self, pair: (&Solid, &Solid), first: &[Option<[usize; 2]>; 2], search: &Search) -> bool {
-        let best = self.axes.best();
+    fn is_proved(
+        &mut self,
+        pair: (&Solid, &Solid),
+        first: &[Option<[usize; 2]>; 2],
+        search: &Search,
+    ) -> bool {
+        let best = *self.axes.best();
         let [of_a, of_b] = first;
         let deepest = if matches!(best.of, AxisOf::FaceA(_)) { of_a } else { of_b };
-        deepest.is_some_and(|[_, vertex]| is_nearest(pair, best, vertex, search.precision))
+        let uneven = deepest.and_then(|[_, vertex]| is_nearest(pair, &best, vertex, search.precision));
+        self.axes.raise(best.separation, search.precision.of_face() + uneven.unwrap_or(0.0));
+        uneven.is_some()
     }
 
     /// All other faces that may be as good.

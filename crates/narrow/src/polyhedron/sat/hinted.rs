@@ -44,12 +44,11 @@ impl Hinted {
 
     /// The axes of solids that overlap, where this one is known to be the best.
     pub(crate) fn proved(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Option<Axes> {
-        is_nearest((a, b), &self.axis, self.deepest, precision).then(|| {
-            let mut axes = Axes::NONE;
-            axes.offer(self.axis);
-            axes.raise(self.axis.separation, self.doubt);
-            axes
-        })
+        let uneven = is_nearest((a, b), &self.axis, self.deepest, precision)?;
+        let mut axes = Axes::NONE;
+        axes.offer(self.axis);
+        axes.raise(self.axis.separation, self.doubt + uneven);
+        Some(axes)
     }
 }
 

@@ -63,6 +63,34 @@ impl Random {
     }
 }
 
+/// Upright prisms and planks, three to ten times as high as wide, turned about the vertical alone; B beside A in a random
+/// direction, somewhere between level with it and just reaching its end.
+pub(super) fn upright(
+    random: &mut Random,
+    case: u64,
+) -> ([Shape3; 2], [Quat; 2], impl Fn(f64) -> DVec3 + use<>) {
+    let high = [0, 1].map(|_| 1.5 + random.number().abs() * 3.5);
+    let mut shape = |sides: u64, high: f32| -> Shape3 {
+        let wide = Vec3::new(0.2 + 0.3 * random.number().abs(), 1.0, 0.5);
+        // By a rotation that has no order among the sides: points on a circle, none twice.
+        let around = (0..sides.max(3)).scan(Vec3::X, |at, _| {
+            let now = *at;
+            *at = Quat::from_xyzw(0.0, (2.0 / sides.max(3) as f32).min(0.9), 0.0, 1.0).normalize() * now;
+            Some(now)
+        });
+        let ends = |at: Vec3| [at * wide + Vec3::Y * high, at * wide - Vec3::Y * high];
+        let points: Vec<Vec3> = around.flat_map(ends).collect();
+        Hull::from_points(&points).unwrap().into()
+    };
+    let shapes = [shape(3 + case % 6, high[0]), shape(3 + case / 6 % 6, high[1])];
+    let mut yaw = || Quat::from_xyzw(0.0, random.number(), 0.0, 1.0);
+    let turns = [yaw(), yaw()];
+    let aside = Vec3::new(random.number(), 0.0, random.number()).normalize_or(Vec3::X).as_dvec3();
+    let short = random.number();
+    let up = f64::from((high[0] + high[1]) * (1.0 - short * short));
+    (shapes, turns, move |at: f64| aside * at + DVec3::Y * up)
+}
+
 /// A pair in A's axes.
 pub(super) fn convex<'a>(
     shape_a: &'a Shape3,

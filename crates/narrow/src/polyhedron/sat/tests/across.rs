@@ -15,7 +15,12 @@ fn placed(random: &mut Random, case: u64) -> ([Shape3; 2], [Pose3; 2]) {
     let towards = random.vector().normalize_or(Vec3::X).as_dvec3();
     let posed =
         |at: f64| [(0.0, turns[0]), (at, turns[1])].map(|(at, turn)| Pose3::new(towards * at, turn).unwrap());
-    let gap = [1e-7, 1e-4, 0.02, 0.5][case as usize % 4];
+    let out = parted(&shapes, [1e-7, 1e-4, 0.02, 0.5][case as usize % 4], posed);
+    (shapes, posed(out))
+}
+
+/// How far out B is that far from A.
+fn parted(shapes: &[Shape3; 2], gap: f64, posed: impl Fn(f64) -> [Pose3; 2]) -> f64 {
     let (mut near, mut far) = (0.0, 20.0);
     for _ in 0..60 {
         let middle = 0.5 * (near + far);
@@ -24,7 +29,7 @@ fn placed(random: &mut Random, case: u64) -> ([Shape3; 2], [Pose3; 2]) {
         let is_wider = pair.distance().is_some_and(|found| f64::from(found.distance) > gap);
         if is_wider { far = middle } else { near = middle }
     }
-    (shapes, posed(far))
+    far
 }
 
 /// What the iteration says.
@@ -32,6 +37,24 @@ fn iterated(pair: &Convex, a: &Solid, b: &Solid) -> Option<Witness> {
     match distance(a, b, DVec3::X, &Until::met(&pair.precision)) {
         Reached::Between(witness) => Some(witness),
         Reached::Origin(_) => None,
+    }
+}
+
+/// Whether what was told of a gap is what the iteration says.
+fn check(case: u64, pair: &Convex, (a, b): (&Solid, &Solid), truth: &Witness, witness: &Witness) {
+    let rounding = 8.0 * pair.precision.projection() + 2e-12 * pair.precision.size;
+    let (low, high) = (truth.at_least - rounding, truth.distance + rounding);
+    assert!(witness.at_least <= high && witness.distance >= low, "{case}: {witness:?}, {truth:?}");
+    // Of a merged face the lowest corner may be told, which no more than rounding parts from its plane.
+    assert!(witness.distance - witness.at_least <= rounding, "{case}: {witness:?}");
+    let apart = (witness.point_b - witness.point_a).length();
+    assert!((apart - witness.distance).abs() <= rounding, "{case}: {witness:?}");
+    // The points are the solids' own: none of them lies further out than its solid reaches.
+    for normal in [witness.normal, DVec3::X, DVec3::Y, DVec3::Z] {
+        for normal in [normal, -normal] {
+            assert!(normal.dot(witness.point_a) <= a.support(normal).reach + rounding, "{case}");
+            assert!(normal.dot(witness.point_b) <= b.support(normal).reach + rounding, "{case}");
+        }
     }
 }
 
@@ -44,25 +67,7 @@ fn a_gap_is_as_wide_as_the_iteration_says_or_it_is_not_told() {
         let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
         pair.with_solids(|a, b| {
             let Some(truth) = iterated(&pair, a, b) else { return };
-            let rounding = 8.0 * pair.precision.projection() + 2e-12 * pair.precision.size;
-            let check = |witness: &Witness| {
-                let (low, high) = (truth.at_least - rounding, truth.distance + rounding);
-                assert!(
-                    witness.at_least <= high && witness.distance >= low,
-                    "{case}: {witness:?}, {truth:?}"
-                );
-                // Of a merged face the lowest corner may be told, which no more than rounding parts from its plane.
-                assert!(witness.distance - witness.at_least <= rounding, "{case}: {witness:?}");
-                let apart = (witness.point_b - witness.point_a).length();
-                assert!((apart - witness.distance).abs() <= rounding, "{case}: {witness:?}");
-                // The points are the solids' own: none of them lies further out than its solid reaches.
-                for normal in [witness.normal, DVec3::X, DVec3::Y, DVec3::Z] {
-                    for normal in [normal, -normal] {
-                        assert!(normal.dot(witness.point_a) <= a.support(normal).reach + rounding, "{case}");
-                        assert!(normal.dot(witness.point_b) <= b.support(normal).reach + rounding, "{case}");
-                    }
-                }
-            };
+            let check = |witness: &Witness| check(case, &pair, (a, b), &truth, witness);
             let mut is_told = false;
             let edges = |solid: &Solid| solid.topology.edges().to_vec();
             let pairs = edges(a).into_iter().flat_map(|edge_a| {
@@ -95,4 +100,33 @@ fn a_gap_is_as_wide_as_the_iteration_says_or_it_is_not_told() {
         by_face > 40 && by_edges > 40 && by_direction > 20 && untold > 50_000 && never < 30,
         "{counts:?}"
     );
+}
+
+#[test]
+fn of_what_stands_upright_a_face_tells_of_the_gap_wherever_its_edges_end() {
+    let mut random = Random(0x2127_599B_F432_5C37);
+    let (mut by_face, mut untold) = (0, 0);
+    for case in 0..300_u64 {
+        let (shapes, turns, at) = upright(&mut random, case);
+        let posed = |out: f64| {
+            [(DVec3::ZERO, turns[0]), (at(out), turns[1])].map(|(at, turn)| Pose3::new(at, turn).unwrap())
+        };
+        let [pose_a, pose_b] = posed(parted(&shapes, [1e-7, 1e-4, 0.02, 0.5][case as usize % 4], posed));
+        let pair = convex(&shapes[0], pose_a, &shapes[1], pose_b);
+        pair.with_solids(|a, b| {
+            let Some(truth) = iterated(&pair, a, b) else { return };
+            let mut is_told = false;
+            let faces = (0..a.face_count()).map(AxisOf::FaceA).chain((0..b.face_count()).map(AxisOf::FaceB));
+            for of in faces {
+                let hinted = Hinted::new((a, b), hint_to(of), &pair.precision);
+                if let Some((_, witness)) = hinted.and_then(|hinted| hinted.across((a, b), &pair.precision)) {
+                    check(case, &pair, (a, b), &truth, &witness);
+                    is_told = true;
+                }
+            }
+            if is_told { by_face += 1 } else { untold += 1 }
+        });
+    }
+    // Where corners are nearest, as seen from above, no face tells.
+    assert!(by_face > 240 && untold < 50, "{by_face}, {untold}");
 }

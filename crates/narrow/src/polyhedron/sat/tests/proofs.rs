@@ -51,20 +51,26 @@ fn placed(random: &mut Random, shapes: [&Shape3; 2], case: u64) -> [Pose3; 2] {
     if case.is_multiple_of(5) {
         return posed(towards * 0.5);
     }
+    let deep = DEPTHS[case as usize % 4];
+    let place = sunk(shapes, deep, |at| posed(towards * at));
+    posed(towards * place)
+}
+
+/// How far out B overlaps A by a share of their size.
+fn sunk(shapes: [&Shape3; 2], deep: f64, posed: impl Fn(f64) -> [Pose3; 2]) -> f64 {
     // Of a convex difference only one place on the ray is as deep, from its deepest on.
     let (mut near, mut far) = (0.0, 20.0);
     for _ in 0..60 {
         let middle = 0.5 * (near + far);
-        let poses = posed(towards * middle);
+        let poses = posed(middle);
         let pair = Pair3::new(shapes[0], &poses[0], shapes[1], &poses[1]);
-        let depth = DEPTHS[case as usize % 4] * f64::from(pair.size());
         let is_deeper = match pair.separation(0.0) {
-            Separation3::Measured(found) => f64::from(found.separation) < -depth,
+            Separation3::Measured(found) => f64::from(found.separation) < -deep * f64::from(pair.size()),
             Separation3::AtLeast(_) => false,
         };
         if is_deeper { near = middle } else { far = middle }
     }
-    posed(towards * near)
+    near
 }
 
 /// What came of hints.
@@ -117,6 +123,43 @@ fn only_the_best_axis_is_proved_and_of_shallow_pairs_it_mostly_is() {
     }
     assert!(seen.stale > 50_000 && seen.proved > 200 && seen.edges_proved > 10, "{seen:?}");
     assert!(seen.shallow > 100 && seen.shallow_proved * 4 > seen.shallow * 3, "{seen:?}");
+}
+
+/// Most of their edges are furthest together, and the ball in their middle covers little of them.
+#[test]
+fn what_stands_upright_side_by_side_is_proved_by_whole_edges_and_by_balls_along_them() {
+    let mut random = Random(0x94D0_49BB_1331_11EB);
+    let (mut asked, mut best_proved, mut stale) = (0, 0, 0);
+    for case in 0..600_u64 {
+        let ([shape_a, shape_b], turns, at) = upright(&mut random, case);
+        let posed = |out: f64| {
+            [(DVec3::ZERO, turns[0]), (at(out), turns[1])].map(|(at, turn)| Pose3::new(at, turn).unwrap())
+        };
+        let out = sunk([&shape_a, &shape_b], [1e-4, 0.005, 0.01, 0.03][case as usize % 4], posed);
+        // Further in, where B may leave A by its end sooner than to the side.
+        let [pose_a, pose_b] = posed(out * [1.0, 0.95, 0.9][case as usize % 3]);
+        let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
+        pair.with_solids(|a, b| {
+            let best = exhaustive(a, b);
+            let mut is_best_proved = false;
+            for of in every_axis(a, b, 5) {
+                let Some(hinted) = Hinted::new((a, b), hint_to(of), &pair.precision) else { continue };
+                let shown = hinted.axis.separation;
+                let Some(axes) = hinted.proved((a, b), &pair.precision) else {
+                    stale += usize::from(best - shown > 1e-6);
+                    continue;
+                };
+                let error = f64::from(pair.precision.of_separation(shown, axes.short()));
+                assert!(
+                    best < 0.0 && best - shown <= error,
+                    "case {case}: {of:?} shows {shown}, the best is {best}"
+                );
+                is_best_proved = true;
+            }
+            (asked, best_proved) = (asked + 1, best_proved + usize::from(is_best_proved));
+        });
+    }
+    assert!(asked == 600 && best_proved > 400 && stale > 30_000, "{asked}, {best_proved}, {stale}");
 }
 
 /// The axis that the whole test finds best.

@@ -1,0 +1,56 @@
+//! How far the ball inside a hull may be moved and stays inside.
+
+use super::HullData;
+use crate::tolerance::ARM_SHARE;
+use glam::{DVec3, Vec3};
+
+/// So many edges are tried, the longest first.
+const TRIED: usize = 16;
+
+impl HullData {
+    /// Half of the longest segment about the centre, along an edge, on which a ball of [`ARM_SHARE`] of the inner radius
+    /// stays inside the hull; zero where the hull has no such ball. What is long and thin holds many balls that are all but
+    /// as large as the one in its middle.
+    ///
+    /// Cost: linear in the faces.
+    pub(super) fn longest_arm(&self) -> Vec3 {
+        if self.inner_radius <= 0.0 || self.dimension < 3 {
+            return Vec3::ZERO;
+        }
+        let at = |vertex: usize| self.vertices[vertex].as_dvec3();
+        let along = |edge: &u16| {
+            let (from, to) = self.topology.ends(usize::from(*edge));
+            at(to) - at(from)
+        };
+        let mut edges: Vec<DVec3> = self.topology.edges().iter().map(along).collect();
+        // Edges as long as each other stay in their order.
+        edges.sort_by(|one, other| other.length_squared().total_cmp(&one.length_squared()));
+        let mut best = (0.0, DVec3::ZERO);
+        for edge in edges.into_iter().take(TRIED) {
+            let Some(along) = edge.try_normalize() else { continue };
+            let length = self.room_along(along);
+            if length > best.0 {
+                best = (length, along);
+            }
+        }
+        (best.1 * best.0).as_vec3()
+    }
+
+    /// How far the ball can be moved along a line through the centre, either way, in metres.
+    fn room_along(&self, along: DVec3) -> f64 {
+        let center = self.center.as_dvec3();
+        // Faces are flat up to the planarity error, and the arm is rounded to f32.
+        let lost = ARM_SHARE * f64::from(self.inner_radius)
+            + f64::from(self.planarity_error)
+            + 4.0 * f64::from(f32::EPSILON) * f64::from(self.outer_radius);
+        let mut least = f64::from(self.outer_radius);
+        for (normal, height) in self.normals.iter().zip(&self.octets.heights) {
+            let spare = (height - normal.dot(center) - lost).max(0.0);
+            let slope = normal.dot(along).abs();
+            if slope * least > spare {
+                least = spare / slope;
+            }
+        }
+        least
+    }
+}

@@ -1,0 +1,142 @@
+//! What of a solid reaches furthest in a direction, where that is more than a vertex: of what stands upright beside what
+//! stands upright, whole edges; of what lies on something, whole faces.
+//!
+//! Which of its vertices is told to be the furthest is rounding's choice there, and that one may lie beyond the end of the
+//! face that it is held against, though most of the edge is over the face.
+
+use super::super::solid::Solid;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+
+/// The most corners of a face that is asked for; of others, an edge.
+const MOST: usize = 8;
+
+/// Corners of both faces at most where one is cut by the other.
+const MOST_CUT: usize = 24;
+
+/// The furthest edge (two vertices) or face (its vertices, in order) of a solid against a direction; empty where a vertex
+/// is alone.
+pub(super) struct Level {
+    vertices: ArrayVec<usize, MOST>,
+}
+
+impl Level {
+    /// Around the furthest vertex against an outward direction, vertices that are further by no more than `slack` metres.
+    #[inline]
+    pub(super) fn around(solid: &Solid, deepest: usize, outward: DVec3, slack: f64) -> Self {
+        let mut vertices = ArrayVec::new_const();
+        let local = solid.turned_back(outward);
+        let place = |vertex: usize| local.dot(solid.vertices[vertex].as_dvec3());
+        let most = place(deepest) + slack;
+        let mut neighbour = None;
+        for &half_edge in solid.topology.leaving(deepest) {
+            let (_, to) = solid.topology.ends(half_edge.into());
+            if place(to) > most {
+                continue;
+            }
+            let face = solid.topology.half_edges()[usize::from(half_edge)].face as usize;
+            let around = solid.topology.face_vertices(face);
+            // Of what is flat, the side that looks there.
+            if !solid.is_slender()
+                && around.len() <= MOST
+                && around.clone().all(|vertex| place(vertex) <= most)
+                && solid.normal(face).dot(outward) < 0.0
+            {
+                vertices.extend(around);
+                return Self { vertices };
+            }
+            neighbour = neighbour.or(Some(to));
+        }
+        if let Some(to) = neighbour {
+            vertices.extend([deepest, to]);
+        }
+        Self { vertices }
+    }
+
+    /// Whether a vertex is alone.
+    #[inline]
+    pub(super) fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
+    }
+
+    /// The vertices' numbers.
+    pub(super) fn vertices(&self) -> &[usize] {
+        &self.vertices
+    }
+
+    fn points<'a>(&'a self, solid: &'a Solid) -> impl Iterator<Item = DVec3> + Clone + 'a {
+        self.vertices.iter().map(|&vertex| solid.point(vertex))
+    }
+
+    /// How far inside a face less this feature the origin is, as seen along the face's outward normal; below zero where it
+    /// is not.
+    ///
+    /// The sides of the difference of two polygons are those of the one and of the other, each with the other's vertex that
+    /// is furthest out there.
+    pub(super) fn in_difference(&self, (solid, face): (&Solid, usize), outward: DVec3, other: &Solid) -> f64 {
+        let corners = solid.topology.face_vertices(face).map(|vertex| solid.point(vertex));
+        let own: ArrayVec<DVec3, MOST> = self.points(other).collect();
+        let mut least = f64::INFINITY;
+        // Seen from the face's side the feature's sides go the other way around.
+        let (on_face, on_own) = (sides(corners.clone(), outward), sides(own.iter().copied(), -outward));
+        for (from, inwards) in on_face {
+            let inside = own.iter().map(|point| inwards.dot(*point - from)).fold(f64::NEG_INFINITY, f64::max);
+            least = least.min(share_of(inside, inwards));
+        }
+        for (from, inwards) in on_own {
+            let inside =
+                corners.clone().map(|point| inwards.dot(point - from)).fold(f64::NEG_INFINITY, f64::max);
+            least = least.min(share_of(inside, inwards));
+        }
+        if least > 0.0 && least.is_finite() { least.sqrt() } else { f64::NEG_INFINITY }
+    }
+
+    /// The middle of what of this feature lies over a face, as seen along the face's outward normal, if any does.
+    ///
+    /// Sutherland and Hodgman, "Reentrant polygon clipping" (1974).
+    pub(super) fn middle_over(
+        &self,
+        (solid, face): (&Solid, usize),
+        outward: DVec3,
+        other: &Solid,
+    ) -> Option<DVec3> {
+        let corners = solid.topology.face_vertices(face);
+        if self.vertices.len() + corners.len() > MOST_CUT {
+            return None;
+        }
+        let mut left: ArrayVec<DVec3, MOST_CUT> = self.points(other).collect();
+        for (from, inwards) in sides(corners.map(|vertex| solid.point(vertex)), outward) {
+            let whole = core::mem::take(&mut left);
+            let mut before = *whole.last()?;
+            let mut depth = inwards.dot(before - from);
+            for &point in &whole {
+                let next = inwards.dot(point - from);
+                if (depth < 0.0) != (next < 0.0) {
+                    left.try_push(before + (point - before) * (depth / (depth - next))).ok()?;
+                }
+                if next >= 0.0 {
+                    left.try_push(point).ok()?;
+                }
+                (before, depth) = (point, next);
+            }
+        }
+        let middle = left.iter().fold(DVec3::ZERO, |sum, point| sum + *point) / left.len() as f64;
+        (!left.is_empty()).then_some(middle)
+    }
+}
+
+/// The sides of a polygon: a corner, and the way inwards there, as long as the side. Of two corners there and back.
+fn sides(
+    corners: impl Iterator<Item = DVec3> + Clone,
+    outward: DVec3,
+) -> impl Iterator<Item = (DVec3, DVec3)> {
+    let first = corners.clone().next();
+    let next = corners.clone().skip(1).chain(first);
+    corners.zip(next).map(move |(from, to)| (from, outward.cross(to - from)))
+}
+
+/// The square of how far something is inside a side; below zero where it is not, or the side has no length.
+fn share_of(inside: f64, inwards: DVec3) -> f64 {
+    let square = inside * inside / inwards.length_squared();
+    if inside > 0.0 && square.is_finite() { square } else { f64::NEG_INFINITY }
+}
