@@ -70,6 +70,7 @@ mod answer;
 mod axes;
 mod ball;
 mod facet;
+mod gap;
 mod groups;
 mod meeting;
 mod outstanding;
@@ -87,6 +88,7 @@ use against::Against;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, NearTriangle, Pose3, Shape3};
+use axes::Axes;
 use ball::nearest_to;
 use core::cell::Cell;
 use core::ops::ControlFlow;
@@ -160,13 +162,11 @@ struct Known {
     /// Triangles in a gap whose axis was refused.
     unsaid: AllUnsaid,
     incident: Option<Incident>,
-    plane: Option<Plane>,
     /// The short way for spheres met what it cannot settle.
     is_open: bool,
 }
 
 /// A triangle, and how a part stands over its plane.
-#[derive(Clone, Copy)]
 struct Plane {
     patch: u32,
     facet: Facet,
@@ -219,8 +219,9 @@ impl<'a> Asking<'a> {
         if let Shape3::HalfSpace(half_space) = part.shape {
             seen.look_at_all(place.axes.turn(half_space.unit_normal()), &mut known);
         } else {
+            let mut plane = None;
             let _ = self.on.ground.read_near(&bounds, |near| {
-                seen.look_at(near, &mut known);
+                seen.look_at(near, &mut plane, &mut known);
                 let is_enough = known.overlapping && !manifolds.is_wanted();
                 if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
@@ -242,31 +243,24 @@ impl Known {
             refused: ArrayVec::new(),
             unsaid: ArrayVec::new_const(),
             incident: None,
-            plane: None,
             is_open: false,
         }
     }
 }
 
 impl Seen<'_> {
-    /// Looks at one triangle.
-    fn look_at(&self, near: &NearTriangle, known: &mut Known) {
+    /// Looks at one triangle; `plane` is that of the one before.
+    fn look_at(&self, near: &NearTriangle, plane: &mut Option<Plane>, known: &mut Known) {
         let (ground, standing, number) = (self.asking.on.ground, self.standing, near.number);
         if self.is_ball {
             return self.look_at_from_ball(number, known);
         }
-        let Some(plane) = self.plane_of(near, known) else { return };
-        let Plane { facet, extent, doubt, .. } = plane;
-        let separation = extent.low - standing.radius;
-        let prism = Prism {
-            ground,
-            standing,
-            facet: &facet,
-            extent: &extent,
-            reach: self.asking.reach,
-            doubt,
-            gate: None,
-        };
+        if !self.is_within(near, plane) {
+            return;
+        }
+        let Some(Plane { facet, extent, doubt, .. }) = plane else { return };
+        let (separation, doubt) = (extent.low - standing.radius, *doubt);
+        let prism = Prism { ground, standing, facet, extent, reach: self.asking.reach, doubt, gate: None };
         if self.needs_kernels(&prism, near.prominent) {
             return self.look_closer(&prism, known);
         }
@@ -286,8 +280,10 @@ impl Seen<'_> {
         let number = facet.number;
         let separation = extent.low - standing.radius;
         let beyond = self.asking.reach + 2.0 * doubt;
-        let axes = if self.asking.is_plain { None } else { prism.axes(beyond + standing.radius) };
-        if standing.is_apart((facet, axes.as_ref()), beyond) {
+        let mut axes = Axes::NONE;
+        let has_axes = !self.asking.is_plain && prism.fill(&mut axes, beyond + standing.radius);
+        let axes = has_axes.then_some(&axes);
+        if standing.is_apart((facet, axes), beyond) {
             return;
         }
         if self.is_explained(facet, known) {
@@ -304,9 +300,20 @@ impl Seen<'_> {
             Against::Added(separation, _) => return self.doubt_of(number, (true, separation), known),
             Against::Unknown => {}
         }
-        if axes.as_ref().is_some_and(|axes| axes.do_overlap(doubt) && prism.refuses(axes)) {
-            known.settle(number);
-            return self.refuse(prism, known);
+        if let Some(axes) = axes {
+            if axes.do_overlap(doubt) && prism.refuses(axes) {
+                known.settle(number);
+                return self.refuse(prism, known);
+            }
+            if axes.best > doubt
+                && let Some(unsaid) = prism.refused_gap(axes)
+            {
+                if unsaid.separation <= self.asking.margin.into() {
+                    known.leave_unsaid(ground, unsaid);
+                    self.refuse(prism, known);
+                }
+                return;
+            }
         }
         let met = self.meeting.add_points((ground, facet), standing, self.asking, &mut known.groups);
         match met {
@@ -324,30 +331,31 @@ impl Seen<'_> {
         }
     }
 
-    /// A triangle and how the part stands over its plane, which most often is that of the one before. Nothing where all
-    /// of the part is further from the plane than is wanted, on whichever side.
-    fn plane_of(&self, near: &NearTriangle, known: &mut Known) -> Option<Plane> {
+    /// Makes the plane that of a triangle, and of how the part stands over it, which most often is that of the one before;
+    /// whether not all of the part is further from it than is wanted, on whichever side. In place: it is large.
+    fn is_within(&self, near: &NearTriangle, plane: &mut Option<Plane>) -> bool {
         let (ground, standing, patch) = (self.asking.on.ground, self.standing, near.patch);
-        if let Some(plane) = known.plane.as_ref().filter(|plane| plane.patch == patch)
-            && let Some(facet) = plane.facet.next(ground, near.number, 0.25 * plane.doubt, standing.center)
+        if let Some(plane) = plane.as_mut().filter(|plane| plane.patch == patch)
+            && plane.facet.move_on(ground, near.number, 0.25 * plane.doubt, standing.center)
         {
-            return Some(Plane { facet, ..*plane });
+            return true;
         }
-        let mut facet = Facet::front_of(near.number, near.corners)?;
+        let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return false };
         let mut extent = standing.extent(facet.normal, facet.origin());
         let doubt = 2.0 * self.doubt_over(&facet);
         let beyond = self.asking.reach + standing.radius + doubt;
         if extent.low > beyond || -extent.high > beyond {
-            return None;
+            return false;
         }
         if !facet.has_in_front(ground, standing.center) {
             if ground.is_one_sided() {
-                return None;
+                return false;
             }
             facet.turn_over();
             extent = extent.turned_over();
         }
-        Some(*known.plane.insert(Plane { patch, facet, extent, doubt }))
+        *plane = Some(Plane { patch, facet, extent, doubt });
+        true
     }
 
     /// The face that the part turns to a normal.

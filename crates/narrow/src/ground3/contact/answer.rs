@@ -24,8 +24,8 @@ impl Asking<'_> {
         }
         if manifolds.is_wanted() {
             let least = groups.least();
-            groups.finish();
-            for group in groups.iter() {
+            let order = groups.finish();
+            for group in order.into_iter().filter_map(|place| groups.at(place)) {
                 self.add_manifold(part.index, group, (*overlapping, is_settled, least), manifolds);
             }
         }

@@ -3,7 +3,7 @@
 //! ```text
 //! in the cuboid's axes: three across its faces, the triangle's normal, nine across two edges
 //! one shows a gap beyond what is wanted: apart
-//! one shows a gap: the closest points are what counts, and the kernels know them
+//! one shows a gap: the closest points are what counts                                                    (gap)
 //! else the cores overlap, and the axis with the least depth is the kernels' own:
 //!   ground refuses it, and all that are as good up to the slack: refused, and the kernels need not be asked
 //! ```
@@ -18,6 +18,8 @@ use asunder_geometry::tolerance::FACE_PREFERENCE;
 
 /// The axes of a cuboid and a triangle.
 pub(super) struct Axes {
+    /// The triangle's corners in the cuboid's axes.
+    pub(super) corners: [DVec3; 3],
     all: [Axis; 13],
     count: usize,
     /// The greatest separation of the cores along any, in metres.
@@ -37,17 +39,17 @@ const PARALLEL: f64 = 1e-10;
 const CROSSED: f64 = 1e-3;
 
 impl Prism<'_> {
-    /// The axes, where the part is a cuboid and no two edges are so nearly parallel that they are not to be trusted.
-    /// All of them, unless one says at once that they are further apart than so many metres.
-    pub(super) fn axes(&self, beyond: f64) -> Option<Axes> {
+    /// Fills in the axes, where the part is a cuboid and no two edges are so nearly parallel that they are not to be
+    /// trusted; whether it did. All of them, unless one says at once that they are further apart than so many metres. Filled
+    /// where they stay: they are large.
+    pub(super) fn fill(&self, axes: &mut Axes, beyond: f64) -> bool {
         let (standing, facet) = (self.standing, self.facet);
-        let Shape3::Cuboid(cuboid) = standing.part.shape else { return None };
+        let Shape3::Cuboid(cuboid) = standing.part.shape else { return false };
         let place = &standing.place;
         let own = |corner: DVec3| place.axes.turn_back(corner - place.origin);
-        let corners = [own(facet.corners[0]), own(facet.corners[1]), own(facet.corners[2])];
+        axes.corners = [own(facet.corners[0]), own(facet.corners[1]), own(facet.corners[2])];
         let normal = place.axes.turn_back(facet.normal);
-        let mut axes = Axes::NONE;
-        axes.fill(corners, normal, (cuboid.half_extents().as_dvec3(), beyond)).then_some(axes)
+        axes.fill(normal, (cuboid.half_extents().as_dvec3(), beyond))
     }
 
     /// Whether ground refuses the axis along which overlapping cores are the least deep, and all that are as good.
@@ -61,8 +63,13 @@ impl Prism<'_> {
 }
 
 impl Axes {
-    const NONE: Self =
-        Self { all: [(0.0, DVec3::ZERO); 13], count: 0, best: f64::NEG_INFINITY, left_out: 0.0 };
+    pub(super) const NONE: Self = Self {
+        corners: [DVec3::ZERO; 3],
+        all: [(0.0, DVec3::ZERO); 13],
+        count: 0,
+        best: f64::NEG_INFINITY,
+        left_out: 0.0,
+    };
 
     /// Whether the cores overlap by more than so many metres for certain.
     pub(super) fn do_overlap(&self, doubt: f64) -> bool {
@@ -71,7 +78,8 @@ impl Axes {
 
     /// The thirteen axes, less those across edges that are parallel, and those after the first that shows a gap beyond
     /// what is wanted; whether no edges are nearly parallel.
-    fn fill(&mut self, corners: [DVec3; 3], normal: DVec3, (half, beyond): (DVec3, f64)) -> bool {
+    fn fill(&mut self, normal: DVec3, (half, beyond): (DVec3, f64)) -> bool {
+        let corners = self.corners;
         let (low, high) =
             (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
         self.offer(DVec3::X, (low.x, high.x), half.x);
@@ -131,11 +139,8 @@ mod tests {
     fn is_certain(depth: f64, turn: f64) -> bool {
         let (half, height) = (DVec3::new(1.0, 0.3, 0.3), 0.3 - depth);
         let corners = [[-1.0, height, -turn], [1.0, height, turn], [0.0, height, 2.0]].map(DVec3::from);
-        let mut axes = Axes::NONE;
-        assert!(
-            axes.fill(corners, DVec3::Y, (half, f64::INFINITY)),
-            "no edges too near to parallel to be trusted"
-        );
+        let mut axes = Axes { corners, ..Axes::NONE };
+        assert!(axes.fill(DVec3::Y, (half, f64::INFINITY)), "no edges too near to parallel to be trusted");
         assert!((axes.best + depth).abs() < 1e-15);
         axes.do_overlap(1e-13)
     }

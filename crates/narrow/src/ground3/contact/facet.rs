@@ -27,6 +27,24 @@ pub(super) struct Facet {
     pub(super) tilt: f64,
 }
 
+/// A side of a triangle, as it is asked which points lie over the triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rim {
+    from: DVec3,
+    /// As long as the side.
+    inwards: DVec3,
+    /// How far inside a point must be, times the side's length.
+    least: f64,
+}
+
+impl Rim {
+    /// Whether a point is on the triangle's side of it.
+    #[inline]
+    pub(super) fn holds(&self, point: DVec3) -> bool {
+        self.inwards.dot(point - self.from) >= self.least
+    }
+}
+
 /// What of a triangle touches, as told by a direction: what of it reaches furthest there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Furthest {
@@ -80,21 +98,28 @@ impl Facet {
         (self.normal, self.is_front) = (-self.normal, !self.is_front);
     }
 
-    /// Another triangle of the same flat patch, if it lies in this one's plane up to so many metres and has a point on
-    /// the same side.
-    pub(super) fn next(&self, ground: Ground, number: u32, slack: f64, center: DVec3) -> Option<Self> {
+    /// Becomes another triangle of the same flat patch, if that lies in this one's plane up to so many metres and has a point
+    /// on the same side; whether it did.
+    pub(super) fn move_on(&mut self, ground: Ground, number: u32, slack: f64, center: DVec3) -> bool {
         let corners = widened(ground.corners(number));
-        let is_on = corners.iter().all(|&corner| self.height(corner).abs() <= slack);
-        let next = Self { number, corners, ..*self };
-        (is_on && (ground.is_one_sided() || next.has_in_front(ground, center))).then_some(next)
+        if corners.iter().any(|&corner| self.height(corner).abs() > slack) {
+            return false;
+        }
+        let before = (self.number, self.corners);
+        (self.number, self.corners) = (number, corners);
+        let is_same = ground.is_one_sided() || self.has_in_front(ground, center);
+        if !is_same {
+            (self.number, self.corners) = before;
+        }
+        is_same
     }
 
     /// Whether a point is on the side of the normal: of one-sided ground, of the plane. Of other ground, of the surface
     /// around the nearest point of the triangle, so that a plank over a ridge is above the slope behind it, whose
     /// plane it is under.
     ///
-    /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005), with sines for
-    /// angles.
+    /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005). With sines for angles,
+    /// which need no arc tangent, one corner of a needle in forty was taken from the wrong side.
     pub(super) fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
         let is_above = self.height(point) >= 0.0;
         if ground.is_one_sided() {
@@ -105,16 +130,23 @@ impl Facet {
 
     /// The same of two-sided ground, where it is known what of the triangle is nearest to the point.
     pub(super) fn is_before(&self, ground: Ground, point: DVec3, (feature, at): (Furthest, DVec3)) -> bool {
-        let is_above = self.height(point) >= 0.0;
+        let (is_above, away) = (self.height(point) >= 0.0, point - at);
+        // A sum of normals leads to where each of them does: most often all agree, and none need be of unit length.
+        let agrees = |other: u32| {
+            let lean = front_of(ground.corners(other)).dot(away);
+            if self.is_front == is_above { lean >= 0.0 } else { lean <= 0.0 }
+        };
         let around = match feature {
             Furthest::Face => return is_above,
             Furthest::Edge(edge) => match ground.neighbor(self.number, edge) {
+                Some((other, _)) if agrees(other) => return is_above,
                 Some((other, _)) => self.front() + unit_normal(ground, other),
                 None => return is_above,
             },
+            Furthest::Corner(corner) if self.do_all_around(ground, corner, agrees) => return is_above,
             Furthest::Corner(corner) => self.normals_around(ground, corner),
         };
-        let (around, away) = (if self.is_front { around } else { -around }, point - at);
+        let around = if self.is_front { around } else { -around };
         let lean = around.dot(away);
         let is_clear =
             lean * lean > SAME_NORMAL * SAME_NORMAL * around.length_squared() * away.length_squared();
@@ -125,7 +157,25 @@ impl Facet {
         if self.is_front { self.normal } else { -self.normal }
     }
 
-    /// The sum of the fronts' normals around a corner, each by the sine of its angle there.
+    /// Whether something holds of all other triangles around a corner.
+    fn do_all_around(&self, ground: Ground, corner: usize, holds: impl Fn(u32) -> bool) -> bool {
+        for way in [0, 2] {
+            let mut at = (self.number, (corner + way) % 3);
+            for _ in 0..MOST_AROUND {
+                let Some((other, twin)) = ground.neighbor(at.0, at.1) else { break };
+                if other == self.number {
+                    return true;
+                }
+                if !holds(other) {
+                    return false;
+                }
+                at = (other, (twin + 1 + way / 2) % 3);
+            }
+        }
+        true
+    }
+
+    /// The sum of the fronts' normals around a corner, each by its angle there.
     fn normals_around(&self, ground: Ground, corner: usize) -> DVec3 {
         let mut sum = at_corner(ground, self.number, corner);
         for way in [0, 2] {
@@ -200,12 +250,15 @@ impl Facet {
     /// Whether a point's foot is in the triangle, or beside it by no more than `slack` metres.
     #[inline]
     pub(super) fn is_over(&self, point: DVec3, slack: f64) -> bool {
-        (0..3).all(|edge| {
-            let (from, along) = self.edge(edge);
-            let aside = self.inwards(along).dot(point - from);
-            // The sum of absolute values bounds the length, and needs no root.
-            aside >= -slack * along.abs().element_sum()
-        })
+        (0..3).all(|edge| self.rim(edge, slack).holds(point))
+    }
+
+    /// One of its sides, for points that may be beside it by no more than `slack` metres.
+    #[inline]
+    pub(super) fn rim(&self, edge: usize, slack: f64) -> Rim {
+        let (from, along) = self.edge(edge);
+        // The sum of absolute values bounds the length, and needs no root.
+        Rim { from, inwards: self.inwards(along), least: -slack * along.abs().element_sum() }
     }
 
     /// The feature that reaches furthest in a unit direction; corners within the tolerance of it count as far.
@@ -300,24 +353,11 @@ impl Facet {
     /// Then edges that bend towards this side may end the ground for it: a body beside a cliff and lower than its top
     /// is behind the top, and still in front of the wall.
     pub(super) fn sees_otherwise(&self, ground: Ground, corner: usize, point: DVec3) -> bool {
-        let is_other = |number: u32| {
+        let is_same = |number: u32| {
             let [a, b, c] = widened(ground.corners(number));
-            ((b - a).cross(c - a).dot(point - a) >= 0.0) != self.is_front
+            ((b - a).cross(c - a).dot(point - a) >= 0.0) == self.is_front
         };
-        for way in [0, 2] {
-            let mut at = (self.number, (corner + way) % 3);
-            for _ in 0..MOST_AROUND {
-                let Some((other, twin)) = ground.neighbor(at.0, at.1) else { break };
-                if other == self.number {
-                    return false;
-                }
-                if is_other(other) {
-                    return true;
-                }
-                at = (other, (twin + 1 + way / 2) % 3);
-            }
-        }
-        false
+        !self.do_all_around(ground, corner, is_same)
     }
 
     /// From a half-edge towards the third corner, square to the edge.
@@ -362,11 +402,13 @@ pub(crate) fn front_of(corners: [Vec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// The normal of a triangle's front, as long as the sine of its angle at a corner.
+/// The normal of a triangle's front, as long as its angle at a corner; zero where it has none.
 fn at_corner(ground: Ground, triangle: u32, corner: usize) -> DVec3 {
     let corners = widened(ground.corners(triangle));
     let [at, next, before] = [corners[corner % 3], corners[(corner + 1) % 3], corners[(corner + 2) % 3]];
-    (next - at).normalize_or_zero().cross((before - at).normalize_or_zero())
+    let cross = (next - at).cross(before - at);
+    let area = cross.length();
+    if area > 0.0 { cross * (libm::atan2(area, (next - at).dot(before - at)) / area) } else { DVec3::ZERO }
 }
 
 /// Whether a direction of any length is along a unit normal, up to the tolerance.

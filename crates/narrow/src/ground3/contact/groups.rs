@@ -158,13 +158,21 @@ impl Groups {
         self.groups.retain(|group| !group.pins.is_empty());
     }
 
-    /// Reduces each group to what a manifold holds, and puts them in the order of their patches.
-    pub(super) fn finish(&mut self) {
+    /// Reduces each group to what a manifold holds, and tells their places in the order of their patches: they are large, and
+    /// stay where they are.
+    pub(super) fn finish(&mut self) -> ArrayVec<u8, MOST_GROUPS> {
         let sizes = [self.slack, self.even];
         for group in &mut self.groups {
             group.reduce(sizes);
         }
-        self.groups.sort_by_key(|group| group.base.patch);
+        let mut order: ArrayVec<u8, MOST_GROUPS> = (0..self.groups.len() as u8).collect();
+        order.sort_unstable_by_key(|&place| (self.groups[usize::from(place)].base.patch, place));
+        order
+    }
+
+    /// One by its place.
+    pub(super) fn at(&self, place: u8) -> Option<&Group> {
+        self.groups.get(usize::from(place))
     }
 }
 

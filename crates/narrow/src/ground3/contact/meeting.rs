@@ -89,6 +89,9 @@ impl<'a> Meeting<'a> {
     }
 
     /// What the kernels say, if the two are within the margin; with points, where they are wanted.
+    ///
+    /// Of what a gap parts the closest points are asked first, since most often ground refuses them: axes, and what to begin
+    /// with in a next frame, are asked only where points are made. Of cuboids that is known by now.
     fn near(
         &self,
         (ground, facet): (Ground, &Facet),
@@ -99,7 +102,18 @@ impl<'a> Meeting<'a> {
         let asked = Asked { limit: asking.reach, hint: Hint::NONE, wanted: Wanted::Points };
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= asking.margin;
         let accept = |near: &Near| is_near(near) && is_wanted(near);
-        match self.with(ground, facet.number, |convex| convex.contact(asked, accept, touch).0)? {
+        let is_cuboid = matches!(self.part.shape, Shape3::Cuboid(_));
+        let probe = self.with(ground, facet.number, |convex| {
+            if !(asking.is_plain || is_cuboid) {
+                let closest = convex.probe(Asked { wanted: Wanted::Closest, ..asked });
+                match &closest {
+                    Probe::Near(near) if near.verdict.overlapping || accept(near) => {}
+                    _ => return closest,
+                }
+            }
+            convex.contact(asked, accept, touch).0
+        });
+        match probe? {
             Probe::Near(near) if is_near(&near) => Some(near),
             _ => None,
         }

@@ -18,12 +18,28 @@ use super::groups::{Base, Groups, Pin};
 use super::standing::{Extent, Standing};
 use crate::feature::Feature;
 use crate::polyhedron::manifold::opposed_face;
+use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Cuboid, Ground, Shape3};
 use core::cell::Cell;
 
 /// Cosine up to which a body's face looks away from the ground so much that it has no inside as seen along the normal.
 pub(super) const STEEP: f64 = 1e-3;
+
+/// Sides of a face that are made once for all sides of a triangle.
+const FEW_SIDES: usize = 16;
+
+/// A side of a part's face: a corner, and the way inwards in the triangle's plane.
+#[derive(Clone, Copy)]
+struct Cut {
+    half_edge: usize,
+    start: DVec3,
+    into: DVec3,
+}
+
+/// A stretch of a side of a triangle: two shares of its length, each with the half-edge of the part's face that ends it
+/// there.
+type Span = [(f64, Option<usize>); 2];
 
 /// The face of a part that looks against a normal; kept, since neighbours most often have one normal.
 #[derive(Clone, Copy, Debug)]
@@ -79,34 +95,60 @@ fn opposed_of_cuboid(normal: DVec3, cuboid: &Cuboid, slack: f64) -> usize {
 impl Prism<'_> {
     /// Adds contact points by the triangle's own normal; whether there are any.
     pub(super) fn add_points(&self, incident: &Incident, groups: &mut Groups) -> bool {
-        let mut is_any = self.add_corners(incident, groups);
+        let base = self.base();
+        let mut is_any = self.add_corners(incident, &base, groups);
         if let Some(outwards) = incident.outwards
             && self.standing.solid.vertices.len() > 1
         {
-            is_any |= self.add_sides(incident.face, outwards, groups);
+            is_any |= self.add_sides((incident.face, outwards), &base, groups);
         }
         is_any
     }
 
     /// Adds points on those sides of the triangle behind which ground does not go on.
-    fn add_sides(&self, face: usize, outwards: DVec3, groups: &mut Groups) -> bool {
+    fn add_sides(&self, (face, outwards): (usize, DVec3), base: &Base, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let facing = outwards.dot(facet.normal);
         let vertices = standing.solid.topology.face_vertices(face);
-        let (Some(first), true) = ({ vertices }.next(), facing <= -STEEP) else { return false };
+        let (Some(first), true) = (vertices.clone().next(), facing <= -STEEP) else { return false };
         let over = standing.point(first) + outwards * standing.radius;
         let [a, b, c] = facet.corners;
         // Of a side, all is beyond reach if both its ends are: by more than rounding, for what is between them.
         let beyond = self.reach + (self.doubt + standing.planarity) / -facing;
         let is_far = |corner: DVec3| outwards.dot(over - corner) / facing > beyond;
         let far = [is_far(a), is_far(b), is_far(c)];
+        let is_end = |edge: usize| !(far[edge] && far[(edge + 1) % 3] || facet.goes_on(self.ground, edge));
+        let ends = [is_end(0), is_end(1), is_end(2)];
+        if ends == [false; 3] {
+            return false;
+        }
+        let mut cuts: ArrayVec<Cut, FEW_SIDES> = ArrayVec::new_const();
+        if !standing.solid.is_slender() && vertices.len() <= FEW_SIDES {
+            cuts.extend(self.cuts(face));
+        }
         let mut is_any = false;
-        for edge in 0..3 {
-            if !(far[edge] && far[(edge + 1) % 3] || facet.goes_on(self.ground, edge)) {
-                is_any |= self.add_side((face, edge), outwards, over, groups);
+        for edge in (0..3).filter(|&edge| ends[edge]) {
+            let span = match (standing.solid.is_slender(), cuts.is_empty()) {
+                (true, _) => self.span_of_slender(outwards, edge),
+                (_, false) => self.span(cuts.iter().copied(), outwards, edge),
+                _ => self.span(self.cuts(face), outwards, edge),
+            };
+            if let Some(span) = span {
+                is_any |= self.add_side((face, edge), (span, outwards, over), base, groups);
             }
         }
         is_any
+    }
+
+    /// The sides of a face of the part, as they cut lines in the triangle's plane.
+    fn cuts(&self, face: usize) -> impl Iterator<Item = Cut> + '_ {
+        let (standing, topology) = (self.standing, self.standing.solid.topology);
+        topology.face_half_edges(face).map(|half_edge| {
+            let (start, stop) = topology.ends(half_edge);
+            let (start, stop) = (standing.point(start), standing.point(stop));
+            // A face goes counter-clockwise as seen from outside, which is against the normal.
+            Cut { half_edge, start, into: (stop - start).cross(self.facet.normal) }
+        })
     }
 
     pub(super) fn base(&self) -> Base {
@@ -143,8 +185,9 @@ impl Prism<'_> {
         Pin { on_body, on_ground, separation, doubt: self.doubt, of_body, of_ground }
     }
 
-    fn add_corners(&self, incident: &Incident, groups: &mut Groups) -> bool {
+    fn add_corners(&self, incident: &Incident, base: &Base, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
+        let rims = [0, 1, 2].map(|edge| facet.rim(edge, standing.slack));
         let (mut is_any, mut has_lowest) = (false, false);
         let deep = self.extent.low + standing.slack;
         let mut add = |vertex: usize| {
@@ -159,9 +202,9 @@ impl Prism<'_> {
             } else {
                 return;
             };
-            if separation <= self.reach && facet.is_over(at, standing.slack) {
+            if separation <= self.reach && rims.iter().all(|rim| rim.holds(at)) {
                 let pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
-                is_any |= self.add_pin(pin, groups);
+                is_any |= self.add_pin(pin, base, groups);
             }
         };
         for vertex in standing.solid.topology.face_vertices(incident.face) {
@@ -174,18 +217,17 @@ impl Prism<'_> {
         is_any
     }
 
-    /// Adds the ends of what the part's face covers of a side of the triangle, as seen along the normal; `over` is a point
-    /// of the surface beyond the face.
+    /// Adds the ends of the span that the part's face covers of a side of the triangle, as seen along the normal; `over` is a
+    /// point of the surface beyond the face.
     fn add_side(
         &self,
         (face, edge): (usize, usize),
-        outwards: DVec3,
-        over: DVec3,
+        (span, outwards, over): (Span, DVec3, DVec3),
+        base: &Base,
         groups: &mut Groups,
     ) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let facing = outwards.dot(facet.normal);
-        let Some(span) = self.span(face, outwards, edge) else { return false };
         let (from, along) = facet.edge(edge);
         let mut is_any = false;
         for (share, by) in span {
@@ -207,13 +249,14 @@ impl Prism<'_> {
             };
             let on_body = on_ground + facet.normal * separation;
             let doubt = (self.doubt + standing.planarity) / -facing;
-            is_any |= self.add_pin(Pin { on_body, on_ground, separation, doubt, of_body, of_ground }, groups);
+            is_any |=
+                self.add_pin(Pin { on_body, on_ground, separation, doubt, of_body, of_ground }, base, groups);
         }
         is_any
     }
 
     /// Adds a point that the gate lets through; whether it did.
-    fn add_pin(&self, pin: Pin, groups: &mut Groups) -> bool {
+    fn add_pin(&self, pin: Pin, base: &Base, groups: &mut Groups) -> bool {
         if let Some((least, is_left_out)) = self.gate
             && pin.separation < least
             && !(matches!(self.standing.part.shape, Shape3::Cuboid(_))
@@ -222,37 +265,18 @@ impl Prism<'_> {
             is_left_out.set(true);
             return false;
         }
-        groups.add(&self.base(), pin);
+        groups.add(base, pin);
         true
     }
 
-    /// The stretch of a side that lies over the part's face: two shares of its length, each with the half-edge of the
-    /// face that ends it there.
+    /// The stretch of a side that lies over the part's face, which has these sides.
     ///
     /// Cyrus and Beck, "Generalized two- and three-dimensional clipping" (1978).
-    fn span(&self, face: usize, outwards: DVec3, edge: usize) -> Option<[(f64, Option<usize>); 2]> {
-        let (standing, facet) = (self.standing, self.facet);
-        let (solid, topology) = (standing.solid, standing.solid.topology);
-        let (from, along) = facet.edge(edge);
-        let shift = outwards * standing.radius;
-        if solid.is_slender() {
-            let (begin, end) = (standing.point(0) + shift, standing.point(solid.vertices.len() - 1) + shift);
-            let inwards = facet.inwards(along);
-            let (out, over) = (inwards.dot(begin - from), inwards.dot(end - from));
-            if (out < 0.0) == (over < 0.0) {
-                return None;
-            }
-            let crossing = begin + (end - begin) * (out / (out - over));
-            let share = along.dot(crossing - from) / along.length_squared();
-            // The same end twice: it is one point.
-            return (0.0..=1.0).contains(&share).then_some([(share, Some(0)); 2]);
-        }
+    fn span(&self, cuts: impl Iterator<Item = Cut>, outwards: DVec3, edge: usize) -> Option<Span> {
+        let (from, along) = self.facet.edge(edge);
+        let shift = outwards * self.standing.radius;
         let (mut enters, mut leaves) = ((0.0, None), (1.0, None));
-        for half_edge in topology.face_half_edges(face) {
-            let (start, stop) = topology.ends(half_edge);
-            let (start, stop) = (standing.point(start), standing.point(stop));
-            // A face goes counter-clockwise as seen from outside, which is against the normal.
-            let into = (stop - start).cross(facet.normal);
+        for Cut { half_edge, start, into } in cuts {
             let (inside, change) = (into.dot(from - start - shift), into.dot(along));
             if change == 0.0 {
                 if inside < 0.0 {
@@ -269,5 +293,22 @@ impl Prism<'_> {
             }
         }
         (enters.0 <= leaves.0).then_some([enters, leaves])
+    }
+
+    /// The same under a segment: where it passes over the side, if it does. The same end twice, since it is one point.
+    fn span_of_slender(&self, outwards: DVec3, edge: usize) -> Option<Span> {
+        let (standing, facet) = (self.standing, self.facet);
+        let (from, along) = facet.edge(edge);
+        let shift = outwards * standing.radius;
+        let last = standing.solid.vertices.len() - 1;
+        let (begin, end) = (standing.point(0) + shift, standing.point(last) + shift);
+        let inwards = facet.inwards(along);
+        let (out, over) = (inwards.dot(begin - from), inwards.dot(end - from));
+        if (out < 0.0) == (over < 0.0) {
+            return None;
+        }
+        let crossing = begin + (end - begin) * (out / (out - over));
+        let share = along.dot(crossing - from) / along.length_squared();
+        (0.0..=1.0).contains(&share).then_some([(share, Some(0)); 2])
     }
 }

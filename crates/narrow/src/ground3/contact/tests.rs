@@ -1,5 +1,6 @@
 //! The short ways against the general one: the same answers, on random patches of ground.
 
+use super::facet::Furthest;
 use super::*;
 use crate::answer::Manifold3;
 use crate::numbers::Numbers;
@@ -78,4 +79,66 @@ fn short_ways_say_what_the_general_way_says() {
         apart += usize::from(short.is_none());
     }
     assert!(touching > 1500 && apart > 1000 && points > 5000, "{touching} {apart} {points}");
+}
+
+/// A hull as ground whose fronts look out of it.
+fn surface(hull: &Hull) -> TriMesh {
+    let topology = hull.topology();
+    let fans = (0..topology.face_count()).flat_map(|face| {
+        let around: Vec<u32> = topology.face_vertices(face).map(|vertex| vertex as u32).collect();
+        (2..around.len()).map(|i| [around[0], around[i - 1], around[i]]).collect::<Vec<_>>()
+    });
+    TriMesh::new(hull.vertices().to_vec(), fans.collect::<Vec<_>>()).unwrap()
+}
+
+/// Of the triangle that is nearest to a point, whatever of it is: Baerentzen and Aanaes prove that the normals around that tell
+/// the side.
+#[test]
+fn a_point_is_in_front_of_the_nearest_triangle_of_a_hull_exactly_if_it_is_outside() {
+    let mut numbers = Numbers::new(31);
+    let (mut outside, mut by_plane_it_is_not, mut inside) = (0, 0, 0);
+    for round in 0..300 {
+        // Needles and blades, at whose edges and corners planes tell little.
+        let thin = DVec3::new(1.0, [1.0, 0.2, 0.05][round % 3], [1.0, 0.1, 0.3][round / 3 % 3]);
+        let points: Vec<Vec3> =
+            (0..4 + numbers.below(8)).map(|_| (numbers.vector() * thin).as_vec3()).collect();
+        let Ok(hull) = Hull::from_points(&points) else { continue };
+        let shape = Shape3::from(surface(&hull));
+        let ground = asunder_geometry::Ground::of(&shape).unwrap();
+        for sample in 0..40 {
+            let point = if sample % 4 == 0 {
+                // Between two vertices and the middle: inside.
+                let some =
+                    [0, 1].map(|_| hull.vertices()[numbers.below(hull.vertices().len() as u64) as usize]);
+                let sum = some.iter().fold(hull.center().as_dvec3(), |sum, vertex| sum + vertex.as_dvec3());
+                sum / 3.0
+            } else {
+                numbers.vector() * thin * 1.5
+            };
+            let facets =
+                (0..ground.triangle_count() as u32).filter_map(|i| Facet::front_of(i, ground.corners(i)));
+            let distance = |facet: &Facet| match nearest_to(facet, point) {
+                (Furthest::Face, _) => facet.height(point).abs(),
+                (_, at) => (at - point).length(),
+            };
+            let Some(nearest) = facets.min_by(|one, other| distance(one).total_cmp(&distance(other))) else {
+                continue;
+            };
+            if distance(&nearest) < 1e-6 {
+                continue;
+            }
+            let is_outside = !hull.contains(point);
+            assert_eq!(nearest.has_in_front(ground, point), is_outside, "{round}: {point} {points:?}");
+            let mut from_behind = nearest;
+            from_behind.turn_over();
+            assert_eq!(from_behind.has_in_front(ground, point), !is_outside, "{round}: {point} {points:?}");
+            inside += usize::from(!is_outside);
+            outside += usize::from(is_outside);
+            by_plane_it_is_not += usize::from(is_outside && nearest.height(point) < 0.0);
+        }
+    }
+    assert!(
+        outside > 3000 && inside > 200 && by_plane_it_is_not > 300,
+        "{outside} {inside} {by_plane_it_is_not}"
+    );
 }
