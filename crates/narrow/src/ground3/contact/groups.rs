@@ -70,11 +70,15 @@ impl Pin {
         FeatureId::new(self.of_body, self.of_ground)
     }
 
-    /// Whether it stands for the same: by name, by place, or since a vertex touches ground of one normal once.
+    /// Whether it stands for the same: by name, or by place.
     fn is_same_as(&self, other: &Self, slack: f64) -> bool {
+        self.is_named_as(other) || (self.on_body - other.on_body).length_squared() <= slack * slack
+    }
+
+    /// Whether it has the same name, or is of the same vertex, which touches ground of one normal once.
+    fn is_named_as(&self, other: &Self) -> bool {
         let is_vertex = matches!(self.of_body, Feature::Vertex(_));
-        (self.of_body == other.of_body && (is_vertex || self.of_ground == other.of_ground))
-            || (self.on_body - other.on_body).length_squared() <= slack * slack
+        self.of_body == other.of_body && (is_vertex || self.of_ground == other.of_ground)
     }
 
     /// What comes first of points that are as deep: on a face, then by name.
@@ -188,11 +192,16 @@ impl Group {
     }
 
     fn add(&mut self, pin: Pin, [slack, even]: [f64; 2]) {
-        if let Some(known) = self.pins.iter_mut().find(|known| known.is_same_as(&pin, slack)) {
+        if let Some(place) = self.pins.iter().position(|known| known.is_same_as(&pin, slack)) {
+            let known = &self.pins[place];
             let is_deeper = pin.separation < known.separation - slack;
             let is_as_deep = pin.separation <= known.separation + slack;
             if is_deeper || (is_as_deep && pin.rank() < known.rank()) {
-                *known = pin;
+                let is_renamed = !known.is_named_as(&pin);
+                self.pins[place] = pin;
+                if is_renamed {
+                    self.keep_one_named_as(place);
+                }
             }
             return;
         }
@@ -208,6 +217,16 @@ impl Group {
             self.keep(around);
         }
         let _ = self.pins.try_push(pin);
+    }
+
+    /// Of a point that took another's place, and one that has its name, keeps the deeper.
+    fn keep_one_named_as(&mut self, place: usize) {
+        let pin = self.pins[place];
+        let is_other = |&other: &usize| other != place && self.pins[other].is_named_as(&pin);
+        if let Some(other) = (0..self.pins.len()).find(is_other) {
+            let is_deeper = self.pins[other].separation < pin.separation;
+            self.pins.remove(if is_deeper { place } else { other });
+        }
     }
 
     /// Keeps four of the points around the patch at most, and one that is as deep as any.

@@ -5,6 +5,7 @@
 //! corners of it in the prism:                          a vertex of the body on the face
 //! each side of the triangle behind which the ground does not go on in the same plane,
 //! cut by the sides of the body's face:                 its ends, or crossings of two edges
+//! and under the rounds of that face's edges, if it is tilted
 //! what is further up than wanted is left out
 //! ```
 //! These are the corners of what the body's face shares with the whole flat patch, and not with the triangle: a side
@@ -25,6 +26,9 @@ use core::cell::Cell;
 
 /// Cosine up to which a body's face looks away from the ground so much that it has no inside as seen along the normal.
 pub(super) const STEEP: f64 = 1e-3;
+
+/// Sine of the angle between a side and an edge below which they do not cross at a certain place.
+const LEAST_SINE: f64 = 1e-6;
 
 /// Sides of a face that are made once for all sides of a triangle.
 const FEW_SIDES: usize = 16;
@@ -126,8 +130,13 @@ impl Prism<'_> {
         if !standing.solid.is_slender() && vertices.len() <= FEW_SIDES {
             cuts.extend(self.cuts(face));
         }
+        let aside = outwards - facet.normal * facing;
+        let is_tilted = aside.length() * standing.radius > standing.slack;
         let mut is_any = false;
         for edge in (0..3).filter(|&edge| ends[edge]) {
+            if is_tilted && !standing.solid.is_slender() {
+                is_any |= self.add_under_rounds((face, edge), base, groups);
+            }
             let span = match (standing.solid.is_slender(), cuts.is_empty()) {
                 (true, _) => self.span_of_slender(outwards, edge),
                 (_, false) => self.span(cuts.iter().copied(), outwards, edge),
@@ -149,6 +158,59 @@ impl Prism<'_> {
             // A face goes counter-clockwise as seen from outside, which is against the normal.
             Cut { half_edge, start, into: (stop - start).cross(self.facet.normal) }
         })
+    }
+
+    /// Adds points where a side of the triangle passes under the round of an edge of a face that is tilted: there the surface
+    /// is the round, and the face's plane lies beside it. So a rounded crate stands on a strip of ground that its edge leads
+    /// over from side to side.
+    fn add_under_rounds(&self, (face, edge): (usize, usize), base: &Base, groups: &mut Groups) -> bool {
+        let (standing, facet) = (self.standing, self.facet);
+        let (from, along) = facet.edge(edge);
+        let mut is_any = false;
+        for Cut { half_edge, start, into } in self.cuts(face) {
+            let run = standing.point(standing.solid.topology.ends(half_edge).1) - start;
+            let Some(out) = self.out_of_round(half_edge, run) else { continue };
+            let begin = start + out * standing.radius;
+            let change = into.dot(along);
+            let on_ground = from + along * (-into.dot(from - begin) / change);
+            let level = run - facet.normal * facet.normal.dot(run);
+            let place = level.dot(on_ground - begin) / level.length_squared();
+            let share = along.dot(on_ground - from) / along.length_squared();
+            // What is all but parallel crosses anywhere; what is not a number, nowhere.
+            let do_cross =
+                change * change > LEAST_SINE * LEAST_SINE * into.length_squared() * along.length_squared();
+            if !(do_cross && (0.0..=1.0).contains(&share) && (0.0..=1.0).contains(&place)) {
+                continue;
+            }
+            let on_body = begin + run * place;
+            let separation = facet.height(on_body);
+            if separation <= self.reach {
+                let of_body = Feature::Edge(standing.solid.topology.edge_of(half_edge) as u32);
+                let of_ground = Feature::Edge(edge_number(self.ground, facet.number, edge));
+                let doubt = self.doubt;
+                is_any |= self.add_pin(
+                    Pin { on_body, on_ground, separation, doubt, of_body, of_ground },
+                    base,
+                    groups,
+                );
+            }
+        }
+        is_any
+    }
+
+    /// Where the round of an edge reaches furthest against the normal: a unit direction across the edge, if it lies between
+    /// the faces beside it.
+    fn out_of_round(&self, half_edge: usize, run: DVec3) -> Option<DVec3> {
+        let (solid, normal) = (self.standing.solid, self.facet.normal);
+        let out = (run * (normal.dot(run) / run.length_squared()) - normal).try_normalize()?;
+        let half_edges = solid.topology.half_edges();
+        let twin = usize::from(half_edges[half_edge].twin);
+        // Across each face, away from the edge.
+        let into =
+            |half_edge: usize, run: DVec3| solid.normal(half_edges[half_edge].face as usize).cross(run);
+        let slack = 1e-9 * run.abs().element_sum();
+        let is_between = out.dot(into(half_edge, run)) <= slack && out.dot(into(twin, -run)) <= slack;
+        is_between.then_some(out)
     }
 
     pub(super) fn base(&self) -> Base {

@@ -115,8 +115,7 @@ fn a_point_is_in_front_of_the_nearest_triangle_of_a_hull_exactly_if_it_is_outsid
             } else {
                 numbers.vector() * thin * 1.5
             };
-            let facets =
-                (0..ground.triangle_count() as u32).filter_map(|i| Facet::front_of(i, ground.corners(i)));
+            let facets = (0..ground.triangle_count()).filter_map(|i| Facet::front_of(i, ground.corners(i)));
             let distance = |facet: &Facet| match nearest_to(facet, point) {
                 (Furthest::Face, _) => facet.height(point).abs(),
                 (_, at) => (at - point).length(),
