@@ -194,8 +194,9 @@ pub struct Manifold3 {
     /// Unit normal in world axes, from A to B.
     pub normal: Vec3,
     /// Separation of the two parts, in metres. The least of the points' own is within `error` of it, plus 2e-6 of the
-    /// smaller bounding radius: what a steady choice of the reference may cost. Of four points, which may stand for more, it is
-    /// up to 2^-15 of the smaller bounding diameter above that: what a steady choice of four may cost.
+    /// smaller bounding radius: what a steady choice of the reference may cost. Of four points, which may stand for more, and of
+    /// fewer on ground made of triangles, where several triangles' may be one, it is up to 2^-15 of the smaller bounding diameter
+    /// above that: what a steady choice may cost.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
