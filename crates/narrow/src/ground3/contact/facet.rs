@@ -277,7 +277,9 @@ impl Facet {
         } else {
             2
         };
-        // Edge `top` leaves the corner, the one before leads to it.
+        // Edge `top` leaves the corner, the one before leads to it. Tried: both sides of a needle's tip, which are level in many
+        // directions, taken for an edge where the direction is not its face's own. A box that slides over needles of a floor, whose
+        // normals are rounding, was then told of their edges.
         match (is_level(top), is_level((top + 2) % 3)) {
             (true, true) => Furthest::Face,
             (true, false) => Furthest::Edge(top),

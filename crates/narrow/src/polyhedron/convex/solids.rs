@@ -164,9 +164,11 @@ impl Convex<'_> {
         wanted: Wanted,
     ) -> Probe {
         match closer {
-            // A search that proved no gap, where all axes show an overlap.
+            // A search that proved no gap, where all axes show an overlap. Not where there is one that the radii close: then the
+            // axes are those of faces alone.
             (verdict, Cores::Between(witness))
                 if verdict.overlapping
+                    && witness.at_least <= self.precision.projection()
                     && axes.best().separation > f64::NEG_INFINITY
                     && axes.best().separation + axes.short() < 0.0 =>
             {
