@@ -12,7 +12,7 @@ impl HullData {
     /// stays inside the hull; zero where the hull has no such ball. What is long and thin holds many balls that are all but
     /// as large as the one in its middle.
     ///
-    /// Cost: linear in the faces.
+    /// Cost: linear in the faces, and what sorting the edges takes.
     pub(super) fn longest_arm(&self) -> Vec3 {
         if self.inner_radius <= 0.0 || self.dimension < 3 {
             return Vec3::ZERO;

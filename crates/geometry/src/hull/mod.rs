@@ -137,7 +137,7 @@ impl Hull {
         self.data.inner_radius
     }
 
-    /// Half of a segment about the centre on which all but that ball stays inside the core.
+    /// Half of a segment about the centre on which nearly all of that ball stays inside the core.
     #[inline]
     pub(crate) fn core_inner_arm(&self) -> Vec3 {
         self.data.inner_arm
