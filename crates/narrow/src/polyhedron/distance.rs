@@ -24,7 +24,7 @@ use asunder_geometry::tolerance::DISTANCE_GAP;
 const MAX_STEPS: usize = 64;
 
 /// Share of the size above which the axis from one witness point to the other is not rounding.
-pub(super) const TELLING: f64 = 1e-6;
+pub(crate) const TELLING: f64 = 1e-6;
 
 /// How far the iteration came.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]

@@ -15,3 +15,5 @@ pub(crate) mod sat;
 pub(crate) mod simplex;
 mod slender;
 pub(crate) mod solid;
+
+pub(crate) use distance::TELLING;

@@ -132,14 +132,14 @@ impl Facet {
     pub(super) fn is_before(&self, ground: Ground, point: DVec3, (feature, at): (Furthest, DVec3)) -> bool {
         let (is_above, away) = (self.height(point) >= 0.0, point - at);
         // A sum of normals leads to where each of them does: most often all agree, and none need be of unit length.
-        let agrees = |other: u32| {
+        let agrees = |other: u32, _: usize| {
             let lean = front_of(ground.corners(other)).dot(away);
             if self.is_front == is_above { lean >= 0.0 } else { lean <= 0.0 }
         };
         let around = match feature {
             Furthest::Face => return is_above,
             Furthest::Edge(edge) => match ground.neighbor(self.number, edge) {
-                Some((other, _)) if agrees(other) => return is_above,
+                Some((other, _)) if agrees(other, 0) => return is_above,
                 Some((other, _)) => self.front() + unit_normal(ground, other),
                 None => return is_above,
             },
@@ -157,8 +157,13 @@ impl Facet {
         if self.is_front { self.normal } else { -self.normal }
     }
 
-    /// Whether something holds of all other triangles around a corner.
-    fn do_all_around(&self, ground: Ground, corner: usize, holds: impl Fn(u32) -> bool) -> bool {
+    /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner in it.
+    fn do_all_around(
+        &self,
+        ground: Ground,
+        corner: usize,
+        mut holds: impl FnMut(u32, usize) -> bool,
+    ) -> bool {
         for way in [0, 2] {
             let mut at = (self.number, (corner + way) % 3);
             for _ in 0..MOST_AROUND {
@@ -166,10 +171,12 @@ impl Facet {
                 if other == self.number {
                     return true;
                 }
-                if !holds(other) {
+                // The corner is the end of the twin, or its start.
+                let there = if way == 0 { (twin + 1) % 3 } else { twin };
+                if !holds(other, there) {
                     return false;
                 }
-                at = (other, (twin + 1 + way / 2) % 3);
+                at = (other, (there + way) % 3);
             }
         }
         true
@@ -178,19 +185,10 @@ impl Facet {
     /// The sum of the fronts' normals around a corner, each by its angle there.
     fn normals_around(&self, ground: Ground, corner: usize) -> DVec3 {
         let mut sum = at_corner(ground, self.number, corner);
-        for way in [0, 2] {
-            let mut at = (self.number, (corner + way) % 3);
-            for _ in 0..MOST_AROUND {
-                let Some((other, twin)) = ground.neighbor(at.0, at.1) else { break };
-                if other == self.number {
-                    return sum;
-                }
-                // Where the corner is in the other triangle: the end of the twin, or its start.
-                let there = if way == 0 { (twin + 1) % 3 } else { twin };
-                sum += at_corner(ground, other, there);
-                at = (other, if way == 0 { there } else { (there + 2) % 3 });
-            }
-        }
+        self.do_all_around(ground, corner, |other, there| {
+            sum += at_corner(ground, other, there);
+            true
+        });
         sum
     }
 
@@ -355,9 +353,9 @@ impl Facet {
     /// Then edges that bend towards this side may end the ground for it: a body beside a cliff and lower than its top
     /// is behind the top, and still in front of the wall.
     pub(super) fn sees_otherwise(&self, ground: Ground, corner: usize, point: DVec3) -> bool {
-        let is_same = |number: u32| {
-            let [a, b, c] = widened(ground.corners(number));
-            ((b - a).cross(c - a).dot(point - a) >= 0.0) == self.is_front
+        let is_same = |number: u32, _| {
+            let corners = ground.corners(number);
+            (front_of(corners).dot(point - corners[0].as_dvec3()) >= 0.0) == self.is_front
         };
         !self.do_all_around(ground, corner, is_same)
     }

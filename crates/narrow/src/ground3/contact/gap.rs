@@ -13,15 +13,12 @@
 //! kernels end here, for a cuboid that rolls.
 
 use super::axes::Axes;
-use super::facet::is_same;
 use super::prism::Prism;
 use super::unsaid::Unsaid;
+use crate::polyhedron::TELLING;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::DISTANCE_GAP;
-
-/// Share of the size below which the axis between two points is rounding.
-const TELLING: f64 = 1e-6;
 
 impl Prism<'_> {
     /// Where a cuboid is nearest to the triangle across a gap, if ground refuses to be touched there and it is known for
@@ -50,15 +47,8 @@ impl Prism<'_> {
         if facet.lets_through(self.ground, direction) {
             return None;
         }
-        let is_own = is_same(facet.normal, direction);
-        Some(Unsaid {
-            number: facet.number,
-            separation: distance - standing.radius,
-            doubt: self.doubt + short.abs(),
-            ends: [place.point(on_cuboid - towards * standing.radius), place.point(on_triangle)],
-            normal: if is_own { facet.normal } else { direction },
-            is_own,
-        })
+        let ends = [place.point(on_cuboid - towards * standing.radius), place.point(on_triangle)];
+        Some(Unsaid::along(facet, direction, [distance - standing.radius, self.doubt + short.abs()], ends))
     }
 }
 

@@ -1,7 +1,7 @@
 //! A convex part and one triangle by the general kernels, and which of their axes ground lets through.
 
 use super::Asking;
-use super::facet::{Facet, edge_number, is_same};
+use super::facet::{Facet, edge_number};
 use super::groups::{Base, Groups, Pin};
 use super::standing::{Place, Standing};
 use super::unsaid::Unsaid;
@@ -152,15 +152,8 @@ impl<'a> Meeting<'a> {
 fn unsaid_of(facet: &Facet, place: &Place, near: &Near) -> Option<Unsaid> {
     let [on_a, on_b] = near.closest.filter(|_| !near.verdict.overlapping)?;
     let towards = -place.axes.turn(near.normal);
-    let is_own = is_same(facet.normal, towards);
-    Some(Unsaid {
-        number: facet.number,
-        separation: near.separation.into(),
-        doubt: near.error.into(),
-        ends: [place.point(on_a), place.point(on_b)],
-        normal: if is_own { facet.normal } else { towards },
-        is_own,
-    })
+    let told = [near.separation.into(), near.error.into()];
+    Some(Unsaid::along(facet, towards, told, [place.point(on_a), place.point(on_b)]))
 }
 
 /// The name of a triangle's own feature on the ground.

@@ -39,6 +39,19 @@ pub(super) struct Unsaid {
 pub(super) type AllUnsaid = ArrayVec<Unsaid, 8>;
 
 impl Unsaid {
+    /// Of a triangle, along a unit direction from it to the part: how far they are apart and by how much that may be off, and
+    /// their nearest points.
+    pub(super) fn along(
+        facet: &Facet,
+        towards: DVec3,
+        [separation, doubt]: [f64; 2],
+        ends: [DVec3; 2],
+    ) -> Self {
+        let is_own = is_same(facet.normal, towards);
+        let normal = if is_own { facet.normal } else { towards };
+        Self { number: facet.number, separation, doubt, ends, normal, is_own }
+    }
+
     /// Whether it comes before another; of equals the one of the lower number.
     fn is_before(&self, other: &Self) -> bool {
         (self.separation, self.number) < (other.separation, other.number)
