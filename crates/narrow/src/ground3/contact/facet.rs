@@ -119,7 +119,7 @@ impl Facet {
     /// plane it is under.
     ///
     /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005). With sines for angles,
-    /// which need no arc tangent, one corner of a needle in forty was taken from the wrong side.
+    /// which need no arc tangent, one point in seventy beside edges and corners of thin hulls was taken from the wrong side.
     pub(super) fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
         let is_above = self.height(point) >= 0.0;
         if ground.is_one_sided() {

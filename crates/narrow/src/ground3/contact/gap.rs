@@ -9,7 +9,7 @@
 //! ground refuses that axis: no contact, and where they are nearest is all there is to say; else the kernels make points
 //! ```
 //! Of the convex distance to a cuboid, a triangle has its least on its rim, or where it is straight under what the cuboid
-//! has lowest; and if that is an edge or a face, some of the rim is as near. On hills of triangles 25 of 39 calls of the
+//! has lowest; and if that is an edge or a face, some of the rim is as near. On hills of triangles 24 of 39 calls of the
 //! kernels end here, for a cuboid that rolls.
 
 use super::axes::Axes;
