@@ -9,3 +9,4 @@ mod order;
 mod rims;
 mod scenes;
 mod slide;
+mod turned;

@@ -20,7 +20,7 @@
 //!   points go to the group of their normal                                                            (groups)
 //!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
 //!   what is nearer, in a gap along what ground refused                                              (unsaid)
-//!   groups are told as manifolds                                                                      (answer)
+//!   groups are told as manifolds, their errors with what low bends may hide                 (answer, protrusion)
 //! ```
 //! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature among *all* ground
 //! around it: an edge gives a direction that leans towards neither face, a corner one that leans along none of its
@@ -60,8 +60,7 @@
 //!     to 51.6 k for cuboids, which are asked more by now than at 10, 41.6 k to 39.7 k for hulls (2026-11-23).
 //!
 //! The kernels take some 20 k instructions still each time that they make points, 12 k where ground refuses the closest: for
-//! three rolling cuboids in eight, and five hulls in nine. Here everything is answered anew; a world asks only about bodies
-//! that went so far that what they had cannot be moved along (`persistent3::grounded`).
+//! three rolling cuboids in eight, and five hulls in nine. A world asks only about bodies that cannot be moved along.
 //!
 //! **Yes or no** is exact, as everywhere: of all triangles that see the part. What is not settled by rounding bounds is
 //! asked last, the likeliest first, and no further than the first yes.
@@ -80,6 +79,7 @@ mod meeting;
 mod outstanding;
 mod plane;
 mod prism;
+mod protrusion;
 mod round;
 mod standing;
 mod unsaid;
@@ -101,6 +101,7 @@ pub(crate) use facet::{front_of, widened};
 use groups::Groups;
 use meeting::{Meeting, Met};
 use prism::{Incident, Prism};
+use protrusion::Levels;
 use round::Round;
 use standing::{Extent, Octets, Place, Standing};
 use unsaid::AllUnsaid;
@@ -166,6 +167,8 @@ struct Known {
     /// Triangles in a gap whose axis was refused.
     unsaid: AllUnsaid,
     incident: Option<Incident>,
+    /// Bounds on how near triangles can be that spoke by their own normals.
+    levels: Levels,
     /// The short way for spheres met what it cannot settle.
     is_open: bool,
 }
@@ -177,6 +180,8 @@ struct Plane {
     extent: Extent,
     /// What heights may be off by, in metres.
     doubt: f64,
+    /// Whether its level was noted.
+    is_noted: bool,
 }
 
 /// A part among the triangles.
@@ -247,6 +252,7 @@ impl Known {
             refused: ArrayVec::new(),
             unsaid: ArrayVec::new_const(),
             incident: None,
+            levels: ArrayVec::new_const(),
             is_open: false,
         }
     }
@@ -262,13 +268,16 @@ impl Seen<'_> {
         if !self.is_within(near, plane) {
             return;
         }
-        let Some(Plane { facet, extent, doubt, .. }) = plane else { return };
+        let Some(Plane { facet, extent, doubt, is_noted, .. }) = plane else { return };
         let (separation, doubt) = (extent.low - standing.radius, *doubt);
         let prism = Prism { ground, standing, facet, extent, reach: self.asking.reach, doubt, gate: None };
         if self.needs_kernels(&prism, near.prominent) {
             return self.look_closer(&prism, known);
         }
         let has_points = self.add_where_met(&prism, separation, known);
+        if !core::mem::replace(is_noted, true) {
+            known.note_level(&prism);
+        }
         if known.overlapping || separation > doubt {
             return;
         }
@@ -290,6 +299,7 @@ impl Seen<'_> {
         if standing.is_apart((facet, axes), beyond) {
             return;
         }
+        known.note_level(prism);
         if self.is_explained(facet, known) {
             return self.doubt_of(number, (true, separation), known);
         }
@@ -358,7 +368,7 @@ impl Seen<'_> {
             facet.turn_over();
             extent = extent.turned_over();
         }
-        *plane = Some(Plane { patch, facet, extent, doubt });
+        *plane = Some(Plane { patch, facet, extent, doubt, is_noted: false });
         true
     }
 

@@ -268,7 +268,7 @@ impl<'a> Solid<'a> {
 
     /// How far the shape reaches along the outward normal of one of its faces, in the frame of the pair.
     #[inline]
-    pub(super) fn face_reach(&self, face: usize, normal: DVec3) -> f64 {
+    pub(crate) fn face_reach(&self, face: usize, normal: DVec3) -> f64 {
         self.heights[face] + normal.dot(self.position)
     }
 

@@ -18,24 +18,27 @@ impl Asking<'_> {
         is_settled: bool,
         manifolds: &mut impl Room,
     ) -> Option<bool> {
-        let Known { groups, overlapping, .. } = known;
-        if !*overlapping && groups.least() == f64::INFINITY {
+        let overlapping = known.overlapping;
+        if !overlapping && known.groups.least() == f64::INFINITY {
             return None;
         }
         if manifolds.is_wanted() {
-            let least = groups.least();
-            let order = groups.finish();
-            for group in order.into_iter().filter_map(|place| groups.at(place)) {
-                self.add_manifold(part.index, group, (*overlapping, is_settled, least), manifolds);
+            let least = known.groups.least();
+            let radius = f64::from(part.shape.outer_radius());
+            let order = known.groups.finish();
+            for group in order.into_iter().filter_map(|place| known.groups.at(place)) {
+                let hidden = known.hidden(group.base.normal, group.told[0], radius);
+                let how = (overlapping, is_settled, least);
+                self.add_manifold(part.index, (group, hidden), how, manifolds);
             }
         }
-        Some(*overlapping)
+        Some(overlapping)
     }
 
     fn add_manifold(
         &self,
         part: u32,
-        group: &Group,
+        (group, hidden): (&Group, f64),
         (overlapping, is_settled, least): (bool, bool, f64),
         to: &mut impl Room,
     ) {
@@ -54,7 +57,7 @@ impl Asking<'_> {
         manifold.normal = if on.is_b { -towards } else { towards }.as_vec3();
         let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE[1] };
         let off = (f64::from(separation) - deepest).abs();
-        let error = precision.of_distance(deepest, doubt + off);
+        let error = precision.of_distance(deepest, doubt + hidden + off);
         (manifold.separation, manifold.error) = (separation, error);
         let room = manifold.points.remaining_capacity();
         manifold.points.extend(group.pins.iter().take(room).map(|pin| {

@@ -43,6 +43,12 @@ impl Rim {
     pub(super) fn holds(&self, point: DVec3) -> bool {
         self.inwards.dot(point - self.from) >= self.least
     }
+
+    /// Whether it is on the other side, by however little.
+    #[inline]
+    pub(super) fn is_beyond(&self, point: DVec3) -> bool {
+        self.inwards.dot(point - self.from) < 0.0
+    }
 }
 
 /// What of a triangle touches, as told by a direction: what of it reaches furthest there.

@@ -146,6 +146,14 @@ impl Groups {
         }
     }
 
+    /// Tells the same of the normal whose points are the nearest.
+    pub(super) fn tell_nearest(&mut self, told: [f64; 2]) {
+        let nearest = self.groups.iter_mut().min_by(|one, other| one.found().total_cmp(&other.found()));
+        if let Some(group) = nearest {
+            group.told = told;
+        }
+    }
+
     /// Whether a normal's points have one on a feature of ground.
     pub(super) fn holds(&self, is_it: impl Fn(&Base, Feature) -> bool) -> bool {
         self.groups.iter().any(|group| group.pins.iter().any(|pin| is_it(&group.base, pin.of_ground)))

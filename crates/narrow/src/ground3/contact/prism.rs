@@ -14,6 +14,7 @@
 //! against triangle and merging afterwards leaves a point on every cut, of which the choice of four is another one with
 //! every step.
 
+use super::ball::nearest_to;
 use super::facet::{Facet, edge_number};
 use super::groups::{Base, Groups, Pin};
 use super::standing::{Extent, Standing};
@@ -265,7 +266,10 @@ impl Prism<'_> {
                 return;
             };
             if separation <= self.reach && rims.iter().all(|rim| rim.holds(at)) {
-                let pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
+                let mut pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
+                if rims.iter().any(|rim| rim.is_beyond(at)) {
+                    pin.doubt += self.overhang(&pin);
+                }
                 is_any |= self.add_pin(pin, base, groups);
             }
         };
@@ -277,6 +281,14 @@ impl Prism<'_> {
             add(self.extent.lowest);
         }
         is_any
+    }
+
+    /// What the height of a point may be off by that is over the triangle only by the slack, in metres: of a gap hardly
+    /// anything, in overlap as much as it is beside it.
+    fn overhang(&self, pin: &Pin) -> f64 {
+        let aside = (pin.on_ground - nearest_to(self.facet, pin.on_ground).1).length();
+        let gap = pin.separation.max(0.0);
+        (gap * gap + aside * aside).sqrt() - gap
     }
 
     /// Adds the ends of the span that the part's face covers of a side of the triangle, as seen along the normal; `over` is a

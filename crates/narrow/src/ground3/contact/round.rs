@@ -61,6 +61,7 @@ impl Round {
         if known.is_unsaid(slack) || known.groups.least() > slack && known.shown_by.is_some() {
             return None;
         }
+        known.tell_unsaid(slack);
         Some(asking.answer(part, &mut known, is_settled, manifolds))
     }
 

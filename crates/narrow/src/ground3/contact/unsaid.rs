@@ -82,6 +82,17 @@ impl Known {
         let least = self.groups.least() - slack;
         !self.overlapping && self.unsaid.first().is_some_and(|nearest| nearest.separation < least)
     }
+
+    /// Tells how near the nearest of it is, where that is the same place up to the slack: the points stay.
+    pub(super) fn tell_unsaid(&mut self, slack: f64) {
+        let least = self.groups.least();
+        if let Some(nearest) = self.unsaid.first()
+            && !self.overlapping
+            && (least - slack..least).contains(&nearest.separation)
+        {
+            self.groups.tell_nearest([nearest.separation, nearest.doubt]);
+        }
+    }
 }
 
 impl Seen<'_> {
@@ -92,6 +103,7 @@ impl Seen<'_> {
         }
         let slack = self.standing.slack;
         let least = known.groups.least();
+        known.tell_unsaid(slack);
         for unsaid in core::mem::take(&mut known.unsaid) {
             let is_nearer = if unsaid.is_own {
                 unsaid.separation < known.groups.least_along(unsaid.normal) - slack

@@ -1,0 +1,154 @@
+//! Ground that is turned as a whole: its corners are rounded, so that no two of its triangles lie in one plane.
+
+use asunder_geometry::glam::{DQuat, DVec3, Vec3};
+use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, TriMesh, Triangle3};
+use asunder_narrow::{Pair3, Separation3};
+use asunder_tests::cases::Random;
+
+/// Squares in a plane, or bent a little, each of two triangles, and turned as a whole.
+fn ground(random: &mut Random, bend: f64) -> (Vec<Vec3>, Vec<[u32; 3]>, DQuat) {
+    let turn = random.quaternion().as_dquat();
+    let step = random.between(0.05, 0.6);
+    let mut vertices = Vec::new();
+    for i in 0..7 {
+        for j in 0..7 {
+            let flat = DVec3::new(
+                f64::from(i - 3) * step,
+                bend * random.between(-1.0, 1.0),
+                f64::from(j - 3) * step,
+            );
+            vertices.push((turn * flat).as_vec3());
+        }
+    }
+    let mut triangles = Vec::new();
+    for i in 0..6 {
+        for j in 0..6 {
+            let at = i * 7 + j;
+            triangles.extend([[at, at + 1, at + 7], [at + 1, at + 8, at + 7]]);
+        }
+    }
+    (vertices, triangles, turn)
+}
+
+/// A box or a hull, about as large as the squares or larger.
+fn body(random: &mut Random) -> Shape3 {
+    if random.below(3) == 0 {
+        let points: Vec<Vec3> = (0..12).map(|_| (random.vector() * 0.5).as_vec3()).collect();
+        return Hull::from_points(&points).unwrap().into();
+    }
+    let half = [0, 1, 2].map(|_| random.between(0.05, 0.5) as f32);
+    Cuboid::from_half_extents(Vec3::from(half)).unwrap().into()
+}
+
+/// The least separation of a body from triangles one by one, with its error.
+fn nearest(
+    body: &Shape3,
+    at: &Pose3,
+    corners: impl Iterator<Item = [Vec3; 3]>,
+    limit: f32,
+) -> Option<(f64, f64)> {
+    let found = corners.filter_map(|[a, b, c]| {
+        let triangle = Shape3::from(Triangle3::new(a, b, c).unwrap());
+        match Pair3::new(body, at, &triangle, &Pose3::IDENTITY).separation(limit) {
+            Separation3::Measured(found) => Some((f64::from(found.separation), f64::from(found.error))),
+            Separation3::AtLeast(_) => None,
+        }
+    });
+    found.min_by(|one, other| one.0.total_cmp(&other.0))
+}
+
+/// Symptom: on meshes that are turned as a whole, gaps were told wider than their errors allowed, by some billionths of a metre; over
+/// bends too low for a normal of their own, by a hundred thousandth of the body. Cause: what stands up between the points that are
+/// told was in no error.
+#[test]
+fn a_gap_over_turned_ground_is_within_its_error() {
+    let mut random = Random::new(0x7042_3ED0);
+    let margin = 0.02;
+    let (mut told, mut coarse) = (0, 0);
+    for case in 0..6_000 {
+        let bend = random.pick(&[0.0, 0.0, 1e-7, 1e-5, 1e-3, 0.05]);
+        let (vertices, triangles, turn) = ground(&mut random, bend);
+        let mesh = TriMesh::new(vertices.clone(), triangles.clone()).unwrap();
+        let body = body(&mut random);
+        // Face down more often than not, turned about the normal as it may be.
+        let about = DQuat::from_rotation_y(random.between(0.0, 6.0));
+        let pose = if random.below(3) == 0 { random.quaternion() } else { (turn * about).as_quat() };
+        let (x, z) = (random.between(-0.3, 0.3), random.between(-0.3, 0.3));
+        let corners = || triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize]));
+        // Let down until it is as far above as is wanted.
+        let (mut height, gap) = (1.0, 0.005);
+        let at = |height: f64| Pose3::new(turn * DVec3::new(x, height, z), pose).unwrap();
+        for _ in 0..3 {
+            let Some((above, _)) = nearest(&body, &at(height), corners(), 2.0) else { break };
+            height -= above - gap;
+        }
+        let Some((separation, error)) = nearest(&body, &at(height), corners(), 0.1) else { continue };
+        if separation <= error || separation + error > f64::from(margin) {
+            continue;
+        }
+        let manifolds = Pair3::new(&body, &at(height), &mesh.into(), &Pose3::IDENTITY).manifolds(margin);
+        let least = manifolds.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        let Some(least) = least else { panic!("{case}: {separation} +- {error}, and nothing told") };
+        let off = (f64::from(least.separation) - separation).abs();
+        let may = error + f64::from(least.error);
+        assert!(off <= may, "{case} {bend}: {separation} +- {error}, off {off}, told {least:?}");
+        told += 1;
+        // On a plane that was only turned, the error is rounding.
+        coarse += usize::from(bend == 0.0 && least.error > 2e-7);
+    }
+    assert!(
+        told > 4000 && coarse == 0,
+        "{told}, {coarse} of them on a plane told with errors above rounding"
+    );
+}
+
+/// Symptom: a corner that hung past the end of ground by less than a millionth of its body was told as near as it was above the
+/// triangle's plane. Cause: places count as the same up to that much, and it was not in the error.
+#[test]
+fn a_corner_beside_the_end_of_ground_is_within_its_error() {
+    let mut random = Random::new(0xBE51_DE00);
+    let [a, b, c] = [Vec3::new(0.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(-1.0, 0.0, 0.0)];
+    let mesh: Shape3 = TriMesh::new(vec![a, b, c], vec![[0, 1, 2]]).unwrap().into();
+    let body: Shape3 = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into();
+    let mut beside = 0;
+    for case in 0..4_000 {
+        let pose = random.quaternion();
+        // Any of the lower corners: what of the body is over ground is nearest at the end, too.
+        let corner = {
+            let basis = Pose3::new(DVec3::ZERO, pose).unwrap().basis();
+            let corner = |i: usize| {
+                let side = |bit: usize| if i >> bit & 1 == 0 { -0.5 } else { 0.5 };
+                basis.turn(DVec3::new(side(0), side(1), side(2)))
+            };
+            let mut corners: Vec<DVec3> = (0..8).map(corner).collect();
+            corners.sort_by(|one, other| one.y.total_cmp(&other.y));
+            corners[random.below(3)]
+        };
+        let place = DVec3::new(random.between(-1e-6, 2e-6), 0.0, random.between(-0.5, 0.5)) - corner;
+        let gap = random.between(1e-8, 2e-6);
+        let at = |height: f64| Pose3::new(place + DVec3::Y * height, pose).unwrap();
+        let mut height = 1.0;
+        for _ in 0..60 {
+            let Some((above, _)) = nearest(&body, &at(height), [[a, b, c]].into_iter(), 3.0) else { break };
+            if (above - gap).abs() < 1e-9 {
+                break;
+            }
+            height -= above - gap;
+        }
+        let at = at(height);
+        let Some((separation, error)) = nearest(&body, &at, [[a, b, c]].into_iter(), 0.1) else { continue };
+        if separation <= 0.0 || separation > 1e-5 {
+            continue;
+        }
+        let manifolds = Pair3::new(&body, &at, &mesh, &Pose3::IDENTITY).manifolds(0.01);
+        let least = manifolds.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        let Some(least) = least else { panic!("{case}: {separation} +- {error}, and nothing told") };
+        let off = (f64::from(least.separation) - separation).abs();
+        assert!(
+            off <= error + f64::from(least.error),
+            "{case}: {separation} +- {error}, off {off}, {least:?}"
+        );
+        beside += 1;
+    }
+    assert!(beside > 3_000, "{beside}");
+}
