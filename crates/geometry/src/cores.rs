@@ -7,6 +7,7 @@ use crate::rect::Rect;
 use crate::shape::{Shape2, Shape3};
 use crate::topology::Topology;
 use crate::triangle::Triangle3;
+use core::cell::OnceCell;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use std::sync::LazyLock;
 
@@ -83,7 +84,9 @@ struct Few<'a> {
     normals: Held<'a, DVec3, 2>,
     heights: Held<'a, f64, 6>,
     face_octets: Held<'a, FaceOctet, 1>,
-    edge_octets: Held<'a, EdgeOctet, 2>,
+    /// Half extents of a cuboid, whose edges are made when they are asked for: most pairs never do, and they are large.
+    cuboid: Option<Vec3>,
+    edge_octets: OnceCell<[EdgeOctet; 2]>,
     arcs: Held<'a, EdgeArc, 3>,
     center: Vec3,
     inner_radius: f32,
@@ -200,7 +203,7 @@ impl<'a> Core3<'a> {
     pub fn edge_octets(&self) -> &[EdgeOctet] {
         match &self.0 {
             Kept::ByHull(hull) => hull.edge_octets(),
-            Kept::Here(few) => few.edge_octets.as_slice(),
+            Kept::Here(few) => few.edge_octets(),
         }
     }
 
@@ -294,7 +297,8 @@ impl<'a> Few<'a> {
                     normals: Held::Many(Cuboid::NORMALS.as_slice()),
                     heights: Held::Few([x, x, y, y, z, z], 6),
                     face_octets: Held::Few([FaceOctet::of_cuboid(half)], 1),
-                    edge_octets: Held::Few(EdgeOctet::of_cuboid(&CUBE.octets, half), 2),
+                    cuboid: Some(half),
+                    edge_octets: OnceCell::new(),
                     arcs: Held::Many(&CUBE.arcs),
                     center: Vec3::ZERO,
                     inner_radius: half.min_element(),
@@ -311,6 +315,12 @@ impl<'a> Few<'a> {
         }
     }
 
+    /// Those of a cuboid; of what has fewer, every edge is looked at.
+    fn edge_octets(&self) -> &[EdgeOctet] {
+        let Some(half) = self.cuboid else { return &[] };
+        self.edge_octets.get_or_init(|| EdgeOctet::of_cuboid(&CUBE.octets, half))
+    }
+
     /// A point or a segment; nothing at all where there are no vertices.
     fn without_faces(vertices: &[Vec3], topology: &'a Topology, shape: &Shape3) -> Self {
         let first = vertices.first().copied().unwrap_or(Vec3::ZERO);
@@ -324,7 +334,8 @@ impl<'a> Few<'a> {
             normals: Held::Many(&[]),
             heights: Held::Many(&[]),
             face_octets: Held::Many(&[]),
-            edge_octets: Held::Many(&[]),
+            cuboid: None,
+            edge_octets: OnceCell::new(),
             arcs: Held::Few([arc; 3], edges),
             center: shape.center(),
             inner_radius: beside_center(shape),
@@ -351,8 +362,8 @@ impl<'a> Few<'a> {
             normals: Held::Few(normals, 2),
             heights: Held::Few([heights[0], heights[1], 0.0, 0.0, 0.0, 0.0], 2),
             face_octets: Held::Few([faces], 1),
-            // Flat: every edge is looked at.
-            edge_octets: Held::Many(&[]),
+            cuboid: None,
+            edge_octets: OnceCell::new(),
             arcs: Held::Few([arc(0), arc(1), arc(2)], 3),
             center: shape.center(),
             inner_radius: beside_center(shape),

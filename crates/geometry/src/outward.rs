@@ -1,6 +1,7 @@
 //! Rounding an f64 interval outwards to f32, so that a box never loses the shape inside it.
 
 use crate::aabb::{Aabb2, Aabb3};
+use crate::octets::VertexOctet;
 use crate::pose2::Pose2;
 use crate::pose3::Pose3;
 use glam::{DVec2, DVec3, Vec2, Vec3};
@@ -71,6 +72,49 @@ pub(crate) fn around3(points: impl Iterator<Item = DVec3>, pose: &Pose3, grow: f
         let turned = basis.turn(point);
         (low, high) = (low.min(turned), high.max(turned));
     }
+    around(low, high, pose, grow)
+}
+
+/// The same around many, none of whose coordinates exceeds `extent`, eight by eight in f32: wider by what that may lose, less
+/// than a millionth of the extent. 32 vertices: 99 ns one by one, 67 here
+/// (AMD EPYC, Zen 4, 2026-11-23).
+pub(crate) fn around_octets(octets: &[VertexOctet], extent: f32, pose: &Pose3, grow: f64) -> Aabb3 {
+    let basis = pose.basis();
+    let mut sides = [[0.0; 2]; 3];
+    for (axis, side) in sides.iter_mut().enumerate() {
+        let row = Vec3::new(basis.x[axis] as f32, basis.y[axis] as f32, basis.z[axis] as f32);
+        let (mut up, mut down) = ([f32::NEG_INFINITY; 8], [f32::NEG_INFINITY; 8]);
+        for octet in octets {
+            let mut reach = [0.0; 8];
+            for (i, reach) in reach.iter_mut().enumerate() {
+                *reach = row.x * octet.x[i] + row.y * octet.y[i] + row.z * octet.z[i];
+            }
+            for i in 0..8 {
+                up[i] = if reach[i] > up[i] { reach[i] } else { up[i] };
+            }
+            for i in 0..8 {
+                down[i] = if -reach[i] > down[i] { -reach[i] } else { down[i] };
+            }
+        }
+        // The row, each product and two sums: below 4.1 units of 2^-24 of the terms' sum.
+        let terms = f64::from(extent) * f64::from(row.abs().element_sum());
+        let doubt = 2.1 * f64::from(f32::EPSILON) * terms;
+        *side = [-f64::from(greatest(down)) - doubt, f64::from(greatest(up)) + doubt];
+    }
+    let [x, y, z] = sides;
+    around(DVec3::new(x[0], y[0], z[0]), DVec3::new(x[1], y[1], z[1]), pose, grow)
+}
+
+#[inline(always)]
+fn greatest(lanes: [f32; 8]) -> f32 {
+    let greater = |a: f32, b: f32| if a > b { a } else { b };
+    let four: [f32; 4] = core::array::from_fn(|i| greater(lanes[i], lanes[i + 4]));
+    greater(greater(four[0], four[2]), greater(four[1], four[3]))
+}
+
+/// The box from `low` to `high` about a position, grown by `grow` metres.
+#[inline]
+fn around(low: DVec3, high: DVec3, pose: &Pose3, grow: f64) -> Aabb3 {
     let p = pose.position();
     let lost = lost(p.abs().element_sum(), low.abs().max(high.abs()).element_sum(), grow);
     let x = interval(p.x, low.x, high.x, grow, lost);
@@ -107,6 +151,35 @@ mod tests {
             assert_eq!(round_up(value).to_bits(), up.to_bits(), "{value}");
         }
         assert!(round_down(f64::NAN).is_nan() && round_up(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn eight_by_eight_is_no_tighter_than_one_by_one_and_hardly_wider() {
+        let mut state = 5_u32;
+        let mut number = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        for case in 0..3000 {
+            let size = [1e-6, 1.0, 1e5][case % 3];
+            let points: Vec<Vec3> =
+                (0..4 + case % 29).map(|_| Vec3::new(number(), number(), number()) * size).collect();
+            let eight = |places: &[Vec3]| {
+                let at = |i: usize| *places.get(i).unwrap_or(&points[0]);
+                VertexOctet::of_eight(&core::array::from_fn(at))
+            };
+            let octets: Vec<VertexOctet> = points.chunks(8).map(eight).collect();
+            let rotation = glam::Quat::from_xyzw(number(), number(), number(), number());
+            let at = DVec3::new(number().into(), number().into(), number().into()) * 10.0 * f64::from(size);
+            let pose = Pose3::new(at, rotation).unwrap();
+            let extent = points.iter().map(|point| point.abs().max_element()).fold(0.0, f32::max);
+            let tight = around3(points.iter().map(|point| point.as_dvec3()), &pose, 0.0);
+            let found = around_octets(&octets, extent, &pose, 0.0);
+            assert!(found.min.cmple(tight.min).all() && found.max.cmpge(tight.max).all(), "{case}");
+            // And the last f32 of a place up to eleven extents away.
+            let wider = (tight.min - found.min).max(found.max - tight.max).max_element();
+            assert!(wider <= 3e-6 * extent, "{case}: {wider} of {extent}");
+        }
     }
 
     #[test]

@@ -261,10 +261,25 @@ impl Pose3 {
     #[inline]
     pub fn travel(&self, to: &Self, arm: f64) -> f64 {
         let straight = (to.position - self.position).length();
-        let spin = if self.same_rotation(to) { 0.0 } else { to.basis_from(self).spin_from(&Basis3::UNIT) };
+        let spin = if self.same_rotation(to) { 0.0 } else { to.spin_since(self) };
         // An endless arm that does not turn goes nowhere.
         let turned = if spin > 0.0 { spin * arm } else { 0.0 };
         (straight + turned) * (1.0 + 64.0 * f64::EPSILON)
+    }
+
+    /// How far the tips of unit vectors went at most, as [`Basis3::spin_from`], of quaternions alone: twice the sine of half the
+    /// angle, which is the share of the vector part in the turn from one to the other. A third of the work.
+    #[inline]
+    fn spin_since(&self, other: &Self) -> f64 {
+        let ([a, b, c, d], [x, y, z, w]) = (other.components(), self.components());
+        let along = [
+            d * x - a * w + (c * y - b * z),
+            d * y - b * w + (a * z - c * x),
+            d * z - c * w + (b * x - a * y),
+        ];
+        let aside = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
+        let straight = a * x + b * y + c * z + d * w;
+        2.0 * (aside / (aside + straight * straight)).sqrt()
     }
 
     /// Whether every stored bit of the rotation is equal.
@@ -410,6 +425,23 @@ mod tests {
             Pose3::new(DVec3::ZERO, Quat::from_xyzw(0.0, f32::INFINITY, 0.0, 1.0)),
             Err(PoseError::RotationNotFinite { component: 1, .. })
         ));
+    }
+
+    #[test]
+    fn a_spin_is_that_of_the_bases() {
+        let turns = [
+            [0.1, 0.2, 0.3, 0.4],
+            [1e-38, 0.0, -3e-38, 2e-38],
+            [0.0, -1e30, 0.0, 1e30],
+            [0.0, 0.0, 0.0, -3.0],
+        ];
+        let poses = turns.map(|turn| Pose3::new(DVec3::ZERO, Quat::from_array(turn)).unwrap());
+        for (one, other) in poses.iter().flat_map(|one| poses.iter().map(move |other| (one, other))) {
+            let spin = one.basis_from(other).spin_from(&Basis3::UNIT);
+            assert!((one.spin_since(other) - spin).abs() <= 1e-15, "{one:?} {other:?}: {spin}");
+        }
+        let hardly = Pose3::new(DVec3::ZERO, Quat::from_xyzw(1e-7, 0.0, 0.0, 1.0)).unwrap();
+        assert!((hardly.spin_since(&Pose3::IDENTITY) / 2e-7 - 1.0).abs() < 1e-7);
     }
 
     #[test]

@@ -240,6 +240,7 @@ impl Shape3 {
 
     /// Bounding radius about [`Shape3::center`], in metres, rounded up. Tolerances of a pair are relative to the sum
     /// of two. Infinite for a half-space.
+    #[inline]
     pub fn outer_radius(&self) -> f32 {
         match self {
             Self::Sphere(sphere) => sphere.radius(),

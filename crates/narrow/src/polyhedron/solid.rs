@@ -11,13 +11,13 @@ use asunder_geometry::{Basis3, Core3, EdgeArc, EdgeOctet, FaceOctet, Topology, V
 /// Vertices are not transformed: a direction is turned into local axes instead, once a projection. That leaves A's
 /// coordinates exact and B's with one rounding step less.
 pub(crate) struct Solid<'a> {
+    core: &'a Core3<'a>,
     pub(crate) vertices: &'a [Vec3],
     pub(super) vertex_octets: &'a [VertexOctet],
     pub(crate) topology: &'a Topology,
     normals: &'a [DVec3],
     heights: &'a [f64],
     pub(super) face_octets: &'a [FaceOctet],
-    pub(super) edge_octets: &'a [EdgeOctet],
     /// In the shape's own axes, in the order of the topology's edges.
     pub(super) arcs: &'a [EdgeArc],
     pub(super) basis: Basis3,
@@ -47,13 +47,13 @@ pub(crate) struct Support {
 impl<'a> Solid<'a> {
     pub(crate) fn new(core: &'a Core3<'a>, basis: Basis3, position: DVec3, radius: f64) -> Self {
         Self {
+            core,
             vertices: core.vertices(),
             vertex_octets: core.vertex_octets(),
             topology: core.topology(),
             normals: core.normals(),
             heights: core.heights(),
             face_octets: core.face_octets(),
-            edge_octets: core.edge_octets(),
             arcs: core.arcs(),
             is_home: position == DVec3::ZERO && basis.x == DVec3::X && basis.y == DVec3::Y,
             basis,
@@ -76,6 +76,12 @@ impl<'a> Solid<'a> {
     #[inline(always)]
     fn back(&self, v: DVec3) -> DVec3 {
         if self.is_home { v } else { self.basis.turn_back(v) }
+    }
+
+    /// The edges eight by eight, by the faces beside them.
+    #[inline]
+    pub(super) fn edge_octets(&self) -> &'a [EdgeOctet] {
+        self.core.edge_octets()
     }
 
     /// Number of faces that have a normal.

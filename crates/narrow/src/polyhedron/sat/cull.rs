@@ -138,7 +138,7 @@ impl<'a, 'b> Sight<'a, 'b> {
             return;
         }
         // Lanes, until it is known which are left.
-        for (place, edges) in self.solid.edge_octets.iter().enumerate() {
+        for (place, edges) in self.solid.edge_octets().iter().enumerate() {
             let mut open = self.sphere.rises(edges, separation);
             if open == NONE_OPEN {
                 continue;
@@ -153,7 +153,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         if self.solid.arcs.len() >= EdgeOctet::SORTED_FROM {
             for edge in into {
                 let lane = *edge as usize;
-                *edge = self.solid.edge_octets[lane / 8].numbers[lane % 8];
+                *edge = self.solid.edge_octets()[lane / 8].numbers[lane % 8];
             }
         }
     }
@@ -170,7 +170,7 @@ impl<'a, 'b> Sight<'a, 'b> {
                 open[lane as usize % 8] = 1;
                 at += 1;
             }
-            let octet = &self.solid.edge_octets[place as usize];
+            let octet = &self.solid.edge_octets()[place as usize];
             open = self.closed_by_points(open, |ball| ball.rises(octet, separation));
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
                 // Of shapes so symmetric that all are as good, none is settled.

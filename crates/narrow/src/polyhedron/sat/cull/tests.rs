@@ -38,7 +38,7 @@ fn normals_beside(solid: &Solid) -> Vec<[DVec3; 2]> {
 /// The lane of each edge.
 fn lanes_of_edges(solid: &Solid) -> Vec<usize> {
     let mut lanes = vec![usize::MAX; solid.arcs.len()];
-    let numbers = solid.edge_octets.iter().flat_map(|octet| octet.numbers);
+    let numbers = solid.edge_octets().iter().flat_map(|octet| octet.numbers);
     for (lane, number) in numbers.enumerate().take(lanes.len()) {
         lanes[number as usize] = lane;
     }
@@ -116,8 +116,9 @@ fn a_sphere_leaves_out_no_face_and_no_edge_that_may_show_enough() {
                         .collect();
                     let possible = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                     let lane = lanes[edge];
-                    let is_open =
-                        |separation: f64| ball.rises(&solid.edge_octets[lane / 8], separation)[lane % 8] != 0;
+                    let is_open = |separation: f64| {
+                        ball.rises(&solid.edge_octets()[lane / 8], separation)[lane % 8] != 0
+                    };
                     assert!(is_open(possible), "case {case}, edge {edge}: {possible} of {sphere:?}");
                     edges.asked += 1;
                     edges.closed += usize::from(!is_open(possible + gap));
