@@ -42,6 +42,7 @@
 //! - [`ground_contacts`]: bodies slide over triangles without noticing; edges and corners give normals of their Voronoi
 //!   regions alone; yes or no, points and depths against a loop over all triangles
 //! - [`persistent`]: manifolds that are moved along are true at the new poses within their error, or refused
+//! - [`persistent_ground`]: the same on triangles, chains apart: within their errors, and what overlaps goes on doing so
 //! - [`creeping`]: worlds whose bodies creep say in every frame what a new world says
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's

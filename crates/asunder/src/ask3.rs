@@ -18,7 +18,7 @@ use core::ops::ControlFlow;
 /// are cleared first; visitors get answers in no promised order, until they break off. A [`Filter3`] says whom a
 /// question may find.
 ///
-/// Cost: the first question makes a tree of all boxes, in 45 ns a body, and it is kept while few bodies move; of
+/// Cost: the first question makes a tree of all boxes, in 50 to 120 ns a body, and it is kept while few bodies move; of
 /// those that have moved since, a second one is made by the first question after an update. Then, a question takes
 /// a walk down both trees, and the narrow phase of every body whose box is met. Once memory is there, nothing
 /// allocates but the caller's lists.

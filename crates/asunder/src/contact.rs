@@ -20,8 +20,9 @@ pub struct Contact<'a, K, M> {
     /// Whether they are further apart than their margins, and here for what their motions may bring: a solver that
     /// lets no point come nearer than its separation allows lets nothing through. Touches nobody until they overlap.
     pub speculative: bool,
-    /// One manifold for each pair of convex parts that touch. Normals point from `a` to `b`. None for a sensor, nor
-    /// for two half-spaces that overlap without end: fix all but one of those, as a level's are, and they never pair.
+    /// One manifold for each pair of convex parts that touch, on ground one for each normal of each part. Normals point
+    /// from `a` to `b`. None for a sensor, nor for two half-spaces that overlap without end: fix all but one of those, as
+    /// a level's are, and they never pair.
     pub manifolds: &'a [M],
 }
 

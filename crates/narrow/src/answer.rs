@@ -116,6 +116,10 @@ pub struct Closest2 {
     pub anchor_a: Vec2,
     /// The point of B, in world axes, relative to B's position.
     pub anchor_b: Vec2,
+    /// Which part of A that is: of a compound its part, of a chain the segment by its number; else 0.
+    pub part_a: u32,
+    /// The same of B.
+    pub part_b: u32,
 }
 
 /// Closest points of two shapes in space that do not overlap.
@@ -131,6 +135,10 @@ pub struct Closest3 {
     pub anchor_a: Vec3,
     /// The point of B, in world axes, relative to B's position.
     pub anchor_b: Vec3,
+    /// Which part of A that is: of a compound its part, of ground the triangle by its number; else 0.
+    pub part_a: u32,
+    /// The same of B.
+    pub part_b: u32,
 }
 
 /// One point of a manifold in the plane.
@@ -168,9 +176,9 @@ pub struct ContactPoint3 {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold2 {
-    /// Which part of A, for shapes made of several; else 0.
+    /// Which part of A, for shapes made of several, and for ground; else 0.
     pub part_a: u32,
-    /// Which part of B, for shapes made of several; else 0.
+    /// Which part of B, for shapes made of several, and for ground; else 0.
     pub part_b: u32,
     /// Unit normal in world axes, from A to B.
     pub normal: Vec2,
@@ -184,12 +192,14 @@ pub struct Manifold2 {
 }
 
 /// How two convex shapes in space touch: one normal, and one to four points, in order of their feature ids.
+///
+/// Of ground, the part is the least triangle of the plane that is touched, or of those that share the normal.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold3 {
-    /// Which part of A, for shapes made of several; else 0.
+    /// Which part of A, for shapes made of several, and for ground; else 0.
     pub part_a: u32,
-    /// Which part of B, for shapes made of several; else 0.
+    /// Which part of B, for shapes made of several, and for ground; else 0.
     pub part_b: u32,
     /// Unit normal in world axes, from A to B.
     pub normal: Vec3,

@@ -6,7 +6,9 @@ use asunder_geometry::glam::{DVec3, Vec3};
 ///
 /// Vertices count as in `vertices()`. Edges of a polyhedron count by their lower half-edge
 /// ([`Topology::edge_of`](asunder_geometry::Topology::edge_of)), edges of a polygon by the vertex they start from.
-/// The edges of a chain are its straight runs, by their first segments ([`Run`](asunder_geometry::Run)).
+/// The edges of a chain are its straight runs, by their first segments ([`Run`](asunder_geometry::Run)). Of meshes and height
+/// fields a face is a plane, by its least triangle; an edge counts by the lower of its half-edges, of which triangle `t` has
+/// `3 t` to `3 t + 2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Feature {

@@ -31,9 +31,9 @@ pub struct Impact3 {
     pub anchor_a: Vec3,
     /// Where they meet on B, in world axes, relative to B's position at the impact.
     pub anchor_b: Vec3,
-    /// Which part of A, for shapes made of several; else 0.
+    /// Which part of A, for shapes made of several, and for ground; else 0.
     pub part_a: u32,
-    /// Which part of B, for shapes made of several; else 0.
+    /// Which part of B, for shapes made of several, and for ground; else 0.
     pub part_b: u32,
 }
 
@@ -59,6 +59,6 @@ pub struct RayHit3 {
     pub normal: Vec3,
     /// The ray starts in the shape, or touches it there, exactly: then the distance is 0.
     pub inside: bool,
-    /// Which part of a shape made of several; else 0.
+    /// Which part of a shape made of several, or which triangle of ground; else 0.
     pub part: u32,
 }

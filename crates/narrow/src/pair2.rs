@@ -187,6 +187,8 @@ impl<'a> Pair2<'a> {
             normal: near.normal.as_vec2(),
             anchor_a: place.anchor_a(on_a),
             anchor_b: place.anchor_b(on_b),
+            part_a: place.indices[0],
+            part_b: place.indices[1],
         })
     }
 

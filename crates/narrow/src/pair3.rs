@@ -61,7 +61,8 @@ pub struct Pair3<'a> {
 
 /// Two convex parts in the frame of the first, and the way back from there.
 pub(crate) struct Parts<'a> {
-    indices: [u32; 2],
+    /// Their numbers in their bodies.
+    pub(crate) indices: [u32; 2],
     /// A's axes in the world, or those of a cuboid that A is a ball beside.
     pub(crate) basis: Basis3,
     /// Each part's origin less its body's position, in world axes.
@@ -211,6 +212,8 @@ impl<'a> Pair3<'a> {
             normal: parts.basis.turn(near.normal).as_vec3(),
             anchor_a: parts.anchor_a(on_a),
             anchor_b: parts.anchor_b(on_b),
+            part_a: parts.indices[0],
+            part_b: parts.indices[1],
         })
     }
 

@@ -101,6 +101,11 @@ fn questions_see_chains() {
     assert!(world.cast_ray(&up, 100.0, &filter).is_none(), "from behind");
     let near = world.closest([90.0, 9.0], 10.0, &filter).unwrap();
     assert!(near.body == ground && (near.distance - 2.0).abs() < 1e-5, "{near:?}");
+    let Shape2::Chain(chain) = world.get(ground).unwrap().shape() else { panic!("it is one") };
+    let [from, to] = chain.segment(near.part).unwrap().ends();
+    assert!((to.x..=from.x).contains(&-10.0), "it names the segment below: {near:?}");
+    let hung = world.closest_to_shape((&Circle::new(0.5).unwrap().into(), &at(90.0, 9.0)), 10.0, &filter);
+    assert_eq!(hung.unwrap().part, near.part);
     let ball = Shape2::from(Circle::new(0.5).unwrap());
     let mut found = Vec::new();
     for (y, count) in [(7.4, 1), (7.6, 0), (6.6, 1)] {

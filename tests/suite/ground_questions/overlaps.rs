@@ -134,6 +134,15 @@ fn closest_points_lie_on_both_and_are_as_far_apart_as_told() {
         if !body.outer_radius().is_finite() {
             return;
         }
+        // The triangle that is named is as near as any, whichever body comes first.
+        let turned = Pair3::new(ground, at, body, pose).distance().unwrap();
+        let all = triangles(ground);
+        for (part, error) in [(closest.part_b, closest.error), (turned.part_a, turned.error)] {
+            let named = &all.iter().find(|(number, _)| *number == part).unwrap().1;
+            let named = measured(&Pair3::new(body, pose, named, at));
+            let slack = f64::from(error) + f64::from(named.error);
+            assert!(f64::from(named.separation) - least <= slack, "{told}: {closest:?}");
+        }
         let [on_a, on_b] =
             [pose.position() + closest.anchor_a.as_dvec3(), at.position() + closest.anchor_b.as_dvec3()];
         // Anchors are f32, relative to each body's own position.

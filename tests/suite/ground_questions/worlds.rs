@@ -33,7 +33,7 @@ fn world_ground(world: &World3) -> (&Shape3, &Pose3) {
 
 #[test]
 fn every_question_sees_ground_as_a_loop_over_bodies_does() {
-    let (mut rays, mut casts, mut over, mut near) = (0, 0, 0, 0);
+    let (mut rays, mut casts, mut over, mut near, mut parts) = (0, 0, 0, 0, 0);
     for seed in 0..40 {
         let (world, mut random) = world(seed);
         let all = Filter3::new();
@@ -90,6 +90,11 @@ fn every_question_sees_ground_as_a_loop_over_bodies_does() {
             let off = (closest.point - closest.from).length();
             assert!(closest.overlapping || (off - closest.distance).abs() < 1e-5, "{seed}: {closest:?}");
             near += usize::from(!closest.overlapping);
+            let nearest = world.get(closest.body).unwrap();
+            if let Some(found) = Pair3::new(&body, &pose, nearest.shape(), nearest.pose()).distance() {
+                assert_eq!(closest.part, found.part_b, "{seed}: {closest:?}");
+                parts += usize::from(found.part_b > 0);
+            }
 
             let to_point = world.closest(place, 100.0, &all).unwrap();
             let point = Pose3::at(place).unwrap();
@@ -106,7 +111,8 @@ fn every_question_sees_ground_as_a_loop_over_bodies_does() {
             assert!(to_point.overlapping || (to_point.distance - least).abs() < 1e-6, "{to_point:?} {least}");
         }
     }
-    assert!(rays > 300 && casts > 150 && over > 150 && near > 100, "{rays} {casts} {over} {near}");
+    assert!(rays > 300 && casts > 150 && over > 150, "{rays} {casts} {over}");
+    assert!(near > 100 && parts > 50, "{near} {parts}");
 }
 
 #[test]

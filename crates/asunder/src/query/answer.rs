@@ -21,7 +21,7 @@ pub struct RayAnswer<K, N, P> {
     pub normal: N,
     /// Whether the ray starts in the body; touching counts. Exact.
     pub inside: bool,
-    /// Which part of the body, for a compound; else 0.
+    /// Which part of the body: of a compound its part, of ground the triangle, of a chain the segment; else 0.
     pub part: u32,
 }
 
@@ -49,9 +49,9 @@ pub struct CastAnswer<K, N, P> {
     pub point: P,
     /// Where they meet, on the moved shape, in world axes, relative to its position then, in metres.
     pub anchor: N,
-    /// Which part of the body, for a compound; else 0.
+    /// Which part of the body: of a compound its part, of ground the triangle, of a chain the segment; else 0.
     pub part: u32,
-    /// Which part of the moved shape, for a compound; else 0.
+    /// Which part of the moved shape, where that is a compound; else 0.
     pub part_of_moved: u32,
 }
 
@@ -80,6 +80,10 @@ pub struct NearAnswer<K, N, P> {
     /// The point of the body that is closest to it, in metres. Where a point is in the body, that point; where
     /// shapes overlap, both points are those of their deepest contact (of two half-spaces, the asked one's position).
     pub point: P,
+    /// Which part of the body that point is of: of a compound its part, of ground the triangle, of a chain the segment; else 0,
+    /// as where the body holds the point that was asked about. Where shapes overlap, as the manifold of their deepest contact
+    /// has it.
+    pub part: u32,
 }
 
 /// A body of a [`World2`](crate::World2) near a point or a shape.

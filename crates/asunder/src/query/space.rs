@@ -67,12 +67,13 @@ impl Asked for Plane {
             |anchor_a: Vec2, anchor_b: Vec2| (here + anchor_a.as_dvec2(), there + anchor_b.as_dvec2());
         if let Some(closest) = pair.distance() {
             let (from, point) = place(closest.anchor_a, closest.anchor_b);
-            let (error, normal) = (closest.error, closest.normal);
+            let (error, normal, part) = (closest.error, closest.normal, closest.part_b);
             let distance = closest.distance.into();
-            return NearAnswer { body: key, distance, error, overlapping: false, normal, from, point };
+            return NearAnswer { body: key, distance, error, overlapping: false, normal, from, point, part };
         }
         let is_point = matches!(shape, Shape2::Circle(Circle::POINT));
         let deepest = if is_point { None } else { pair.manifold(0.0) };
+        let part = deepest.as_ref().map_or(0, |manifold| manifold.part_b);
         let points = deepest.as_ref().map_or(&[][..], |manifold| &manifold.points);
         let deepest = points.iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
         let (from, point) = deepest.map_or((here, here), |deepest| place(deepest.anchor_a, deepest.anchor_b));
@@ -84,6 +85,7 @@ impl Asked for Plane {
             normal: Vec2::ZERO,
             from,
             point,
+            part,
         }
     }
 
@@ -143,12 +145,13 @@ impl Asked for Volume {
             |anchor_a: Vec3, anchor_b: Vec3| (here + anchor_a.as_dvec3(), there + anchor_b.as_dvec3());
         if let Some(closest) = pair.distance() {
             let (from, point) = place(closest.anchor_a, closest.anchor_b);
-            let (error, normal) = (closest.error, closest.normal);
+            let (error, normal, part) = (closest.error, closest.normal, closest.part_b);
             let distance = closest.distance.into();
-            return NearAnswer { body: key, distance, error, overlapping: false, normal, from, point };
+            return NearAnswer { body: key, distance, error, overlapping: false, normal, from, point, part };
         }
         let is_point = matches!(shape, Shape3::Sphere(Sphere::POINT));
         let deepest = if is_point { None } else { pair.manifold(0.0) };
+        let part = deepest.as_ref().map_or(0, |manifold| manifold.part_b);
         let points = deepest.as_ref().map_or(&[][..], |manifold| &manifold.points);
         let deepest = points.iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
         let (from, point) = deepest.map_or((here, here), |deepest| place(deepest.anchor_a, deepest.anchor_b));
@@ -160,6 +163,7 @@ impl Asked for Volume {
             normal: Vec3::ZERO,
             from,
             point,
+            part,
         }
     }
 

@@ -38,6 +38,7 @@ const MOST_WAITING: usize = 16;
 
 /// What is told of the triangle that is nearest.
 struct Told {
+    parts: [u32; 2],
     separation: f32,
     normal: Vec3,
     closest: Option<[Vec3; 2]>,
@@ -143,7 +144,8 @@ impl Pair3<'_> {
     pub(crate) fn distance_on(&self, on: &OnGround) -> Option<Closest3> {
         let (told, error) = self.nearest_on(on, f64::INFINITY, Wanted::Closest).ok()?;
         let [anchor_a, anchor_b] = told.closest?;
-        Some(Closest3 { distance: told.separation, error, normal: told.normal, anchor_a, anchor_b })
+        let Told { parts: [part_a, part_b], separation: distance, normal, .. } = told;
+        Some(Closest3 { distance, error, normal, anchor_a, anchor_b, part_a, part_b })
     }
 
     /// The part and triangle with the least separation and the error that covers all others, or a bound where all are
@@ -247,6 +249,7 @@ impl Asker<'_> {
 
 fn told(parts: &Parts, near: &Near) -> Told {
     Told {
+        parts: parts.indices,
         separation: near.separation,
         normal: parts.basis.turn(near.normal).as_vec3(),
         closest: near.closest.map(|[on_a, on_b]| [parts.anchor_a(on_a), parts.anchor_b(on_b)]),

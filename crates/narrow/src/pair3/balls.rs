@@ -129,7 +129,7 @@ pub(super) trait Told {
         }
         let Measured3 { separation: distance, error, normal } = self.measured(false);
         let [anchor_a, anchor_b] = self.anchors();
-        Some(Closest3 { distance, error, normal, anchor_a, anchor_b })
+        Some(Closest3 { distance, error, normal, anchor_a, anchor_b, part_a: 0, part_b: 0 })
     }
 
     /// Whether they overlap, if they are within the margin; the manifold goes where it is wanted.

@@ -155,7 +155,10 @@ fn both_orders_mirror_each_other() {
             normal: -closest.normal,
             anchor_a: closest.anchor_b,
             anchor_b: closest.anchor_a,
-            ..closest
+            part_a: closest.part_b,
+            part_b: closest.part_a,
+            distance: closest.distance,
+            error: closest.error,
         });
         assert_eq!(pair.distance(), turned, "{case:?}");
         if let Some(manifold) = pair.manifold(0.0) {
