@@ -33,7 +33,9 @@ pub(super) struct Rim {
     from: DVec3,
     /// As long as the side.
     inwards: DVec3,
-    /// How far inside a point must be, times the side's length.
+    /// No less than the side's length.
+    length: f64,
+    /// How far inside a point must be, times that.
     least: f64,
 }
 
@@ -42,6 +44,12 @@ impl Rim {
     #[inline]
     pub(super) fn holds(&self, point: DVec3) -> bool {
         self.inwards.dot(point - self.from) >= self.least
+    }
+
+    /// The same of one that may be so many metres more beside it.
+    #[inline]
+    pub(super) fn holds_by(&self, point: DVec3, more: f64) -> bool {
+        self.inwards.dot(point - self.from) >= self.least - more * self.length
     }
 
     /// Whether it is on the other side, by however little.
@@ -262,7 +270,8 @@ impl Facet {
     pub(super) fn rim(&self, edge: usize, slack: f64) -> Rim {
         let (from, along) = self.edge(edge);
         // The sum of absolute values bounds the length, and needs no root.
-        Rim { from, inwards: self.inwards(along), least: -slack * along.abs().element_sum() }
+        let length = along.abs().element_sum();
+        Rim { from, inwards: self.inwards(along), length, least: -slack * length }
     }
 
     /// The feature that reaches furthest in a unit direction; corners within the tolerance of it count as far.
@@ -382,7 +391,22 @@ impl Facet {
         let front = if self.is_front { self.normal } else { -self.normal };
         is_same(front, cross)
     }
+
+    /// Whether ground goes on behind any half-edge, and bends by more than rounding, though too low to give a normal.
+    pub(super) fn bends_low(&self, ground: Ground) -> bool {
+        (0..3).any(|edge| {
+            self.goes_on(ground, edge)
+                && ground.neighbor(self.number, edge).is_some_and(|(other, _)| {
+                    let beyond = front_of(ground.corners(other));
+                    let sine = beyond.cross(self.normal);
+                    sine.length_squared() > LEAST_BEND * LEAST_BEND * beyond.length_squared()
+                })
+        })
+    }
 }
+
+/// Sine below which a bend is the rounding of the normals beside it.
+const LEAST_BEND: f64 = 1e-14;
 
 /// Corners in f64. Not by `map`: a kernel's arrays stay in registers only without its calls.
 #[inline(always)]

@@ -202,6 +202,11 @@ impl Group {
     fn add(&mut self, pin: Pin, [slack, even]: [f64; 2]) {
         if let Some(place) = self.pins.iter().position(|known| known.is_same_as(&pin, slack)) {
             let known = &self.pins[place];
+            // One of them goes; how near it is stays.
+            let nearer = if pin.separation < known.separation { &pin } else { known };
+            if nearer.separation < self.told[0] {
+                self.told = [nearer.separation, nearer.doubt];
+            }
             let is_deeper = pin.separation < known.separation - slack;
             let is_as_deep = pin.separation <= known.separation + slack;
             if is_deeper || (is_as_deep && pin.rank() < known.rank()) {

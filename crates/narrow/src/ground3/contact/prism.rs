@@ -15,13 +15,14 @@
 //! every step.
 
 use super::ball::nearest_to;
-use super::facet::{Facet, edge_number};
+use super::facet::{Facet, Rim, edge_number};
 use super::groups::{Base, Groups, Pin};
 use super::standing::{Extent, Standing};
 use crate::feature::Feature;
 use crate::polyhedron::manifold::opposed_face;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::FLAT;
 use asunder_geometry::{Cuboid, Ground, Shape3};
 use core::cell::Cell;
 
@@ -256,19 +257,25 @@ impl Prism<'_> {
         let mut add = |vertex: usize| {
             let core = standing.point(vertex);
             let height = facet.height(core);
-            let (at, separation) = if height <= deep {
-                (core - facet.normal * standing.radius, height - standing.radius)
+            let (at, separation, up) = if height <= deep {
+                (core - facet.normal * standing.radius, height - standing.radius, height)
             } else if let Some(outwards) = incident.outwards {
                 // What is less deep belongs to a tilted face, and lies out along its normal.
                 let at = core + outwards * standing.radius;
-                (at, facet.height(at))
+                let separation = facet.height(at);
+                (at, separation, separation)
             } else {
                 return;
             };
-            if separation <= self.reach && rims.iter().all(|rim| rim.holds(at)) {
+            // Over a bend too low to give a normal what is nearest may be beside both its triangles, the further up the more.
+            let up = up.max(0.0);
+            let is_over = |(edge, rim): (usize, &Rim)| {
+                rim.holds(at) || rim.holds_by(at, FLAT * up) && facet.goes_on(self.ground, edge)
+            };
+            if separation <= self.reach && rims.iter().enumerate().all(is_over) {
                 let mut pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
                 if rims.iter().any(|rim| rim.is_beyond(at)) {
-                    pin.doubt += self.overhang(&pin);
+                    pin.doubt += self.overhang(&pin, up);
                 }
                 is_any |= self.add_pin(pin, base, groups);
             }
@@ -283,12 +290,11 @@ impl Prism<'_> {
         is_any
     }
 
-    /// What the height of a point may be off by that is over the triangle only by the slack, in metres: of a gap hardly
-    /// anything, in overlap as much as it is beside it.
-    fn overhang(&self, pin: &Pin) -> f64 {
+    /// What the height of a point may be off by that is over the triangle only by the slack, in metres, and is so far up, or the
+    /// vertex is that it rounds: of a gap hardly anything, of a sharp corner in overlap as much as it is beside it.
+    fn overhang(&self, pin: &Pin, up: f64) -> f64 {
         let aside = (pin.on_ground - nearest_to(self.facet, pin.on_ground).1).length();
-        let gap = pin.separation.max(0.0);
-        (gap * gap + aside * aside).sqrt() - gap
+        (up * up + aside * aside).sqrt() - up
     }
 
     /// Adds the ends of the span that the part's face covers of a side of the triangle, as seen along the normal; `over` is a

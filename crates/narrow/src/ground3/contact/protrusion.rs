@@ -3,6 +3,7 @@
 //! ```text
 //! a triangle that speaks by its own normal tells of what stands over it, and where ground ends or bends; of a ridge too low
 //!     for that, on which a face rests, the points that are told are beside it, and lower
+//! of those with such a bend:
 //! but over a plane ground rises by no more than the sine of its slope times the way: that of all of it against the normal told,
 //!     times the part's diameter, is the most that it may hide
 //! and the part is no nearer to a triangle than its lowest vertex is over its plane,
@@ -10,7 +11,8 @@
 //! ```
 //! The lesser of both goes into the error. On a plane it is nothing, on one that was turned as a whole, so that its corners are
 //! rounded, some 1e-8 of a body, and never more than the tolerance for normals makes of it. What lies further off along the same
-//! normal is other ground, as a stair beside the one that a crate stands on.
+//! normal is other ground, as a stair beside the one that a crate stands on. Many low bends in a row, which add up to more than that
+//! tolerance under one body, are not seen.
 
 use super::Known;
 use super::facet::is_same;
@@ -44,9 +46,12 @@ fn sine(one: DVec3, other: DVec3) -> f64 {
 }
 
 impl Known {
-    /// Takes note of how near a triangle can be.
+    /// Takes note of how near a triangle can be, if it has a bend too low to give a normal.
     pub(super) fn note_level(&mut self, prism: &Prism) {
         let standing = prism.standing;
+        if !prism.facet.bends_low(prism.ground) {
+            return;
+        }
         let mut least = prism.extent.low - standing.radius;
         if let Some(incident) = &self.incident
             && let Some(outwards) = incident.outwards
