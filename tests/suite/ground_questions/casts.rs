@@ -23,18 +23,38 @@ fn cast_case(kind: usize, round: usize) -> (Case3, Vec3) {
     (Case3 { shape_a: body, pose_a: pose, shape_b: ground, pose_b: at }, moved.as_vec3())
 }
 
-/// The first touch of any triangle.
-fn slowly(case: &Case3, motions: &[Motion3; 2]) -> Option<Impact3> {
-    let mut first: Option<Impact3> = None;
-    for (_, triangle) in triangles(&case.shape_b) {
-        let pair = Pair3::new(&case.shape_a, &case.pose_a, &triangle, &case.pose_b);
-        if let Some(impact) = pair.impact(&motions[0], &motions[1])
-            && first.is_none_or(|known| impact.fraction < known.fraction)
-        {
-            first = Some(impact);
+/// A triangle that is touched when it is alone: its number, itself, and when.
+type Touched = (u32, Shape3, Impact3);
+
+/// Every triangle that is touched, the first touched first.
+fn slowly(course: &Course) -> Vec<Touched> {
+    let Case3 { shape_a, pose_a, shape_b, pose_b } = course.case;
+    let [of_body, of_ground] = &course.motions;
+    let mut touched: Vec<Touched> = triangles(shape_b)
+        .into_iter()
+        .filter_map(|(number, triangle)| {
+            let impact = Pair3::new(shape_a, pose_a, &triangle, pose_b).impact(of_body, of_ground)?;
+            Some((number, triangle, impact))
+        })
+        .collect();
+    touched.sort_by(|one, other| one.2.fraction.total_cmp(&other.2.fraction));
+    touched
+}
+
+/// The numbers of the triangles that may be the first: those that are touched as early as the first of all, or are as near
+/// as touching when that is, as far as the errors tell.
+fn first_of(course: &Course, touched: &[Touched]) -> Vec<u32> {
+    let Some((.., first)) = touched.first() else { return vec![] };
+    let Case3 { shape_a, pose_a, pose_b, .. } = course.case.clone();
+    let is_first = |(_, triangle, own): &&Touched| {
+        let alone = Case3 { shape_a: shape_a.clone(), pose_a, shape_b: triangle.clone(), pose_b };
+        let alone = Course { case: &alone, motions: course.motions };
+        own.fraction == first.fraction || {
+            let (separation, error) = alone.separation(first.fraction);
+            separation - error <= f64::from(own.error + first.error) + course.rounding()
         }
-    }
-    first
+    };
+    touched.iter().filter(is_first).map(|(number, ..)| *number).collect()
 }
 
 /// All that must hold of an impact on ground, or of there being none.
@@ -86,7 +106,7 @@ fn compare(course: &Course, ours: Option<Impact3>, slow: Option<Impact3>, told: 
 
 #[test]
 fn what_moves_is_stopped_where_the_first_triangle_stops_it() {
-    let (mut hits, mut misses, mut starts, mut differ) = (0, 0, 0, 0);
+    let (mut hits, mut misses, mut starts, mut differ, mut alone) = (0, 0, 0, 0, 0);
     for (kind, (name, _)) in KINDS3.iter().enumerate() {
         for round in 0..48 {
             let (case, moved) = cast_case(kind, round);
@@ -96,24 +116,34 @@ fn what_moves_is_stopped_where_the_first_triangle_stops_it() {
             let pair = Pair3::new(&case.shape_a, &case.pose_a, &case.shape_b, &case.pose_b);
             let impact = pair.cast(moved);
             check(&course, impact, &told);
-            differ += usize::from(!compare(&course, impact, slowly(&case, &course.motions), &told));
+            let touched = slowly(&course);
+            differ += usize::from(!compare(&course, impact, touched.first().map(|first| first.2), &told));
             // The ground may be what moves.
             let back = Pair3::new(&case.shape_b, &case.pose_b, &case.shape_a, &case.pose_a).cast(-moved);
             assert_eq!(back.is_some(), impact.is_some(), "{told}");
-            match impact {
-                None => misses += 1,
-                Some(impact) if impact.overlapping => starts += 1,
-                Some(_) => hits += 1,
+            let (Some(impact), Some(back)) = (impact, back) else {
+                misses += 1;
+                continue;
+            };
+            if impact.overlapping {
+                starts += 1;
+                continue;
             }
+            hits += 1;
+            let may_be = first_of(&course, &touched);
+            assert!(may_be.contains(&impact.part_b), "{told}: {may_be:?} {impact:?}");
+            assert!(may_be.contains(&back.part_a), "{told}: {may_be:?} {back:?}, the ground moves");
+            alone += usize::from(may_be.len() == 1 && touched.len() > 1);
         }
     }
     assert!(hits > 120 && misses > 60 && starts > 60, "{hits} {misses} {starts}");
     assert!(differ * 20 < hits, "{differ} of {hits} differ");
+    assert!(alone > 80, "of {hits}, {alone} could be but one triangle of several that are touched");
 }
 
 #[test]
 fn what_turns_is_stopped_where_the_first_triangle_stops_it() {
-    let (mut hits, mut misses) = (0, 0);
+    let (mut hits, mut misses, mut alone) = (0, 0, 0);
     for (kind, (name, _)) in KINDS3.iter().enumerate() {
         for round in 0..18 {
             let (case, moved) = cast_case(kind, round);
@@ -131,12 +161,20 @@ fn what_turns_is_stopped_where_the_first_triangle_stops_it() {
             let pair = Pair3::new(&case.shape_a, &case.pose_a, &case.shape_b, &case.pose_b);
             let impact = pair.impact(&turning, &of_ground);
             check(&course, impact, &told);
-            compare(&course, impact, slowly(&case, &course.motions), &told);
-            hits += usize::from(impact.is_some_and(|impact| !impact.overlapping));
+            let touched = slowly(&course);
+            compare(&course, impact, touched.first().map(|first| first.2), &told);
             misses += usize::from(impact.is_none());
+            let Some(impact) = impact.filter(|impact| !impact.overlapping) else { continue };
+            hits += 1;
+            let may_be = first_of(&course, &touched);
+            assert!(may_be.contains(&impact.part_b), "{told}: {may_be:?} {impact:?}");
+            let back = Pair3::new(&case.shape_b, &case.pose_b, &case.shape_a, &case.pose_a);
+            let back = back.impact(&of_ground, &turning).unwrap();
+            assert!(may_be.contains(&back.part_a), "{told}: {may_be:?} {back:?}, the ground first");
+            alone += usize::from(may_be.len() == 1 && touched.len() > 1);
         }
     }
-    assert!(hits > 40 && misses > 15, "{hits} {misses}");
+    assert!(hits > 40 && misses > 15 && alone > 25, "{hits} {misses} {alone}");
 }
 
 fn one_sided_floor() -> Shape3 {
@@ -316,6 +354,18 @@ fn ground_that_moves_meets_ground() {
         assert!(Ground::of(&case.shape_a).is_some());
         if impact.is_none_or(|impact| !impact.overlapping) {
             check(&course, impact, &format!("{seed}"));
+        }
+        if let Some(impact) = impact.filter(|impact| !impact.overlapping) {
+            // The two triangles that are named are those that meet.
+            let [one, other] = [(&case.shape_a, impact.part_a), (&case.shape_b, impact.part_b)]
+                .map(|(ground, number)| Ground::of(ground).unwrap().triangle(number).unwrap().into());
+            let two = Case3 { shape_a: one, pose_a: case.pose_a, shape_b: other, pose_b: case.pose_b };
+            let (separation, error) =
+                Course { case: &two, motions: course.motions }.separation(impact.fraction);
+            assert!(
+                separation - error <= f64::from(impact.error) + course.rounding(),
+                "{seed}: {separation} {impact:?}"
+            );
         }
         hits += usize::from(impact.is_some());
     }
