@@ -4,8 +4,8 @@
 //! speed and its height.
 
 use super::scenes::{BODIES, FLATS, Random, baked, body, flat, rest_height};
-use asunder_geometry::glam::{DVec3, Quat, Vec3};
-use asunder_geometry::{Pose3, Shape3, TriMesh};
+use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
+use asunder_geometry::{Cuboid, HeightField, Pose3, Shape3, TriMesh};
 use asunder_narrow::{Feature, Manifold3, Pair3};
 
 /// Of the height and of the velocity, as a share of the body's size and of the speed.
@@ -16,12 +16,12 @@ const UPRIGHT: f64 = 1.745e-4;
 
 const STEP: f64 = 1.0 / 60.0;
 
-/// A body that slides on a mesh, both in a world whose up is the ground's y axis.
+/// A body that slides on a plane, both in a world whose up is the ground's y axis.
 struct Slide {
     shape: Shape3,
     ground: Shape3,
     ground_pose: Pose3,
-    /// The mesh's own up.
+    /// The ground's own up.
     up: DVec3,
     /// Where the plane is along it.
     level: f64,
@@ -134,42 +134,97 @@ fn about_y(tangent: f64) -> Quat {
     Quat::from_xyzw(0.0, tangent as f32, 0.0, 1.0)
 }
 
+/// Ground in one plane.
+#[derive(Clone)]
+struct Plane {
+    ground: Shape3,
+    pose: Pose3,
+    /// Its own up.
+    up: DVec3,
+    /// Where it is along that.
+    level: f64,
+    middle: DVec3,
+    is_one_patch: bool,
+}
+
+impl Plane {
+    /// A body that stands on it, turned so far about its up and beside its middle by so much, and slides.
+    fn slide(self, (shape, rest): (Shape3, f64), turn: Quat, beside: DVec3, velocity: DVec3) -> Slide {
+        let Self { ground, pose, up, level, middle, is_one_patch } = self;
+        // What the ground was turned by, if its vertices were.
+        let upright = Quat::from_rotation_arc(Vec3::Y, up.as_vec3().normalize());
+        let start = middle + up * (level - middle.dot(up));
+        Slide {
+            shape,
+            ground,
+            ground_pose: pose,
+            up,
+            level,
+            turn: (upright * turn).normalize(),
+            rest,
+            position: start + up * rest + beside,
+            velocity,
+            ground_is_b: true,
+            is_one_patch,
+        }
+    }
+}
+
+/// A body slides anyhow over a plane.
+fn slide_anyhow(plane: Plane, kind: usize, round: usize, random: &mut Random, what: &str) {
+    let up = plane.up;
+    let turn = about_y(random.between(-2.0, 2.0));
+    let speed = [0.01, 1.0, 7.0, 20.0][round];
+    let across = {
+        let heading = random.vector();
+        (heading - up * heading.dot(up)).normalize()
+    };
+    let slide_it = plane.slide((body(kind), rest_height(kind)), turn, across * -0.4, across * speed);
+    let steps = ((0.9 / (speed * STEP)) as usize).clamp(6, 60);
+    slide(
+        Slide { ground_is_b: random.below(2) == 0, ..slide_it },
+        steps,
+        &format!("{what}, body {kind}, round {round}"),
+    );
+}
+
 fn over_flats(place: impl Fn(&mut Random, TriMesh) -> (TriMesh, Pose3, DVec3), seed: u128) {
     let mut random = Random::new(seed);
     for way in 0..FLATS {
         for kind in 0..BODIES - 1 {
             for round in 0..4 {
-                let (mesh, ground_pose, up) = place(&mut random, flat(way));
+                let (mesh, pose, up) = place(&mut random, flat(way));
                 let mesh = if round % 2 == 0 { mesh.one_sided() } else { mesh };
-                let rest = rest_height(kind);
-                let level = mesh.vertices()[0].as_dvec3().dot(up);
-                // What the mesh was turned by, if its vertices were.
-                let upright = Quat::from_rotation_arc(Vec3::Y, up.as_vec3().normalize());
-                let turn = (upright * about_y(random.between(-2.0, 2.0))).normalize();
-                let speed = [0.01, 1.0, 7.0, 20.0][round];
-                let across = {
-                    let heading = random.vector();
-                    (heading - up * heading.dot(up)).normalize()
-                };
-                let start = mesh.center().as_dvec3() + up * (level - mesh.center().as_dvec3().dot(up));
-                let slide_it = Slide {
-                    shape: body(kind),
-                    ground: mesh.into(),
-                    ground_pose,
+                let plane = Plane {
+                    pose,
                     up,
-                    level,
-                    turn,
-                    rest,
-                    position: start + up * rest - across * 0.4,
-                    velocity: across * speed,
-                    ground_is_b: random.below(2) == 0,
+                    level: mesh.vertices()[0].as_dvec3().dot(up),
+                    middle: mesh.center().as_dvec3(),
                     // Rounded, a triangle of 20 m by 2 cm may lean by 1e-4.
                     is_one_patch: way != 3 || up == DVec3::Y,
+                    ground: mesh.into(),
                 };
-                let steps = ((0.9 / (speed * STEP)) as usize).clamp(6, 60);
-                slide(slide_it, steps, &format!("way {way}, body {kind}, round {round}"));
+                slide_anyhow(plane, kind, round, &mut random, &format!("way {way}"));
             }
         }
+    }
+}
+
+/// A height field in one plane: how far it goes on along x and along z from one vertex to the next.
+fn field(cells: [usize; 2], [along, across]: [DVec3; 2], pose: Pose3) -> Plane {
+    let height = |column: usize, row: usize| along.y * column as f64 + across.y * row as f64;
+    let heights: Vec<f32> =
+        (0..=cells[1]).flat_map(|row| (0..=cells[0]).map(move |column| height(column, row) as f32)).collect();
+    let cell = Vec2::new(along.x as f32, across.z as f32);
+    let field = HeightField::new(cells[0] + 1, cells[1] + 1, heights, cell).unwrap();
+    let middle = field.center().as_dvec3();
+    Plane {
+        ground: field.into(),
+        pose,
+        up: across.cross(along).normalize(),
+        level: 0.0,
+        middle,
+        is_one_patch: true,
     }
 }
 
@@ -199,4 +254,81 @@ fn with_vertices_turned_and_rounded_it_does_the_same() {
         },
         3,
     );
+}
+
+#[test]
+fn on_a_height_field_it_does_the_same_level_tilted_and_turned() {
+    let mut random = Random::new(4);
+    let ways: [([usize; 2], [DVec3; 2]); 4] = [
+        ([16, 16], [DVec3::new(0.5, 0.0, 0.0), DVec3::new(0.0, 0.0, 0.5)]),
+        // Triangles a thousand times as long as wide.
+        ([2, 320], [DVec3::new(20.0, 0.0, 0.0), DVec3::new(0.0, 0.0, 0.02)]),
+        // Tilted, by heights that are not rounded.
+        ([16, 16], [DVec3::new(0.5, 0.25, 0.0), DVec3::new(0.0, -0.125, 0.5)]),
+        // And by such that are, as places are.
+        ([20, 16], [DVec3::new(0.41, 0.3, 0.0), DVec3::new(0.0, 0.17, 0.53)]),
+    ];
+    for (way, (cells, steps)) in ways.into_iter().enumerate() {
+        for kind in 0..BODIES - 1 {
+            for round in 0..8 {
+                let pose = match round / 4 {
+                    0 => Pose3::IDENTITY,
+                    _ => Pose3::new(random.vector() * 1e6, random.rotation()).unwrap(),
+                };
+                let mut plane = field(cells, steps, pose);
+                if let (Shape3::HeightField(field), true) = (&plane.ground, round % 2 == 0) {
+                    plane.ground = field.clone().one_sided().into();
+                }
+                slide_anyhow(plane, kind, round % 4, &mut random, &format!("field {way}, {}", round / 4));
+            }
+        }
+    }
+}
+
+/// Chances are that no direction drawn at random runs along a seam, and no side of a body lies over one.
+#[test]
+fn along_seams_square_to_them_and_with_sides_right_over_them_it_does_the_same() {
+    let level = [DVec3::X * 0.5, DVec3::Z * 0.5];
+    // Sides of 3, 4 and 5: squares of 0.625 m by 0.5.
+    let tilted = [DVec3::new(0.5, 0.375, 0.0), DVec3::Z * 0.5];
+    let mesh = Plane {
+        ground: flat(0).into(),
+        pose: Pose3::IDENTITY,
+        up: DVec3::Y,
+        level: 0.0,
+        middle: DVec3::ZERO,
+        is_one_patch: true,
+    };
+    let turned = Pose3::new(DVec3::new(-3e5, 1e4, 7e5), Quat::from_xyzw(0.3, -0.5, 0.1, 0.8)).unwrap();
+    let grounds = [
+        ("mesh", level, mesh),
+        ("field", level, field([16; 2], level, Pose3::IDENTITY)),
+        ("field, turned", level, field([16; 2], level, turned)),
+        ("field, tilted", tilted, field([16; 2], tilted, Pose3::IDENTITY)),
+    ];
+    for (name, [along, across], plane) in grounds {
+        // Two squares long and one wide.
+        let half = Vec3::new(along.length() as f32, 0.25, 0.5 * across.length() as f32);
+        let block: Shape3 = Cuboid::from_half_extents(half).unwrap().into();
+        let kinds = (0..BODIES - 1).map(|kind| (body(kind), rest_height(kind)));
+        for (kind, standing) in [(block, 0.25)].into_iter().chain(kinds).enumerate() {
+            for way in [along, -across, along + across, across - along] {
+                // As it is, a quarter turn, and half of that: along seams, and along the diagonals of squares.
+                for (turn, tangent) in [0.0, 1.0, core::f64::consts::SQRT_2 - 1.0].into_iter().enumerate() {
+                    // Of squares: over a vertex, with all sides of a long block over seams, and anywhere.
+                    for [u, v] in [[0.0, 0.0], [0.0, 0.5], [0.5, 0.0], [0.3, 0.4]] {
+                        let beside = along * u + across * v - way;
+                        // An eighth of a square a step, so that steps end over seams, too.
+                        let slide_it = plane.clone().slide(
+                            standing.clone(),
+                            about_y(tangent),
+                            beside,
+                            way * (0.125 / STEP),
+                        );
+                        slide(slide_it, 17, &format!("{name}, body {kind}, {way}, turn {turn}, {u} {v}"));
+                    }
+                }
+            }
+        }
+    }
 }
