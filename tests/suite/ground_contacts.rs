@@ -5,6 +5,7 @@ mod beyond;
 mod brute;
 mod curves;
 mod edges;
+mod fields;
 mod order;
 mod rims;
 mod scenes;

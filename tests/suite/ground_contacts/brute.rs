@@ -1,9 +1,9 @@
 //! Everything that is told of a contact on ground, against a loop over all triangles.
 
-use super::scenes::{BODIES, Random, body, flat, grid, mesh, sees, stick, triangle};
-use asunder_geometry::glam::{DVec3, Quat, Vec3};
+use super::scenes::{BODIES, Random, body, flat, grid, mesh, sees, stick};
+use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder_geometry::tolerance::EVEN_DEPTH;
-use asunder_geometry::{Compound3, Cuboid, HalfSpace, Pose3, Shape3, Sphere, TriMesh};
+use asunder_geometry::{Compound3, Cuboid, Ground, HalfSpace, HeightField, Pose3, Shape3, Sphere, Triangle3};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, Separation3, collide3};
 
 /// A point lies on both surfaces up to this share of the sizes: faces count as flat within a few 2.5e-7, places are the
@@ -17,7 +17,7 @@ const NORMALS: f64 = 2.1e-4;
 struct Scene {
     shape: Shape3,
     pose: Pose3,
-    ground: TriMesh,
+    ground: Shape3,
     ground_pose: Pose3,
     margin: f32,
 }
@@ -31,11 +31,10 @@ struct Told {
 
 impl Scene {
     fn told(&self, sensor: bool) -> Told {
-        let ground: Shape3 = self.ground.clone().into();
         let job = Job3 {
             shape_a: &self.shape,
             pose_a: &self.pose,
-            shape_b: &ground,
+            shape_b: &self.ground,
             pose_b: &self.ground_pose,
             margin: self.margin,
             hint: Hint::NONE,
@@ -48,6 +47,11 @@ impl Scene {
             Answer::Contact { overlapping, .. } => Some(*overlapping),
         };
         Told { contact, manifolds: batch.manifolds.clone() }
+    }
+
+    fn triangles(&self) -> impl Iterator<Item = Triangle3> {
+        let ground = Ground::of(&self.ground).unwrap();
+        (0..ground.triangle_count()).filter_map(move |number| ground.triangle(number))
     }
 
     /// The convex parts, each as a shape that is posed as the body is, with their centres in the body's axes.
@@ -70,9 +74,8 @@ impl Scene {
         let mut is_any = false;
         for (part, center) in self.parts() {
             let center = self.ground_pose.transform_back(self.pose.transform(center));
-            for number in 0..self.ground.triangles().len() {
-                let Some(triangle) = triangle(&self.ground, number) else { continue };
-                if self.ground.is_one_sided() && !sees(&triangle, center)? {
+            for triangle in self.triangles() {
+                if Ground::of(&self.ground).unwrap().is_one_sided() && !sees(&triangle, center)? {
                     continue;
                 }
                 is_any |= Pair3::new(&part, &self.pose, &triangle.into(), &self.ground_pose).overlaps();
@@ -87,8 +90,7 @@ impl Scene {
     }
 
     fn off_ground(&self, place: DVec3) -> f64 {
-        (0..self.ground.triangles().len())
-            .filter_map(|number| triangle(&self.ground, number))
+        self.triangles()
             .map(|triangle| off(&triangle.into(), &self.ground_pose, place).abs())
             .fold(f64::INFINITY, f64::min)
     }
@@ -151,12 +153,17 @@ fn check(scene: &Scene, what: &str) -> Option<bool> {
     told.contact
 }
 
-/// Hills, ridges and spikes; loose triangles; a plane.
-fn ground(random: &mut Random, kind: usize) -> TriMesh {
+/// Kinds of ground.
+const GROUNDS: usize = 8;
+
+/// Hills, ridges and spikes; loose triangles; a plane; steps. Meshes, and height fields with holes.
+fn ground(random: &mut Random, kind: usize) -> Shape3 {
+    let is_one_sided = random.below(2) == 0;
+    let step = |x: usize, z: usize| ((x * 5 + z * 3) % 7) as f32 * 0.25;
+    let mut bumps = |rough: f64| -> Vec<f32> { (0..81).map(|_| (random.signed() * rough) as f32).collect() };
     let made = match kind {
         0 | 1 => {
-            let rough = [0.1, 0.6][kind];
-            let heights: Vec<f32> = (0..81).map(|_| (random.signed() * rough) as f32).collect();
+            let heights = bumps([0.1, 0.6][kind]);
             mesh(grid([8; 2], 0.5, |x, z| Vec3::Y * heights[z * 9 + x]))
         }
         2 => {
@@ -168,16 +175,28 @@ fn ground(random: &mut Random, kind: usize) -> TriMesh {
         }
         3 => flat(2),
         // Steps of a quarter of a metre.
-        _ => mesh(grid([8; 2], 0.5, |x, z| Vec3::Y * (((x * 5 + z * 3) % 7) as f32 * 0.25))),
+        4 => mesh(grid([8; 2], 0.5, |x, z| Vec3::Y * step(x, z))),
+        _ => {
+            let heights = match kind {
+                5 | 6 => bumps([0.1, 0.6][kind - 5]),
+                _ => (0..81).map(|number| step(number % 9, number / 9)).collect(),
+            };
+            let field = HeightField::new(9, 9, heights, Vec2::splat(0.5)).unwrap();
+            let mut hole = || (random.below(8), random.below(8));
+            let field = field.with_holes([hole(), hole(), hole()]).unwrap();
+            return if is_one_sided { field.one_sided() } else { field }.into();
+        }
     };
-    if random.below(2) == 0 { made.one_sided() } else { made }
+    if is_one_sided { made.one_sided() } else { made }.into()
 }
 
 fn scene(random: &mut Random, round: usize) -> Scene {
-    let ground = ground(random, round % 5);
+    let ground = ground(random, round % GROUNDS);
+    let triangles = Ground::of(&ground).unwrap();
+    let triangle = random.below(triangles.triangle_count() as usize) as u32;
+    let corner = triangles.corners(triangle)[random.below(3)].as_dvec3();
     let kind = random.below(BODIES + 1);
     let shape = if kind == BODIES { stick() } else { body(kind) };
-    let corner = ground.vertices()[random.below(ground.vertices().len())].as_dvec3();
     let place = corner + random.vector() * 0.7;
     let far = if random.below(3) == 0 { random.vector() * 1e5 } else { DVec3::ZERO };
     let ground_turn = if random.below(2) == 0 { random.rotation() } else { Quat::IDENTITY };
@@ -192,7 +211,7 @@ fn scene(random: &mut Random, round: usize) -> Scene {
 fn what_is_told_of_bodies_on_any_ground_is_what_a_loop_over_its_triangles_says() {
     let mut random = Random::new(41);
     let mut counts = [0; 3];
-    for round in 0..4000 {
+    for round in 0..5000 {
         let scene = scene(&mut random, round);
         let contact = check(&scene, &format!("round {round}"));
         counts[contact.map_or(0, |overlapping| 1 + usize::from(overlapping))] += 1;
@@ -205,7 +224,9 @@ fn touching_is_exact() {
     let mut random = Random::new(43);
     let mut counts = [0; 2];
     for round in 0..3000 {
-        let ground = ground(&mut random, if round % 2 == 0 { 4 } else { 3 });
+        // Of steps, of a plane, of steps with holes.
+        let kind = [4, 3, 7][round / 3 % 3];
+        let ground = ground(&mut random, kind);
         let mut eighths = |least: usize, most: usize| (least + random.below(most - least)) as f64 / 8.0;
         let half = Vec3::new(0.5, eighths(1, 5) as f32, 0.25);
         let place = DVec3::new(eighths(0, 24) - 1.5, eighths(0, 20), eighths(0, 24) - 1.5);
@@ -216,7 +237,9 @@ fn touching_is_exact() {
         };
         // Now and then a hair off.
         let place = if round % 7 == 0 { place.with_y(place.y.next_up()) } else { place };
-        let (pose, ground_pose) = (Pose3::at(place).unwrap(), Pose3::IDENTITY);
+        // Height fields begin at their origin, the meshes are about theirs.
+        let aside = if kind == 7 { -2.0 } else { 0.0 };
+        let (pose, ground_pose) = (Pose3::at(place).unwrap(), Pose3::at([aside, 0.0, aside]).unwrap());
         let scene = Scene { shape, pose, ground, ground_pose, margin: 0.0 };
         if let Some(overlapping) = check(&scene, &format!("round {round}")) {
             counts[usize::from(overlapping)] += 1;
@@ -230,7 +253,7 @@ fn half_spaces_and_ground_are_told_of_exactly() {
     let mut random = Random::new(47);
     let mut seen = 0;
     for round in 0..400 {
-        let ground = ground(&mut random, round % 5);
+        let ground = ground(&mut random, round % GROUNDS);
         let ground_pose = Pose3::new(random.vector(), random.rotation()).unwrap();
         let pose = Pose3::new(random.vector(), random.rotation()).unwrap();
         let shape: Shape3 = HalfSpace::new(Vec3::Y).unwrap().into();

@@ -167,12 +167,6 @@ pub(super) fn baked(mesh: &TriMesh, turn: Quat, shift: Vec3) -> TriMesh {
     baked
 }
 
-/// A triangle of a mesh by its number.
-pub(super) fn triangle(mesh: &TriMesh, number: usize) -> Option<Triangle3> {
-    let [a, b, c] = mesh.triangles()[number].map(|v| mesh.vertices()[v as usize]);
-    Triangle3::new(a, b, c).ok()
-}
-
 /// Whether a triangle of one-sided ground sees a part whose centre is there, in the ground's axes; nothing where
 /// rounding would tell.
 pub(super) fn sees(triangle: &Triangle3, center: DVec3) -> Option<bool> {
