@@ -2,8 +2,8 @@
 
 use super::{beside, level, mesh, sheet, triangles};
 use crate::casts::Course;
-use asunder_geometry::glam::{DVec3, Quat, Vec3};
-use asunder_geometry::{Cuboid, Ground, Motion3, Pose3, Shape3, Sphere, TriMesh};
+use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
+use asunder_geometry::{Cuboid, Ground, HeightField, Motion3, Pose3, Shape3, Sphere, TriMesh};
 use asunder_narrow::{Impact3, Pair3};
 use asunder_tests::cases::{Case3, Random};
 use asunder_tests::shapes::{Clay, KINDS3};
@@ -175,6 +175,26 @@ fn what_turns_is_stopped_where_the_first_triangle_stops_it() {
         }
     }
     assert!(hits > 40 && misses > 15 && alone > 25, "{hits} {misses} {alone}");
+}
+
+#[test]
+fn on_a_plane_the_triangle_that_is_met_is_named_and_not_the_first_of_the_plane() {
+    let floor = mesh(sheet([6, 4], [1.0, 0.5], |x, z| 0.25 * x - 0.5 * z, |i, j| i == 2 && j == 1));
+    let heights: Vec<f32> = (0..35).map(|at| 0.25 * (at % 7) as f32 - 0.5 * (at / 7) as f32).collect();
+    let field = HeightField::new(7, 5, heights, Vec2::ONE).unwrap().with_hole(3, 1).unwrap();
+    let ball = Shape3::from(Sphere::new(0.125).unwrap());
+    let up = Vec3::new(-0.25, 1.0, 0.5);
+    for ground in [floor, field.into()] {
+        for (number, triangle) in triangles(&ground) {
+            let Shape3::Triangle(corners) = triangle else { unreachable!() };
+            let middle = corners.vertices().into_iter().sum::<Vec3>() / 3.0;
+            let pose = Pose3::at((middle + up).as_dvec3()).unwrap();
+            let down = Pair3::new(&ball, &pose, &ground, &Pose3::IDENTITY).cast(-up).unwrap();
+            let rising = Pair3::new(&ground, &Pose3::IDENTITY, &ball, &pose).cast(up).unwrap();
+            assert_eq!((down.part_a, down.part_b), (0, number), "{down:?}");
+            assert_eq!((rising.part_a, rising.part_b), (number, 0), "{rising:?}");
+        }
+    }
 }
 
 fn one_sided_floor() -> Shape3 {
