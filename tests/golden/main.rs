@@ -1,4 +1,5 @@
-//! Golden hashes: what every named scene says over sixty frames, bit for bit, on any number of threads, in any build.
+//! Golden hashes: what every named scene, and bodies on ground, say over sixty frames, bit for bit, on any number of
+//! threads, in any build.
 //!
 //! `table.txt` was made by `cargo test -p asunder-tests --test golden -- --ignored --nocapture | grep ^scene >
 //! tests/golden/table.txt` and is to be made again only where an output is meant to change. A row that differs
@@ -10,15 +11,17 @@
 
 use asunder::{Plane, Volume};
 use asunder_scenes::worlds::WorldScene;
-use asunder_tests::recorded::{Fnv1a, Recorded, Recording};
+use asunder_tests::recorded::{Fnv1a, Recorded, Recording, Replay};
+use asunder_tests::rolling::{GROUNDS, Hills, Track};
 use rayon::ThreadPoolBuilder;
+use std::collections::HashSet;
 use std::fmt::Write;
+use std::mem::discriminant;
 
 const FRAMES: u32 = 60;
 
 /// Sixty frames as a row of the table.
-fn row<S: Recording>(name: &str, scene: WorldScene, count: usize) -> String {
-    let mut recorded = Recorded::<S>::new(scene, count);
+fn row<S: Recording, R: Replay<S>>(name: &str, mut recorded: Recorded<S, R>) -> String {
     let (mut events, mut contacts, mut event_count, mut touching) =
         (Fnv1a::default(), Fnv1a::default(), 0, 0);
     for frame in 0..FRAMES {
@@ -29,12 +32,12 @@ fn row<S: Recording>(name: &str, scene: WorldScene, count: usize) -> String {
     }
     assert!(event_count > 0 && touching > 0, "{name} says nothing");
     let (events, contacts) = (events.0, contacts.0);
-    format!("scene {name}/{count}: {event_count} events {events:016x}, {touching} touching {contacts:016x}")
+    format!("scene {name}: {event_count} events {events:016x}, {touching} touching {contacts:016x}")
 }
 
 /// Few bodies: fast enough without optimisation.
 fn small() -> String {
-    table(|_| 301, 301)
+    table(|_| 301, 301, 301)
 }
 
 /// So many that every stage is shared out among threads in some scene.
@@ -44,17 +47,25 @@ fn large() -> String {
         WorldScene::MostlyStatic | WorldScene::World1m => 31_000,
         _ => 4301,
     };
-    table(count, 31_000)
+    table(count, 31_000, 2301)
 }
 
-fn table(count: impl Fn(WorldScene) -> usize, in_plane: usize) -> String {
+fn table(count: impl Fn(WorldScene) -> usize, in_plane: usize, on_ground: usize) -> String {
     let mut table = String::new();
     for scene in WorldScene::ALL {
-        writeln!(table, "{}", row::<Volume>(scene.name(), scene, count(scene))).unwrap();
+        let (name, count) = (scene.name(), count(scene));
+        let recorded = Recorded::<Volume>::new(scene, count);
+        writeln!(table, "{}", row(&format!("{name}/{count}"), recorded)).unwrap();
     }
     for scene in [WorldScene::ManyPyramids, WorldScene::Mixed] {
-        writeln!(table, "{}", row::<Plane>(&format!("plane/{}", scene.name()), scene, in_plane)).unwrap();
+        let name = scene.name();
+        let recorded = Recorded::<Plane>::new(scene, in_plane);
+        writeln!(table, "{}", row(&format!("plane/{name}/{in_plane}"), recorded)).unwrap();
     }
+    let hills = Recorded::<Volume, _>::with(Hills::open(on_ground));
+    writeln!(table, "{}", row(&format!("hills/{on_ground}"), hills)).unwrap();
+    let track = Recorded::<Plane, _>::with(Track::open(on_ground));
+    writeln!(table, "{}", row(&format!("plane/track/{on_ground}"), track)).unwrap();
     table
 }
 
@@ -82,6 +93,31 @@ fn large_scenes_say_what_they_always_said_on_any_number_of_threads() {
     for threads in [1, 2, 8] {
         check(&on_threads(threads, large), &format!("{threads} threads"));
     }
+}
+
+/// Of each ground, which come first: whether bodies of every kind that is there touch it at some time.
+fn has_all_kinds<S: Recording>(mut recorded: Recorded<S, impl Replay<S>>, grounds: usize) -> Vec<bool> {
+    let bodies = S::bodies(&recorded.world);
+    let kinds = bodies.iter().map(|(key, body)| (*key, discriminant(S::shape_of(body)))).collect::<Vec<_>>();
+    let (grounds, others) = kinds.split_at(grounds);
+    let mut seen = vec![HashSet::new(); grounds.len()];
+    for frame in 0..FRAMES {
+        recorded.play(frame);
+        for (seen, (ground, _)) in seen.iter_mut().zip(grounds) {
+            let touching =
+                others.iter().filter(|(other, _)| S::is_touching(&recorded.world, *ground, *other));
+            seen.extend(touching.map(|(_, kind)| *kind));
+        }
+    }
+    let kinds: HashSet<_> = others.iter().map(|(_, kind)| *kind).collect();
+    assert!(kinds.len() >= 5, "boxes, polyhedra, what is round, and compounds");
+    seen.iter().map(|seen| *seen == kinds).collect()
+}
+
+#[test]
+fn bodies_of_every_kind_touch_all_ground() {
+    assert_eq!(has_all_kinds(Recorded::<Volume, _>::with(Hills::open(301)), GROUNDS), [true; GROUNDS]);
+    assert_eq!(has_all_kinds(Recorded::<Plane, _>::with(Track::open(301)), 1), [true]);
 }
 
 #[test]

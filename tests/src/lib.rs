@@ -19,6 +19,7 @@
 //! - [`solver`]: a small rigid-body solver, for bodies that shall stand on our manifolds
 //! - [`counting`]: an allocator that counts
 //! - [`recorded`]: the named worlds, played frame by frame, and what they say in one number
+//! - [`rolling`]: bodies that roll, fall, hop and creep over ground, played as those are
 //! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
 //!
 //! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
@@ -46,6 +47,7 @@ pub mod placed;
 pub mod precise;
 pub mod recorded;
 pub mod report;
+pub mod rolling;
 pub mod shapes;
 pub mod solid;
 pub mod solver;

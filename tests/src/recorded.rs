@@ -2,18 +2,18 @@
 
 use crate::engine::Engine;
 use asunder::slotmap::Key;
-use asunder::{Collider, Event, Plane, Volume, World};
+use asunder::{Collider, Event, Plane, Pose2, Pose3, Space, Volume, World};
 use asunder_scenes::worlds::{Body2, Body3, Replay2, Replay3, WorldScene};
 
 /// Gap within which two bodies are a contact, in metres: half of it is each body's margin.
-const MARGIN: f32 = 0.02;
+pub(crate) const MARGIN: f32 = 0.02;
 
 /// A world and the motion of its bodies.
-pub struct Recorded<S: Recording> {
+pub struct Recorded<S: Recording, R = <S as Recording>::Replay> {
     /// The world, as of the last frame.
     pub world: World<S>,
     keys: Vec<S::Key>,
-    replay: S::Replay,
+    replay: R,
 }
 
 impl<S: Recording> Recorded<S> {
@@ -21,9 +21,11 @@ impl<S: Recording> Recorded<S> {
     pub fn new(scene: WorldScene, count: usize) -> Self {
         Self::with(S::open(scene, count))
     }
+}
 
+impl<S: Recording, R: Replay<S>> Recorded<S, R> {
     /// A world of these bodies, not updated yet.
-    pub fn with((replay, colliders): (S::Replay, Vec<Collider<S>>)) -> Self {
+    pub fn with((replay, colliders): (R, Vec<Collider<S>>)) -> Self {
         let mut world = World::new();
         let keys = colliders.into_iter().map(|collider| S::insert(&mut world, collider)).collect();
         Self { world, keys, replay }
@@ -32,7 +34,7 @@ impl<S: Recording> Recorded<S> {
     /// Poses whatever moves as at this frame. Allocates nothing itself.
     pub fn pose(&mut self, frame: u32) {
         let Self { world, keys, replay } = self;
-        S::advance(replay, frame, |body, pose| assert!(S::set_pose(world, keys[body], pose)));
+        replay.advance(frame, |body, pose| assert!(S::set_pose(world, keys[body], pose)));
     }
 
     /// The same, and an update.
@@ -82,16 +84,29 @@ impl Fnv1a {
     }
 }
 
+/// Where bodies are at a frame.
+pub trait Replay<S: Space>: Send {
+    /// Hands over the pose of every body that moves, by its number.
+    fn advance(&mut self, frame: u32, set: impl FnMut(usize, S::Pose));
+}
+
 /// A dimension's recorded worlds.
 pub trait Recording: Engine {
-    /// Where bodies are at a frame.
-    type Replay: Send;
+    /// How the bodies of a named world move.
+    type Replay: Replay<Self>;
     /// The motion, and the bodies at its start.
     fn open(scene: WorldScene, count: usize) -> (Self::Replay, Vec<Collider<Self>>);
-    /// Hands over the pose of every body that moves, by its number.
-    fn advance(replay: &mut Self::Replay, frame: u32, set: impl FnMut(usize, Self::Pose));
     /// Takes in candidates and contacts: every key, flag, number and name.
     fn hash_contacts(world: &World<Self>, into: &mut Fnv1a);
+}
+
+impl Replay<Volume> for Replay3 {
+    fn advance(&mut self, frame: u32, mut set: impl FnMut(usize, Pose3)) {
+        self.advance(frame);
+        for &body in self.movers() {
+            set(body as usize, self.bodies[body as usize].pose);
+        }
+    }
 }
 
 impl Recording for Volume {
@@ -106,13 +121,6 @@ impl Recording for Volume {
         };
         let colliders = (0..).zip(&replay.bodies).map(collider).collect();
         (replay, colliders)
-    }
-
-    fn advance(replay: &mut Replay3, frame: u32, mut set: impl FnMut(usize, Self::Pose)) {
-        replay.advance(frame);
-        for &body in replay.movers() {
-            set(body as usize, replay.bodies[body as usize].pose);
-        }
     }
 
     fn hash_contacts(world: &World<Self>, into: &mut Fnv1a) {
@@ -136,6 +144,15 @@ impl Recording for Volume {
     }
 }
 
+impl Replay<Plane> for Replay2 {
+    fn advance(&mut self, frame: u32, mut set: impl FnMut(usize, Pose2)) {
+        self.advance(frame);
+        for &body in self.movers() {
+            set(body as usize, self.bodies[body as usize].pose);
+        }
+    }
+}
+
 impl Recording for Plane {
     type Replay = Replay2;
 
@@ -148,13 +165,6 @@ impl Recording for Plane {
         };
         let colliders = (0..).zip(&replay.bodies).map(collider).collect();
         (replay, colliders)
-    }
-
-    fn advance(replay: &mut Replay2, frame: u32, mut set: impl FnMut(usize, Self::Pose)) {
-        replay.advance(frame);
-        for &body in replay.movers() {
-            set(body as usize, replay.bodies[body as usize].pose);
-        }
     }
 
     fn hash_contacts(world: &World<Self>, into: &mut Fnv1a) {
