@@ -11,6 +11,7 @@ use asunder_examples::stepper::MARGIN;
 use asunder_examples::{picture, report, things};
 use asunder_scenes::random::Random;
 use clap::Parser;
+use core::convert::Infallible;
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -73,13 +74,21 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
     let floor = Shape3::from(mesh);
     game.add(Collider3::new(floor.clone()).fixed(), DVec3::ZERO, DVec3::ZERO)?;
     drop_things(&mut game, &floor, options.bodies as usize)?;
-    report::run(&mut game, "level", options.steps);
+    let Ok(times) = report::timed(&mut game, options.steps, |_| Ok::<(), Infallible>(()));
+    // Who has fallen off or through it is not far enough yet to have left.
+    report::print(&game, "level", &times, game.outside(above(&floor)));
     picture::save(&options.svg, &picture::volume::draw(&game.stepper.world))
 }
 
 fn mesh_of(soup: obj::Soup, is_one_sided: bool) -> Result<TriMesh, MeshError> {
     let mesh = TriMesh::new(soup.vertices, soup.triangles)?;
     Ok(if is_one_sided { mesh.one_sided() } else { mesh })
+}
+
+/// The level's own box, open at the top.
+fn above(floor: &Shape3) -> (DVec3, DVec3) {
+    let bounds = floor.bounds(&Pose3::IDENTITY, 0.0);
+    (bounds.min.as_dvec3(), DVec3 { y: f64::INFINITY, ..bounds.max.as_dvec3() })
 }
 
 /// Puts things in layers above the middle of the level, two thirds of it each way.
