@@ -1,6 +1,8 @@
-//! Memory a body, which the documentation of `World` states.
+//! Memory a body, which the documentation of `World` states; and what ground says that it holds.
 
-use asunder::{Collider2, Collider3, Manifold2, Manifold3, Plane, Volume};
+use asunder::glam::{Vec2, Vec3};
+use asunder::{Collider2, Collider3, HeightField, Manifold2, Manifold3, Plane, TriMesh, Volume};
+use asunder_scenes::terrain::Terrain;
 use asunder_scenes::worlds::WorldScene;
 use asunder_tests::counting::{counted, live_bytes};
 use asunder_tests::recorded::{Recorded, Recording};
@@ -45,4 +47,54 @@ fn memory_a_body_is_as_documented() {
     check::<Volume>("boxes_pile", (WorldScene::BoxesPile, 100_005), in_space);
     check::<Plane>("plane/mixed", (WorldScene::Mixed, 100_000), in_plane);
     check::<Plane>("plane/many_pyramids", (WorldScene::ManyPyramids, 100_000), in_plane);
+}
+
+/// What ground says that it holds, and what the allocator gave for it; checks that all of it is given back.
+fn said_and_given<T>(make: impl FnOnce() -> T + Send, bytes: impl FnOnce(&T) -> usize + Send) -> [f64; 2] {
+    counted(1, || {
+        let before = live_bytes();
+        // What it is made from becomes its own, or is given back.
+        let ground = make();
+        let (said, given) = (bytes(&ground), live_bytes() - before);
+        drop(ground);
+        assert_eq!(live_bytes(), before);
+        [said as f64, given as f64]
+    })
+}
+
+/// The two counters of an `Arc`, of which `bytes` says nothing.
+const COUNTERS: f64 = 2.0 * size_of::<usize>() as f64;
+
+#[test]
+fn ground_holds_what_it_says() {
+    let terrain = Terrain::new(20_000, 1.0, 7);
+    let triangles = terrain.triangles().len() as f64;
+    let shared = || TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap();
+    let alone = || {
+        let vertices = terrain.vertices();
+        let corners =
+            terrain.triangles().into_flattened().into_iter().map(|corner| vertices[corner as usize]);
+        let corners: Vec<Vec3> = corners.collect();
+        let numbers =
+            (0..corners.len() as u32 / 3).map(|triangle| [0, 1, 2].map(|corner| 3 * triangle + corner));
+        let numbers: Vec<[u32; 3]> = numbers.collect();
+        TriMesh::new(corners, numbers).unwrap()
+    };
+    for (name, mesh) in [("shared", &shared as &(dyn Fn() -> TriMesh + Sync)), ("alone", &alone)] {
+        let [said, given] = said_and_given(mesh, TriMesh::bytes);
+        println!("{name}: {:.1} bytes a triangle said, {:.1} given", said / triangles, given / triangles);
+        assert!((said..=said + COUNTERS).contains(&given), "{name}: {said} bytes said, {given} given");
+        assert!(given <= 100.0 * triangles, "{name}: {given} bytes for {triangles} triangles");
+    }
+
+    let (side, cells) = (terrain.cells() + 1, 0.5 * triangles);
+    let field = || {
+        let heights: Vec<f32> = terrain.vertices().iter().map(|vertex| vertex.y).collect();
+        HeightField::new(side, side, heights, Vec2::ONE).unwrap().with_hole(3, 5).unwrap()
+    };
+    let [said, given] = said_and_given(field, HeightField::bytes);
+    println!("height field: {:.1} bytes a cell said, {:.1} given", said / cells, given / cells);
+    assert!((said..=said + COUNTERS).contains(&given), "{said} bytes said, {given} given");
+    // "A cell takes about 16 bytes", and rows have one vertex more than cells.
+    assert!(given <= 18.0 * cells, "{given} bytes for {cells} cells");
 }
