@@ -1,8 +1,10 @@
-//! Meshes and height fields as a game meets them: stored and loaded, of a million triangles, and under rays that parry3d
+//! Meshes and height fields as a game meets them: stored and loaded, of two million triangles, and under rays that parry3d
 //! casts too. What they say of themselves is held against plain loops in the geometry crate.
 
+use asunder::tolerance::MAX_TRIANGLES;
 use asunder::{
-    DroppedTriangles, Ground, HeightField, HeightFieldError, MassError, MeshError, Pose3, Shape3, TriMesh,
+    DroppedTriangles, Ground, HeightField, HeightFieldError, MassError, MeshError, Pair3, Pose3, Ray3,
+    Shape3, Sphere, TriMesh, cast_ray3,
 };
 use asunder_tests::cases::Random;
 use glam::{DVec3, Vec2, Vec3};
@@ -132,6 +134,43 @@ fn a_million_triangles_take_less_than_100_bytes_each() {
             (one.prominent(number), one.patch(number)),
             (other.prominent(number), other.patch(number))
         );
+    }
+}
+
+/// As many triangles as a mesh may have, each in a plane of its own: the last is met by its number.
+#[test]
+fn the_last_of_two_million_triangles_is_met_by_its_number() {
+    const SIDE: u32 = 1000;
+    let vertex = |number: u32| {
+        let (x, z) = (number % (SIDE + 1), number / (SIDE + 1));
+        Vec3::new(x as f32, (x * z % 7) as f32 * 0.3, z as f32)
+    };
+    let vertices: Vec<Vec3> = (0..(SIDE + 1) * (SIDE + 1)).map(vertex).collect();
+    let mut triangles = vec![];
+    for cell in 0..SIDE * SIDE {
+        let near = cell / SIDE * (SIDE + 1) + cell % SIDE;
+        let far = near + SIDE + 1;
+        triangles.extend([[near, far, near + 1], [near + 1, far, far + 1]]);
+    }
+    assert_eq!(triangles.len(), MAX_TRIANGLES);
+    let mesh = TriMesh::new(vertices, triangles).unwrap();
+    assert_eq!(mesh.dropped(), DroppedTriangles::default());
+    assert!(mesh.bytes() < 100 * MAX_TRIANGLES, "{}", mesh.bytes());
+
+    let (ground, here) = (Shape3::from(mesh), Pose3::at([0.3, -0.2, 0.1]).unwrap());
+    let ball = Shape3::from(Sphere::new(0.1).unwrap());
+    for number in [0, 999_999, 1_000_000, MAX_TRIANGLES as u32 - 2, MAX_TRIANGLES as u32 - 1] {
+        let corners = Ground::of(&ground).unwrap().corners(number).map(|corner| corner.as_dvec3());
+        let middle = here.transform(corners.into_iter().sum::<DVec3>() / 3.0);
+        let touching = Pose3::at(middle + DVec3::Y * 0.099).unwrap();
+        let manifolds = Pair3::new(&ground, &here, &ball, &touching).manifolds(0.01);
+        assert_eq!(manifolds.iter().map(|manifold| manifold.part_a).collect::<Vec<_>>(), [number]);
+        let above = middle + DVec3::Y * 3.0;
+        let hit = cast_ray3(&ground, &here, &Ray3::new(above, Vec3::NEG_Y).unwrap(), 10.0).unwrap();
+        assert_eq!(hit.part, number);
+        let above = Pose3::at(above).unwrap();
+        let impact = Pair3::new(&ball, &above, &ground, &here).cast(Vec3::NEG_Y * 10.0).unwrap();
+        assert_eq!((impact.part_a, impact.part_b), (0, number));
     }
 }
 
