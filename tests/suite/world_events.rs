@@ -361,6 +361,53 @@ mod stories {
     }
 }
 
+/// What only concrete worlds have: many bodies by one call.
+macro_rules! many_at_once {
+    ($($name:ident $space:ident)*) => {$(
+        #[test]
+        fn $name() {
+            let mut world = World::<$space>::new();
+            assert!(world.insert_many([]).is_empty());
+            let places = [0.0, 5.0, 10.0, 15.0];
+            let keys = world.insert_many((10..).zip(places).map(|(number, x)| $space::unit_at(x).user_data(number)));
+            let numbers = keys.iter().map(|&key| world.get(key).unwrap().get_user_data());
+            assert_eq!(numbers.collect::<Vec<_>>(), [10, 11, 12, 13], "keys come in the order of bodies");
+            world.update();
+            let (stale, null) = (keys[1], <$space as asunder::Space>::Key::null());
+            world.remove(stale);
+            let tenant = world.insert_many([$space::unit_at(20.0).user_data(14)])[0];
+            assert_eq!(slot_of(tenant), slot_of(stale), "the story needs a reused slot");
+            let at = $space::pose_at;
+            for stale in [stale, null] {
+                // First, in the middle and last; and one body twice, of which the later counts.
+                let fresh = [(keys[0], at(40.0)), (keys[2], at(1.0)), (keys[3], at(60.0)), (keys[2], at(40.5))];
+                for place in [0, 2, 4] {
+                    for key in [keys[0], keys[2], keys[3]] {
+                        world.set_pose(key, at(-70.0)).unwrap();
+                    }
+                    let mut poses = fresh.to_vec();
+                    poses.insert(place, (stale, at(7.0)));
+                    assert_eq!(world.set_poses(poses), Err(asunder::StaleKey), "at {place}");
+                    let found = [keys[0], keys[2], keys[3], tenant].map(|key| *world.get(key).unwrap().pose());
+                    assert_eq!(found, [40.0, 40.5, 60.0, 20.0].map(at), "at {place}");
+                }
+            }
+            world.update();
+            assert_eq!($space::events(&world), [began(keys[0], keys[2], 10, 12)]);
+            assert_eq!(world.set_poses([(keys[3], at(20.5)), (keys[0], at(0.0))]), Ok(()));
+            assert_eq!(world.set_poses([]), Ok(()));
+            world.update();
+            let expected = [ended(keys[0], keys[2], 10, 12), began(tenant, keys[3], 14, 13)];
+            assert_eq!($space::events(&world), expected);
+        }
+    )*};
+}
+
+many_at_once! {
+    a_stale_key_among_many_keeps_none_from_moving_in_space Volume
+    a_stale_key_among_many_keeps_none_from_moving_in_the_plane Plane
+}
+
 #[test]
 fn margins_that_are_no_margins_are_refused() {
     let (unit2, unit3) = (Plane::unit_at(0.0), Volume::unit_at(0.0));
