@@ -10,6 +10,15 @@ use core::fmt::Debug;
 
 slotmap::new_key_type! {
     /// A body of a [`World2`](crate::World2). Stays valid until the body is removed, and never means another one.
+    ///
+    /// It is of no use in a [`World3`](crate::World3):
+    ///
+    /// ```compile_fail,E0308
+    /// use asunder::{BodyKey2, World3};
+    /// fn take(world: &mut World3, key: BodyKey2) {
+    ///     world.remove(key);
+    /// }
+    /// ```
     pub struct BodyKey2;
 
     /// A body of a [`World3`](crate::World3). Stays valid until the body is removed, and never means another one.
