@@ -10,11 +10,10 @@ use asunder_narrow::{ContactPoint3, Manifold3, Pair3};
 const ROUNDED: f64 = 4.0 * f32::EPSILON as f64;
 
 /// Kinds of ground.
-const GROUNDS: usize = 6;
+const GROUNDS: usize = 8;
 
-/// Rough ground, steps, a plane whose vertices are rounded, and bends of which all are far below the tolerance. None
-/// about as large: of a row of normals that are each the same as the next and not as the last, which come together
-/// depends on which are heard first, and the normal that a manifold ends up with may be near another's.
+/// Rough ground, steps, a plane whose vertices are rounded, bends far below the tolerance, and about as large: of a row of
+/// normals that are each the same as the next and not as the last, which come together depends on which are heard first.
 fn ground(random: &mut Random, kind: usize) -> TriMesh {
     let bumps = |random: &mut Random, rough: f64| {
         let heights: Vec<f32> = (0..81).map(|_| (random.signed() * rough) as f32).collect();
@@ -24,7 +23,7 @@ fn ground(random: &mut Random, kind: usize) -> TriMesh {
         0..3 => bumps(random, [0.6, 0.1, 0.02][kind]),
         3 => mesh(grid([8; 2], 0.5, |x, z| Vec3::Y * (((x * 5 + z * 3) % 7) as f32 * 0.25))),
         4 => baked(&flat(random.below(3)), random.rotation().normalize(), Vec3::ZERO),
-        _ => bumps(random, 5e-6),
+        _ => bumps(random, [5e-6, 5e-5, 2e-4][kind - 5]),
     };
     if random.below(2) == 0 { made.one_sided() } else { made }
 }

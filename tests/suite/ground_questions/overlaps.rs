@@ -6,6 +6,7 @@ use asunder_geometry::{Pose3, Shape3, Sphere};
 use asunder_narrow::{Measured3, Pair3, Separation3};
 use asunder_tests::cases::Random;
 use asunder_tests::exact_overlap::exact_overlap3;
+use asunder_tests::precise;
 use asunder_tests::shapes::{Clay, KINDS3};
 
 fn measured(pair: &Pair3) -> Measured3 {
@@ -117,6 +118,48 @@ fn the_separation_is_the_least_of_any_triangle() {
         }
     });
     assert!(bounds > 80, "{bounds}");
+}
+
+/// Shards, needles and turned ground among them, in numbers that nothing of ours has touched.
+#[test]
+fn separations_and_distances_are_those_of_double_doubles() {
+    let (mut apart, mut over) = (0, 0);
+    for_cases(40, |_, (body, pose), (ground, at), told| {
+        if !body.outer_radius().is_finite() {
+            return;
+        }
+        let bounds = body.bounds(pose, 0.0);
+        let gap_of = |triangle: &Shape3| {
+            let other = triangle.bounds(at, 0.0);
+            f64::from((bounds.min - other.max).max(other.min - bounds.max).max_element())
+        };
+        let mut near: Vec<(f64, Shape3)> =
+            triangles(ground).into_iter().map(|(_, triangle)| (gap_of(&triangle), triangle)).collect();
+        near.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let (mut least, mut doubt) = (f64::INFINITY, 0.0_f64);
+        for (gap, triangle) in &near {
+            if *gap > least.max(0.0) {
+                break;
+            }
+            let truth = precise::separation3((body, pose), (triangle, at));
+            (least, doubt) = (least.min(truth.separation), doubt.max(truth.bound));
+        }
+        let pair = Pair3::new(body, pose, ground, at);
+        let found = measured(&pair);
+        let off = (f64::from(found.separation) - least).abs();
+        assert!(off <= f64::from(found.error) + doubt, "{told}: {found:?}, in truth {least} +- {doubt}");
+        if let Some(closest) = pair.distance() {
+            let off = (f64::from(closest.distance) - least).abs();
+            assert!(
+                off <= f64::from(closest.error) + doubt,
+                "{told}: {closest:?}, in truth {least} +- {doubt}"
+            );
+            apart += 1;
+        } else {
+            over += 1;
+        }
+    });
+    assert!(apart > 200 && over > 150, "{apart} {over}");
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! a point that is there already, by name or by place, stays once: the deeper
 //! a group that is full:    only the corners of what it covers stay
 //! too many normals:        the deepest stay
+//! normals that moved near each other: one group
 //! at last:                 the corners around the patch, four of them at most, and always one as deep as any
 //! ```
 //! The largest triangle's normal, and not the deepest's or the first's: of triangles that were meant to lie in one plane
@@ -174,12 +175,38 @@ impl Groups {
     /// stay where they are.
     pub(super) fn finish(&mut self) -> ArrayVec<u8, MOST_GROUPS> {
         let sizes = [self.slack, self.even];
+        self.join(sizes);
         for group in &mut self.groups {
             group.reduce(sizes);
         }
         let mut order: ArrayVec<u8, MOST_GROUPS> = (0..self.groups.len() as u8).collect();
         order.sort_unstable_by_key(|&place| (self.groups[usize::from(place)].base.patch, place));
         order
+    }
+
+    /// Joins normals that have come to be the same: that of a larger triangle moves a group's, and may move it near another's.
+    fn join(&mut self, sizes: [f64; 2]) {
+        let mut place = 0;
+        while place < self.groups.len() {
+            let Base { normal, .. } = self.groups[place].base;
+            let later = &self.groups[place + 1..];
+            let Some(same) = later.iter().position(|group| is_same(group.base.normal, normal)) else {
+                place += 1;
+                continue;
+            };
+            let Group { base, pins, told } = self.groups.remove(place + 1 + same);
+            let group = &mut self.groups[place];
+            if base.weight > group.base.weight {
+                (group.base.normal, group.base.weight) = (base.normal, base.weight);
+            }
+            group.base.patch = group.base.patch.min(base.patch);
+            if told[0] < group.told[0] {
+                group.told = told;
+            }
+            pins.into_iter().for_each(|pin| group.add(pin, sizes));
+            // Its own may have moved near one that is before it.
+            place = 0;
+        }
     }
 
     /// One by its place.
