@@ -50,11 +50,16 @@ fn around(random: &mut Random, [a, b, c]: [DVec3; 3], reach: f64) -> Option<Pose
     Pose3::new(from + way * (0.9 * reach), turn).ok()
 }
 
-/// The least separation of a body from triangles one by one, with its error.
-fn nearest(body: &Shape3, at: &Pose3, triangles: &[[Vec3; 3]]) -> Option<(f64, f64)> {
-    let found = triangles.iter().filter_map(|&[a, b, c]| {
+/// The least separation of a body from triangles one by one, with its error, where it is within the limit.
+pub(super) fn nearest(
+    body: &Shape3,
+    at: &Pose3,
+    triangles: impl Iterator<Item = [Vec3; 3]>,
+    limit: f32,
+) -> Option<(f64, f64)> {
+    let found = triangles.filter_map(|[a, b, c]| {
         let triangle = Shape3::from(Triangle3::new(a, b, c).unwrap());
-        match Pair3::new(body, at, &triangle, &Pose3::IDENTITY).separation(1.0) {
+        match Pair3::new(body, at, &triangle, &Pose3::IDENTITY).separation(limit) {
             Separation3::Measured(found) => Some((f64::from(found.separation), f64::from(found.error))),
             Separation3::AtLeast(_) => None,
         }
@@ -79,7 +84,7 @@ fn what_reaches_around_a_rim_is_told() {
         let Some(at) = around(&mut random, corners[0].map(|corner| corner.as_dvec3()), reach.into()) else {
             continue;
         };
-        let Some((separation, error)) = nearest(&body, &at, &corners) else { continue };
+        let Some((separation, error)) = nearest(&body, &at, corners.iter().copied(), 1.0) else { continue };
         if separation <= error || separation + error > f64::from(MARGIN) {
             continue;
         }

@@ -1,8 +1,9 @@
 //! Ground that is turned as a whole: its corners are rounded, so that no two of its triangles lie in one plane.
 
+use super::rims::nearest;
 use asunder_geometry::glam::{DQuat, DVec3, Vec3};
-use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, Sphere, TriMesh, Triangle3};
-use asunder_narrow::{Pair3, Separation3};
+use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, Sphere, TriMesh};
+use asunder_narrow::Pair3;
 use asunder_tests::cases::Random;
 
 /// Squares in a plane, or bent a little, each of two triangles, and turned as a whole.
@@ -38,23 +39,6 @@ fn body(random: &mut Random) -> Shape3 {
     }
     let half = [0, 1, 2].map(|_| random.between(0.05, 0.5) as f32);
     Cuboid::from_half_extents(Vec3::from(half)).unwrap().into()
-}
-
-/// The least separation of a body from triangles one by one, with its error.
-fn nearest(
-    body: &Shape3,
-    at: &Pose3,
-    corners: impl Iterator<Item = [Vec3; 3]>,
-    limit: f32,
-) -> Option<(f64, f64)> {
-    let found = corners.filter_map(|[a, b, c]| {
-        let triangle = Shape3::from(Triangle3::new(a, b, c).unwrap());
-        match Pair3::new(body, at, &triangle, &Pose3::IDENTITY).separation(limit) {
-            Separation3::Measured(found) => Some((f64::from(found.separation), f64::from(found.error))),
-            Separation3::AtLeast(_) => None,
-        }
-    });
-    found.min_by(|one, other| one.0.total_cmp(&other.0))
 }
 
 /// Symptom: on meshes that are turned as a whole, gaps were told wider than their errors allowed, by some billionths of a metre; over
