@@ -3,11 +3,11 @@
 //! ```text
 //! a triangle that speaks by its own normal tells of what stands over it, and where ground ends or bends; of a ridge too low
 //!     for that, on which a face rests, the points that are told are beside it, and lower
-//! of those with such a bend:
-//! but over a plane ground rises by no more than the sine of its slope times the way: that of all of it against the normal told,
-//!     times the part's diameter, is the most that it may hide
-//! and the part is no nearer to a triangle than its lowest vertex is over its plane,
-//!     nor than the triangle's highest corner is below a face of the part
+//! triangles with such a bend, and the normal that is told:
+//!     ground rises over the plane of that normal by no more than the sine of its slope against it times the way: by no more
+//!         than that times the part's diameter
+//!     the part is no nearer to a triangle than its lowest vertex is over its plane, nor than the triangle's highest corner is
+//!         below a face of the part
 //! ```
 //! The lesser of both goes into the error. On a plane it is nothing, on one that was turned as a whole, so that its corners are
 //! rounded, some 1e-8 of a body, and never more than the tolerance for normals makes of it. What lies further off along the same
