@@ -76,8 +76,7 @@ pub(crate) fn around3(points: impl Iterator<Item = DVec3>, pose: &Pose3, grow: f
 }
 
 /// The same around many, none of whose coordinates exceeds `extent`, eight by eight in f32: wider by what that may lose, less
-/// than a millionth of the extent. 32 vertices: 99 ns one by one, 67 here
-/// (AMD EPYC, Zen 4, 2026-11-23).
+/// than a millionth of the extent. 32 vertices: 99 ns one by one, 67 here (AMD EPYC, Zen 4, 2026-11-23).
 pub(crate) fn around_octets(octets: &[VertexOctet], extent: f32, pose: &Pose3, grow: f64) -> Aabb3 {
     let basis = pose.basis();
     let mut sides = [[0.0; 2]; 3];

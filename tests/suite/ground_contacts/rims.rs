@@ -3,8 +3,9 @@
 
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, TriMesh, Triangle3};
-use asunder_narrow::{Pair3, Separation3};
+use asunder_narrow::{Manifold3, Pair3, Separation3};
 use asunder_tests::cases::Random;
+use core::fmt::Display;
 
 const MARGIN: f32 = 0.02;
 
@@ -67,6 +68,20 @@ pub(super) fn nearest(
     found.min_by(|one, other| one.0.total_cmp(&other.0))
 }
 
+/// What is told of a body's least separation, which must be within both errors of this one.
+pub(super) fn told_within(
+    manifolds: &[Manifold3],
+    (separation, error): (f64, f64),
+    story: impl Display,
+) -> &Manifold3 {
+    let least = manifolds.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+    let Some(least) = least else { panic!("{story}: {separation} +- {error}, and nothing told") };
+    let off = (f64::from(least.separation) - separation).abs();
+    let may = error + f64::from(least.error);
+    assert!(off <= may, "{story}: {separation} +- {error}, off {off}, told {least:?}");
+    least
+}
+
 /// Symptom: what reached around a rim had no contact in a gap within its margin, twenty times in a million, and one of four points
 /// further off than its error said. Cause: ground refused the direction that leads from its other side, and the kernels' points
 /// were taken for all that they had found.
@@ -94,11 +109,7 @@ fn what_reaches_around_a_rim_is_told() {
             Pair3::new(&ground, &Pose3::IDENTITY, &body, &at)
         };
         let manifolds = pair.manifolds(MARGIN);
-        let least = manifolds.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
-        let Some(least) = least else { panic!("{case}: {separation} +- {error}, and nothing told") };
-        let off = (f64::from(least.separation) - separation).abs();
-        let allowed = error + f64::from(least.error);
-        assert!(off <= allowed, "{case}: {separation} +- {error}, told {least:?}");
+        let least = told_within(&manifolds, (separation, error), case);
         told += 1;
         let [a, b, c] = corners[0].map(|corner| corner.as_dvec3());
         let normal = (b - a).cross(c - a);

@@ -1,34 +1,31 @@
 //! Ground that is turned as a whole: its corners are rounded, so that no two of its triangles lie in one plane.
 
-use super::rims::nearest;
+use super::rims::{nearest, told_within};
 use asunder_geometry::glam::{DQuat, DVec3, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, Sphere, TriMesh};
 use asunder_narrow::Pair3;
 use asunder_tests::cases::Random;
 
-/// Squares in a plane, or bent a little, each of two triangles, and turned as a whole.
-fn ground(random: &mut Random, bend: f64) -> (Vec<Vec3>, Vec<[u32; 3]>, DQuat) {
-    let turn = random.quaternion().as_dquat();
-    let step = random.between(0.05, 0.6);
-    let mut vertices = Vec::new();
-    for i in 0..7 {
-        for j in 0..7 {
-            let flat = DVec3::new(
-                f64::from(i - 3) * step,
-                bend * random.between(-1.0, 1.0),
-                f64::from(j - 3) * step,
-            );
-            vertices.push((turn * flat).as_vec3());
-        }
-    }
-    let mut triangles = Vec::new();
-    for i in 0..6 {
-        for j in 0..6 {
+/// Six by six squares about the origin, each of two triangles, as high as is said at a place in squares.
+fn squares(step: f64, mut height: impl FnMut(f64) -> f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    for (i, j) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
+        let x = f64::from(i) - 3.0;
+        vertices.push(DVec3::new(x * step, height(x), (f64::from(j) - 3.0) * step));
+        if i < 6 && j < 6 {
             let at = i * 7 + j;
             triangles.extend([[at, at + 1, at + 7], [at + 1, at + 8, at + 7]]);
         }
     }
-    (vertices, triangles, turn)
+    (vertices, triangles)
+}
+
+/// Squares in a plane, or bent a little, and turned as a whole.
+fn ground(random: &mut Random, bend: f64) -> (Vec<Vec3>, Vec<[u32; 3]>, DQuat) {
+    let turn = random.quaternion().as_dquat();
+    let step = random.between(0.05, 0.6);
+    let (flat, triangles) = squares(step, |_| bend * random.between(-1.0, 1.0));
+    (flat.into_iter().map(|vertex| (turn * vertex).as_vec3()).collect(), triangles, turn)
 }
 
 /// A box or a hull, about as large as the squares or larger.
@@ -71,11 +68,7 @@ fn a_gap_over_turned_ground_is_within_its_error() {
             continue;
         }
         let manifolds = Pair3::new(&body, &at(height), &mesh.into(), &Pose3::IDENTITY).manifolds(margin);
-        let least = manifolds.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
-        let Some(least) = least else { panic!("{case}: {separation} +- {error}, and nothing told") };
-        let off = (f64::from(least.separation) - separation).abs();
-        let may = error + f64::from(least.error);
-        assert!(off <= may, "{case} {bend}: {separation} +- {error}, off {off}, told {least:?}");
+        let least = told_within(&manifolds, (separation, error), format_args!("{case}, bend {bend}"));
         told += 1;
         // On a plane that was only turned, the error is rounding.
         coarse += usize::from(bend == 0.0 && least.error > 2e-7);
@@ -125,13 +118,7 @@ fn a_corner_beside_the_end_of_ground_is_within_its_error() {
             continue;
         }
         let manifolds = Pair3::new(&body, &at, &mesh, &Pose3::IDENTITY).manifolds(0.01);
-        let least = manifolds.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
-        let Some(least) = least else { panic!("{case}: {separation} +- {error}, and nothing told") };
-        let off = (f64::from(least.separation) - separation).abs();
-        assert!(
-            off <= error + f64::from(least.error),
-            "{case}: {separation} +- {error}, off {off}, {least:?}"
-        );
+        let _ = told_within(&manifolds, (separation, error), case);
         beside += 1;
     }
     assert!(beside > 3_000, "{beside}");
@@ -161,16 +148,9 @@ fn what_stands_over_a_low_bend_has_its_contact() {
         let mut slope = || random.pick(&[3e-7, 3e-6, 1e-5, 3e-5, 1e-4]) * random.between(0.5, 1.0);
         let (left, right) = (slope(), slope());
         // Of squares of a metre, so that no rim is near.
-        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
-        for (i, j) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
-            let x = f64::from(i) - 3.0;
-            let slope = if x < 0.0 { left } else { right };
-            vertices.push(DVec3::new(x, -slope * x.abs(), f64::from(j) - 3.0).as_vec3());
-            if i < 6 && j < 6 {
-                let at = i * 7 + j;
-                triangles.extend([[at, at + 1, at + 7], [at + 1, at + 8, at + 7]]);
-            }
-        }
+        let roof = |x: f64| -x.abs() * if x < 0.0 { left } else { right };
+        let (vertices, triangles) = squares(1.0, roof);
+        let vertices: Vec<Vec3> = vertices.into_iter().map(|vertex| vertex.as_vec3()).collect();
         let corners = || triangles.iter().map(|triangle: &[u32; 3]| triangle.map(|i| vertices[i as usize]));
         let mesh: Shape3 = TriMesh::new(vertices.clone(), triangles.clone()).unwrap().into();
         let tilt = random.pick(&[0.0, 0.0, 0.2, 0.5]);
@@ -190,11 +170,7 @@ fn what_stands_over_a_low_bend_has_its_contact() {
             continue;
         }
         let manifolds = Pair3::new(body, &at(height), &mesh, &Pose3::IDENTITY).manifolds(margin);
-        let least = manifolds.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
-        let Some(least) = least else { panic!("{case}: {separation} +- {error}, and nothing told") };
-        let off = (f64::from(least.separation) - separation).abs();
-        let may = error + f64::from(least.error);
-        assert!(off <= may, "{case}: {left} {right}, {separation} +- {error}, off {off}, {least:?}");
+        let _ = told_within(&manifolds, (separation, error), format_args!("{case}, slopes {left} {right}"));
         over += 1;
     }
     assert!(over > 3_000, "{over}");

@@ -395,12 +395,10 @@ impl Facet {
     /// Whether ground goes on behind any half-edge, and bends by more than rounding, though too low to give a normal.
     pub(super) fn bends_low(&self, ground: Ground) -> bool {
         (0..3).any(|edge| {
-            self.goes_on(ground, edge)
-                && ground.neighbor(self.number, edge).is_some_and(|(other, _)| {
-                    let beyond = front_of(ground.corners(other));
-                    let sine = beyond.cross(self.normal);
-                    sine.length_squared() > LEAST_BEND * LEAST_BEND * beyond.length_squared()
-                })
+            let Some((other, _)) = ground.neighbor(self.number, edge) else { return false };
+            let beyond = front_of(ground.corners(other));
+            let bend = beyond.cross(self.normal).length_squared();
+            bend > LEAST_BEND * LEAST_BEND * beyond.length_squared() && self.goes_on(ground, edge)
         })
     }
 }

@@ -113,10 +113,7 @@ impl Groups {
     pub(super) fn add(&mut self, base: &Base, pin: Pin) {
         let slack = self.slack;
         if let Some(group) = self.groups.iter_mut().find(|group| is_same(group.base.normal, base.normal)) {
-            if base.weight > group.base.weight {
-                (group.base.normal, group.base.weight) = (base.normal, base.weight);
-            }
-            group.base.patch = group.base.patch.min(base.patch);
+            group.base.join(base);
             group.add(pin, [slack, self.even]);
             return;
         }
@@ -142,8 +139,8 @@ impl Groups {
     /// Tells how near a normal's points are, and by how much that may be off, where they stand for more than there are.
     pub(super) fn tell(&mut self, normal: DVec3, told: [f64; 2]) {
         let group = self.groups.iter_mut().find(|group| is_same(group.base.normal, normal));
-        if let Some(group) = group.filter(|group| told[0] < group.told[0]) {
-            group.told = told;
+        if let Some(group) = group {
+            group.tell(told);
         }
     }
 
@@ -196,13 +193,8 @@ impl Groups {
             };
             let Group { base, pins, told } = self.groups.remove(place + 1 + same);
             let group = &mut self.groups[place];
-            if base.weight > group.base.weight {
-                (group.base.normal, group.base.weight) = (base.normal, base.weight);
-            }
-            group.base.patch = group.base.patch.min(base.patch);
-            if told[0] < group.told[0] {
-                group.told = told;
-            }
+            group.base.join(&base);
+            group.tell(told);
             pins.into_iter().for_each(|pin| group.add(pin, sizes));
             // Its own may have moved near one that is before it.
             place = 0;
@@ -215,7 +207,24 @@ impl Groups {
     }
 }
 
+impl Base {
+    /// Takes another of the same normal in.
+    fn join(&mut self, other: &Self) {
+        if other.weight > self.weight {
+            (self.normal, self.weight) = (other.normal, other.weight);
+        }
+        self.patch = self.patch.min(other.patch);
+    }
+}
+
 impl Group {
+    /// Tells how near its points are, and by how much that may be off, where that is nearer than was told.
+    fn tell(&mut self, told: [f64; 2]) {
+        if told[0] < self.told[0] {
+            self.told = told;
+        }
+    }
+
     /// The least separation of its points, or what was told of them.
     fn found(&self) -> f64 {
         self.least().min(self.told[0])
@@ -228,12 +237,10 @@ impl Group {
 
     fn add(&mut self, pin: Pin, [slack, even]: [f64; 2]) {
         if let Some(place) = self.pins.iter().position(|known| known.is_same_as(&pin, slack)) {
-            let known = &self.pins[place];
+            let known = self.pins[place];
             // One of them goes; how near it is stays.
-            let nearer = if pin.separation < known.separation { &pin } else { known };
-            if nearer.separation < self.told[0] {
-                self.told = [nearer.separation, nearer.doubt];
-            }
+            let nearer = if pin.separation < known.separation { pin } else { known };
+            self.tell([nearer.separation, nearer.doubt]);
             let is_deeper = pin.separation < known.separation - slack;
             let is_as_deep = pin.separation <= known.separation + slack;
             if is_deeper || (is_as_deep && pin.rank() < known.rank()) {
@@ -271,10 +278,9 @@ impl Group {
 
     /// Keeps four of the points around the patch at most, and one that is as deep as any.
     fn reduce(&mut self, [slack, even]: [f64; 2]) {
-        for pin in &self.pins {
-            if pin.separation < self.told[0] {
-                self.told = [pin.separation, pin.doubt];
-            }
+        for place in 0..self.pins.len() {
+            let Pin { separation, doubt, .. } = self.pins[place];
+            self.tell([separation, doubt]);
         }
         if self.pins.len() < 3 {
             return;
