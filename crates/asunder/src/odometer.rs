@@ -34,6 +34,12 @@ impl Odometer {
         self.travel.is_finite().then_some((self.travel, self.step))
     }
 
+    /// Whether it changed since the last update, and not by moving alone.
+    #[inline]
+    pub(crate) fn has_changed(self) -> bool {
+        !self.travel.is_finite()
+    }
+
     /// It went so far.
     #[inline]
     pub(crate) fn go(&mut self, metres: f64) {

@@ -12,7 +12,7 @@ use crate::records::Records;
 use crate::slab::Slab;
 use crate::space::Space;
 use crate::stats::Stats;
-use asunder_broad::{CoherentSweep, PairId};
+use asunder_broad::{LooseSweep, PairId};
 use asunder_narrow::Batch;
 use slotmap::{Key, SlotMap};
 
@@ -93,7 +93,7 @@ pub struct World<S: Space> {
 /// Memory that a frame needs, and nothing that an output depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct Scratch<S: Space> {
-    pub(crate) sweep: CoherentSweep<S::Aabb>,
+    pub(crate) sweep: LooseSweep<S::Aabb>,
     pub(crate) pairs: Vec<PairId>,
     /// Memory of persistent manifolds that are kept no longer.
     pub(crate) spare: S::Spare,
@@ -149,7 +149,7 @@ impl<S: Space> World<S> {
             by_second: Vec::new(),
             stats: Stats::default(),
             scratch: Scratch {
-                sweep: CoherentSweep::new(),
+                sweep: LooseSweep::new(),
                 pairs: Vec::new(),
                 spare: S::Spare::default(),
                 settled: Vec::new(),

@@ -62,7 +62,7 @@ pub struct CoherentSweep<B> {
 }
 
 /// Where more than one box of so many moves, all are swept.
-const FEW: usize = 5;
+pub(crate) const FEW: usize = 5;
 
 /// Looking up so many movers costs about as much as sweeping one box of all.
 const IDLE_A_BOX: usize = 2;
@@ -168,8 +168,24 @@ impl<B: Bounds> CoherentSweep<B> {
         }
     }
 
+    /// Whether all are swept again, or nearly, where so many more move.
+    pub(crate) fn is_worn(&self, more: usize) -> bool {
+        let can_stay = (self.movers.len() + more) * FEW <= self.known && self.idle * IDLE_A_BOX <= self.known;
+        !(self.is_kept && can_stay)
+    }
+
+    /// Boxes that have moved since all were swept.
+    pub(crate) fn movers(&self) -> usize {
+        self.movers.len()
+    }
+
+    /// Nothing that was before is of use to the next call.
+    pub(crate) fn forget(&mut self) {
+        self.is_kept = false;
+    }
+
     /// Sweeps all; what follows a frame in which few moved is likely to be one of that kind, and finds everything kept.
-    fn sweep_all(
+    pub(crate) fn sweep_all(
         &mut self,
         boxes: &[B],
         keep: bool,
@@ -178,6 +194,7 @@ impl<B: Bounds> CoherentSweep<B> {
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
         self.is_kept = false;
+        self.known = boxes.len();
         self.idle = 0;
         self.movers.clear();
         self.sweep.pairs(boxes, admit, limit, pairs)?;

@@ -19,6 +19,7 @@
 mod coherent;
 mod columns;
 mod index;
+mod loose;
 mod pair;
 mod plain;
 mod sweep;
@@ -27,6 +28,7 @@ mod width;
 pub use coherent::CoherentSweep;
 pub use columns::Column;
 pub use index::{Cast, Found, Index, Queue, least_distance};
+pub use loose::{LooseSweep, Moved};
 pub use pair::{PairId, TooManyPairs};
 pub use plain::PlainSweep;
 pub use sweep::Sweep;

@@ -16,6 +16,9 @@ mod sealed {
 /// assert_eq!(bounds.interval(2), (0.0, 3.0));
 /// assert_eq!(bounds.corners(), ([0.0; 3], [1.0, 2.0, 3.0]));
 /// assert_eq!(Aabb3::AXES, 3);
+/// let wide = bounds.widened(0.5);
+/// assert_eq!(wide.max, Vec3::new(1.5, 2.5, 3.5));
+/// assert!(wide.encloses(&bounds) && bounds.encloses(&bounds) && !bounds.encloses(&wide));
 /// ```
 pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Sealed + 'static {
     /// Number of axes.
@@ -30,6 +33,13 @@ pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Se
     fn is_valid(&self) -> bool;
     /// The elimination test: whether the two closed boxes share a point. Invalid boxes share none.
     fn overlaps(&self, other: &Self) -> bool;
+    /// The same of two boxes that are valid: what it says of others means nothing. No branch.
+    fn overlaps_valid(&self, other: &Self) -> bool;
+    /// Whether the other box lies in this one: none of its bounds is beyond. The empty [`Bounds::NOTHING`] lies in every
+    /// box.
+    fn encloses(&self, other: &Self) -> bool;
+    /// The box with all bounds moved outwards by so many metres, each rounded once.
+    fn widened(&self, metres: f32) -> Self;
 }
 
 /// A closed axis-aligned box in the plane, in metres.
@@ -155,6 +165,21 @@ impl Bounds for Aabb2 {
             && self.min.y <= other.max.y
             && other.min.y <= self.max.y
     }
+
+    #[inline]
+    fn overlaps_valid(&self, other: &Self) -> bool {
+        self.min.cmple(other.max).all() & other.min.cmple(self.max).all()
+    }
+
+    #[inline]
+    fn encloses(&self, other: &Self) -> bool {
+        self.min.cmple(other.min).all() & self.max.cmpge(other.max).all()
+    }
+
+    #[inline]
+    fn widened(&self, metres: f32) -> Self {
+        Self { min: self.min - metres, max: self.max + metres }
+    }
 }
 
 impl Bounds for Aabb3 {
@@ -186,6 +211,21 @@ impl Bounds for Aabb3 {
             && other.min.y <= self.max.y
             && self.min.z <= other.max.z
             && other.min.z <= self.max.z
+    }
+
+    #[inline]
+    fn overlaps_valid(&self, other: &Self) -> bool {
+        self.min.cmple(other.max).all() & other.min.cmple(self.max).all()
+    }
+
+    #[inline]
+    fn encloses(&self, other: &Self) -> bool {
+        self.min.cmple(other.min).all() & self.max.cmpge(other.max).all()
+    }
+
+    #[inline]
+    fn widened(&self, metres: f32) -> Self {
+        Self { min: self.min - metres, max: self.max + metres }
     }
 }
 

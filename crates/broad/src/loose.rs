@@ -1,0 +1,339 @@
+//! Boxes that hardly move are swept once for many frames.
+//!
+//! ```text
+//! every box lies in a loose one, wider by what it may go in some frames
+//! each frame, of the boxes that moved:
+//!   those that are still in their loose ones: the pairs of these are what they were
+//!   a few have left theirs: they get others, and are looked up                            coherent
+//!   many have: all get others, and are swept
+//! of the pairs of loose boxes, those are told whose boxes overlap
+//! where that costs no less than sweeping the boxes, or the pairs of loose boxes are many more: no box is loose, and that is
+//!   tried again after twice as many frames each time
+//! ```
+//! What rests upon each other trembles; what trembles is in its loose box for as long as it does. A frame then costs a
+//! comparison a box and one a pair. Told is the list of [`Sweep`](crate::Sweep), whatever came before: history decides only
+//! what it costs.
+//!
+//! Sources: neighbour lists with a skin, L. Verlet, *Computer "experiments" on classical fluids*, Phys. Rev. 159 (1967); the
+//! fat boxes of the dynamic trees of Bullet and Box2D.
+
+use crate::coherent::{CoherentSweep, FEW};
+use crate::columns::Column;
+use crate::pair::{PairId, TooManyPairs};
+use asunder_geometry::Bounds;
+
+#[cfg(test)]
+mod tests;
+
+/// The boxes that differ from those of the last call.
+///
+/// ```
+/// let moved = asunder_broad::Moved { places: &[3, 7], has_changed: |place| place == 7 };
+/// assert!((moved.has_changed)(7) && !(moved.has_changed)(3), "3 moved, and is the box that it was");
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Moved<'a, C> {
+    /// Their places; in any order, and again if need be.
+    pub places: &'a [u32],
+    /// Whether such a box is another one than before: whether it is to be asked anew whom it may meet.
+    pub has_changed: C,
+}
+
+/// All overlapping pairs of boxes, each frame, whether few of them move or most of them a little.
+///
+/// ```
+/// use asunder_broad::{LooseSweep, Moved, PairId};
+/// use asunder_geometry::{Aabb3, glam::Vec3};
+/// let unit_at = |x: f32| Aabb3::new(Vec3::splat(x), Vec3::splat(x + 1.0));
+/// let (mut sweep, mut pairs) = (LooseSweep::new(), Vec::new());
+/// let moved = Moved { places: &[0, 1, 2], has_changed: |_| false };
+/// for frame in 0..100u8 {
+///     let tremble = if frame % 2 == 0 { 0.001 } else { -0.001 };
+///     let boxes = [unit_at(0.0), unit_at(1.0 + tremble), unit_at(3.0 - tremble)];
+///     sweep.update(&boxes, moved, |_, _| true, usize::MAX, &mut pairs)?;
+///     assert_eq!(pairs.contains(&PairId { a: 0, b: 1 }), frame % 2 == 1);
+/// }
+/// # Ok::<(), asunder_broad::TooManyPairs>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct LooseSweep<B> {
+    sweep: CoherentSweep<B>,
+    state: State,
+    /// Frames for which the boxes are swept when loose ones are taken off next time.
+    patience: u32,
+    /// Loose boxes, or where boxes were.
+    loose: Vec<B>,
+    /// By how much each is wider than its box was, in metres.
+    widths: Vec<f32>,
+    /// Pairs of loose boxes.
+    near: Vec<PairId>,
+    /// Boxes that have left theirs.
+    strays: Vec<u32>,
+    /// Pairs at the last call.
+    told: usize,
+    /// What loose boxes have cost since all got theirs, in nanoseconds.
+    spent: usize,
+}
+
+/// What is swept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    /// The boxes, for so many frames more of those in which most of them move.
+    Boxes { frames: u32 },
+    /// The boxes; where they were is noted, to see how far they go in a frame.
+    Noted,
+    /// Loose boxes, which all of them got so many frames ago.
+    Loose { frames: usize },
+}
+
+/// Nanoseconds, about, that a sweep takes for each box, and for each pair (AMD EPYC, Zen 4).
+const SWEPT: [usize; 2] = [45, 3];
+
+/// That looking up takes for each box that has left its loose one since all got theirs.
+const STRAY: usize = 300;
+
+/// That a box takes to be found in its loose one; and a pair, to be told or kept.
+const NEAR: usize = 3;
+
+/// Frames at a box's pace that a loose box is to last for. Bodies that tremble turn back long before.
+const PACE: f32 = 64.0;
+
+/// A loose box is wider by this part of a box's least extent at most; of a plate or a needle, of a sixteenth of its greatest.
+const WIDEST: f32 = 0.125;
+
+/// Least and most frames until loose boxes are tried again.
+const PATIENCE: [u32; 2] = [2, 32];
+
+impl<B: Bounds> Default for LooseSweep<B> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<B: Bounds> LooseSweep<B> {
+    /// One that has seen no boxes yet.
+    pub fn new() -> Self {
+        Self {
+            sweep: CoherentSweep::new(),
+            state: State::Boxes { frames: PATIENCE[0] },
+            patience: PATIENCE[0],
+            loose: Vec::new(),
+            widths: Vec::new(),
+            near: Vec::new(),
+            strays: Vec::new(),
+            told: 0,
+            spent: 0,
+        }
+    }
+
+    /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
+    ///
+    /// What moved is told as to [`CoherentSweep::update`]. `admit` may be asked about boxes that do not overlap but nearly
+    /// do, and what it said is believed until one of the two has changed.
+    ///
+    /// # Errors
+    /// More than `limit` admitted pairs. `pairs` is then empty, and the next call starts from here.
+    pub fn update<C: Fn(u32) -> bool>(
+        &mut self,
+        boxes: &[B],
+        moved: Moved<'_, C>,
+        admit: impl Fn(u32, u32) -> bool + Sync,
+        limit: usize,
+        pairs: &mut Vec<PairId>,
+    ) -> Result<(), TooManyPairs> {
+        let outcome = if self.finds_near(boxes, &moved, &admit) {
+            tell(&self.near, boxes, pairs);
+            if pairs.len() > limit { Err(TooManyPairs { limit }) } else { Ok(()) }
+        } else {
+            self.sweep.update(boxes, moved.places, admit, limit, pairs)
+        };
+        self.told = pairs.len();
+        if outcome.is_err() {
+            pairs.clear();
+        }
+        outcome
+    }
+
+    /// The columns of the last sweep of all boxes, as [`CoherentSweep::columns`] tells them.
+    pub fn columns(&self) -> impl Iterator<Item = Column> {
+        self.sweep.columns()
+    }
+
+    /// Memory that is held for the next call, in bytes: that of [`CoherentSweep::bytes`]; where most boxes move, 36 a box
+    /// and 8 a pair more.
+    pub fn bytes(&self) -> usize {
+        self.sweep.bytes()
+            + self.loose.capacity() * size_of::<B>()
+            + (self.widths.capacity() + self.strays.capacity()) * 4
+            + self.near.capacity() * size_of::<PairId>()
+    }
+
+    /// Brings the pairs of loose boxes up to date; or says that boxes are to be swept as they are.
+    fn finds_near<C: Fn(u32) -> bool>(
+        &mut self,
+        boxes: &[B],
+        moved: &Moved<'_, C>,
+        admit: &(impl Fn(u32, u32) -> bool + Sync),
+    ) -> bool {
+        let do_many = moved.places.len() * FEW > boxes.len();
+        match self.state {
+            State::Boxes { .. } if !do_many => false,
+            State::Noted if !do_many => {
+                self.state = State::Boxes { frames: 0 };
+                false
+            }
+            State::Boxes { frames: 0 } => {
+                self.note(boxes);
+                false
+            }
+            State::Boxes { frames } => {
+                self.state = State::Boxes { frames: frames - 1 };
+                false
+            }
+            State::Noted if boxes.len() == self.loose.len() => self.loosen(boxes, admit),
+            State::Loose { frames } if do_many && boxes.len() >= self.loose.len() => {
+                self.find_strays(boxes, moved);
+                self.go_on(boxes, frames, admit)
+            }
+            State::Noted | State::Loose { .. } => self.tighten(),
+        }
+    }
+
+    /// Looks up who has left their loose boxes, if these last; gives all others, if they were worth it.
+    fn go_on(&mut self, boxes: &[B], frames: usize, admit: &(impl Fn(u32, u32) -> bool + Sync)) -> bool {
+        let (sweep, look) = (self.cost_of_sweep(), self.cost_of_look());
+        let is_worn = !self.strays.is_empty() && self.sweep.is_worn(self.strays.len());
+        if 2 * look <= sweep && !is_worn {
+            self.state = State::Loose { frames: frames + 1 };
+            self.spent += look + NEAR * (boxes.len() + self.near.len());
+            self.look_up(boxes, admit)
+        } else if 4 * self.spent <= 3 * frames * sweep {
+            self.patience = PATIENCE[0];
+            self.loosen(boxes, admit)
+        } else {
+            self.tighten()
+        }
+    }
+
+    /// What sweeping the boxes costs, in nanoseconds.
+    fn cost_of_sweep(&self) -> usize {
+        SWEPT[0] * self.loose.len() + SWEPT[1] * self.told
+    }
+
+    /// What looking up those costs that have left their loose ones, in nanoseconds.
+    fn cost_of_look(&self) -> usize {
+        if self.strays.is_empty() {
+            return 0;
+        }
+        STRAY * (self.sweep.movers() + self.strays.len()) + NEAR * self.near.len()
+    }
+
+    /// Keeps where boxes are, to see how far they go.
+    fn note(&mut self, boxes: &[B]) {
+        self.loose.clear();
+        self.loose.extend_from_slice(boxes);
+        self.widths.clear();
+        self.widths.resize(boxes.len(), 0.0);
+        self.state = State::Noted;
+    }
+
+    /// Gives all boxes loose ones, and sweeps these.
+    fn loosen(&mut self, boxes: &[B], admit: &(impl Fn(u32, u32) -> bool + Sync)) -> bool {
+        self.loose.resize(boxes.len(), B::NOTHING);
+        self.widths.resize(boxes.len(), 0.0);
+        for place in 0..boxes.len() {
+            self.give(place, &boxes[place]);
+        }
+        self.state = State::Loose { frames: 0 };
+        self.spent = self.cost_of_sweep();
+        let most = 2 * self.told + boxes.len();
+        // Room for the next times, too.
+        self.strays.clear();
+        self.strays.reserve(boxes.len() / FEW);
+        self.near.clear();
+        self.near.reserve(self.told + self.told / 2);
+        self.sweep.sweep_all(&self.loose, true, admit, most, &mut self.near).is_ok() || self.tighten()
+    }
+
+    /// No box is loose for some time.
+    fn tighten(&mut self) -> bool {
+        self.sweep.forget();
+        self.state = State::Boxes { frames: self.patience };
+        self.patience = (2 * self.patience).min(PATIENCE[1]);
+        false
+    }
+
+    /// Which boxes have changed, are new, or have left their loose ones.
+    fn find_strays<C: Fn(u32) -> bool>(&mut self, boxes: &[B], moved: &Moved<'_, C>) {
+        let Self { loose, widths, strays, .. } = self;
+        strays.clear();
+        for &place in moved.places {
+            let index = place as usize;
+            let (Some(now), Some(loose)) = (boxes.get(index), loose.get_mut(index)) else { continue };
+            if (moved.has_changed)(place) {
+                *loose = B::NOTHING;
+            } else if loose.encloses(now) && now.is_valid() {
+                continue;
+            }
+            strays.push(place);
+        }
+        strays.extend(loose.len() as u32..boxes.len() as u32);
+        loose.resize(boxes.len(), B::NOTHING);
+        widths.resize(boxes.len(), 0.0);
+    }
+
+    /// Gives the few that have left theirs others, and looks these up.
+    fn look_up(&mut self, boxes: &[B], admit: &(impl Fn(u32, u32) -> bool + Sync)) -> bool {
+        if self.strays.is_empty() {
+            return true;
+        }
+        let strays = core::mem::take(&mut self.strays);
+        for &place in &strays {
+            self.give(place as usize, &boxes[place as usize]);
+        }
+        let most = 2 * self.told + boxes.len();
+        let is_known = self.sweep.update(&self.loose, &strays, admit, most, &mut self.near).is_ok();
+        self.strays = strays;
+        is_known || self.tighten()
+    }
+
+    /// Gives a box a loose one.
+    fn give(&mut self, place: usize, now: &B) {
+        let had = self.loose[place];
+        if self.widths[place] > 0.0 && had.encloses(now) && now.is_valid() {
+            return;
+        }
+        let width = width_of(now, &had, self.widths[place]);
+        self.widths[place] = width;
+        self.loose[place] = now.widened(width);
+    }
+}
+
+/// By how much a box's loose one is to be wider, by the one that it had.
+fn width_of<B: Bounds>(now: &B, had: &B, width: f32) -> f32 {
+    if !now.is_valid() || !had.is_valid() {
+        return 0.0;
+    }
+    let (mut way, mut least, mut greatest) = (0.0_f32, f32::INFINITY, 0.0_f32);
+    for axis in 0..B::AXES {
+        let ((low, high), (from, to)) = (now.interval(axis), had.interval(axis));
+        way = way.max((low - (from + width)).abs()).max((high - (to - width)).abs());
+        (least, greatest) = (least.min(high - low), greatest.max(high - low));
+    }
+    let wanted = if width == 0.0 { PACE * way } else { 2.0 * width.max(way) };
+    let wanted = wanted.min(WIDEST * least.max(greatest / 16.0));
+    if wanted.is_finite() { wanted } else { 0.0 }
+}
+
+/// Replaces `pairs` by those of which the boxes overlap.
+fn tell<B: Bounds>(near: &[PairId], boxes: &[B], pairs: &mut Vec<PairId>) {
+    pairs.clear();
+    pairs.resize(near.len(), PairId { a: 0, b: 0 });
+    let mut told = 0;
+    for &pair in near {
+        // Written down in any case: no branch that nobody can guess.
+        pairs[told] = pair;
+        told += usize::from(boxes[pair.a as usize].overlaps_valid(&boxes[pair.b as usize]));
+    }
+    pairs.truncate(told);
+}
