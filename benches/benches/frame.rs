@@ -3,8 +3,10 @@
 mod brief;
 
 use asunder::{Collider3, World3};
+use asunder_examples::falling::recorded;
 use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
 use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, frames3, pairs3};
+use asunder_scenes::stages::Falling;
 use asunder_scenes::worlds::{Body3, Replay3, WorldScene};
 use core::hint::black_box;
 use core::time::Duration;
@@ -23,12 +25,13 @@ fn frames(criterion: &mut Criterion) {
         (WorldScene::MostlyStatic, 10_000),
     ];
     for (scene, count) in scenes {
-        frame(criterion, scene, count);
+        frame(criterion, scene.name(), Replay3::new(scene, count, 1));
     }
+    let heap = Falling::Boxes;
+    frame(criterion, heap.name(), recorded(heap, 1005, 1).expect("boxes have mass"));
 }
 
-fn frame(criterion: &mut Criterion, scene: WorldScene, count: usize) {
-    let mut replay = Replay3::new(scene, count, 1);
+fn frame(criterion: &mut Criterion, name: &str, mut replay: Replay3) {
     let mut world = World3::new();
     let insert = |world: &mut World3, body: &Body3| {
         let collider = Collider3::new(body.shape.clone()).at(body.pose);
@@ -36,7 +39,7 @@ fn frame(criterion: &mut Criterion, scene: WorldScene, count: usize) {
     };
     let keys: Vec<_> = replay.bodies.iter().map(|body| insert(&mut world, body)).collect();
     let mut number = 0;
-    criterion.bench_function(&format!("frame/{}, {count} bodies", scene.name()), |bencher| {
+    criterion.bench_function(&format!("frame/{name}, {} bodies", keys.len()), |bencher| {
         bencher.iter_custom(|frames| {
             let mut spent = Duration::ZERO;
             for _ in 0..frames {

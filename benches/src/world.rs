@@ -1,28 +1,78 @@
 //! Whole frames: from setting poses to having walked every contact point, beside the [`lean`](crate::lean) pipeline.
 //!
-//! Both sides keep contacts up to 2 cm apart. Rows that start with `plane/` are in the plane and have no peer.
+//! Both sides keep contacts up to 2 cm apart. Rows that start with `plane/` are in the plane and have no peer. Rows that
+//! end with `/falling` play poses that the examples' stepper made at the start of the run: both sides play the same.
 
 pub(crate) mod play;
 pub mod rows;
 mod stages;
+mod tally;
 pub mod threads;
 
 use crate::clock::{Effort, Samples, time};
 use crate::lean::{Lean, Walked};
 use crate::race::Race;
 use crate::row::Row;
-use asunder::{MarginError, Stats};
+use asunder_examples::falling::recorded;
+use asunder_scenes::stages::Falling;
 use asunder_scenes::worlds::{Replay2, Replay3, WorldScene};
 use parry3d::math::Pose;
 use play::{Play, Replay};
 use stages::Stages;
 pub use stages::{Figures, heading};
+use std::error::Error;
+use tally::Tally;
 
 /// Gap within which two bodies are a contact, in metres: half of it is each body's margin.
 pub(crate) const MARGIN: f32 = 0.02;
 
-/// One row: a world, and whether it is in the plane.
-pub type Case = (WorldScene, bool);
+/// One row: a world, and how it comes by its poses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Case {
+    /// Simple motion in space.
+    Volume(WorldScene),
+    /// Simple motion in the plane.
+    Plane(WorldScene),
+    /// Poses of a stepper, in space.
+    Falling(Falling),
+}
+
+impl Case {
+    /// The number of bodies it is usually measured with.
+    ///
+    /// ```
+    /// use asunder_benches::world::Case;
+    /// use asunder_scenes::stages::Falling;
+    /// assert_eq!(Case::Falling(Falling::Boxes).usual_count(), 8005);
+    /// ```
+    pub const fn usual_count(&self) -> usize {
+        match self {
+            Self::Volume(scene) | Self::Plane(scene) => scene.usual_count(),
+            Self::Falling(heap) => heap.at_rest().usual_count(),
+        }
+    }
+
+    /// Its bodies. Cost: for a heap that falls, all the steps that it takes.
+    fn open(&self, count: usize) -> Result<Opened, Box<dyn Error>> {
+        Ok(match self {
+            Self::Volume(scene) => Opened::Volume(Replay3::new(*scene, count, 1)),
+            Self::Plane(scene) => Opened::Plane(Replay2::new(*scene, count, 1)),
+            Self::Falling(heap) => Opened::Volume(recorded(*heap, count, 1)?),
+        })
+    }
+
+    /// The frames of a fall are no more of the same: all are played, whatever they take.
+    fn effort(&self, effort: &Effort) -> Effort {
+        let seconds = if matches!(self, Self::Falling(_)) { f64::INFINITY } else { effort.seconds };
+        Effort { seconds, ..*effort }
+    }
+}
+
+/// A scene, ready to be played.
+enum Opened {
+    Volume(Replay3),
+    Plane(Replay2),
+}
 
 /// Every row.
 ///
@@ -30,54 +80,60 @@ pub type Case = (WorldScene, bool);
 /// use asunder_benches::world;
 /// let names: Vec<String> = world::cases().iter().map(world::name).collect();
 /// assert!(names.contains(&"many_pyramids".into()) && names.contains(&"plane/mixed".into()));
+/// assert!(names.contains(&"boxes_pile/falling".into()) && names.contains(&"convex_pile/falling".into()));
 /// ```
 pub fn cases() -> Vec<Case> {
     let flat = [WorldScene::ManyPyramids, WorldScene::Mixed];
-    WorldScene::ALL
-        .into_iter()
-        .map(|scene| (scene, false))
-        .chain(flat.into_iter().map(|scene| (scene, true)))
-        .collect()
+    let mut cases = Vec::new();
+    for scene in WorldScene::ALL {
+        let heaps = Falling::ALL.into_iter().filter(|heap| heap.at_rest() == scene);
+        cases.extend(heaps.map(Case::Falling));
+        cases.push(Case::Volume(scene));
+    }
+    cases.extend(flat.map(Case::Plane));
+    cases
 }
 
 /// The name of a row, as `boxes_pile`.
 ///
 /// ```
+/// use asunder_benches::world::{Case, name};
 /// use asunder_scenes::worlds::WorldScene;
-/// assert_eq!(asunder_benches::world::name(&(WorldScene::Crowd, false)), "crowd");
+/// assert_eq!(name(&Case::Volume(WorldScene::Crowd)), "crowd");
 /// ```
-pub fn name(&(scene, in_plane): &Case) -> String {
-    format!("{}{}", if in_plane { "plane/" } else { "" }, scene.name())
+pub fn name(case: &Case) -> String {
+    match case {
+        Case::Volume(scene) => scene.name().to_string(),
+        Case::Plane(scene) => format!("plane/{}", scene.name()),
+        Case::Falling(heap) => heap.name().to_string(),
+    }
 }
 
-/// Measures one row, on one thread. Cost: about a second a variant.
+/// Measures one row, on one thread. Cost: about a second a variant; of a heap that falls, all of the effort's frames, and
+/// some seconds for stepping it.
 ///
 /// Must run where the library finds no second thread, as in a pool of one: thread time would miss it.
 ///
 /// # Errors
-/// The margin, if the library came to refuse it.
+/// The margin, or a shape's mass, if the library came to refuse it.
 ///
 /// ```
-/// use asunder_benches::{clock::Effort, world};
+/// use asunder_benches::{clock::Effort, world::{self, Case}};
 /// use asunder_scenes::worlds::WorldScene;
-/// let row = world::measure(&(WorldScene::ManyPyramids, false), 500, &Effort { rounds: 2, ..Effort::quick() })?;
+/// let effort = Effort { rounds: 2, ..Effort::quick() };
+/// let row = world::measure(&Case::Volume(WorldScene::ManyPyramids), 500, &effort)?;
 /// assert!(row.ratio.is_some() && row.note.contains("points"), "{row:?}");
-/// # Ok::<(), asunder::MarginError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn measure(case: &Case, count: usize, effort: &Effort) -> Result<Row, MarginError> {
-    match case {
-        (scene, true) => measure_plane(*scene, count, effort, Row::new(name(case), "frame", count)),
-        (scene, false) => measure_volume(*scene, count, effort, Row::new(name(case), "frame", count)),
+pub fn measure(case: &Case, count: usize, effort: &Effort) -> Result<Row, Box<dyn Error>> {
+    let (effort, row) = (case.effort(effort), Row::new(name(case), "frame", count));
+    match case.open(count)? {
+        Opened::Plane(replay) => measure_plane(replay, &effort, row),
+        Opened::Volume(replay) => measure_volume(replay, &effort, row),
     }
 }
 
-fn measure_volume(
-    scene: WorldScene,
-    count: usize,
-    effort: &Effort,
-    mut row: Row,
-) -> Result<Row, MarginError> {
-    let mut replay = Replay3::of(scene, count);
+fn measure_volume(mut replay: Replay3, effort: &Effort, mut row: Row) -> Result<Row, Box<dyn Error>> {
     row.n = replay.count();
     let mut ours = replay.ours()?;
     let Some(mut peer) = lean_of(&replay) else {
@@ -87,30 +143,32 @@ fn measure_volume(
     ours.update();
     peer.update();
     let (mut race, mut stages) = (Race::default(), Stages::default());
-    let (mut found, mut peer_found) = (Walked::default(), Walked::default());
+    let (mut found, mut peer_found) = (Tally::default(), Tally::default());
     while !race.is_over(effort) {
         let poses = replay.poses_at(race.ours.len() as u32 + 1);
         let converted = Replay3::converted(&poses);
-        (found, peer_found) = race.turn(1, || ours.frame(&poses), || peer_frame(&mut peer, &converted));
+        let (walked, peer_walked) = race.turn(1, || ours.frame(&poses), || peer_frame(&mut peer, &converted));
         stages.push(ours.stats());
+        found.push(ours.stats(), walked);
+        peer_found.push_peer(&peer, peer_walked);
     }
     race.tell(&mut row, "lean parry3d");
-    told(&mut row, ours.stats(), &stages, found);
+    told(&mut row, &stages, &found);
+    let peer = peer_found.mean();
     row.remark(&format!(
         "peer: {} candidates, {} contacts, {} points",
-        peer.candidates(),
-        peer_found.contacts,
-        peer_found.points
+        peer.candidates, peer.contacts, peer.points
     ));
     Ok(row)
 }
 
-/// What our frames were made of, and what the last one found.
-fn told(row: &mut Row, stats: &Stats, stages: &Stages, found: Walked) {
-    row.world = Some(stages.figures(stats));
+/// What our frames were made of, and what they found on average.
+fn told(row: &mut Row, stages: &Stages, found: &Tally) {
+    let found = found.mean();
+    row.world = Some(stages.figures(found.candidates, row.n));
     row.remark(&format!(
         "{} candidates, {} touching, {} contacts, {} points",
-        stats.candidates, stats.touching, found.contacts, found.points
+        found.candidates, found.touching, found.contacts, found.points
     ));
 }
 
@@ -126,25 +184,24 @@ pub(crate) fn peer_frame(peer: &mut Lean, poses: &[(u32, Pose)]) -> Walked {
     peer.walk()
 }
 
-fn measure_plane(scene: WorldScene, count: usize, effort: &Effort, mut row: Row) -> Result<Row, MarginError> {
-    let mut replay = Replay2::of(scene, count);
+fn measure_plane(mut replay: Replay2, effort: &Effort, mut row: Row) -> Result<Row, Box<dyn Error>> {
     row.n = replay.count();
     let mut ours = replay.ours()?;
     ours.update();
-    let (mut samples, mut stages, mut found) = (Samples::default(), Stages::default(), Walked::default());
+    let (mut samples, mut stages, mut found) = (Samples::default(), Stages::default(), Tally::default());
     for frame in 1..=effort.rounds as u32 {
         let poses = replay.poses_at(frame);
-        let ns;
-        (ns, found) = time(|| ours.frame(&poses));
+        let (ns, walked) = time(|| ours.frame(&poses));
         samples.push(ns, ns);
         stages.push(ours.stats());
+        found.push(ours.stats(), walked);
         if samples.spent() > effort.nanoseconds() {
             break;
         }
     }
     row.tell(&samples);
     row.done = samples.len();
-    told(&mut row, ours.stats(), &stages, found);
+    told(&mut row, &stages, &found);
     row.finish();
     Ok(row)
 }
@@ -155,8 +212,8 @@ mod tests {
 
     #[test]
     fn both_sides_see_the_same_world() {
-        for scene in WorldScene::ALL {
-            let mut replay = Replay3::of(scene, 1500);
+        for case in cases() {
+            let Opened::Volume(mut replay) = case.open(1500).unwrap() else { continue };
             let (mut ours, mut peer) = (replay.ours().unwrap(), lean_of(&replay).unwrap());
             for frame in 0..4 {
                 let poses = replay.poses_at(frame * 7);
@@ -164,8 +221,21 @@ mod tests {
                 peer_frame(&mut peer, &Replay3::converted(&poses));
                 // Boxes rounded outwards may meet where parry3d's do not, within a few of a thousand.
                 let (ours, peer) = (ours.stats().candidates as f64, peer.candidates() as f64);
-                assert!((ours - peer).abs() <= 2.0 + 0.003 * peer, "{}: {ours} and {peer}", scene.name());
+                assert!((ours - peer).abs() <= 2.0 + 0.003 * peer, "{}: {ours} and {peer}", name(&case));
             }
+        }
+    }
+
+    #[test]
+    fn heaps_that_fall_are_rows_of_json_with_a_ratio_and_all_their_frames() {
+        // As short as a row can be, and yet all frames are played.
+        let effort = Effort { seconds: 0.0, rounds: 5, ..Effort::quick() };
+        for heap in Falling::ALL {
+            let row = measure(&Case::Falling(heap), 130, &effort).unwrap();
+            let json: serde_json::Value = serde_json::from_str(&row.to_json()).unwrap();
+            assert_eq!((json["row"].as_str(), json["n"].as_u64()), (Some(heap.name()), Some(130)));
+            assert!(json["ratio"].as_f64().is_some_and(|ratio| ratio > 0.0), "{json}");
+            assert_eq!(json["done"].as_u64(), Some(5), "{json}");
         }
     }
 }

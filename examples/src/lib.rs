@@ -17,6 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod falling;
 pub mod game;
 pub mod opened;
 pub mod picture;

@@ -159,7 +159,7 @@ fn compare_growth(large: bool, options: &Options) {
 /// Rows of whole frames with several threads.
 fn compare_frames_on_threads(threads: usize, options: &Options) -> Result<(), Box<dyn Error>> {
     for case in world::cases().into_iter().filter(|case| world::name(case).contains(&options.only)) {
-        show(&world::threads::measure(&case, case.0.usual_count(), threads, &options.effort())?, options);
+        show(&world::threads::measure(&case, case.usual_count(), threads, &options.effort())?, options);
     }
     Ok(())
 }
@@ -225,7 +225,7 @@ fn measure(part: &Part, tell: &mut impl FnMut(Row)) -> Result<(), Box<dyn Error>
         }
         Part::World(_) => {
             for case in world::cases().iter().filter(|case| wanted(&world::name(case))) {
-                tell(world::measure(case, case.0.usual_count(), &effort)?);
+                tell(world::measure(case, case.usual_count(), &effort)?);
             }
         }
     }

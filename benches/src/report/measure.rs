@@ -64,7 +64,7 @@ fn frames(quick: bool, progress: Progress) -> Result<Vec<world_rows::FrameRow>, 
     let mut rows = Vec::new();
     for (i, case) in cases.iter().enumerate() {
         progress(&world::name(case), Some(i as f64 / cases.len() as f64));
-        rows.extend(world_rows::frames(case, case.0.usual_count(), THREADS, &effort)?);
+        rows.extend(world_rows::frames(case, case.usual_count(), THREADS, &effort)?);
     }
     Ok(rows)
 }

@@ -5,7 +5,7 @@ use crate::lean::{LeanBody, Walked};
 use crate::parry::{self, Shapes};
 use asunder::{BodyKey2, BodyKey3, Collider2, Collider3, MarginError, Stats, World2, World3};
 use asunder_geometry::{Pose2, Pose3};
-use asunder_scenes::worlds::{Body2, Body3, Replay2, Replay3, WorldScene};
+use asunder_scenes::worlds::{Body2, Body3, Replay2, Replay3};
 use parry3d::math::Pose;
 
 /// A scene whose bodies are where the number of a frame says.
@@ -14,9 +14,6 @@ pub(crate) trait Replay: Clone + Send + Sync {
     type Pose: Sync;
     /// Our world of it.
     type Ours: Play<Self::Pose>;
-
-    /// The scene with so many bodies, at frame 0.
-    fn of(scene: WorldScene, count: usize) -> Self;
 
     /// Bodies in it.
     fn count(&self) -> usize;
@@ -108,10 +105,6 @@ impl Replay for Replay3 {
     type Pose = Pose3;
     type Ours = Ours3;
 
-    fn of(scene: WorldScene, count: usize) -> Self {
-        Self::new(scene, count, 1)
-    }
-
     fn count(&self) -> usize {
         self.bodies.len()
     }
@@ -191,10 +184,6 @@ impl Play<Pose2> for Ours2 {
 impl Replay for Replay2 {
     type Pose = Pose2;
     type Ours = Ours2;
-
-    fn of(scene: WorldScene, count: usize) -> Self {
-        Self::new(scene, count, 1)
-    }
 
     fn count(&self) -> usize {
         self.bodies.len()

@@ -2,10 +2,9 @@
 
 use super::play::{Play, Replay};
 use super::threads::{Run, Side, run};
-use super::{Case, MARGIN, name, peer_frame};
+use super::{Case, MARGIN, Opened, name, peer_frame};
 use crate::clock::{Effort, Spread};
 use crate::lean::{Lean, Walked};
-use asunder_scenes::worlds::{Replay2, Replay3};
 use asunder_tests::counting::{allocations, counted, live_bytes};
 use parry3d::math::Pose;
 use serde::{Deserialize, Serialize};
@@ -23,7 +22,7 @@ pub struct FrameRow {
     pub threads: u64,
     /// Bodies in the scene.
     pub bodies: u64,
-    /// Pairs that the broad phase hands over, in the last frame.
+    /// Pairs that the broad phase hands over in a frame, on average, as are contacts and points.
     pub candidates: u64,
     /// Pairs with contact points, within the margin.
     pub contacts: u64,
@@ -77,13 +76,14 @@ impl FrameRow {
 /// The system gives no threads.
 ///
 /// ```
-/// use asunder_benches::{clock::Effort, world::rows};
+/// use asunder_benches::{clock::Effort, world::{Case, rows}};
 /// use asunder_scenes::worlds::WorldScene;
-/// let rows = rows::frames(&(WorldScene::Mixed, false), 300, 2, &Effort { rounds: 2, ..Effort::quick() })?;
+/// let effort = Effort { rounds: 2, ..Effort::quick() };
+/// let rows = rows::frames(&Case::Volume(WorldScene::Mixed), 300, 2, &effort)?;
 /// let threads: Vec<u64> = rows.iter().map(|row| row.threads).collect();
 /// assert_eq!(threads, [1, 2, 1]);
 /// assert!(rows.iter().all(|row| row.note.is_empty() && row.allocations < 0.0), "nobody counts here: {rows:?}");
-/// let rows = rows::frames(&(WorldScene::Mixed, true), 300, 2, &Effort { rounds: 2, ..Effort::quick() })?;
+/// let rows = rows::frames(&Case::Plane(WorldScene::Mixed), 300, 2, &effort)?;
 /// assert_eq!(rows.iter().map(|row| row.threads).collect::<Vec<_>>(), [1, 2], "no peer in the plane");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -93,20 +93,20 @@ pub fn frames(
     threads: usize,
     effort: &Effort,
 ) -> Result<Vec<FrameRow>, Box<dyn Error>> {
-    match case {
-        (_, true) => frames_of::<Replay2>(case, count, threads, effort),
-        (_, false) => frames_of::<Replay3>(case, count, threads, effort),
+    match case.open(count)? {
+        Opened::Plane(replay) => frames_of(case, replay, threads, effort),
+        Opened::Volume(replay) => frames_of(case, replay, threads, effort),
     }
 }
 
 fn frames_of<R: Replay>(
     case: &Case,
-    count: usize,
+    replay: R,
     threads: usize,
     effort: &Effort,
 ) -> Result<Vec<FrameRow>, Box<dyn Error>> {
-    let run = run::<R>(case, count, threads, effort)?;
-    let [ours, peer] = memory::<R>(case, count)?;
+    let run = run(replay.clone(), threads, &case.effort(effort))?;
+    let [ours, peer] = memory(&replay)?;
     let [one, many] = &run.ours;
     let rows = [
         row(case, &run, (one, "asunder", 1), ours),
@@ -124,7 +124,7 @@ fn row(
 ) -> Option<FrameRow> {
     let Spread { low: ns_low, median: ns, high: ns_high } = side.samples.spread()?;
     let [refit_ns, sweep_ns, collide_ns, merge_ns, report_ns] = side.stages.medians();
-    let candidates = if method == "parry3d" { run.peer_candidates } else { run.stats.candidates };
+    let found = side.found.mean();
     let (allocations, bytes_per_body) = memory.unwrap_or((-1.0, -1.0));
     let note = run.differ_in.map_or_else(String::new, |frame| format!("CONTACTS DIFFER in frame {frame}"));
     Some(FrameRow {
@@ -132,9 +132,9 @@ fn row(
         method: method.to_string(),
         threads: threads as u64,
         bodies: run.bodies as u64,
-        candidates: candidates as u64,
-        contacts: side.found.contacts as u64,
-        points: side.found.points as u64,
+        candidates: found.candidates as u64,
+        contacts: found.contacts as u64,
+        points: found.points as u64,
         frames: side.samples.len() as u64,
         ns,
         ns_low,
@@ -158,7 +158,7 @@ const CYCLE: u32 = 20;
 
 /// What our world and the peer's hold, and what a frame of theirs asks the allocator for once all buffers have grown:
 /// the third round of the same frames.
-fn memory<R: Replay>(case: &Case, count: usize) -> Result<[Held; 2], Box<dyn Error>> {
+fn memory<R: Replay>(replay: &R) -> Result<[Held; 2], Box<dyn Error>> {
     let is_counted = counted(1, || {
         let before = allocations();
         core::hint::black_box(vec![1_u8; 100]);
@@ -167,7 +167,6 @@ fn memory<R: Replay>(case: &Case, count: usize) -> Result<[Held; 2], Box<dyn Err
     if !is_counted {
         return Ok([None, None]);
     }
-    let replay = R::of(case.0, count);
     let ours = counted(1, || -> Result<(f64, f64), String> {
         let (replay, before) = (replay.clone(), live_bytes());
         let mut ours = replay.ours().map_err(|error| error.to_string())?;

@@ -88,9 +88,9 @@ impl Stages {
         [0, 1, 2, 3, 4].map(|stage: usize| self.0[stage].median().unwrap_or(0.0))
     }
 
-    pub(super) fn figures(&self, last: &Stats) -> Figures {
+    pub(super) fn figures(&self, candidates: usize, bodies: usize) -> Figures {
         let [refit_ns, sweep_ns, collide_ns, merge_ns, report_ns] = self.medians();
-        let pairs_per_body = last.candidates as f64 / last.bodies.max(1) as f64;
+        let pairs_per_body = candidates as f64 / bodies.max(1) as f64;
         Figures { refit_ns, sweep_ns, collide_ns, merge_ns, report_ns, pairs_per_body, ..Figures::default() }
     }
 }

@@ -4,13 +4,13 @@
 
 use super::play::{Play, Replay};
 use super::stages::Stages;
-use super::{Case, lean_of, name, peer_frame};
+use super::tally::Tally;
+use super::{Case, Opened, lean_of, name, peer_frame};
 use crate::blocks::blocks;
 use crate::clock::{Effort, Samples};
 use crate::lean::{Lean, Walked};
 use crate::row::Row;
 use asunder::Stats;
-use asunder_scenes::worlds::{Replay2, Replay3};
 use parry3d::math::Pose;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::error::Error;
@@ -23,18 +23,20 @@ use std::time::{Duration, Instant};
 /// The system gives no threads.
 ///
 /// ```
-/// use asunder_benches::{clock::Effort, world::threads};
+/// use asunder_benches::{clock::Effort, world::{Case, threads}};
 /// use asunder_scenes::worlds::WorldScene;
-/// let row = threads::measure(&(WorldScene::Mixed, false), 300, 2, &Effort { rounds: 2, ..Effort::quick() })?;
+/// let effort = Effort { rounds: 2, ..Effort::quick() };
+/// let row = threads::measure(&Case::Volume(WorldScene::Mixed), 300, 2, &effort)?;
 /// let figures = row.world.unwrap_or_default();
 /// assert!(figures.threads == Some(2) && figures.speedup.is_some() && !row.note.contains("DIFFER"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn measure(case: &Case, count: usize, threads: usize, effort: &Effort) -> Result<Row, Box<dyn Error>> {
     let mut row = Row::new(format!("{}/{threads} threads", name(case)), "frame", count);
-    let run = match case {
-        (_, true) => run::<Replay2>(case, count, threads, effort)?,
-        (_, false) => run::<Replay3>(case, count, threads, effort)?,
+    let effort = case.effort(effort);
+    let run = match case.open(count)? {
+        Opened::Plane(replay) => run(replay, threads, &effort)?,
+        Opened::Volume(replay) => run(replay, threads, &effort)?,
     };
     if let Some(frame) = run.differ_in {
         row.remark(&format!("CONTACTS DIFFER in frame {frame}"));
@@ -46,7 +48,7 @@ pub fn measure(case: &Case, count: usize, threads: usize, effort: &Effort) -> Re
     if let Some(peer) = &run.peer {
         row.tell_peer("lean parry3d, one thread", &peer.samples);
     }
-    let mut figures = many.stages.figures(&run.stats);
+    let mut figures = many.stages.figures(many.found.mean().candidates, run.bodies);
     (figures.threads, figures.one_thread_ns) = (Some(threads), one.samples.median());
     figures.speedup = one.samples.median().zip(many.samples.median()).map(|(one, many)| one / many.max(1.0));
     row.world = Some(figures);
@@ -59,8 +61,8 @@ pub fn measure(case: &Case, count: usize, threads: usize, effort: &Effort) -> Re
 pub(super) struct Side {
     pub(super) samples: Samples,
     pub(super) stages: Stages,
-    /// What its last frame found.
-    pub(super) found: Walked,
+    /// What its frames found.
+    pub(super) found: Tally,
 }
 
 /// Frames of one world: ours on one thread and on several, the peer's.
@@ -69,21 +71,12 @@ pub(super) struct Run {
     pub(super) ours: [Side; 2],
     /// Nothing in the plane, or if it refuses a hull.
     pub(super) peer: Option<Side>,
-    /// Our last frame.
-    pub(super) stats: Stats,
-    pub(super) peer_candidates: usize,
     /// The first frame in which our two differ.
     pub(super) differ_in: Option<u32>,
 }
 
 /// Measures all three in turns: every side plays every frame.
-pub(super) fn run<R: Replay>(
-    case: &Case,
-    count: usize,
-    threads: usize,
-    effort: &Effort,
-) -> Result<Run, Box<dyn Error>> {
-    let mut replay = R::of(case.0, count);
+pub(super) fn run<R: Replay>(mut replay: R, threads: usize, effort: &Effort) -> Result<Run, Box<dyn Error>> {
     let mut first = replay.ours()?;
     let mut peer = lean_of(&replay).map(|peer| (peer, Side::default()));
     first.update();
@@ -105,7 +98,9 @@ pub(super) fn run<R: Replay>(
                         let world = &mut worlds[who];
                         let (ns, walked) = timed(&pools[who], || world.frame(&poses));
                         found[who].push(walked);
-                        side.push(is_counted, (ns, walked), |stages| stages.push(world.stats()));
+                        if is_counted {
+                            side.push(ns, walked, world.stats());
+                        }
                     }
                     (None, Some((peer, side))) => side.push_peer(is_counted, peer, &R::converted(&poses)),
                     (None, None) => {}
@@ -120,20 +115,16 @@ pub(super) fn run<R: Replay>(
             break;
         }
     }
-    let (bodies, stats) = (replay.count(), *worlds[1].stats());
-    let peer_candidates = peer.as_ref().map_or(0, |(peer, _)| peer.candidates());
     let peer = peer.map(|(_, side)| side);
-    Ok(Run { bodies, ours, peer, stats, peer_candidates, differ_in })
+    Ok(Run { bodies: replay.count(), ours, peer, differ_in })
 }
 
 impl Side {
-    /// One frame: its time and what it found; if it counts, with its stages.
-    fn push(&mut self, is_counted: bool, (ns, found): (f64, Walked), stages: impl FnOnce(&mut Stages)) {
-        self.found = found;
-        if is_counted {
-            self.samples.push(ns, ns);
-            stages(&mut self.stages);
-        }
+    /// One frame that counts.
+    fn push(&mut self, ns: f64, found: Walked, stats: &Stats) {
+        self.samples.push(ns, ns);
+        self.stages.push(stats);
+        self.found.push(stats, found);
     }
 
     /// One frame of the peer's.
@@ -141,9 +132,12 @@ impl Side {
         let start = Instant::now();
         let found = core::hint::black_box(peer_frame(peer, poses));
         let ns = start.elapsed().as_nanos() as f64;
-        let [refit, sweep, merge, collide] = peer.times();
-        let times = [refit, sweep, collide, merge, Duration::ZERO];
-        self.push(is_counted, (ns, found), |stages| stages.push_times(times));
+        if is_counted {
+            let [refit, sweep, merge, collide] = peer.times();
+            self.samples.push(ns, ns);
+            self.stages.push_times([refit, sweep, collide, merge, Duration::ZERO]);
+            self.found.push_peer(peer, found);
+        }
     }
 }
 

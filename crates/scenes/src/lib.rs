@@ -10,7 +10,7 @@
 //! - [`pairs`]: posed pairs of shapes for a narrow phase.
 //! - [`stages`]: scenes with masses, speeds and things that are driven, for a solver to play.
 //! - [`terrain`]: hills of triangles.
-//! - [`worlds`]: bodies with simple motion for a whole frame.
+//! - [`worlds`]: bodies with simple motion, or with recorded poses, for a whole frame.
 #![deny(missing_docs)]
 
 pub mod boxes;

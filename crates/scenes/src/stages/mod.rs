@@ -12,6 +12,7 @@
 //! ```
 
 mod asteroids;
+mod falling;
 mod heaps;
 mod letters;
 mod open;
@@ -21,6 +22,7 @@ mod stacks;
 #[cfg(test)]
 mod tests;
 
+pub use falling::Falling;
 pub use path::{Path2, Path3};
 
 use crate::level::{Level2, Level3, LevelBody, LevelBody2, LevelBody3, LevelOf};

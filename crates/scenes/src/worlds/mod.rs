@@ -1,8 +1,9 @@
-//! Whole worlds: bodies with simple motion, for measuring a frame from poses to contacts.
+//! Whole worlds: bodies whose poses are known frame by frame, for measuring a frame from poses to contacts.
 //!
-//! No solver ran: a body sways about its place, or flies straight on and turns back at a wall, as a function of the
-//! frame's number alone. A heap at rest therefore looks to an engine as a heap does that a solver holds: nearly the
-//! same pairs each frame, every pose a little different. What it cannot show is a heap falling in.
+//! In a [`WorldScene`] no solver ran: a body sways about its place, or flies straight on and turns back at a wall, as a
+//! function of the frame's number alone. A heap at rest therefore looks to an engine as a heap does that a solver
+//! holds: nearly the same pairs each frame, every pose a little different. A heap that falls in takes a solver: somebody
+//! steps [`Falling`](crate::stages::Falling), and [`Replay3::recorded`] plays the poses again.
 //!
 //! ```
 //! use asunder_scenes::worlds::{Replay2, Replay3, WorldScene};
@@ -18,13 +19,14 @@
 mod city;
 mod crowd;
 pub(crate) mod motion;
-mod piles;
+pub(crate) mod piles;
 mod plane;
 
 use crate::pairs::pose3;
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 use glam::{Vec2, Vec3};
 use motion::{Motion2, Motion3};
+use std::sync::Arc;
 
 /// The named worlds.
 ///
@@ -154,6 +156,8 @@ pub struct Replay3 {
     pub bodies: Vec<Body3>,
     movers: Vec<u32>,
     motions: Vec<Motion3>,
+    /// Of the movers, frame by frame, in place of motions.
+    recording: Option<Arc<[Vec<Pose3>]>>,
 }
 
 impl Replay3 {
@@ -173,8 +177,38 @@ impl Replay3 {
         replay
     }
 
-    /// Poses all moving bodies as at frame number `frame`, of 1/60 s. Cost: some 100 ns a moving body.
+    /// Bodies that follow what was written down of them: in each frame the poses of all that are not fixed, in their
+    /// order. After the last frame they go back the way they came, to and fro. Clones share the poses.
+    ///
+    /// ```
+    /// use asunder_geometry::Pose3;
+    /// use asunder_scenes::worlds::{Replay3, WorldScene};
+    /// let bodies = Replay3::new(WorldScene::ManyPyramids, 211, 1).bodies;
+    /// let at = |height: f64| vec![Pose3::at([0.0, height, 0.0]).unwrap(); 210];
+    /// let mut replay = Replay3::recorded(bodies, vec![at(3.0), at(2.0), at(1.0)]);
+    /// let heights = [0, 1, 2, 3, 4, 5].map(|frame| {
+    ///     replay.advance(frame);
+    ///     replay.bodies[7].pose.position().y
+    /// });
+    /// assert_eq!(heights, [3.0, 2.0, 1.0, 2.0, 3.0, 2.0]);
+    /// ```
+    pub fn recorded(bodies: Vec<Body3>, frames: Vec<Vec<Pose3>>) -> Self {
+        let movers = (0..).zip(&bodies).filter(|(_, body)| !body.fixed).map(|(i, _)| i).collect();
+        let mut replay = Self { bodies, movers, motions: Vec::new(), recording: Some(frames.into()) };
+        replay.advance(0);
+        replay
+    }
+
+    /// Poses all moving bodies as at frame number `frame`, of 1/60 s. Cost: some 100 ns a moving body, and less where
+    /// poses were recorded.
     pub fn advance(&mut self, frame: u32) {
+        if let Some(frames) = &self.recording {
+            let poses = to_and_fro(frame as usize, frames.len()).and_then(|place| frames.get(place));
+            for (&i, pose) in self.movers.iter().zip(poses.into_iter().flatten()) {
+                self.bodies[i as usize].pose = *pose;
+            }
+            return;
+        }
         for (&i, motion) in self.movers.iter().zip(&self.motions) {
             let (position, turn) = motion.at(frame);
             self.bodies[i as usize].pose = pose3(position, turn);
@@ -219,6 +253,13 @@ impl Replay3 {
         self.motions.push(motion);
         self.bodies.push(Body3 { shape, pose, velocity, fixed: false, sensor: false, owner });
     }
+}
+
+/// Which of so many frames is shown, when the last has the one before it for a successor; nothing of none.
+fn to_and_fro(frame: usize, count: usize) -> Option<usize> {
+    let last = count.checked_sub(1)?;
+    let place = frame % (2 * last).max(1);
+    Some(place.min(2 * last - place.min(2 * last)))
 }
 
 /// A world in the plane at one frame. See the [module](self) for what its motion is and is not.

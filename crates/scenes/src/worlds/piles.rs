@@ -11,21 +11,28 @@ use glam::{DVec3, Vec3};
 /// How far a resting body strays, in metres: what a solver leaves.
 const TREMBLE: f64 = 2e-5;
 
+/// From box to box. Just higher than a layer is, the boxes overlap those below by half a millimetre. With this much
+/// room at the sides some touch their neighbours, and two of three candidates do not touch.
+pub(crate) const BOXES: DVec3 = DVec3::new(1.035, 0.9995, 1.035);
+
+/// From hull to hull.
+pub(crate) const HULLS: DVec3 = DVec3::splat(0.93);
+
+/// Different hulls in a heap; the clones share their data.
+pub(crate) const DISTINCT: usize = 64;
+
 /// Boxes of 1 m in a pit, layer on layer.
 pub(super) fn boxes(count: usize, seed: u64) -> Replay3 {
     let shape = cuboid(Vec3::splat(0.5));
-    // Just higher than a layer is, the boxes overlap those below by half a millimetre. With this much room at the sides
-    // some touch their neighbours, and two of three candidates do not touch.
-    let spacing = DVec3::new(1.035, 0.9995, 1.035);
-    heap(count, seed, spacing, 0.03, |_, random| {
+    heap(count, seed, BOXES, 0.03, |_, random| {
         (shape.clone(), Turn::about(DVec3::Y, random.range(-0.035, 0.035)))
     })
 }
 
 /// Hulls of 32 points in a pit, turned anyhow.
 pub(super) fn hulls(count: usize, seed: u64) -> Replay3 {
-    let shapes = solids(SolidKind::Hull32, 64, seed);
-    heap(count, seed, DVec3::splat(0.93), 0.02, |i, random| (shapes[i % shapes.len()].clone(), random.turn()))
+    let shapes = solids(SolidKind::Hull32, DISTINCT, seed);
+    heap(count, seed, HULLS, 0.02, |i, random| (shapes[i % shapes.len()].clone(), random.turn()))
 }
 
 /// A lattice of bodies, about a cube of them, in a pit of a floor and four walls.
@@ -38,9 +45,11 @@ fn heap(
 ) -> Replay3 {
     let mut random = Random::new(seed ^ 0x9117e);
     let mut replay = Replay3::default();
-    let inside = count.saturating_sub(5);
-    let side = (libm::cbrt(inside as f64).ceil() as usize).max(1);
-    pit(&mut replay, spacing * side as f64, spacing);
+    let inside = count.saturating_sub(PIT);
+    let side = side(inside);
+    for (half, middle) in pit(spacing * side as f64, spacing) {
+        replay.fixed(cuboid(half), Motion3::still(middle));
+    }
     for i in 0..inside {
         let cell = DVec3::new((i % side) as f64, (i / (side * side)) as f64, (i / side % side) as f64);
         let stray = random.within(DVec3::splat(-jitter), DVec3::splat(jitter));
@@ -53,18 +62,28 @@ fn heap(
     replay
 }
 
-fn pit(replay: &mut Replay3, inside: DVec3, spacing: DVec3) {
+/// Bodies along an edge of a cube of so many.
+pub(crate) fn side(count: usize) -> usize {
+    (libm::cbrt(count as f64).ceil() as usize).max(1)
+}
+
+/// Boxes that a pit is made of.
+pub(crate) const PIT: usize = 5;
+
+/// Half sizes and middles of the floor and the walls of a pit, for what lies in it with such a spacing.
+pub(crate) fn pit(inside: DVec3, spacing: DVec3) -> [(Vec3, DVec3); PIT] {
     let (half, slack) = (inside * 0.5, spacing * 0.02);
     let floor = Vec3::new(half.x as f32 + 3.0, 1.0, half.z as f32 + 3.0);
-    replay.fixed(cuboid(floor), Motion3::still(DVec3::new(0.0, -0.9999, 0.0)));
-    for side in [-1.0, 1.0] {
-        let across_x = Vec3::new(1.0, half.y as f32 + 2.0, floor.z);
-        let at_x = DVec3::new(side * (half.x + slack.x + 1.0), half.y, 0.0);
-        replay.fixed(cuboid(across_x), Motion3::still(at_x));
-        let across_z = Vec3::new(half.x as f32, half.y as f32 + 2.0, 1.0);
-        let at_z = DVec3::new(0.0, half.y, side * (half.z + slack.z + 1.0));
-        replay.fixed(cuboid(across_z), Motion3::still(at_z));
-    }
+    let across_x = Vec3::new(1.0, half.y as f32 + 2.0, floor.z);
+    let across_z = Vec3::new(half.x as f32, half.y as f32 + 2.0, 1.0);
+    let (at_x, at_z) = (half.x + slack.x + 1.0, half.z + slack.z + 1.0);
+    [
+        (floor, DVec3::new(0.0, -0.9999, 0.0)),
+        (across_x, DVec3::new(-at_x, half.y, 0.0)),
+        (across_z, DVec3::new(0.0, half.y, -at_z)),
+        (across_x, DVec3::new(at_x, half.y, 0.0)),
+        (across_z, DVec3::new(0.0, half.y, at_z)),
+    ]
 }
 
 /// Boxes in one pyramid, and in its lowest row.

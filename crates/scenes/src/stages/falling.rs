@@ -1,0 +1,137 @@
+//! Heaps that are on their way into a pit: those of [`worlds`](crate::worlds), before they rest.
+
+use super::{Feel, Scene3};
+use crate::pairs::{SolidKind, cuboid, solids};
+use crate::random::Random;
+use crate::turn::Turn;
+use crate::worlds::WorldScene;
+use crate::worlds::piles::{BOXES, DISTINCT, HULLS, PIT, pit, side};
+use glam::{DVec3, Vec3};
+
+/// Metres to the lowest bodies.
+const LOWEST: f64 = 1.0;
+
+/// Bodies turned anyhow in loose layers above the pit of a heap, which a solver is to let fall.
+///
+/// The frames that are measured are so many from [`Self::first_frame`] on. What an engine meets in them, with contacts up
+/// to 2 cm apart, of the usual counts and seed 1; means over the 60 frames, and those of the first and the last:
+///
+/// | | bodies | candidates | touching | contacts | points |
+/// |---|---|---|---|---|---|
+/// | boxes | 8,005 | TBD | | | |
+/// | hulls | 5,125 | TBD | | | |
+///
+/// ```
+/// use asunder_scenes::stages::Falling;
+/// let scene = Falling::Boxes.above_pit(505, 1);
+/// let lowest = scene.level.bodies.iter().filter(|body| !body.fixed).map(|body| body.pose.position().y);
+/// assert!(lowest.fold(f64::INFINITY, f64::min) > 0.9);
+/// assert_eq!(Falling::Hulls.name(), "convex_pile/falling");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Falling {
+    /// Boxes of 1 m, into the pit of [`WorldScene::BoxesPile`].
+    Boxes,
+    /// Hulls of 32 points, into the pit of [`WorldScene::ConvexPile`].
+    Hulls,
+}
+
+impl Falling {
+    /// All of them, in the order in which results are listed.
+    pub const ALL: [Self; 2] = [Self::Boxes, Self::Hulls];
+
+    /// The same heap at rest.
+    pub const fn at_rest(self) -> WorldScene {
+        match self {
+            Self::Boxes => WorldScene::BoxesPile,
+            Self::Hulls => WorldScene::ConvexPile,
+        }
+    }
+
+    /// The name used in result rows.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Boxes => "boxes_pile/falling",
+            Self::Hulls => "convex_pile/falling",
+        }
+    }
+
+    /// Steps of 1/60 s until the first frame that counts: of the usual count, a quarter of the bodies have come to the
+    /// heap by then, and nearly all do so in the 60 frames that follow.
+    pub const fn first_frame(self) -> u32 {
+        match self {
+            Self::Boxes => 25,
+            Self::Hulls => 23,
+        }
+    }
+
+    /// So many bodies, the pit's five among them, as they are let go: the pit first.
+    ///
+    /// The pit is as wide as that of the heap at rest, and high enough for all to start in. Bodies are nearer than they
+    /// have room, turned anyhow; before the first frame that counts a solver has pushed them apart.
+    pub fn above_pit(self, count: usize, seed: u64) -> Scene3 {
+        let mut random = Random::new(seed ^ 0xfa11);
+        let (spacing, loose, shapes) = match self {
+            Self::Boxes => (BOXES, DVec3::new(1.2, 1.3, 1.2), vec![cuboid(Vec3::splat(0.5))]),
+            Self::Hulls => (HULLS, DVec3::new(0.98, 1.1, 0.98), solids(SolidKind::Hull32, DISTINCT, seed)),
+        };
+        let bodies = count.saturating_sub(PIT);
+        let across = spacing.x * side(bodies) as f64;
+        let wide = ((across / loose.x) as usize).max(1);
+        let high = LOWEST + loose.y * (bodies / (wide * wide) + 1) as f64;
+        let mut scene = Scene3::empty();
+        self.name().clone_into(&mut scene.level.name);
+        for (half, middle) in pit(DVec3::new(across, high, across), spacing) {
+            scene.fixed(cuboid(half), middle, Turn::IDENTITY);
+        }
+        for i in 0..bodies {
+            let cell = DVec3::new((i % wide) as f64, (i / (wide * wide)) as f64, (i / wide % wide) as f64);
+            let middle = DVec3::new(1.0, 0.0, 1.0) * (0.5 * (wide as f64 - 1.0));
+            let stray = random.within(DVec3::splat(-0.04), DVec3::splat(0.04));
+            let place = (cell - middle) * loose + DVec3::Y * LOWEST + stray;
+            let body = scene.free(shapes[i % shapes.len()].clone(), place, random.turn());
+            body.linear_velocity = random.direction() * 0.3;
+            body.angular_velocity = random.direction();
+        }
+        // What keeps a heap standing for long takes more; to fall in does not.
+        scene.feel = Feel { substeps: 4, ..scene.feel };
+        let half = 0.5 * across + 0.02 * spacing.x;
+        scene.room = (DVec3::new(-half, 0.0, -half), DVec3::new(half, high + 2.0, half));
+        scene
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::worlds::Replay3;
+
+    #[test]
+    fn heaps_fall_into_the_pit_in_which_they_rest() {
+        for falling in Falling::ALL {
+            let count = falling.at_rest().usual_count();
+            let scene = falling.above_pit(count, 1);
+            let rest = Replay3::new(falling.at_rest(), count, 1);
+            assert_eq!((scene.level.bodies.len(), rest.bodies.len()), (count, count));
+            let sideways = |position: DVec3| [position.x, position.z];
+            for (fixed, known) in scene.level.bodies.iter().zip(&rest.bodies).take(PIT) {
+                assert!(fixed.fixed && known.fixed);
+                assert_eq!(sideways(fixed.pose.position()), sideways(known.pose.position()));
+            }
+            let (low, high) = scene.room;
+            for body in &scene.level.bodies[PIT..] {
+                let place = body.pose.position();
+                assert!(!body.fixed && place.cmpgt(low).all() && place.cmplt(high).all(), "{place}");
+            }
+        }
+    }
+
+    #[test]
+    fn few_bodies_or_none_are_a_scene_too() {
+        for count in [0, 5, 6, 14] {
+            for falling in Falling::ALL {
+                assert_eq!(falling.above_pit(count, 1).level.bodies.len(), count.max(PIT));
+            }
+        }
+    }
+}
