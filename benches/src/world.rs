@@ -213,7 +213,9 @@ mod tests {
     #[test]
     fn both_sides_see_the_same_world() {
         for case in cases() {
-            let Opened::Volume(mut replay) = case.open(1500).unwrap() else { continue };
+            // What falls is stepped first, which takes longer than all else here.
+            let count = if matches!(case, Case::Falling(_)) { 305 } else { 1500 };
+            let Opened::Volume(mut replay) = case.open(count).unwrap() else { continue };
             let (mut ours, mut peer) = (replay.ours().unwrap(), lean_of(&replay).unwrap());
             for frame in 0..4 {
                 let poses = replay.poses_at(frame * 7);

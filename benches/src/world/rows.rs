@@ -153,7 +153,7 @@ fn row(
 /// Allocations a frame and bytes a body, if they are counted.
 type Held = Option<(f64, f64)>;
 
-/// Frames after which the scene begins anew.
+/// Frames after which the scene begins anew: at once, so that a heap that falls is then up in the air again.
 const CYCLE: u32 = 20;
 
 /// What our world and the peer's hold, and what a frame of theirs asks the allocator for once all buffers have grown:

@@ -20,7 +20,7 @@ pub(super) fn draft(rows: &[FrameRow]) -> Draft {
         heading: "Frame",
         method: "Poses in, all contact points walked: named scenes beside a lean pipeline straight over parry3d (its \
                  trees, its persistent manifolds, no events); those of the plane stand alone. By the clock on the wall, in turns, in blocks of \
-                 frames whose first two do not count. \
+                 frames whose first two do not count; contacts, points and candidates are means. \
                  Allocations are those of a steady frame, in the third round of the same frames; bytes are held beside \
                  the shapes' own data. False pairs are candidates without a contact point.",
         figures,

@@ -13,13 +13,17 @@ const LOWEST: f64 = 1.0;
 
 /// Bodies turned anyhow in loose layers above the pit of a heap, which a solver is to let fall.
 ///
-/// The frames that are measured are so many from [`Self::first_frame`] on. What an engine meets in them, with contacts up
-/// to 2 cm apart, of the usual counts and seed 1; means over the 60 frames, and those of the first and the last:
+/// The frames that are measured are 60 from [`Self::first_frame`] on. What an engine meets in them, with contacts up to
+/// 2 cm apart, of the usual counts and seed 1:
 ///
 /// | | bodies | candidates | touching | contacts | points |
 /// |---|---|---|---|---|---|
-/// | boxes | 8,005 | TBD | | | |
-/// | hulls | 5,125 | TBD | | | |
+/// | boxes, on average | 8,005 | 43,752 | 10,226 | 17,925 | 32,776 |
+/// | at the start | | 49,115 | 5,215 | 15,865 | 22,779 |
+/// | at the end | | 44,685 | 16,867 | 21,768 | 45,455 |
+/// | hulls, on average | 5,125 | 20,911 | 5,895 | 9,631 | 21,429 |
+/// | at the start | | 12,669 | 781 | 5,149 | 9,584 |
+/// | at the end | | 25,272 | 9,905 | 12,767 | 29,696 |
 ///
 /// ```
 /// use asunder_scenes::stages::Falling;
