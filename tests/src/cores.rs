@@ -116,7 +116,7 @@ fn flat_core(stored: &[Vec3], vertices: Vec<DVec3>, turn: impl Fn(DVec3) -> DVec
 }
 
 /// A vector turned by M(q)/|q|^2, by the sandwich product: the library multiplies matrices.
-fn turned(pose: &Pose3, v: DVec3) -> DVec3 {
+pub(crate) fn turned(pose: &Pose3, v: DVec3) -> DVec3 {
     let [x, y, z, w] = pose.rotation().to_array().map(f64::from);
     let u = DVec3::new(x, y, z);
     v + (u.cross(v) * w + u.cross(u.cross(v))) * (2.0 / (u.length_squared() + w * w))

@@ -142,6 +142,9 @@ fn with_traits_of<S: Space>(mut body: Collider<S>, other: &Collider<S>) -> Colli
     if other.is_sensor() {
         body = body.sensor();
     }
+    if other.is_bullet() {
+        body = body.bullet();
+    }
     other.get_owner().into_iter().fold(body, Collider::owner)
 }
 

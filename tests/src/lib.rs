@@ -20,7 +20,9 @@
 //! - [`counting`]: an allocator that counts
 //! - [`recorded`]: the named worlds, played frame by frame, and what they say in one number
 //! - [`rolling`]: bodies that roll, fall, hop and creep over ground, played as those are
-//! - [`engine`], [`naive_world`]: one face for both worlds, and the model that they are held against
+//! - [`engine`], [`played`], [`stored`]: one face for both worlds, for what is done to them, and for their texts
+//! - [`judged`], [`naive_world`]: which bodies touch, by [`cores`] and [`exact_overlap`] alone, and the model of a world
+//!   that says so
 //!
 //! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
 //! against each other first (`tests/suite/oracles.rs`).
@@ -41,9 +43,11 @@ pub mod exhaustive_distance;
 pub mod exhaustive_sat;
 pub mod fuzzed;
 pub mod integers;
+pub mod judged;
 pub mod naive_world;
 pub mod outlines;
 pub mod placed;
+pub mod played;
 pub mod precise;
 pub mod recorded;
 pub mod report;
@@ -51,6 +55,7 @@ pub mod rolling;
 pub mod shapes;
 pub mod solid;
 pub mod solver;
+pub mod stored;
 
 /// The guide's pages: what they show must run.
 #[cfg(doctest)]

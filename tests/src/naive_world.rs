@@ -1,66 +1,143 @@
-//! What a world must say, from all pairs of bodies and three plain lists: no boxes, no batches, no order to keep up.
+//! What a world must say, from all pairs of bodies and plain lists: no batches, no coherence, no order to keep up, and
+//! no narrow phase: who touches whom is the word of [`judged`](crate::judged).
+//!
+//! ```text
+//! overlap      exactly the judge's
+//! contact      the judge's separation against the margins; within `BAND` of them either is right, and the world's word goes
+//! to come      what comes within the margins at any of some moments of the motions must be told; what is further
+//!              apart than they can bring it nearer must not                                        (ahead)
+//! impacts      each touches when it is said to, and what is passed through at any moment is told   (ahead)
+//! manifolds    their least separation is the judge's within their error                            (check)
+//!              or, in worlds where nothing is nudged, they are the narrow phase's in every bit     (bits)
+//! ```
+
+mod ahead;
+mod bits;
+mod check;
 
 use crate::engine::{Change, Engine, slot_of};
-use asunder::{Collider, Event, Space, World};
-use asunder_narrow::Hint;
+use crate::judged::{Judged, Question, Stand, Word};
+use ahead::Ahead;
+use asunder::{Collider, Event, World};
+use bits::Bits;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A body in its slot, with the key that the world gave it.
-type Tenant<S> = (<S as Space>::Key, Collider<S>);
+/// In metres. What is told of a separation is right within 1e-6 of the bodies' size, which is three metres at most.
+const BAND: f64 = 3e-6;
 
-/// What the last update learnt of two bodies, by their keys.
-type Known<S> = ((<S as Space>::Key, <S as Space>::Key), Hint);
+/// Margins of two bodies are a metre at most; beyond that nobody needs to know.
+const NEARBY: Question = Question { within: 1.1, has_sides: true };
+
+/// A body in its slot.
+#[derive(Clone, Debug)]
+struct Tenant<S: Judged> {
+    key: S::Key,
+    body: Collider<S>,
+    stand: Stand<S>,
+    /// Another number whenever it stands elsewhere, or as something else.
+    stood: u64,
+    is_disabled: bool,
+    is_asleep: bool,
+    motion: Option<S::Motion>,
+}
+
+/// Two slots, the lower one first.
+type Slots = (u32, u32);
 
 /// The model of a world.
 #[derive(Clone, Debug)]
-pub struct NaiveWorld<S: Engine> {
-    /// Bodies by slot.
+pub struct NaiveWorld<S: Judged> {
     bodies: BTreeMap<u32, Tenant<S>>,
+    /// What the judge said of two bodies that stood so.
+    words: BTreeMap<Slots, ([u64; 2], Word)>,
     /// Contacts of the last update, by the slots of their bodies.
-    records: BTreeMap<(u32, u32), Record<S>>,
+    records: BTreeMap<Slots, Record<S>>,
     events: Vec<Event<S::Key>>,
     /// Pairs that may meet and whose boxes overlap, as of the last update.
     candidates: Vec<(S::Key, S::Key)>,
-    /// Bodies that were disabled since they came, or since they were enabled.
-    disabled: BTreeSet<u32>,
     /// Bodies that got another shape since the last update.
     reshaped: BTreeSet<u32>,
-    /// What the last update learnt of each pair whose boxes overlap, by the slots of their bodies.
-    hints: BTreeMap<(u32, u32), Known<S>>,
+    /// How often anybody stood anywhere.
+    stands: u64,
+    bits: Option<Bits<S>>,
+    /// What was judged until now.
+    pub tally: Tally,
+}
+
+/// How often what was judged.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    /// Pairs that may meet.
+    pub pairs: usize,
+    /// Those of which the world's word went, since either answer is right.
+    pub unsure: usize,
+    /// Contacts with ground.
+    pub on_ground: usize,
+    /// Contacts that a motion may bring.
+    pub to_come: usize,
+    /// What bullets ran into.
+    pub impacts: usize,
+    /// Events.
+    pub events: usize,
 }
 
 #[derive(Clone, Debug)]
-struct Record<S: Engine> {
+struct Record<S: Judged> {
     keys: (S::Key, S::Key),
     user_data: (u64, u64),
     sensor: bool,
     overlapping: bool,
+    speculative: bool,
     begun: bool,
     is_new: bool,
-    /// Manifolds, as they were edited.
-    shown: Vec<S::Manifold>,
+    /// The judge's.
+    word: Word,
+    on_ground: bool,
+    /// Whether the ground has a front only.
+    is_one_sided: bool,
+    /// How many manifolds a hook left.
+    most: usize,
+    /// Manifolds, where every bit is known.
+    shown: Option<Vec<S::Manifold>>,
 }
 
-impl<S: Engine> Default for NaiveWorld<S> {
+impl<S: Judged> Default for NaiveWorld<S> {
     fn default() -> Self {
         Self {
             bodies: BTreeMap::new(),
+            words: BTreeMap::new(),
             records: BTreeMap::new(),
             events: Vec::new(),
             candidates: Vec::new(),
-            disabled: BTreeSet::new(),
             reshaped: BTreeSet::new(),
-            hints: BTreeMap::new(),
+            stands: 0,
+            bits: None,
+            tally: Tally::default(),
         }
     }
 }
 
-impl<S: Engine> NaiveWorld<S> {
+impl<S: Judged> NaiveWorld<S> {
+    /// A model that knows every bit of the manifolds. Without motions, ground and moves by a hair: what is moved along keeps
+    /// its points then.
+    pub fn to_the_bit() -> Self {
+        Self { bits: Some(Bits::default()), ..Self::default() }
+    }
+
     /// A body that the world gave this key.
     pub fn insert(&mut self, key: S::Key, body: Collider<S>) {
-        assert!(body.is_enabled(), "the model notes that itself");
-        assert!(self.bodies.insert(slot_of(key), (key, body)).is_none(), "a slot with two tenants");
-        self.disabled.remove(&slot_of(key));
+        assert!(body.is_enabled() && !body.is_asleep(), "the model notes that itself");
+        self.stands += 1;
+        let tenant = Tenant {
+            key,
+            stand: stand_of(&body),
+            body,
+            stood: self.stands,
+            is_disabled: false,
+            is_asleep: false,
+            motion: None,
+        };
+        assert!(self.bodies.insert(slot_of(key), tenant).is_none(), "a slot with two tenants");
     }
 
     /// Whether the key's body was there.
@@ -70,21 +147,28 @@ impl<S: Engine> NaiveWorld<S> {
 
     /// Whether the key's body is there.
     pub fn set_pose(&mut self, key: S::Key, pose: S::Pose) -> bool {
-        if !self.is_fresh(key) {
-            return false;
+        let Some(tenant) = tenant_of(&mut self.bodies, key) else { return false };
+        // The same pose again is no move. No pose here has a zero with a sign of its own.
+        if S::pose_of(&tenant.body) != pose {
+            self.stands += 1;
+            tenant.body = S::moved(tenant.body.clone(), pose);
+            (tenant.stand, tenant.stood, tenant.is_asleep) = (tenant.stand.at(&pose), self.stands, false);
         }
-        let slot = self.bodies.get_mut(&slot_of(key)).unwrap();
-        slot.1 = S::moved(slot.1.clone(), pose);
+        true
+    }
+
+    /// Whether the key's body is there.
+    pub fn set_motion(&mut self, key: S::Key, motion: S::Motion) -> bool {
+        let Some(tenant) = tenant_of(&mut self.bodies, key) else { return false };
+        (tenant.motion, tenant.is_asleep) = (Some(motion), false);
         true
     }
 
     /// Whether the key's body is there, and so the change was made.
     pub fn change(&mut self, key: S::Key, change: &Change<S>) -> bool {
-        if !self.is_fresh(key) {
-            return false;
-        }
         let slot = slot_of(key);
-        let body = &mut self.bodies.get_mut(&slot).unwrap().1;
+        let Some(tenant) = tenant_of(&mut self.bodies, key) else { return false };
+        let body = &mut tenant.body;
         match change {
             Change::Shape(shape) => {
                 *body = S::shaped(body, shape.clone());
@@ -92,23 +176,28 @@ impl<S: Engine> NaiveWorld<S> {
             }
             Change::Layers(layers) => *body = body.clone().layers(*layers),
             Change::UserData(number) => *body = body.clone().user_data(*number),
-            Change::Enable => drop(self.disabled.remove(&slot)),
-            Change::Disable => drop(self.disabled.insert(slot)),
-            Change::Sleep | Change::Wake => (),
+            Change::Enable => tenant.is_disabled = false,
+            Change::Disable => tenant.is_disabled = true,
+            Change::Sleep => tenant.is_asleep = true,
+            Change::Wake => tenant.is_asleep = false,
             Change::Replace(other) => {
                 if S::shape_of(body) != S::shape_of(other) {
                     self.reshaped.insert(slot);
                 }
                 *body = other.clone();
-                self.disabled.remove(&slot);
+                (tenant.is_disabled, tenant.is_asleep, tenant.motion) = (false, false, None);
             }
+        }
+        if matches!(change, Change::Shape(_) | Change::Replace(_)) {
+            self.stands += 1;
+            (tenant.stand, tenant.stood) = (stand_of(&tenant.body), self.stands);
         }
         true
     }
 
     /// Whether the key's body is there.
     pub fn is_fresh(&self, key: S::Key) -> bool {
-        self.bodies.get(&slot_of(key)).is_some_and(|(tenant, _)| *tenant == key)
+        self.bodies.get(&slot_of(key)).is_some_and(|tenant| tenant.key == key)
     }
 
     /// Removes every body.
@@ -116,52 +205,73 @@ impl<S: Engine> NaiveWorld<S> {
         self.bodies.clear();
     }
 
-    /// Contacts from all pairs, and events from the difference of two sets.
-    pub fn update(&mut self) {
-        self.update_with(|_, _| true, |_, _, manifolds| manifolds.clone());
+    /// Contacts from all pairs, and events from the difference of two sets; of a world that has just been updated, whose word
+    /// goes where both answers are right.
+    pub fn update(&mut self, world: &World<S>) {
+        self.update_with(world, |_, _| true, |_, _| usize::MAX);
     }
 
-    /// The same of the pairs that are admitted, with the manifolds as they are edited.
+    /// The same of the pairs that are admitted, of whose manifolds so many are kept.
     pub fn update_with(
         &mut self,
+        world: &World<S>,
         admit: impl Fn(&Collider<S>, &Collider<S>) -> bool,
-        edit: impl Fn(&Collider<S>, &Collider<S>, &Vec<S::Manifold>) -> Vec<S::Manifold>,
+        keep: impl Fn(&Collider<S>, &Collider<S>) -> usize,
     ) {
-        let (mut records, mut hints, mut candidates) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
-        for [a, b] in self.pairs_that_may_meet() {
-            if !admit(&a.1, &b.1) {
+        let (mut records, mut candidates) = (BTreeMap::new(), Vec::new());
+        let told: BTreeSet<Slots> =
+            S::candidates(world).iter().map(|(a, b)| (slot_of(*a), slot_of(*b))).collect();
+        let mut ahead = Ahead::of(&self.bodies);
+        let mut known = self.bits.take();
+        for slots in self.pairs_that_may_meet() {
+            let [a, b] = [slots.0, slots.1].map(|slot| &self.bodies[&slot]);
+            if !admit(&a.body, &b.body) {
                 continue;
             }
-            let slots = (slot_of(a.0), slot_of(b.0));
-            let keys = (a.0, b.0);
-            let is_reshaped = self.reshaped.contains(&slots.0) || self.reshaped.contains(&slots.1);
-            let known = self.hints.get(&slots).filter(|(known, _)| *known == keys && !is_reshaped);
-            let (hint, met) = S::meet(&a.1, &b.1, known.map_or(Hint::NONE, |(_, hint)| *hint));
-            if S::boxes_overlap(&a.1, &b.1) {
-                candidates.push(keys);
-                hints.insert(slots, (keys, hint));
+            let word = word_on(&mut self.words, slots, [a, b]);
+            if ahead.boxes_overlap(slots, [a, b]).unwrap_or_else(|| told.contains(&slots)) {
+                candidates.push((a.key, b.key));
             }
-            let Some((overlapping, manifolds)) = met else { continue };
-            let sensor = a.1.is_sensor() || b.1.is_sensor();
-            let before = self.records.get(&slots).filter(|before| before.keys == keys);
-            // With a margin, a contact outlives the touch; not with another shape.
-            let had_begun = before.is_some_and(|before| before.begun) && (overlapping || !is_reshaped);
-            let manifolds = if sensor { Vec::new() } else { manifolds };
-            let record = Record {
-                keys,
-                user_data: (a.1.get_user_data(), b.1.get_user_data()),
-                sensor,
-                overlapping,
-                begun: had_begun || overlapping,
-                is_new: overlapping && !had_begun,
-                shown: if manifolds.is_empty() { Vec::new() } else { edit(&a.1, &b.1, &manifolds) },
+            ahead.look(slots, [a, b], word);
+            self.tally.pairs += 1;
+            let is_reshaped = self.reshaped.contains(&slots.0) || self.reshaped.contains(&slots.1);
+            let bits = known.as_mut().map(|known| known.ask(slots, [a, b], is_reshaped));
+            let Some(mut record) = met(world, [a, b], word, &mut self.tally.unsure)
+                .or_else(|| ahead.to_come(world, slots, [a, b], word))
+            else {
+                assert!(bits.is_none_or(|met| met.is_none()), "the narrow phase alone says otherwise");
+                continue;
             };
+            record.most = keep(&a.body, &b.body);
+            record.shown = bits.map(|met| {
+                let (overlapping, manifolds) = met.expect("the narrow phase alone says otherwise");
+                assert_eq!(overlapping, record.overlapping);
+                let most = if record.sensor { 0 } else { record.most };
+                manifolds.into_iter().take(most).collect()
+            });
+            let before = self.records.get(&slots).filter(|before| before.keys == record.keys);
+            // With a margin, a contact outlives the touch; not with another shape, and not for what a motion may bring.
+            let is_over = record.speculative || is_reshaped && !record.overlapping;
+            let had_begun = before.is_some_and(|before| before.begun) && !is_over;
+            record.begun = had_begun || record.overlapping;
+            record.is_new = record.overlapping && !had_begun;
             records.insert(slots, record);
         }
+        self.tally.impacts += ahead.check_impacts(world, &self.bodies);
+        self.note_events(&records);
+        (self.records, self.candidates) = (records, candidates);
+        self.bits = known.map(Bits::turned_over);
+        self.reshaped.clear();
+        self.words.retain(|(a, b), _| self.bodies.contains_key(a) && self.bodies.contains_key(b));
+        self.bodies.values_mut().for_each(|tenant| tenant.motion = None);
+        self.tally.on_ground += self.records.values().filter(|record| record.on_ground).count();
+        self.tally.to_come += self.records.values().filter(|record| record.speculative).count();
+        self.tally.events += self.events.len();
+    }
+
+    fn note_events(&mut self, records: &BTreeMap<Slots, Record<S>>) {
         self.events.clear();
-        let mut slots: Vec<_> = self.records.keys().chain(records.keys()).copied().collect();
-        slots.sort_unstable();
-        slots.dedup();
+        let slots: BTreeSet<Slots> = self.records.keys().chain(records.keys()).copied().collect();
         for slots in slots {
             let (before, now) = (self.records.get(&slots), records.get(&slots));
             let stays = |before: &Record<S>| {
@@ -178,78 +288,85 @@ impl<S: Engine> NaiveWorld<S> {
                 self.events.push(Event::Began { a, b, user_data_a, user_data_b, sensor });
             }
         }
-        (self.records, self.hints, self.candidates) = (records, hints, candidates);
-        self.reshaped.clear();
     }
 
-    /// Pairs in order of their slots.
-    fn pairs_that_may_meet(&self) -> Vec<[&Tenant<S>; 2]> {
-        let mut pairs = Vec::new();
-        for (&slot, a) in &self.bodies {
-            let is_enabled = |slot: &u32| !self.disabled.contains(slot);
-            let others = self.bodies.range(slot + 1..).filter(|(other, _)| is_enabled(other));
-            let later = others.filter(|_| is_enabled(&slot)).map(|(_, b)| [a, b]);
-            pairs.extend(later.filter(|[a, b]| may_meet(&a.1, &b.1)));
-        }
-        pairs
+    /// In order of their slots.
+    fn pairs_that_may_meet(&self) -> Vec<Slots> {
+        let enabled = || self.bodies.iter().filter(|(_, tenant)| !tenant.is_disabled);
+        let later = |slot: u32| enabled().filter(move |(other, _)| **other > slot);
+        let pairs =
+            enabled().flat_map(|(&slot, a)| later(slot).map(move |(&other, b)| ((slot, other), a, b)));
+        pairs.filter(|(_, a, b)| may_meet(&a.body, &b.body)).map(|(slots, ..)| slots).collect()
     }
+}
 
-    /// Fails unless the world, just updated, says in every list and look-up what the model says.
-    pub fn check(&self, world: &World<S>) {
-        self.check_lists(world);
-        self.check_lookups(world);
-        let stats = world.stats();
-        let records = self.records.values();
-        assert_eq!(stats.bodies, self.bodies.len());
-        assert_eq!(stats.candidates, S::candidates(world).len());
-        assert_eq!(stats.contacts, self.records.len());
-        assert_eq!(stats.touching, records.clone().filter(|record| record.overlapping).count());
-        assert_eq!(stats.manifolds, records.map(|record| record.shown.len()).sum::<usize>());
-        assert!(!stats.overflow);
-    }
+fn stand_of<S: Judged>(body: &Collider<S>) -> Stand<S> {
+    Stand::new(S::shape_of(body), &S::pose_of(body))
+}
 
-    fn check_lists(&self, world: &World<S>) {
-        assert_eq!(S::events(world), self.events, "events");
-        assert_eq!(S::candidates(world), self.candidates, "candidates");
-        let contacts = S::contacts(world);
-        assert_eq!(contacts.len(), self.records.len(), "contacts");
-        for (contact, record) in contacts.iter().zip(self.records.values()) {
-            assert_eq!((contact.a, contact.b), record.keys, "contacts in order of their slots");
-            let facts = (contact.sensor, contact.overlapping, contact.is_new);
-            assert_eq!(facts, (record.sensor, record.overlapping, record.is_new), "{contact:?}");
-            assert_eq!(contact.manifolds, record.shown, "{contact:?}");
-        }
-        let bodies: Vec<_> = self.bodies.values().map(|(key, _)| *key).collect();
-        let found: Vec<_> = S::bodies(world).into_iter().map(|(key, _)| key).collect();
-        assert_eq!(found, bodies, "bodies in order of their slots");
-        assert_eq!((world.len(), world.is_empty()), (bodies.len(), bodies.is_empty()));
-    }
+fn tenant_of<S: Judged>(bodies: &mut BTreeMap<u32, Tenant<S>>, key: S::Key) -> Option<&mut Tenant<S>> {
+    bodies.get_mut(&slot_of(key)).filter(|tenant| tenant.key == key)
+}
 
-    fn check_lookups(&self, world: &World<S>) {
-        for (slot, (key, body)) in &self.bodies {
-            let found = S::get(world, *key).unwrap();
-            assert_eq!(found.get_user_data(), body.get_user_data());
-            assert_eq!(found.is_enabled(), !self.disabled.contains(slot));
-            let of_key: Vec<_> = self
-                .records
-                .iter()
-                .filter(|((a, b), _)| a == slot || b == slot)
-                .map(|((a, b), record)| (if a == slot { *b } else { *a }, record))
-                .collect();
-            // In order of the other body's slot: lower slots first, which is where this one comes second.
-            let mut others = of_key.clone();
-            others.sort_by_key(|(other, _)| *other);
-            let contacts: Vec<_> = S::contacts_of(world, *key).iter().map(|c| (c.a, c.b)).collect();
-            assert_eq!(contacts, others.iter().map(|(_, record)| record.keys).collect::<Vec<_>>());
-            let touching: Vec<u32> = S::touching(world, *key).into_iter().map(slot_of).collect();
-            let begun = others.iter().filter(|(_, record)| record.begun).map(|(other, _)| *other);
-            assert_eq!(touching, begun.collect::<Vec<_>>());
-            for (other_slot, (other, _)) in &self.bodies {
-                let record = self.records.get(&(*slot.min(other_slot), *slot.max(other_slot)));
-                assert_eq!(S::is_touching(world, *key, *other), record.is_some_and(|record| record.begun));
-                assert_eq!(S::contact(world, *key, *other).map(|c| (c.a, c.b)), record.map(|r| r.keys));
-            }
-        }
+/// The judge's word on two bodies where they are, who is asked where they stand otherwise than when he was last.
+fn word_on<S: Judged>(
+    words: &mut BTreeMap<Slots, ([u64; 2], Word)>,
+    slots: Slots,
+    [a, b]: [&Tenant<S>; 2],
+) -> Word {
+    let stood = [a.stood, b.stood];
+    let word = words.get(&slots).filter(|(then, _)| *then == stood).map(|(_, word)| *word);
+    let word = word.unwrap_or_else(|| a.stand.meet(&b.stand, NEARBY));
+    words.insert(slots, (stood, word));
+    word
+}
+
+/// The sum of two margins, as it is rounded.
+fn margin_of<S: Judged>([a, b]: [&Tenant<S>; 2]) -> f64 {
+    f64::from(a.body.get_margin() + b.body.get_margin())
+}
+
+/// The contact of two bodies within their margins.
+fn met<S: Judged>(
+    world: &World<S>,
+    [a, b]: [&Tenant<S>; 2],
+    word: Word,
+    unsure: &mut usize,
+) -> Option<Record<S>> {
+    let margin = margin_of([a, b]);
+    let told = S::contact(world, a.key, b.key).filter(|told| !told.speculative);
+    let mut overlapping = word.overlapping;
+    // Without a margin all is exact.
+    let is_close = margin > 0.0 && (word.separation - margin).abs() <= BAND;
+    // A one-sided surface is seen by what is in front of it and over it. Beside a hollow edge it may be in front of the one
+    // piece and behind the other: a contact, or none, until they overlap.
+    let is_beside = word.separation <= margin && (a.stand.is_one_sided() || b.stand.is_one_sided());
+    let is_near = if word.is_doubtful && word.separation <= margin + BAND || is_close && !overlapping {
+        *unsure += 1;
+        overlapping = if word.is_doubtful { told.is_some_and(|told| told.overlapping) } else { overlapping };
+        told.is_some()
+    } else if is_beside && !overlapping {
+        told.is_some() && margin > 0.0
+    } else {
+        overlapping || margin > 0.0 && word.separation <= margin
+    };
+    is_near.then(|| Record { overlapping, ..record_of([a, b], word) })
+}
+
+fn record_of<S: Judged>([a, b]: [&Tenant<S>; 2], word: Word) -> Record<S> {
+    Record {
+        keys: (a.key, b.key),
+        user_data: (a.body.get_user_data(), b.body.get_user_data()),
+        sensor: a.body.is_sensor() || b.body.is_sensor(),
+        overlapping: false,
+        speculative: false,
+        begun: false,
+        is_new: false,
+        word,
+        on_ground: S::is_ground(S::shape_of(&a.body)) || S::is_ground(S::shape_of(&b.body)),
+        is_one_sided: a.stand.is_one_sided() || b.stand.is_one_sided(),
+        most: usize::MAX,
+        shown: None,
     }
 }
 

@@ -5,43 +5,14 @@ mod damaged;
 
 use asunder::slotmap::Key;
 use asunder::{
-    Collider, Collider3, Compound3, Hooks, Hull, Meeting, Plane, Pose3, Shape3, Side, Snapshot, Space,
-    Volume, World, World3,
+    Collider, Collider3, Compound3, Hooks, Hull, Meeting, Plane, Pose3, Shape3, Side, Space, Volume, World,
+    World3,
 };
 use asunder_tests::cases::Random;
 use asunder_tests::engine::{Change, Engine};
+use asunder_tests::stored::Stored;
 use glam::Vec3;
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 use serde_json::json;
-
-/// What the tests need of both dimensions.
-trait Stored: Engine {
-    fn snapshot(world: &World<Self>) -> impl Serialize + DeserializeOwned + PartialEq + core::fmt::Debug;
-    fn text(world: &World<Self>) -> String;
-    fn restored(text: &str) -> Result<World<Self>, String>;
-}
-
-macro_rules! stored {
-    ($($space:ty),*) => {$(
-        impl Stored for $space {
-            fn snapshot(world: &World<Self>) -> impl Serialize + DeserializeOwned + PartialEq + core::fmt::Debug {
-                world.snapshot()
-            }
-
-            fn text(world: &World<Self>) -> String {
-                serde_json::to_string(&world.snapshot()).unwrap()
-            }
-
-            fn restored(text: &str) -> Result<World<Self>, String> {
-                let snapshot: Snapshot<Self> = serde_json::from_str(text).map_err(|error| error.to_string())?;
-                World::restore(&snapshot).map_err(|error| error.to_string())
-            }
-        }
-    )*};
-}
-
-stored!(Plane, Volume);
 
 /// Half of the side of the room, in metres: bodies of a metre meet often in it.
 const ROOM: f64 = 1.6;

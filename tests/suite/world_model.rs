@@ -1,195 +1,46 @@
-//! Lists of operations on both worlds, against the model and against a fresh world with the same bodies.
+//! Lists of operations on both worlds, against the model and against a fresh world with the same bodies; and clones and
+//! restored worlds among them, which go on beside those that they were made of.
 
-use asunder::slotmap::Key;
-use asunder::{Collider, Hooks, Meeting, Plane, Side, Volume, World};
+mod operation;
+mod twins;
+
+use asunder::{Plane, Volume, World};
 use asunder_tests::cases::Random;
-use asunder_tests::engine::{Change, Engine};
-use asunder_tests::naive_world::NaiveWorld;
+use asunder_tests::engine::Engine;
+use operation::{Operation, anything, jump};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use twins::{ROOM, Stage, Twins};
 
-/// One thing done to a world. Bodies are named by the order in which they came, gone ones included.
-#[derive(Clone, Debug)]
-enum Operation {
-    Insert {
-        seed: u64,
-    },
-    Move {
-        body: usize,
-        seed: u64,
-    },
-    /// Moves a body to where it is.
-    Stay {
-        body: usize,
-    },
-    Remove {
-        body: usize,
-    },
-    /// Changes what a body is.
-    Change {
-        body: usize,
-        seed: u64,
-    },
-    Clear,
-    Update,
-    /// Updates with both hooks.
-    UpdateWith {
-        seed: u64,
-    },
-}
-
-/// Half of the side of the room, in metres: bodies of a metre meet often in it.
-const ROOM: f64 = 1.6;
-
-/// Bodies beyond this are not let in: all pairs of them are compared.
-const MOST_BODIES: usize = 30;
-
-/// A world and its model, told the same.
-struct Twins<S: Engine> {
-    world: World<S>,
-    model: NaiveWorld<S>,
-    keys: Vec<S::Key>,
-}
-
-impl<S: Engine> Twins<S> {
-    fn new() -> Self {
-        Self { world: World::new(), model: NaiveWorld::default(), keys: Vec::new() }
-    }
-
-    /// One of the bodies that are there; or, one time in eight, one of all that ever were.
-    fn key(&self, body: usize) -> S::Key {
-        let alive = S::bodies(&self.world);
-        match (body % 8, alive.len(), self.keys.len()) {
-            // Before there is any body, the null key stands for one that never was.
-            (.., 0) => S::Key::null(),
-            (0, _, ever) | (_, 0, ever) => self.keys[body / 8 % ever],
-            (_, there, _) => alive[body / 8 % there].0,
-        }
-    }
-
-    fn apply(&mut self, operation: &Operation) {
-        match *operation {
-            Operation::Insert { .. } if self.world.len() >= MOST_BODIES => {}
-            Operation::Insert { seed } => {
-                let body = S::random_body(&mut Random::new(seed.into()), ROOM);
-                let key = S::insert(&mut self.world, body.clone());
-                assert!(!self.keys.contains(&key), "a key that an earlier body had");
-                self.model.insert(key, body);
-                self.keys.push(key);
-            }
-            Operation::Move { body, seed } => {
-                let (key, pose) = (self.key(body), S::random_pose(&mut Random::new(seed.into()), ROOM));
-                let was_there = self.model.set_pose(key, pose);
-                assert_eq!(S::set_pose(&mut self.world, key, pose), was_there, "a stale key moves nobody");
-            }
-            Operation::Stay { body } => {
-                let key = self.key(body);
-                if let Some(body) = S::get(&self.world, key).cloned() {
-                    let pose = S::pose_of(&body);
-                    assert!(S::set_pose(&mut self.world, key, pose));
-                }
-            }
-            Operation::Remove { body } => {
-                let key = self.key(body);
-                let was_there = self.model.remove(key);
-                assert_eq!(
-                    S::remove(&mut self.world, key).is_some(),
-                    was_there,
-                    "a stale key removes nobody"
-                );
-            }
-            Operation::Clear => {
-                self.world.clear();
-                self.model.clear();
-            }
-            Operation::Change { body, seed } => {
-                let (key, change) = (self.key(body), Change::random(&mut Random::new(seed.into())));
-                let was_there = self.model.change(key, &change);
-                assert_eq!(S::change(&mut self.world, key, &change), was_there, "a stale key changes nobody");
-            }
-            Operation::Update => {
-                self.world.update();
-                self.model.update();
-                self.model.check(&self.world);
-                check_fresh(&self.world);
-            }
-            Operation::UpdateWith { seed } => {
-                // A third of the pairs is refused, and of each contact some manifolds go.
-                let dice = |a: &Collider<S>, b: &Collider<S>| {
-                    a.get_user_data().wrapping_mul(31).wrapping_add(b.get_user_data()).wrapping_add(seed) % 3
-                };
-                let pair = |a: Side<'_, S>, b: Side<'_, S>| dice(a.body, b.body) != 0;
-                let contact = |meeting: Meeting<'_, S>| {
-                    let keep = dice(meeting.a.body, meeting.b.body) - 1;
-                    meeting.manifolds.truncate(keep as usize);
-                };
-                self.world.update_with(&Hooks::new().pair(&pair).contact(&contact));
-                self.model.update_with(
-                    |a, b| dice(a, b) != 0,
-                    |a, b, manifolds| manifolds.iter().take(dice(a, b) as usize - 1).cloned().collect(),
-                );
-                self.model.check(&self.world);
-            }
-        }
-        for &key in &self.keys {
-            let is_fresh = self.model.is_fresh(key);
-            assert_eq!(
-                S::get(&self.world, key).is_some(),
-                is_fresh,
-                "keys of gone bodies are stale for ever"
-            );
-            if !is_fresh {
-                assert!(
-                    S::contacts_of(&self.world, key).is_empty() && S::touching(&self.world, key).is_empty()
-                );
-            }
-        }
-    }
-}
-
-/// A fresh world with the same bodies in the same order has the same contacts, bit for bit: history leaves nothing
-/// behind but which contacts are new.
-fn check_fresh<S: Engine>(world: &World<S>) {
-    let bodies = S::bodies(world);
-    let mut fresh = World::new();
-    let keys: Vec<_> = bodies.iter().map(|(_, body)| S::insert(&mut fresh, body.clone())).collect();
-    fresh.update();
-    let rank = |key: S::Key| bodies.iter().position(|(known, _)| *known == key).unwrap();
-    let (contacts, others) = (S::contacts(world), S::contacts(&fresh));
-    assert_eq!(contacts.len(), others.len(), "contacts of a fresh world");
-    for (contact, other) in contacts.iter().zip(&others) {
-        assert_eq!((keys[rank(contact.a)], keys[rank(contact.b)]), (other.a, other.b));
-        assert_eq!((contact.sensor, contact.overlapping), (other.sensor, other.overlapping));
-        assert_eq!(format!("{:?}", contact.manifolds), format!("{:?}", other.manifolds), "in every bit");
-        assert_eq!(other.is_new, other.overlapping, "in a fresh world every touch is new");
-    }
-}
-
-fn run<S: Engine>(operations: &[Operation]) {
-    let mut twins = Twins::<S>::new();
-    let (mut updates, mut events) = (0, 0);
+/// Goes through a list, and asks for an update at its end.
+fn run<S: Stage>(mut twins: Twins<S>, operations: &[Operation]) -> Twins<S> {
     for operation in operations.iter().chain([&Operation::Update]) {
         twins.apply(operation);
-        if matches!(operation, Operation::Update | Operation::UpdateWith { .. }) {
-            (updates, events) = (updates + 1, events + S::events(&twins.world).len());
-        }
     }
+    twins.finish();
+    twins
+}
+
+/// Of jumps, in every bit.
+fn jumps<S: Stage>(operations: &[Operation]) {
+    let twins = run(Twins::<S>::to_the_bit(), operations);
     if operations.len() >= 10_000 {
-        assert!(updates > 1500 && events > 3000, "{updates} updates, {events} events");
+        let (updates, tally) = (twins.updates, twins.tally());
+        assert!(updates > 1500 && tally.events > 3000, "{updates} updates, {tally:?}");
     }
 }
 
-fn operation() -> impl Strategy<Value = Operation> {
-    prop_oneof![
-        40 => any::<u64>().prop_map(|seed| Operation::Insert { seed }),
-        40 => (0..1_usize << 20, any::<u64>()).prop_map(|(body, seed)| Operation::Move { body, seed }),
-        10 => (0..1_usize << 20).prop_map(|body| Operation::Stay { body }),
-        20 => (0..1_usize << 20).prop_map(|body| Operation::Remove { body }),
-        1 => Just(Operation::Clear),
-        30 => (0..1_usize << 20, any::<u64>()).prop_map(|(body, seed)| Operation::Change { body, seed }),
-        30 => Just(Operation::Update),
-        10 => any::<u64>().prop_map(|seed| Operation::UpdateWith { seed }),
-    ]
+/// Of everything, judged.
+fn everything<S: Stage>(operations: &[Operation]) {
+    let twins = run(Twins::<S>::new(), operations);
+    if operations.len() >= 10_000 {
+        let (updates, tally) = (twins.updates, twins.tally());
+        let told = [tally.events / 30, tally.on_ground / 30, tally.to_come / 5, tally.impacts];
+        assert!(updates > 1500 && told.iter().all(|&count| count > 100), "{updates} updates, {tally:?}");
+        assert!(twins.followers > 40, "clones and restored worlds: {}", twins.followers);
+        // The world is taken at its word in next to no pair: on a grid some are just a margin apart, or edgewise.
+        assert!(tally.unsure * 500 < tally.pairs, "{tally:?}");
+    }
 }
 
 proptest! {
@@ -202,9 +53,15 @@ proptest! {
     })]
 
     #[test]
-    fn short_lists(operations in prop::collection::vec(operation(), 1..60)) {
-        run::<Volume>(&operations);
-        run::<Plane>(&operations);
+    fn short_lists(operations in prop::collection::vec(jump(), 1..60)) {
+        jumps::<Volume>(&operations);
+        jumps::<Plane>(&operations);
+    }
+
+    #[test]
+    fn short_lists_of_everything(operations in prop::collection::vec(anything(), 1..80)) {
+        everything::<Volume>(&operations);
+        everything::<Plane>(&operations);
     }
 }
 
@@ -220,13 +77,24 @@ proptest! {
 
     /// A long life: bodies come and go for ten thousand operations, so that every slot has had many tenants.
     #[test]
-    fn a_long_list_in_space(operations in prop::collection::vec(operation(), 10_000)) {
-        run::<Volume>(&operations);
+    fn a_long_list_in_space(operations in prop::collection::vec(jump(), 10_000)) {
+        jumps::<Volume>(&operations);
     }
 
     #[test]
-    fn a_long_list_in_the_plane(operations in prop::collection::vec(operation(), 10_000)) {
-        run::<Plane>(&operations);
+    fn a_long_list_in_the_plane(operations in prop::collection::vec(jump(), 10_000)) {
+        jumps::<Plane>(&operations);
+    }
+
+    /// The same with all that there is: ground, motions, bullets, moves by a hair, batches, clones and restored worlds.
+    #[test]
+    fn a_long_list_of_everything_in_space(operations in prop::collection::vec(anything(), 10_000)) {
+        everything::<Volume>(&operations);
+    }
+
+    #[test]
+    fn a_long_list_of_everything_in_the_plane(operations in prop::collection::vec(anything(), 10_000)) {
+        everything::<Plane>(&operations);
     }
 }
 
