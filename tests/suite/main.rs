@@ -57,7 +57,7 @@
 //! - [`world_crowds`]: pairs that come and go by tens of thousands are those of a double loop
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
 //! - [`snapshots`]: a world restored from text has the same outputs, keys and future, bit for bit; no damaged file
-//!   breaks one
+//!   breaks one; machines that guess inputs and roll back end in the same bits
 //! - [`debug_lines`]: lines for a renderer lie on what they show
 //! - [`motions`]: what an update says of this frame's motions: contacts to come, and what bullets run into first
 //! - [`questions`]: overlaps, casts and what is near, against a loop over all bodies, at any time, from any thread

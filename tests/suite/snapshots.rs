@@ -2,6 +2,7 @@
 //! breaks one.
 
 mod damaged;
+mod rollback;
 
 use asunder::slotmap::Key;
 use asunder::{
