@@ -4,6 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests stop the test, as tests do")]
 
+mod asked;
 mod growth;
 mod sizes;
 mod steady;

@@ -1,9 +1,11 @@
 //! A steady scene allocates nothing per frame.
 
+use crate::asked::Asker;
 use asunder::glam::{DVec3, Quat, Vec3};
-use asunder::{Collider3, Cuboid, Hooks, Plane, Pose3, TriMesh, Volume, World3};
+use asunder::{Collider3, Cuboid, Hooks, Plane, Pose3, TriMesh, Volume, World, World3};
 use asunder_scenes::terrain::Terrain;
 use asunder_scenes::worlds::WorldScene;
+use asunder_tests::cases::Random;
 use asunder_tests::counting::{allocations, counted, counted_here};
 use asunder_tests::recorded::{Fnv1a, Recorded, Recording};
 
@@ -141,4 +143,69 @@ fn nor_do_hooks() {
         taken
     });
     assert_eq!(taken, 0);
+}
+
+/// Frames after which a room is as it was.
+const ROOM_CYCLE: u32 = 12;
+
+/// What the third cycle allocates in a room with ground: half of the bodies are elsewhere in every frame, the others, bullets
+/// among them, are given motions, and between two updates everything is asked.
+fn allocations_in_a_room<S: Asker>(threads: usize) -> u64 {
+    counted(threads, || {
+        let mut random = Random::new(92);
+        let mut world = World::<S>::new();
+        S::ground().into_iter().for_each(|ground| _ = S::insert(&mut world, ground));
+        let bodies: Vec<_> = (0..120)
+            .map(|number| {
+                let body = S::random_body(&mut random, 3.0);
+                S::insert(&mut world, if number % 3 == 0 { body.bullet() } else { body })
+            })
+            .collect();
+        let asked: Vec<_> = (0..5).map(|_| S::asked(&mut random, 3.0)).collect();
+        let mut lists = S::Lists::default();
+        let [mut answers, mut impacts, mut walls, mut lines] = [0; 4];
+        let mut cycle = || {
+            let before = allocations();
+            for frame in 0..ROOM_CYCLE {
+                let mut random = Random::new(93 + u128::from(frame));
+                for (number, &body) in bodies.iter().enumerate() {
+                    if number % 2 == 0 {
+                        S::set_pose(&mut world, body, S::random_pose(&mut random, 3.0));
+                    } else {
+                        S::set_motion(&mut world, body, S::random_motion(&mut random, 2.0));
+                    }
+                }
+                // Before the update, where poses are newer than the trees, and after it.
+                for when in 0..2 {
+                    for asked in &asked {
+                        answers += S::list(&world, asked, &mut lists) + S::visit(&world, asked);
+                        walls += usize::from(S::walk(&world, asked));
+                    }
+                    if when == 0 {
+                        world.update();
+                    }
+                }
+                impacts += S::impacts(&world).len();
+                lines += S::lines(&world);
+            }
+            allocations() - before
+        };
+        let early = cycle() + cycle();
+        // With more threads the least of some, as above.
+        let taken = (1..if threads > 1 { 6 } else { 2 }).map(|_| cycle()).min();
+        assert!(early > 0 && answers > 1000 && impacts > 50 && walls > 100 && lines > 10_000);
+        taken.unwrap()
+    })
+}
+
+#[test]
+fn nor_do_bullets_questions_and_characters_in_space() {
+    assert_eq!(allocations_in_a_room::<Volume>(1), 0);
+    assert_eq!(allocations_in_a_room::<Volume>(2), 0, "on two threads");
+}
+
+#[test]
+fn nor_do_bullets_questions_and_characters_in_the_plane() {
+    assert_eq!(allocations_in_a_room::<Plane>(1), 0);
+    assert_eq!(allocations_in_a_room::<Plane>(2), 0, "on two threads");
 }

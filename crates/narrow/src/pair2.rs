@@ -199,12 +199,7 @@ impl<'a> Pair2<'a> {
     /// edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
         if self.has_ground() {
-            let mut manifolds = self.manifolds(margin).into_iter();
-            let first = manifolds.next()?;
-            let deeper = |best: Manifold2, next: Manifold2| {
-                if next.separation < best.separation { next } else { best }
-            };
-            return Some(manifolds.fold(first, deeper));
+            return self.deepest_on_ground(margin).1;
         }
         let mut best: Option<Manifold2> = None;
         let _ = self.contact(margin, Hint::NONE, true, |next| {

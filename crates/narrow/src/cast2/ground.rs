@@ -20,13 +20,11 @@ impl Pair2<'_> {
         if self.shape_a.is_ground() && self.shape_b.is_ground() {
             return self.overlaps().then(|| self.touching_at_start());
         }
-        let mut manifolds = Vec::new();
-        if self.contact_on_ground(0.0, &mut manifolds) != Some(true) {
+        let (touch, deepest) = self.deepest_on_ground(0.0);
+        if touch != Some(true) {
             return None;
         }
-        let deepest =
-            manifolds.iter().reduce(|best, next| if next.separation < best.separation { next } else { best });
-        Some(deepest.and_then(at_start).unwrap_or_else(|| self.touching_at_start()))
+        Some(deepest.as_ref().and_then(at_start).unwrap_or_else(|| self.touching_at_start()))
     }
 
     /// The first segment and part that touch within a stretch.
