@@ -88,6 +88,8 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)>;
     /// `World::candidates`.
     fn candidates(world: &World<Self>) -> Vec<(Self::Key, Self::Key)>;
+    /// `World::candidates_of`.
+    fn candidates_of(world: &World<Self>, key: Self::Key) -> Vec<(Self::Key, Self::Key)>;
     /// `World::contacts`.
     fn contacts(world: &World<Self>) -> Vec<Contact<'_, Self::Key, Self::Manifold>>;
     /// `World::contacts_of`.
@@ -243,6 +245,10 @@ impl Engine for Volume {
 
     fn candidates(world: &World<Self>) -> Vec<(Self::Key, Self::Key)> {
         world.candidates().collect()
+    }
+
+    fn candidates_of(world: &World<Self>, key: Self::Key) -> Vec<(Self::Key, Self::Key)> {
+        world.candidates_of(key).collect()
     }
 
     fn contacts(world: &World<Self>) -> Vec<Contact<'_, Self::Key, Self::Manifold>> {
@@ -410,6 +416,10 @@ impl Engine for Plane {
 
     fn candidates(world: &World<Self>) -> Vec<(Self::Key, Self::Key)> {
         world.candidates().collect()
+    }
+
+    fn candidates_of(world: &World<Self>, key: Self::Key) -> Vec<(Self::Key, Self::Key)> {
+        world.candidates_of(key).collect()
     }
 
     fn contacts(world: &World<Self>) -> Vec<Contact<'_, Self::Key, Self::Manifold>> {

@@ -126,6 +126,12 @@ mod stories {
         S::remove(&mut world, middle);
         assert!(S::contacts_of(&world, middle).is_empty() && S::touching(&world, middle).is_empty());
         assert!(!S::is_touching(&world, keys[0], middle) && S::contact(&world, keys[0], middle).is_none());
+        assert!(S::candidates_of(&world, middle).is_empty());
+        assert_eq!(
+            S::candidates_of(&world, keys[2]),
+            [(keys[0], keys[2]), (keys[2], keys[3])],
+            "who is left"
+        );
         world.update();
         let gone =
             [(0, 1), (1, 2), (1, 3)].map(|(i, j)| ended(keys[i], keys[j], 10 + i as u64, 10 + j as u64));
@@ -140,6 +146,7 @@ mod stories {
         assert_ne!(tenant, keys[1]);
         assert!(!S::is_touching(&world, keys[0], tenant), "its predecessor's contact is not its own");
         assert!(S::contacts_of(&world, tenant).is_empty() && S::contact(&world, keys[0], tenant).is_none());
+        assert!(S::candidates_of(&world, tenant).is_empty() && S::candidates_of(&world, keys[0]).is_empty());
         world.update();
         let expected = [ended(keys[0], keys[1], 10, 11), began(keys[0], tenant, 10, 77)];
         assert_eq!(S::events(&world), expected, "what ended comes first");

@@ -257,6 +257,20 @@ impl<S: Space> World<S> {
         })
     }
 
+    /// Candidates of one body, in order of the other body's slot.
+    pub(crate) fn pairs_of(&self, key: S::Key) -> impl Iterator<Item = (S::Key, S::Key)> + Clone {
+        let (slot, is_there) = (slot_of(key), self.bodies.contains_key(key));
+        let candidates = if is_there { self.candidates.as_slice() } else { &[] };
+        let (before, rest) =
+            candidates.split_at(candidates.partition_point(|candidate| candidate.pair.a < slot));
+        let as_second = before.iter().filter(move |candidate| candidate.pair.b == slot);
+        let as_first = rest.iter().take_while(move |candidate| candidate.pair.a == slot);
+        as_second.chain(as_first).map(|candidate| candidate.keys).filter(move |&(a, b)| {
+            // Another body may have been removed since, and so may the one that had this slot then.
+            self.bodies.contains_key(a) && self.bodies.contains_key(b)
+        })
+    }
+
     /// The bodies that touch this one.
     pub(crate) fn touched_by(&self, key: S::Key) -> impl Iterator<Item = S::Key> + Clone {
         let begun = self.records_of(key).map(|number| self.records.get(number)).filter(|record| record.begun);

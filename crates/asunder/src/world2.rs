@@ -207,6 +207,32 @@ impl World<Plane> {
         self.candidates.iter().map(|candidate| candidate.keys)
     }
 
+    /// Pairs whose boxes overlapped and whose filters agreed, those of one body, with bodies that are still there, in order of
+    /// the other's slot; none for a stale key. Whom the body may meet next, and why the narrow phase was asked about it:
+    /// [`contacts_of`](Self::contacts_of) are those of them that are within their margins.
+    ///
+    /// Cost: linear in the candidates of lower slots, some 1 ns each, since no frame makes a list for it. For many bodies,
+    /// rather go through [`candidates`](Self::candidates) once.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Pose2, World2};
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let mut world = World2::new();
+    /// let a = world.insert(ball.clone());
+    /// let b = world.insert(ball.clone().at(Pose2::at([1.5, 1.5])?));
+    /// let c = world.insert(ball.at(Pose2::at([9.0, 0.0])?));
+    /// world.update();
+    /// assert_eq!(world.candidates_of(b).collect::<Vec<_>>(), [(a, b)]);
+    /// assert_eq!(world.contacts_of(b).count(), 0, "corner to corner, boxes overlap where balls do not");
+    /// assert_eq!(world.candidates_of(c).count(), 0);
+    /// world.remove(b);
+    /// assert_eq!(world.candidates_of(a).count() + world.candidates_of(b).count(), 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn candidates_of(&self, key: BodyKey2) -> impl Iterator<Item = (BodyKey2, BodyKey2)> + Clone {
+        self.pairs_of(key)
+    }
+
     /// Pairs within their margins of each other at the last update, in pair order. A body removed since is still
     /// among them.
     pub fn contacts(&self) -> impl ExactSizeIterator<Item = Contact2<'_>> + Clone {

@@ -74,6 +74,9 @@ impl<S: Judged> NaiveWorld<S> {
                 .map(|((a, b), record)| (if a == slot { *b } else { *a }, record))
                 .collect();
             others.sort_by_key(|(other, _)| *other);
+            let of_key = |&(a, b): &(S::Key, S::Key)| a == tenant.key || b == tenant.key;
+            let candidates: Vec<_> = self.candidates.iter().copied().filter(of_key).collect();
+            assert_eq!(S::candidates_of(world, tenant.key), candidates, "in order of the other's slot");
             let contacts: Vec<_> = S::contacts_of(world, tenant.key).iter().map(|c| (c.a, c.b)).collect();
             assert_eq!(contacts, others.iter().map(|(_, record)| record.keys).collect::<Vec<_>>());
             let touching: Vec<u32> = S::touching(world, tenant.key).into_iter().map(slot_of).collect();

@@ -261,6 +261,7 @@ impl<S: Stage> Twins<S> {
             if !is_fresh {
                 let is_forgotten = S::contacts_of(&self.world, key).is_empty();
                 assert!(is_forgotten && S::touching(&self.world, key).is_empty());
+                assert!(S::candidates_of(&self.world, key).is_empty());
             }
         }
     }
