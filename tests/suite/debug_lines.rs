@@ -1,5 +1,8 @@
 //! Debug lines lie on what they show.
 
+mod options;
+mod outlines;
+
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{Collider2, Collider3, DebugLine, DebugOptions, Pair3, Pose2, Pose3, Shape3, World2, World3};
 use asunder_tests::cases::Random;

@@ -1,0 +1,244 @@
+//! What is asked for is drawn, where it is, and nothing else.
+
+use super::SHAPES;
+use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
+use asunder::{
+    Collider2, Collider3, Cuboid, DebugLine, DebugOptions, Motion3, Pose2, Pose3, Rect, World2, World3,
+};
+use asunder_tests::cases::Random;
+use asunder_tests::engine::Engine;
+use std::collections::BTreeMap;
+
+const NOTHING: DebugOptions = DebugOptions { shapes: false, ..SHAPES };
+const ALL: DebugOptions =
+    DebugOptions { shapes: true, boxes: true, columns: true, contacts: true, normals: true, ..SHAPES };
+
+fn drawn3(world: &World3, options: &DebugOptions) -> Vec<([DVec3; 2], DebugLine)> {
+    let mut lines = Vec::new();
+    world.debug_lines(options, &mut |from, to, what| lines.push(([from, to], what)));
+    lines
+}
+
+/// As lines of space.
+fn drawn2(world: &World2, options: &DebugOptions) -> Vec<([DVec3; 2], DebugLine)> {
+    let mut lines = Vec::new();
+    world.debug_lines(options, &mut |from, to, what| {
+        lines.push(([from, to].map(|end| end.extend(0.0)), what))
+    });
+    lines
+}
+
+/// How often each line is there, whichever end comes first. No end is a NaN or a -0.
+fn counted(lines: impl IntoIterator<Item = [DVec3; 2]>) -> BTreeMap<[[u64; 3]; 2], usize> {
+    let mut counts = BTreeMap::new();
+    for ends in lines {
+        let mut ends = ends.map(|end| (end + 0.0).to_array().map(f64::to_bits));
+        ends.sort_unstable();
+        *counts.entry(ends).or_default() += 1;
+    }
+    counts
+}
+
+/// The edges of a box: corners that differ in one coordinate.
+fn edges(low: DVec3, high: DVec3) -> Vec<[DVec3; 2]> {
+    let sides =
+        |axis: usize| if low[axis] == high[axis] { vec![low[axis]] } else { vec![low[axis], high[axis]] };
+    let of_xy = |x: f64| sides(1).into_iter().map(move |y| (x, y));
+    let of_xyz = |(x, y): (f64, f64)| sides(2).into_iter().map(move |z| DVec3::new(x, y, z));
+    let corners: Vec<DVec3> = sides(0).into_iter().flat_map(of_xy).flat_map(of_xyz).collect();
+    let pairs =
+        corners.iter().enumerate().flat_map(|(i, &from)| corners[..i].iter().map(move |&to| [from, to]));
+    pairs.filter(|[from, to]| from.cmpne(*to).bitmask().count_ones() == 1).collect()
+}
+
+fn of_kind(lines: &[([DVec3; 2], DebugLine)], kind: DebugLine) -> impl Iterator<Item = [DVec3; 2]> {
+    lines.iter().filter(move |(_, what)| *what == kind).map(|(ends, _)| *ends)
+}
+
+/// Boxes are those of the last update, whatever was moved since; with the margin, and none of what is disabled, gone
+/// or endless.
+#[test]
+fn boxes_are_drawn_by_their_edges() {
+    let mut random = Random::new(910);
+    let (mut world, mut flat) = (World3::new(), World2::new());
+    let (mut solid, mut plane) = (Vec::new(), Vec::new());
+    let options = DebugOptions { boxes: true, ..NOTHING };
+    for number in 0..60 {
+        let body = asunder::Volume::random_body(&mut random, 9.0);
+        let bounds = body.shape().bounds(body.pose(), body.get_margin());
+        let key = world.insert(body);
+        if number % 7 == 3 {
+            world.disable(key).unwrap();
+        } else if bounds.min.is_finite() && bounds.max.is_finite() {
+            solid.extend(edges(bounds.min.as_dvec3(), bounds.max.as_dvec3()));
+        }
+        let body = asunder::Plane::random_body(&mut random, 9.0);
+        let bounds = body.shape().bounds(body.pose(), body.get_margin());
+        let key = flat.insert(body);
+        if number % 7 == 3 {
+            flat.remove(key);
+        } else if bounds.min.is_finite() && bounds.max.is_finite() {
+            plane.extend(edges(bounds.min.as_dvec2().extend(0.0), bounds.max.as_dvec2().extend(0.0)));
+        }
+    }
+    assert!(solid.len().is_multiple_of(12) && solid.len() > 12 * 40);
+    assert!(plane.len().is_multiple_of(4) && plane.len() > 4 * 40);
+    assert!(
+        drawn3(&world, &options).is_empty() && drawn2(&flat, &options).is_empty(),
+        "before the first update"
+    );
+    world.update();
+    flat.update();
+    let first = world.iter().next().unwrap().0;
+    world.set_pose(first, Pose3::at([50.0, 0.0, 0.0]).unwrap()).unwrap();
+    let (drawn, drawn_flat) = (drawn3(&world, &options), drawn2(&flat, &options));
+    assert_eq!(counted(of_kind(&drawn, DebugLine::Box)), counted(solid));
+    assert_eq!(counted(of_kind(&drawn_flat, DebugLine::Box)), counted(plane));
+    assert!(drawn.iter().chain(&drawn_flat).all(|(_, what)| *what == DebugLine::Box));
+}
+
+/// Every choice of options draws what each of them draws alone.
+#[test]
+fn each_option_switches_its_own_lines() {
+    let mut random = Random::new(911);
+    let (mut world, mut flat) = (World3::new(), World2::new());
+    for _ in 0..80 {
+        world.insert(asunder::Volume::random_body(&mut random, 3.0));
+        flat.insert(asunder::Plane::random_body(&mut random, 3.0));
+    }
+    world.update();
+    flat.update();
+    for (name, draw) in [
+        ("space", &(|options: &DebugOptions| drawn3(&world, options)) as &dyn Fn(&DebugOptions) -> Vec<_>),
+        ("plane", &|options: &DebugOptions| drawn2(&flat, options)),
+    ] {
+        let all = draw(&ALL);
+        for choice in 0..32 {
+            let [shapes, boxes, columns, contacts, normals] =
+                [0, 1, 2, 3, 4].map(|bit| choice >> bit & 1 == 1);
+            let options = DebugOptions { shapes, boxes, columns, contacts, normals, ..SHAPES };
+            let is_asked = |what: DebugLine| match what {
+                DebugLine::Box => boxes,
+                DebugLine::Column => columns,
+                DebugLine::Contact => contacts,
+                DebugLine::Normal => normals,
+                _ => shapes,
+            };
+            let expected: Vec<_> = all.iter().filter(|(_, what)| is_asked(*what)).copied().collect();
+            assert_eq!(draw(&options), expected, "{name}, choice {choice:05b}");
+        }
+        for kind in
+            [DebugLine::Box, DebugLine::Column, DebugLine::Contact, DebugLine::Normal, DebugLine::Body]
+        {
+            assert!(of_kind(&all, kind).count() > 3, "{name}: {kind:?}");
+        }
+    }
+}
+
+#[test]
+fn an_empty_world_draws_nothing() {
+    let (mut world, mut flat) = (World3::new(), World2::new());
+    for _ in 0..2 {
+        assert!(drawn3(&world, &ALL).is_empty() && drawn2(&flat, &ALL).is_empty());
+        world.update();
+        flat.update();
+    }
+    let unit = Cuboid::from_half_extents(Vec3::ONE).unwrap();
+    let keys = world.insert_many([Collider3::new(unit), Collider3::new(unit)]);
+    world.update();
+    assert!(!drawn3(&world, &ALL).is_empty());
+    keys.into_iter().for_each(|key| drop(world.remove(key)));
+    world.update();
+    let left = drawn3(&world, &ALL).into_iter().filter(|(_, what)| *what != DebugLine::Column).count();
+    assert_eq!(left, 0, "nor one that is empty again");
+}
+
+/// A crate a tenth of a metre deep in a floor: four crosses half-way, at the corners of the crate, and normals from the
+/// body of the lower slot, whichever that is.
+#[test]
+fn contacts_of_a_crate_are_drawn_under_its_corners() {
+    let options = DebugOptions { contacts: true, normals: true, length: 0.5, ..NOTHING };
+    for is_crate_first in [false, true] {
+        let floor = Collider3::new(Cuboid::from_half_extents(Vec3::new(4.0, 1.0, 4.0)).unwrap()).fixed();
+        let floor = floor.at(Pose3::at([7.0, -1.0, 0.0]).unwrap());
+        let half = Vec3::new(0.5, 0.25, 1.0);
+        let above = Pose3::at([7.5, 0.125, -0.25]).unwrap();
+        let crate_ = Collider3::new(Cuboid::from_half_extents(half).unwrap()).at(above);
+        let mut world = World3::new();
+        world.insert_many(if is_crate_first { [crate_, floor] } else { [floor, crate_] });
+        world.update();
+        let lines = drawn3(&world, &options);
+        // Half of an eighth of a metre below the floor's top.
+        let corner = |x: f64, z: f64| DVec3::new(7.5 + 0.5 * x, -0.0625, -0.25 + z);
+        let mut corners =
+            [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)].map(|(x, z)| corner(x, z)).to_vec();
+        let up = if is_crate_first { DVec3::NEG_Y } else { DVec3::Y };
+        let normals: Vec<_> = of_kind(&lines, DebugLine::Normal).collect();
+        assert_eq!(normals.len(), 4);
+        for [from, to] in normals {
+            // Anchors are f32, of up to 8 m.
+            let at = corners.iter().position(|corner| corner.distance(from) < 1e-6);
+            corners.remove(at.unwrap_or_else(|| panic!("{from} is none of {corners:?}")));
+            assert!((to - from).distance(up * 0.5) < 1e-6, "{from} to {to}");
+            let of_cross = |[one, other]: &[DVec3; 2]| one.midpoint(*other).distance(from) < 1e-6;
+            let arms: Vec<_> = of_kind(&lines, DebugLine::Contact).filter(of_cross).collect();
+            let [one, other] = arms[..] else { panic!("{} arms", arms.len()) };
+            let [one, other] = [one, other].map(|[from, to]| to - from);
+            assert!(one.dot(other).abs() < 1e-6 && one.y.abs().max(other.y.abs()) < 1e-6, "{one} {other}");
+            assert!((one.length() - 0.125).abs() < 1e-6 && (other.length() - 0.125).abs() < 1e-6);
+        }
+        assert_eq!(lines.len(), 4 + 8);
+    }
+}
+
+#[test]
+fn contacts_of_a_crate_are_drawn_under_its_corners_in_the_plane() {
+    let options = DebugOptions { contacts: true, normals: true, length: 0.5, ..NOTHING };
+    for is_crate_first in [false, true] {
+        let floor = Collider2::new(Rect::from_half_extents(Vec2::new(4.0, 1.0)).unwrap()).fixed();
+        let floor = floor.at(Pose2::at([7.0, -1.0]).unwrap());
+        let crate_ = Collider2::new(Rect::from_half_extents(Vec2::new(0.5, 0.25)).unwrap());
+        let crate_ = crate_.at(Pose2::at([7.5, 0.125]).unwrap());
+        let mut world = World2::new();
+        world.insert_many(if is_crate_first { [crate_, floor] } else { [floor, crate_] });
+        world.update();
+        let up = if is_crate_first { DVec2::NEG_Y } else { DVec2::Y };
+        let (mut normals, mut arms) = (Vec::new(), 0);
+        world.debug_lines(&options, &mut |from, to, what| match what {
+            DebugLine::Normal => {
+                assert!((to - from).distance(up * 0.5) < 1e-6, "{from} to {to}");
+                normals.push(from);
+            }
+            _ => {
+                arms += 1;
+                let corner = [DVec2::new(7.0, -0.0625), DVec2::new(8.0, -0.0625)];
+                assert!(corner.iter().any(|corner| corner.distance(from.midpoint(to)) < 1e-6), "{from} {to}");
+                assert!(((to - from).length() - 0.125).abs() < 1e-6);
+            }
+        });
+        normals.sort_by(|a, b| a.x.total_cmp(&b.x));
+        let [left, right] = normals[..] else { panic!("{normals:?}") };
+        assert!(
+            left.distance(DVec2::new(7.0, -0.0625)) < 1e-6 && right.distance(DVec2::new(8.0, -0.0625)) < 1e-6
+        );
+        assert_eq!(arms, 4);
+    }
+}
+
+/// What a motion may bring is drawn half-way across the gap; a sensor has no points.
+#[test]
+fn contacts_to_come_are_drawn_in_the_gap_and_sensors_have_none() {
+    let unit = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap();
+    let mut world = World3::new();
+    world.insert(Collider3::new(unit));
+    let above = world.insert(Collider3::new(unit).at(Pose3::at([0.0, 3.0, 0.0]).unwrap()));
+    world.insert(Collider3::new(unit).sensor());
+    world.set_motion(above, Motion3::shift([0.0, -2.5, 0.0]).unwrap()).unwrap();
+    world.update();
+    let lines = drawn3(&world, &DebugOptions { normals: true, ..NOTHING });
+    assert_eq!(lines.len(), 4);
+    for ([from, to], _) in lines {
+        assert!((from.y - 1.5).abs() < 1e-6 && to.distance(from + DVec3::Y * 0.2) < 1e-6, "{from} {to}");
+        assert!((from.x.abs() - 0.5).abs() < 1e-6 && (from.z.abs() - 0.5).abs() < 1e-6, "{from}");
+    }
+}
