@@ -41,6 +41,24 @@ impl World<Plane> {
     }
 
     /// [`World::boxes_overlapping`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Aabb2, Circle, Collider2, Filter2, Pose2, World2, glam::Vec2};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let region = Aabb2::new(Vec2::ZERO, Vec2::splat(9.0));
+    /// let mut found = vec![];
+    /// let _ = world.visit_boxes_overlapping(&region, &Filter2::new(), |body| {
+    ///     found.push(body);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// found.sort();
+    /// assert_eq!(found, [near, far]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_boxes_overlapping(
         &self,
         bounds: &Aabb2,
@@ -72,6 +90,23 @@ impl World<Plane> {
     }
 
     /// [`World::overlapping_point`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, World2};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let mut found = vec![];
+    /// let _ = world.visit_overlapping_point([3.5, 0.0], &Filter2::new(), |body| {
+    ///     found.push(body);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// found.sort();
+    /// assert_eq!(found, [near, far]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_overlapping_point(
         &self,
         point: impl Into<DVec2>,
@@ -99,6 +134,25 @@ impl World<Plane> {
     }
 
     /// [`World::overlapping`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let dot = Shape2::from(Circle::new(0.5)?);
+    /// let at = Pose2::at([3.5, 0.0])?;
+    /// let mut found = vec![];
+    /// let _ = world.visit_overlapping((&dot, &at), &Filter2::new(), |body| {
+    ///     found.push(body);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// found.sort();
+    /// assert_eq!(found, [near, far]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_overlapping(
         &self,
         at: (&Shape2, &Pose2),
@@ -131,6 +185,20 @@ impl World<Plane> {
     }
 
     /// All bodies within a distance of a point, as [`World::closest`] tells of the first.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, World2, glam::DVec2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let mut found = vec![];
+    /// world.within(DVec2::ZERO, 2.5, &Filter2::new(), &mut found);
+    /// assert!(found.iter().map(|answer| answer.body).eq([near]), "the other is 3 m away");
+    /// world.within(DVec2::ZERO, 3.5, &Filter2::new(), &mut found);
+    /// assert!(found.iter().map(|answer| answer.body).eq([near, far]), "by distance");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn within(
         &self,
         point: impl Into<DVec2>,
@@ -145,6 +213,22 @@ impl World<Plane> {
     }
 
     /// [`World::within`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, World2, glam::DVec2};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let mut nearest = f64::INFINITY;
+    /// let _ = world.visit_within(DVec2::ZERO, 10.0, &Filter2::new(), |answer| {
+    ///     nearest = nearest.min(answer.distance);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(nearest, 2.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_within(
         &self,
         point: impl Into<DVec2>,
@@ -181,6 +265,22 @@ impl World<Plane> {
     }
 
     /// All bodies within a distance of a posed shape, as [`World::closest_to_shape`] tells of the first.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let dot = Shape2::from(Circle::new(0.5)?);
+    /// let mut found = vec![];
+    /// world.within_shape((&dot, &Pose2::IDENTITY), 2.0, &Filter2::new(), &mut found);
+    /// assert!(found.iter().map(|answer| answer.body).eq([near]), "1.5 m away, and the other 2.5 m");
+    /// assert_eq!((found[0].distance, found[0].overlapping), (1.5, false));
+    /// world.within_shape((&dot, &Pose2::IDENTITY), 3.0, &Filter2::new(), &mut found);
+    /// assert!(found.iter().map(|answer| answer.body).eq([near, far]), "by distance");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn within_shape(
         &self,
         at: (&Shape2, &Pose2),
@@ -192,6 +292,23 @@ impl World<Plane> {
     }
 
     /// [`World::within_shape`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let dot = Shape2::from(Circle::new(0.5)?);
+    /// let mut nearest = f64::INFINITY;
+    /// let _ = world.visit_within_shape((&dot, &Pose2::IDENTITY), 10.0, &Filter2::new(), |answer| {
+    ///     nearest = nearest.min(answer.distance);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(nearest, 1.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_within_shape(
         &self,
         at: (&Shape2, &Pose2),
@@ -225,6 +342,21 @@ impl World<Plane> {
     }
 
     /// All bodies that a ray meets, as [`World::cast_ray`] tells of the first: through all that is in the way.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::DVec2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let ray = Ray2::new(DVec2::ZERO, Vec2::X)?;
+    /// let mut hits = vec![];
+    /// world.cast_ray_all(&ray, 10.0, &Filter2::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near, far]), "through all, by distance");
+    /// world.cast_ray_all(&ray, 2.5, &Filter2::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near]), "the other begins at 3 m");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn cast_ray_all(&self, ray: &Ray2, limit: f64, filter: &Filter2<'_>, into: &mut Vec<RayAnswer2>) {
         bodies_along_ray(self, ray, limit, filter).all(into);
     }
@@ -279,6 +411,21 @@ impl World<Plane> {
     }
 
     /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let dot = Shape2::from(Circle::new(0.5)?);
+    /// let mut hits = vec![];
+    /// world.cast_shape_all((&dot, &Pose2::IDENTITY), Vec2::X * 2.0, &Filter2::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near]));
+    /// world.cast_shape_all((&dot, &Pose2::IDENTITY), Vec2::X * 4.0, &Filter2::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near, far]), "by the share of the way");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn cast_shape_all(
         &self,
         from: (&Shape2, &Pose2),
@@ -290,6 +437,22 @@ impl World<Plane> {
     }
 
     /// [`World::cast_shape_all`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let dot = Shape2::from(Circle::new(0.5)?);
+    /// let way = Vec2::X * 4.0;
+    /// let is_free = world
+    ///     .visit_cast_shape((&dot, &Pose2::IDENTITY), way, &Filter2::new(), |_| ControlFlow::Break(()))
+    ///     .is_continue();
+    /// assert!(!is_free);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_cast_shape(
         &self,
         from: (&Shape2, &Pose2),

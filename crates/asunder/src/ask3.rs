@@ -41,6 +41,24 @@ impl World<Volume> {
     }
 
     /// [`World::boxes_overlapping`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Aabb3, Collider3, Filter3, Pose3, Sphere, World3, glam::Vec3};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let region = Aabb3::new(Vec3::ZERO, Vec3::splat(9.0));
+    /// let mut found = vec![];
+    /// let _ = world.visit_boxes_overlapping(&region, &Filter3::new(), |body| {
+    ///     found.push(body);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// found.sort();
+    /// assert_eq!(found, [near, far]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_boxes_overlapping(
         &self,
         bounds: &Aabb3,
@@ -72,6 +90,23 @@ impl World<Volume> {
     }
 
     /// [`World::overlapping_point`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Sphere, World3};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let mut found = vec![];
+    /// let _ = world.visit_overlapping_point([3.5, 0.0, 0.0], &Filter3::new(), |body| {
+    ///     found.push(body);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// found.sort();
+    /// assert_eq!(found, [near, far]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_overlapping_point(
         &self,
         point: impl Into<DVec3>,
@@ -99,6 +134,25 @@ impl World<Volume> {
     }
 
     /// [`World::overlapping`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, World3};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let dot = Shape3::from(Sphere::new(0.5)?);
+    /// let at = Pose3::at([3.5, 0.0, 0.0])?;
+    /// let mut found = vec![];
+    /// let _ = world.visit_overlapping((&dot, &at), &Filter3::new(), |body| {
+    ///     found.push(body);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// found.sort();
+    /// assert_eq!(found, [near, far]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_overlapping(
         &self,
         at: (&Shape3, &Pose3),
@@ -131,6 +185,20 @@ impl World<Volume> {
     }
 
     /// All bodies within a distance of a point, as [`World::closest`] tells of the first.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Sphere, World3, glam::DVec3};
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let mut found = vec![];
+    /// world.within(DVec3::ZERO, 2.5, &Filter3::new(), &mut found);
+    /// assert!(found.iter().map(|answer| answer.body).eq([near]), "the other is 3 m away");
+    /// world.within(DVec3::ZERO, 3.5, &Filter3::new(), &mut found);
+    /// assert!(found.iter().map(|answer| answer.body).eq([near, far]), "by distance");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn within(
         &self,
         point: impl Into<DVec3>,
@@ -145,6 +213,22 @@ impl World<Volume> {
     }
 
     /// [`World::within`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Sphere, World3, glam::DVec3};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let mut nearest = f64::INFINITY;
+    /// let _ = world.visit_within(DVec3::ZERO, 10.0, &Filter3::new(), |answer| {
+    ///     nearest = nearest.min(answer.distance);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(nearest, 2.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_within(
         &self,
         point: impl Into<DVec3>,
@@ -181,6 +265,22 @@ impl World<Volume> {
     }
 
     /// All bodies within a distance of a posed shape, as [`World::closest_to_shape`] tells of the first.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, World3};
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let dot = Shape3::from(Sphere::new(0.5)?);
+    /// let mut found = vec![];
+    /// world.within_shape((&dot, &Pose3::IDENTITY), 2.0, &Filter3::new(), &mut found);
+    /// assert!(found.iter().map(|answer| answer.body).eq([near]), "1.5 m away, and the other 2.5 m");
+    /// assert_eq!((found[0].distance, found[0].overlapping), (1.5, false));
+    /// world.within_shape((&dot, &Pose3::IDENTITY), 3.0, &Filter3::new(), &mut found);
+    /// assert!(found.iter().map(|answer| answer.body).eq([near, far]), "by distance");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn within_shape(
         &self,
         at: (&Shape3, &Pose3),
@@ -192,6 +292,23 @@ impl World<Volume> {
     }
 
     /// [`World::within_shape`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, World3};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let dot = Shape3::from(Sphere::new(0.5)?);
+    /// let mut nearest = f64::INFINITY;
+    /// let _ = world.visit_within_shape((&dot, &Pose3::IDENTITY), 10.0, &Filter3::new(), |answer| {
+    ///     nearest = nearest.min(answer.distance);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(nearest, 1.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_within_shape(
         &self,
         at: (&Shape3, &Pose3),
@@ -225,6 +342,21 @@ impl World<Volume> {
     }
 
     /// All bodies that a ray meets, as [`World::cast_ray`] tells of the first: through all that is in the way.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Ray3, Sphere, World3, glam::DVec3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let ray = Ray3::new(DVec3::ZERO, Vec3::X)?;
+    /// let mut hits = vec![];
+    /// world.cast_ray_all(&ray, 10.0, &Filter3::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near, far]), "through all, by distance");
+    /// world.cast_ray_all(&ray, 2.5, &Filter3::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near]), "the other begins at 3 m");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn cast_ray_all(&self, ray: &Ray3, limit: f64, filter: &Filter3<'_>, into: &mut Vec<RayAnswer3>) {
         bodies_along_ray(self, ray, limit, filter).all(into);
     }
@@ -279,6 +411,21 @@ impl World<Volume> {
     }
 
     /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let dot = Shape3::from(Sphere::new(0.5)?);
+    /// let mut hits = vec![];
+    /// world.cast_shape_all((&dot, &Pose3::IDENTITY), Vec3::X * 2.0, &Filter3::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near]));
+    /// world.cast_shape_all((&dot, &Pose3::IDENTITY), Vec3::X * 4.0, &Filter3::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near, far]), "by the share of the way");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn cast_shape_all(
         &self,
         from: (&Shape3, &Pose3),
@@ -290,6 +437,22 @@ impl World<Volume> {
     }
 
     /// [`World::cast_shape_all`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, World3, glam::Vec3};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
+    /// let dot = Shape3::from(Sphere::new(0.5)?);
+    /// let way = Vec3::X * 4.0;
+    /// let is_free = world
+    ///     .visit_cast_shape((&dot, &Pose3::IDENTITY), way, &Filter3::new(), |_| ControlFlow::Break(()))
+    ///     .is_continue();
+    /// assert!(!is_free);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn visit_cast_shape(
         &self,
         from: (&Shape3, &Pose3),

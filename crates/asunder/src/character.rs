@@ -74,6 +74,17 @@ pub type Walk3 = Walk<Vec3>;
 
 /// A place that is free of solids, or as free as could be found. `O` is a pose and `P` a vector of f64; use it as
 /// [`Freed2`] or [`Freed3`].
+///
+/// ```
+/// use asunder::{Collider3, Filter3, Freed3, HalfSpace, Pose3, Shape3, Sphere, World3, glam::Vec3};
+/// let mut world = World3::new();
+/// world.insert(Collider3::new(HalfSpace::new(Vec3::Y)?).fixed());
+/// let ball = Shape3::from(Sphere::new(0.5)?);
+/// let freed: Freed3 = world.depenetrate((&ball, &Pose3::at([0.0, 0.25, 0.0])?), &Filter3::new());
+/// assert!(freed.is_free && freed.moved.x == 0.0 && freed.moved.z == 0.0);
+/// assert!(freed.moved.y > 0.25 && freed.moved.y < 0.251 && freed.pose.position().y > 0.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Freed<O, P> {
     /// Where the shape is now. Its rotation is kept.
@@ -92,6 +103,18 @@ pub type Freed3 = Freed<Pose3, DVec3>;
 
 /// What a character stands on, or met. `K` is a key, `N` a vector of f32, `P` a point of f64; use it as
 /// [`Obstacle2`] or [`Obstacle3`].
+///
+/// ```
+/// use asunder::{Obstacle3, World3, glam::{DVec3, Vec3}};
+/// /// What a wall takes of a velocity.
+/// fn bumped(velocity: Vec3, met: &Obstacle3) -> Vec3 {
+///     velocity - met.normal * velocity.dot(met.normal).min(0.0)
+/// }
+/// let met = Obstacle3 { body: Default::default(), normal: Vec3::NEG_X, point: DVec3::X };
+/// assert!(!World3::new().contains(met.body), "the null key is nobody's");
+/// assert_eq!(bumped(Vec3::new(2.0, 0.0, 1.0), &met), Vec3::Z);
+/// assert_eq!(bumped(Vec3::NEG_X, &met), Vec3::NEG_X, "away from it");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Obstacle<K, N, P> {
     /// The body.
@@ -110,6 +133,22 @@ pub type Obstacle3 = Obstacle<BodyKey3, Vec3, DVec3>;
 
 /// How far a character came, and what it met. `K` is a key, `O` a pose, `N` a vector of f32 and `P` one of f64; use
 /// it as [`Slide2`] or [`Slide3`].
+///
+/// ```
+/// use asunder::{Collider3, Filter3, HalfSpace, Obstacle3, Pose3, Shape3, Slide3, Sphere, Walk3, World3, glam::Vec3};
+/// let mut world = World3::new();
+/// let floor = world.insert(Collider3::new(HalfSpace::new(Vec3::Y)?).fixed());
+/// let wall = world.insert(Collider3::new(HalfSpace::new(Vec3::NEG_X)?).at(Pose3::at([3.0, 0.0, 0.0])?).fixed());
+/// let ball = Shape3::from(Sphere::new(0.5)?);
+/// let (walk, from) = (Walk3::new(&ball, Vec3::Y)?, Pose3::at([0.0, 0.6, 0.0])?);
+/// let way = Vec3::new(5.0, -0.5, 1.0);
+/// let slide: Slide3 = world.move_and_slide((&ball, &from), way, &walk, &Filter3::new());
+/// assert!(slide.ground.is_some_and(|ground: Obstacle3| ground.body == floor && ground.normal.y > 0.99));
+/// assert!(slide.walls.iter().all(|met| met.body == wall && met.point.x > 2.9) && !slide.walls.is_empty());
+/// assert!(slide.is_free && slide.moved.x > 2.4 && slide.moved.x < 2.5, "up to the wall");
+/// assert!(slide.moved.z > 0.9, "and along it: {}", slide.moved);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide<K, O, N, P> {
     /// Where it is now. Its rotation is kept.

@@ -279,6 +279,16 @@ impl<S: Space> Collider<S> {
     }
 
     /// Whether updates say what it runs into.
+    ///
+    /// ```
+    /// use asunder::{Collider2, Layers, Rect, glam::Vec2};
+    /// let unit = Collider2::new(Rect::from_half_extents(Vec2::ONE)?);
+    /// assert!(!unit.is_bullet() && unit.is_enabled() && !unit.clone().disabled().is_enabled());
+    /// let layers = Layers { member_of: 0b10, ..Layers::default() };
+    /// assert_eq!(unit.clone().layers(layers).get_layers(), layers);
+    /// assert!(unit.bullet().is_bullet());
+    /// # Ok::<(), asunder::ExtentError>(())
+    /// ```
     pub fn is_bullet(&self) -> bool {
         self.bullet
     }

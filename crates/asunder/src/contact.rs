@@ -5,6 +5,20 @@ use asunder_broad::PairId;
 use asunder_narrow::{Hint, Manifold2, Manifold3};
 
 /// Two bodies within their margins of each other, as of the last update.
+///
+/// ```
+/// use asunder::{Collider3, Contact3, Cuboid, Pose3, World3, glam::Vec3};
+/// let mut world = World3::new();
+/// let unit = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5))?);
+/// let below = world.insert(unit.clone().fixed());
+/// let above = world.insert(unit.at(Pose3::at([0.0, 0.75, 0.0])?));
+/// world.update();
+/// let contact: Contact3 = world.contact(above, below).ok_or("they touch")?;
+/// assert_eq!((contact.a, contact.b), (below, above), "by their slots, whichever was asked about first");
+/// assert!(contact.overlapping && contact.is_new && !contact.sensor && !contact.speculative);
+/// assert_eq!((contact.manifolds.len(), contact.manifolds[0].normal), (1, Vec3::Y));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, PartialEq)]
 pub struct Contact<'a, K, M> {
     /// The body in the lower slot.

@@ -57,7 +57,11 @@ impl DebugOptions {
 ///
 /// ```
 /// use asunder::DebugLine;
-/// assert_eq!(DebugLine::Contact.colour(), [255, 64, 64, 255]);
+/// let colour = |what: DebugLine| what.colour();
+/// assert_eq!(colour(DebugLine::Contact), [255, 64, 64, 255]);
+/// let bodies = [DebugLine::Body, DebugLine::Fixed, DebugLine::Sensor, DebugLine::Asleep].map(colour);
+/// let others = [DebugLine::Box, DebugLine::Column, DebugLine::Normal].map(colour);
+/// assert!(bodies.iter().all(|known| !others.contains(known)), "none is taken for another");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DebugLine {

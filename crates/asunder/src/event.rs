@@ -5,6 +5,20 @@ use crate::space::{BodyKey2, BodyKey3};
 /// A contact that began or ended. Each `Began` is followed, at some later update, by exactly one `Ended`.
 ///
 /// From a `Began` to its contact it is one call: `world.contact(a, b)`.
+///
+/// ```
+/// use asunder::{Collider3, Event3, Sphere, World3};
+/// let mut world = World3::new();
+/// let ball = Collider3::new(Sphere::new(1.0)?);
+/// let [a, b] = [7, 8].map(|number| world.insert(ball.clone().user_data(number)));
+/// world.update();
+/// let (user_data_a, user_data_b, sensor) = (7, 8, false);
+/// assert_eq!(world.events(), [Event3::Began { a, b, user_data_a, user_data_b, sensor }]);
+/// world.remove(b);
+/// world.update();
+/// assert_eq!(world.events(), [Event3::Ended { a, b, user_data_a, user_data_b, sensor }], "of a body that is gone, too");
+/// # Ok::<(), asunder::RadiusError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Event<K> {

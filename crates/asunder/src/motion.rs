@@ -7,6 +7,21 @@ use asunder_geometry::tolerance;
 use asunder_narrow::{Impact2, Impact3};
 
 /// What a bullet runs into during its motion: see [`Collider::bullet`](crate::Collider::bullet).
+///
+/// ```
+/// use asunder::{Collider3, Hit3, Motion3, Pose3, Sphere, World3, glam::Vec3};
+/// let mut world = World3::new();
+/// let ball = Collider3::new(Sphere::new(0.5)?);
+/// let target = world.insert(ball.clone().at(Pose3::at([5.0, 0.0, 0.0])?));
+/// let bullet = world.insert(ball.bullet());
+/// world.set_motion(bullet, Motion3::shift([8.0, 0.0, 0.0])?)?;
+/// world.update();
+/// let [Hit3 { bullet: who, other, sensor, impact }] = world.impacts() else { return Err("one impact".into()) };
+/// assert_eq!((*who, *other, *sensor), (bullet, target, false));
+/// assert!(impact.fraction <= 0.5 && impact.fraction > 0.4999, "after 4 of 8 m");
+/// assert!((impact.normal - Vec3::X).length() < 1e-6, "from the bullet, though its slot is the higher one");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hit<K, I> {

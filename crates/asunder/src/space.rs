@@ -22,6 +22,20 @@ slotmap::new_key_type! {
     pub struct BodyKey2;
 
     /// A body of a [`World3`](crate::World3). Stays valid until the body is removed, and never means another one.
+    ///
+    /// ```
+    /// use asunder::{BodyKey3, Collider3, Sphere, World3, slotmap::SecondaryMap};
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let gone = world.insert(ball.clone());
+    /// world.remove(gone);
+    /// let there: BodyKey3 = world.insert(ball);
+    /// assert!(world.contains(there) && !world.contains(gone) && there != gone, "though it has the same slot");
+    /// let mut names = SecondaryMap::new();
+    /// names.insert(there, "ball");
+    /// assert_eq!((names.get(there), names.get(gone)), (Some(&"ball"), None));
+    /// # Ok::<(), asunder::RadiusError>(())
+    /// ```
     pub struct BodyKey3;
 }
 
@@ -32,10 +46,28 @@ mod sealed {
 }
 
 /// The plane: what makes a [`World`](crate::World) a [`World2`](crate::World2).
+///
+/// ```
+/// use asunder::{Plane, Volume, World, World2, World3};
+/// let (flat, solid): (World2, World3) = (World::<Plane>::new(), World::<Volume>::new());
+/// assert!(flat.is_empty() && solid.is_empty());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {}
 
 /// Space: what makes a [`World`](crate::World) a [`World3`](crate::World3).
+///
+/// ```
+/// use asunder::{Collider, Space, Sphere, Volume, World};
+/// /// Worlds of either dimension are counted alike.
+/// fn count<S: Space>(worlds: &[World<S>]) -> usize {
+///     worlds.iter().map(World::len).sum()
+/// }
+/// let mut world = World::<Volume>::new();
+/// world.insert(Collider::<Volume>::new(Sphere::new(1.0)?));
+/// assert_eq!(count(&[world.clone(), world]), 2);
+/// # Ok::<(), asunder::RadiusError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Volume {}
 

@@ -180,6 +180,18 @@ impl<'a> Core3<'a> {
     }
 
     /// How far the vertices reach along each face's normal, in metres from the shape's origin.
+    ///
+    /// ```
+    /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
+    /// let block = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 2.0, 3.0))?);
+    /// let core = block.core();
+    /// assert_eq!(core.extent(), 3.0);
+    /// for (normal, &height) in core.normals().iter().zip(core.heights()) {
+    ///     let reach = core.vertices().iter().map(|corner| corner.as_dvec3().dot(*normal)).fold(f64::MIN, f64::max);
+    ///     assert_eq!(reach, height);
+    /// }
+    /// # Ok::<(), asunder_geometry::ExtentError>(())
+    /// ```
     #[inline]
     pub fn heights(&self) -> &[f64] {
         match &self.0 {

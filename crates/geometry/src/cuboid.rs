@@ -77,6 +77,13 @@ impl Cuboid {
     }
 
     /// Half of the size on each axis, in metres, without the rounding.
+    ///
+    /// ```
+    /// use asunder_geometry::{Cuboid, glam::Vec3};
+    /// let half = Vec3::new(1.0, 2.0, 3.0);
+    /// assert_eq!(Cuboid::from_half_extents(half)?.rounded(0.5)?.half_extents(), half);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[inline]
     pub const fn half_extents(&self) -> Vec3 {
         self.half_extents

@@ -52,6 +52,13 @@ impl Ray2 {
     }
 
     /// Where it starts, in metres.
+    ///
+    /// ```
+    /// use asunder_geometry::{Ray2, RayError, glam::{DVec2, Vec2}};
+    /// let ray = Ray2::new(DVec2::X, Vec2::Y)?;
+    /// assert_eq!((ray.origin(), ray.direction()), (DVec2::X, Vec2::Y));
+    /// # Ok::<(), RayError>(())
+    /// ```
     #[inline]
     pub const fn origin(&self) -> DVec2 {
         self.origin
@@ -118,6 +125,13 @@ impl Ray3 {
     }
 
     /// Where it starts, in metres.
+    ///
+    /// ```
+    /// use asunder_geometry::{Ray3, RayError, glam::{DVec3, Vec3}};
+    /// let ray = Ray3::new(DVec3::X, Vec3::Y)?;
+    /// assert_eq!((ray.origin(), ray.direction()), (DVec3::X, Vec3::Y));
+    /// # Ok::<(), RayError>(())
+    /// ```
     #[inline]
     pub const fn origin(&self) -> DVec3 {
         self.origin

@@ -67,6 +67,13 @@ impl Rect {
     }
 
     /// Half of the width and height, in metres, without the rounding.
+    ///
+    /// ```
+    /// use asunder_geometry::{Rect, glam::Vec2};
+    /// let half = Vec2::new(1.0, 2.0);
+    /// assert_eq!(Rect::from_half_extents(half)?.rounded(0.5)?.half_extents(), half);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[inline]
     pub const fn half_extents(&self) -> Vec2 {
         self.half_extents

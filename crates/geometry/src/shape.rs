@@ -34,6 +34,22 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// assert_eq!((shape.radius(), shape.core().vertices().len()), (0.0, 4));
 /// # Ok::<(), asunder_geometry::ExtentError>(())
 /// ```
+///
+/// ```
+/// // Every kind comes from a type of its own.
+/// use asunder_geometry::{Capsule2, Chain, Circle, Compound2, HalfPlane, Polygon, Pose2, Rect, Segment2, Shape2, glam::Vec2};
+/// let corners = [Vec2::ZERO, Vec2::X, Vec2::Y];
+/// let ball = Shape2::from(Circle::new(1.0)?);
+/// assert!(matches!(ball, Shape2::Circle(_)));
+/// assert!(matches!(Capsule2::new(Vec2::ZERO, Vec2::X, 1.0)?.into(), Shape2::Capsule(_)));
+/// assert!(matches!(Rect::from_half_extents(Vec2::ONE)?.into(), Shape2::Rect(_)));
+/// assert!(matches!(Polygon::new(&corners)?.into(), Shape2::Polygon(_)));
+/// assert!(matches!(HalfPlane::new(Vec2::Y)?.into(), Shape2::HalfPlane(_)));
+/// assert!(matches!(Segment2::new(Vec2::ZERO, Vec2::X)?.into(), Shape2::Segment(_)));
+/// assert!(matches!(Compound2::new([(Pose2::IDENTITY, ball)])?.into(), Shape2::Compound(_)));
+/// assert!(matches!(Chain::open(corners)?.into(), Shape2::Chain(_)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shape2 {
@@ -65,6 +81,25 @@ pub enum Shape2 {
 /// assert_eq!(shape.support(DVec3::ONE), Some(DVec3::ONE));
 /// assert_eq!((shape.radius(), shape.core().vertices().len(), shape.is_ground()), (0.0, 8, false));
 /// # Ok::<(), asunder_geometry::ExtentError>(())
+/// ```
+///
+/// ```
+/// // Every kind comes from a type of its own.
+/// use asunder_geometry::{Capsule3, Compound3, Cuboid, HalfSpace, HeightField, Hull, Pose3, Segment3, Shape3, Sphere};
+/// use asunder_geometry::{TriMesh, Triangle3, glam::{Vec2, Vec3}};
+/// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+/// let ball = Shape3::from(Sphere::new(1.0)?);
+/// assert!(matches!(ball, Shape3::Sphere(_)));
+/// assert!(matches!(Capsule3::from_half_height(1.0, 1.0)?.into(), Shape3::Capsule(_)));
+/// assert!(matches!(Cuboid::from_half_extents(Vec3::ONE)?.into(), Shape3::Cuboid(_)));
+/// assert!(matches!(Hull::from_points(&corners)?.into(), Shape3::Hull(_)));
+/// assert!(matches!(HalfSpace::new(Vec3::Y)?.into(), Shape3::HalfSpace(_)));
+/// assert!(matches!(Triangle3::new(Vec3::ZERO, Vec3::X, Vec3::Y)?.into(), Shape3::Triangle(_)));
+/// assert!(matches!(Segment3::new(Vec3::ZERO, Vec3::X)?.into(), Shape3::Segment(_)));
+/// assert!(matches!(Compound3::new([(Pose3::IDENTITY, ball)])?.into(), Shape3::Compound(_)));
+/// assert!(matches!(TriMesh::new(corners, [[0, 2, 1]])?.into(), Shape3::TriMesh(_)));
+/// assert!(matches!(HeightField::new(2, 2, [0.0; 4], Vec2::ONE)?.into(), Shape3::HeightField(_)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

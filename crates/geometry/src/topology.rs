@@ -3,6 +3,20 @@
 use std::sync::LazyLock;
 
 /// A directed edge of a face, from its origin to the origin of the next.
+///
+/// ```
+/// use asunder_geometry::Cuboid;
+/// let topology = Cuboid::topology();
+/// let around = topology.face_half_edges(0);
+/// assert_eq!(around.len(), 4);
+/// for half_edge in around {
+///     let edge = topology.half_edges()[half_edge];
+///     let twin = topology.half_edges()[usize::from(edge.twin)];
+///     assert_eq!((edge.face, usize::from(twin.twin)), (0, half_edge));
+///     assert_eq!(topology.ends(half_edge), (edge.origin.into(), twin.origin.into()));
+///     assert_eq!(topology.edge_of(half_edge), topology.edge_of(edge.twin.into()), "one edge, two halves");
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HalfEdge {
     /// The vertex it starts from.

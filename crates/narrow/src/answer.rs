@@ -51,6 +51,17 @@ pub enum Tier {
 }
 
 /// Whether two shapes overlap, and how that was settled.
+///
+/// ```
+/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
+/// use asunder_narrow::{Pair3, Tier, Verdict};
+/// let unit = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
+/// let (here, beside) = (Pose3::IDENTITY, Pose3::at([2.0, 0.0, 0.0])?);
+/// let Verdict { overlapping, tier } = Pair3::new(&unit, &here, &unit, &beside).verdict();
+/// assert!(overlapping && tier > Tier::Bound, "a shared side: f64 alone cannot tell");
+/// assert!(Tier::Bound < Tier::Double && Tier::Double < Tier::Exact);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Verdict {
     /// Whether the shapes share a point; touching counts. Exact, whichever the tier.
@@ -60,6 +71,20 @@ pub struct Verdict {
 }
 
 /// A separation in the plane, or a bound on it.
+///
+/// ```
+/// use asunder_geometry::{Circle, Pose2, Shape2};
+/// use asunder_narrow::{Measured2, Pair2, Separation2};
+/// let ball = Shape2::from(Circle::new(1.0)?);
+/// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
+/// let pair = Pair2::new(&ball, &here, &ball, &there);
+/// let Separation2::Measured(Measured2 { separation, error, .. }) = pair.separation(2.0) else {
+///     return Err("they are nearer than 2 m".into());
+/// };
+/// assert!((separation - 1.0).abs() <= error);
+/// assert!(matches!(pair.separation(0.5), Separation2::AtLeast(bound) if (0.5..=1.0).contains(&bound)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Separation2 {
     /// Found, with its error and axis.
@@ -70,6 +95,20 @@ pub enum Separation2 {
 }
 
 /// A separation in space, or a bound on it.
+///
+/// ```
+/// use asunder_geometry::{Pose3, Shape3, Sphere};
+/// use asunder_narrow::{Measured3, Pair3, Separation3};
+/// let ball = Shape3::from(Sphere::new(1.0)?);
+/// let (here, there) = (Pose3::IDENTITY, Pose3::at([3.0, 0.0, 0.0])?);
+/// let pair = Pair3::new(&ball, &here, &ball, &there);
+/// let Separation3::Measured(Measured3 { separation, error, .. }) = pair.separation(2.0) else {
+///     return Err("they are nearer than 2 m".into());
+/// };
+/// assert!((separation - 1.0).abs() <= error);
+/// assert!(matches!(pair.separation(0.5), Separation3::AtLeast(bound) if (0.5..=1.0).contains(&bound)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Separation3 {
     /// Found, with its error and axis.
@@ -80,6 +119,19 @@ pub enum Separation3 {
 }
 
 /// A separation in the plane and the axis that shows it.
+///
+/// ```
+/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
+/// use asunder_narrow::{Measured2, Pair2, Separation2};
+/// let ball = Shape2::from(Circle::new(1.0)?);
+/// let (here, there) = (Pose2::IDENTITY, Pose2::at([1.5, 0.0])?);
+/// let pair = Pair2::new(&ball, &here, &ball, &there);
+/// let Separation2::Measured(deep) = pair.separation(0.0) else { return Err("they overlap".into()) };
+/// let Measured2 { separation, error, normal } = deep;
+/// assert!((separation + 0.5).abs() <= error, "half a metre deep");
+/// assert!((normal - Vec2::X).length() < 1e-6, "the way out for the second");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured2 {
     /// Metres: positive the distance, negative minus the least translation that parts them. Not positive exactly
@@ -92,6 +144,19 @@ pub struct Measured2 {
 }
 
 /// A separation in space and the axis that shows it.
+///
+/// ```
+/// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
+/// use asunder_narrow::{Measured3, Pair3, Separation3};
+/// let ball = Shape3::from(Sphere::new(1.0)?);
+/// let (here, there) = (Pose3::IDENTITY, Pose3::at([1.5, 0.0, 0.0])?);
+/// let pair = Pair3::new(&ball, &here, &ball, &there);
+/// let Separation3::Measured(deep) = pair.separation(0.0) else { return Err("they overlap".into()) };
+/// let Measured3 { separation, error, normal } = deep;
+/// assert!((separation + 0.5).abs() <= error, "half a metre deep");
+/// assert!((normal - Vec3::X).length() < 1e-6, "the way out for the second");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured3 {
     /// Metres: positive the distance, negative minus the least translation that parts them. Not positive exactly
@@ -104,6 +169,18 @@ pub struct Measured3 {
 }
 
 /// Closest points of two shapes in the plane that do not overlap.
+///
+/// ```
+/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
+/// use asunder_narrow::{Closest2, Pair2};
+/// let ball = Shape2::from(Circle::new(1.0)?);
+/// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
+/// let pair = Pair2::new(&ball, &here, &ball, &there);
+/// let Closest2 { distance, error, normal, anchor_a, anchor_b, .. } = pair.distance().ok_or("they are apart")?;
+/// assert!((distance - 1.0).abs() <= error);
+/// assert_eq!((normal, anchor_a, anchor_b), (Vec2::X, Vec2::X, Vec2::NEG_X), "each from its own position");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest2 {
     /// The distance in metres, always positive.
@@ -123,6 +200,18 @@ pub struct Closest2 {
 }
 
 /// Closest points of two shapes in space that do not overlap.
+///
+/// ```
+/// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
+/// use asunder_narrow::{Closest3, Pair3};
+/// let ball = Shape3::from(Sphere::new(1.0)?);
+/// let (here, there) = (Pose3::IDENTITY, Pose3::at([3.0, 0.0, 0.0])?);
+/// let pair = Pair3::new(&ball, &here, &ball, &there);
+/// let Closest3 { distance, error, normal, anchor_a, anchor_b, .. } = pair.distance().ok_or("they are apart")?;
+/// assert!((distance - 1.0).abs() <= error);
+/// assert_eq!((normal, anchor_a, anchor_b), (Vec3::X, Vec3::X, Vec3::NEG_X), "each from its own position");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest3 {
     /// The distance in metres, always positive.
@@ -142,6 +231,21 @@ pub struct Closest3 {
 }
 
 /// One point of a manifold in the plane.
+///
+/// ```
+/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
+/// use asunder_narrow::{ContactPoint2, Pair2};
+/// let ball = Shape2::from(Circle::new(1.0)?);
+/// let (here, there) = (Pose2::IDENTITY, Pose2::at([1.5, 0.0])?);
+/// let pair = Pair2::new(&ball, &here, &ball, &there);
+/// let manifold = pair.manifold(0.0).ok_or("they touch")?;
+/// let ContactPoint2 { separation, anchor_a, anchor_b, .. } = manifold.points[0];
+/// assert!((separation + 0.5).abs() < 1e-6);
+/// // Both points in the world, and the way from one to the other along the normal.
+/// let (on_a, on_b) = (anchor_a, there.position().as_vec2() + anchor_b);
+/// assert!((on_b - on_a - manifold.normal * separation).length() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactPoint2 {
@@ -156,6 +260,21 @@ pub struct ContactPoint2 {
 }
 
 /// One point of a manifold in space.
+///
+/// ```
+/// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
+/// use asunder_narrow::{ContactPoint3, Pair3};
+/// let ball = Shape3::from(Sphere::new(1.0)?);
+/// let (here, there) = (Pose3::IDENTITY, Pose3::at([1.5, 0.0, 0.0])?);
+/// let pair = Pair3::new(&ball, &here, &ball, &there);
+/// let manifold = pair.manifold(0.0).ok_or("they touch")?;
+/// let ContactPoint3 { separation, anchor_a, anchor_b, .. } = manifold.points[0];
+/// assert!((separation + 0.5).abs() < 1e-6);
+/// // Both points in the world, and the way from one to the other along the normal.
+/// let (on_a, on_b) = (anchor_a, there.position().as_vec3() + anchor_b);
+/// assert!((on_b - on_a - manifold.normal * separation).length() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactPoint3 {
@@ -173,6 +292,18 @@ pub struct ContactPoint3 {
 ///
 /// Of a chain, the part is the first segment of the straight run that is touched, or the least of those that share the
 /// normal; and the error holds how far its vertices lie beside that.
+///
+/// ```
+/// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
+/// use asunder_narrow::{Manifold2, Pair2};
+/// let block = Shape2::from(Rect::from_half_extents(Vec2::new(1.0, 0.5))?);
+/// let (here, above) = (Pose2::IDENTITY, Pose2::at([0.0, 0.75])?);
+/// let manifold: Manifold2 = Pair2::new(&block, &here, &block, &above).manifold(0.0).ok_or("they overlap")?;
+/// assert_eq!((manifold.normal, manifold.points.len()), (Vec2::Y, 2));
+/// assert!((manifold.separation + 0.25).abs() <= manifold.error);
+/// assert!(manifold.points.is_sorted_by_key(|point| point.feature));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold2 {
@@ -194,6 +325,18 @@ pub struct Manifold2 {
 /// How two convex shapes in space touch: one normal, and one to four points, in order of their feature ids.
 ///
 /// Of ground, the part is the least triangle of the plane that is touched, or of those that share the normal.
+///
+/// ```
+/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
+/// use asunder_narrow::{Manifold3, Pair3};
+/// let block = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 0.5, 1.0))?);
+/// let (here, above) = (Pose3::IDENTITY, Pose3::at([0.0, 0.75, 0.0])?);
+/// let manifold: Manifold3 = Pair3::new(&block, &here, &block, &above).manifold(0.0).ok_or("they overlap")?;
+/// assert_eq!((manifold.normal, manifold.points.len()), (Vec3::Y, 4));
+/// assert!((manifold.separation + 0.25).abs() <= manifold.error);
+/// assert!(manifold.points.is_sorted_by_key(|point| point.feature));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold3 {

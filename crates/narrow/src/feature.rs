@@ -9,6 +9,19 @@ use asunder_geometry::glam::{DVec3, Vec3};
 /// The edges of a chain are its straight runs, by their first segments ([`Run`](asunder_geometry::Run)). Of meshes and height
 /// fields a face is a plane, by its least triangle; an edge counts by the lower of its half-edges, of which triangle `t` has
 /// `3 t` to `3 t + 2`.
+///
+/// ```
+/// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
+/// use asunder_narrow::{Feature, Pair2};
+/// let block = Shape2::from(Rect::from_half_extents(Vec2::new(1.0, 0.5))?);
+/// let small = Shape2::from(Rect::from_half_extents(Vec2::new(0.5, 0.5))?);
+/// let (here, above) = (Pose2::IDENTITY, Pose2::at([0.0, 0.875])?);
+/// let manifold = Pair2::new(&block, &here, &small, &above).manifold(0.0).ok_or("they overlap")?;
+/// let names: Vec<_> = manifold.points.iter().map(|point| (point.feature.a(), point.feature.b())).collect();
+/// assert_eq!(names.len(), 2);
+/// assert!(names.iter().all(|name| matches!(name, (Feature::Edge(2), Feature::Vertex(0 | 1)))), "{names:?}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Feature {

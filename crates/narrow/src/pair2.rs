@@ -145,6 +145,16 @@ impl<'a> Pair2<'a> {
     /// What the first tier alone says of the overlap, right or wrong: the sign that its numbers have.
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
+    ///
+    /// ```
+    /// use asunder_geometry::{Circle, Pose2, Shape2};
+    /// use asunder_narrow::Pair2;
+    /// let ball = Shape2::from(Circle::new(1.0)?);
+    /// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
+    /// let pair = Pair2::new(&ball, &here, &ball, &there);
+    /// assert_eq!((pair.guess(), pair.overlaps()), (false, false), "far from touching they agree");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn guess(&self) -> bool {
         if self.has_ground() {
             return self.guess_on_ground();

@@ -152,6 +152,16 @@ impl<'a> Pair3<'a> {
     /// kernels, which those of cuboids have overtaken.
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, Shape3, Sphere};
+    /// use asunder_narrow::Pair3;
+    /// let ball = Shape3::from(Sphere::new(1.0)?);
+    /// let (here, there) = (Pose3::IDENTITY, Pose3::at([3.0, 0.0, 0.0])?);
+    /// let pair = Pair3::new(&ball, &here, &ball, &there);
+    /// assert_eq!((pair.guess(), pair.overlaps()), (false, false), "far from touching they agree");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn guess(&self) -> bool {
         if let Some(on) = OnGround::of(self) {
             return self.guess_on(&on);

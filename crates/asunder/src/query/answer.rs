@@ -6,6 +6,18 @@ use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 use slotmap::Key;
 
 /// A body that a ray meets. `N` is a vector of f32, `P` a point of f64; use it as [`RayAnswer2`] or [`RayAnswer3`].
+///
+/// ```
+/// use asunder::{Collider3, Filter3, Pose3, Ray3, RayAnswer3, Sphere, World3, glam::{DVec3, Vec3}};
+/// let mut world = World3::new();
+/// let ball = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at([4.0, 0.0, 0.0])?));
+/// let ray = Ray3::new(DVec3::ZERO, Vec3::X * 2.0)?;
+/// let hit: RayAnswer3 = world.cast_ray(&ray, 9.0, &Filter3::new()).ok_or("it is in the way")?;
+/// assert_eq!((hit.body, hit.normal, hit.inside, hit.part), (ball, Vec3::NEG_X, false, 0));
+/// assert!((hit.distance - 1.5).abs() * 2.0 <= f64::from(hit.error), "lengths of the direction, metres of error");
+/// assert_eq!(hit.point, ray.at(hit.distance));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayAnswer<K, N, P> {
     /// The body.
@@ -33,6 +45,20 @@ pub type RayAnswer3 = RayAnswer<BodyKey3, Vec3, DVec3>;
 
 /// A body that a moved shape meets. `N` is a vector of f32, `P` a point of f64; use it as [`CastAnswer2`] or
 /// [`CastAnswer3`].
+///
+/// ```
+/// use asunder::{CastAnswer3, Collider3, Filter3, Pose3, Shape3, Sphere, World3, glam::Vec3};
+/// let mut world = World3::new();
+/// let ball = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at([4.0, 0.0, 0.0])?));
+/// let (dart, here) = (Shape3::from(Sphere::new(0.5)?), Pose3::IDENTITY);
+/// let hit: CastAnswer3 = world.cast_shape((&dart, &here), Vec3::X * 5.0, &Filter3::new()).ok_or("it meets the ball")?;
+/// assert_eq!((hit.body, hit.overlapping, hit.part, hit.part_of_moved), (ball, false, 0, 0));
+/// let gap = 2.5 - hit.fraction * 5.0;
+/// assert!((0.0..=f64::from(hit.error)).contains(&gap), "never too far");
+/// assert!((hit.normal - Vec3::X).length() < 1e-6 && (hit.anchor - Vec3::X * 0.5).length() < 1e-6);
+/// assert!((hit.point.as_vec3() - Vec3::X * 3.0).length() < 1e-5, "on the ball");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CastAnswer<K, N, P> {
     /// The body.
@@ -63,6 +89,17 @@ pub type CastAnswer3 = CastAnswer<BodyKey3, Vec3, DVec3>;
 
 /// A body near a point or a shape, and the points of both that are closest. `N` is a vector of f32, `P` a point of
 /// f64; use it as [`NearAnswer2`] or [`NearAnswer3`].
+///
+/// ```
+/// use asunder::{Collider3, Filter3, NearAnswer3, Pose3, Sphere, World3, glam::{DVec3, Vec3}};
+/// let mut world = World3::new();
+/// let ball = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at([4.0, 0.0, 0.0])?));
+/// let near: NearAnswer3 = world.closest(DVec3::X, 9.0, &Filter3::new()).ok_or("it is near")?;
+/// assert_eq!((near.body, near.overlapping, near.normal), (ball, false, Vec3::X));
+/// assert!((near.distance - 2.0).abs() <= f64::from(near.error));
+/// assert_eq!((near.from, near.point), (DVec3::X, DVec3::X * 3.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearAnswer<K, N, P> {
     /// The body.

@@ -117,6 +117,14 @@ impl HeightField {
     /// The same without the ground of one cell. Cost: of a new field; of several holes,
     /// [`with_holes`](Self::with_holes) is far cheaper.
     ///
+    /// ```
+    /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
+    /// let slope = HeightField::new(3, 2, [0.0, 1.0, 2.0, 0.0, 1.0, 2.0], Vec2::ONE)?.with_hole(0, 0)?;
+    /// assert_eq!((slope.height_at(0.5, 0.5), slope.height_at(1.5, 0.5)), (None, Some(1.5)));
+    /// assert_eq!(slope.heights()[0], 0.0, "heights at holes stay");
+    /// # Ok::<(), HeightFieldError>(())
+    /// ```
+    ///
     /// # Errors
     /// A cell that is not there; no cell left.
     pub fn with_hole(self, column: usize, row: usize) -> Result<Self, HeightFieldError> {
