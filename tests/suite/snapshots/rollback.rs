@@ -123,14 +123,14 @@ impl<S: Level> Game<S> {
 
 /// The game as it was before a frame.
 enum Past<S: Stored> {
-    Clone(Game<S>),
+    Clone(Box<Game<S>>),
     Text(String, Vec<S::Key>),
 }
 
 impl<S: Stored> Past<S> {
     fn recall(&self) -> Game<S> {
         match self {
-            Self::Clone(game) => game.clone(),
+            Self::Clone(game) => Game::clone(game),
             Self::Text(text, keys) => Game { world: S::restored(text).unwrap(), keys: keys.clone() },
         }
     }
@@ -170,7 +170,7 @@ impl<S: Level> Machine<S> {
         let Self { now, threads, .. } = self;
         self.past.truncate(frame);
         self.past.push(if self.clones {
-            Past::Clone(now.clone())
+            Past::Clone(Box::new(now.clone()))
         } else {
             Past::Text(S::text(&now.world), now.keys.clone())
         });
