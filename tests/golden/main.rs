@@ -1,5 +1,5 @@
-//! Golden hashes: what every named scene, and bodies on ground, say over sixty frames, bit for bit, on any number of
-//! threads, in any build.
+//! Golden hashes: what every named scene and stage, and bodies on ground, say over sixty frames, bit for bit, on any number
+//! of threads, in any build.
 //!
 //! `table.txt` was made by `cargo test -p asunder-tests --test golden -- --ignored --nocapture | grep ^scene >
 //! tests/golden/table.txt` and is to be made again only where an output is meant to change. A row that differs
@@ -9,9 +9,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests stop the test, as tests do")]
 
-use asunder::{Plane, Volume};
+use asunder::{Plane, Volume, World};
+use asunder_examples::game::Game;
+use asunder_examples::opened::AnyGame;
+use asunder_examples::playable::Playable;
+use asunder_examples::report::STEP;
+use asunder_scenes::stages::Stage;
 use asunder_scenes::worlds::WorldScene;
-use asunder_tests::recorded::{Fnv1a, Recorded, Recording, Replay};
+use asunder_tests::recorded::{Fnv1a, Recorded, Recording, Replay, hash};
 use asunder_tests::rolling::{GROUNDS, Hills, Track};
 use rayon::ThreadPoolBuilder;
 use std::collections::HashSet;
@@ -20,24 +25,62 @@ use std::mem::discriminant;
 
 const FRAMES: u32 = 60;
 
-/// Sixty frames as a row of the table.
+/// What sixty frames say, as a row of the table.
+#[derive(Default)]
+struct Told {
+    events: Fnv1a,
+    contacts: Fnv1a,
+    event_count: usize,
+    touching: usize,
+}
+
+impl Told {
+    fn hear<S: Recording>(&mut self, world: &World<S>) {
+        hash(world, &mut self.events, &mut self.contacts);
+        self.event_count += S::events(world).len();
+        self.touching += world.stats().touching;
+    }
+
+    fn row(self, name: &str) -> String {
+        let Self { events: Fnv1a(events), contacts: Fnv1a(contacts), event_count, touching } = self;
+        assert!(event_count > 0 && touching > 0, "{name} says nothing");
+        format!("scene {name}: {event_count} events {events:016x}, {touching} touching {contacts:016x}")
+    }
+}
+
 fn row<S: Recording, R: Replay<S>>(name: &str, mut recorded: Recorded<S, R>) -> String {
-    let (mut events, mut contacts, mut event_count, mut touching) =
-        (Fnv1a::default(), Fnv1a::default(), 0, 0);
+    let mut told = Told::default();
     for frame in 0..FRAMES {
         recorded.play(frame);
-        recorded.hash(&mut events, &mut contacts);
-        event_count += S::events(&recorded.world).len();
-        touching += recorded.world.stats().touching;
+        told.hear(&recorded.world);
     }
-    assert!(event_count > 0 && touching > 0, "{name} says nothing");
-    let (events, contacts) = (events.0, contacts.0);
-    format!("scene {name}: {event_count} events {events:016x}, {touching} touching {contacts:016x}")
+    told.row(name)
+}
+
+/// A stage as the examples' stepper plays it: what a solver makes of contacts comes back as poses, so that whatever differs
+/// goes on differing.
+fn stage_row(stage: Stage, size: usize) -> String {
+    fn played<S: Recording + Playable>(mut game: Game<S>) -> Told {
+        let mut told = Told::default();
+        game.update();
+        told.hear(&game.stepper.world);
+        for _ in 1..FRAMES {
+            game.step(STEP);
+            told.hear(&game.stepper.world);
+        }
+        told
+    }
+    let game = AnyGame::of(&stage.build(size, 1)).unwrap();
+    let told = match game {
+        AnyGame::Plane(game) => played(game),
+        AnyGame::Volume(game) => played(game),
+    };
+    told.row(&format!("stage/{}/{size}", stage.name()))
 }
 
 /// Few bodies: fast enough without optimisation.
 fn small() -> String {
-    table(|_| 301, 301, 301)
+    table(|_| 301, 301, 301) + &stages(60)
 }
 
 /// So many that every stage is shared out among threads in some scene.
@@ -47,7 +90,7 @@ fn large() -> String {
         WorldScene::MostlyStatic | WorldScene::World1m => 31_000,
         _ => 4301,
     };
-    table(count, 31_000, 2301)
+    table(count, 31_000, 2301) + &stages(300)
 }
 
 fn table(count: impl Fn(WorldScene) -> usize, in_plane: usize, on_ground: usize) -> String {
@@ -67,6 +110,12 @@ fn table(count: impl Fn(WorldScene) -> usize, in_plane: usize, on_ground: usize)
     let track = Recorded::<Plane, _>::with(Track::open(on_ground));
     writeln!(table, "{}", row(&format!("plane/track/{on_ground}"), track)).unwrap();
     table
+}
+
+fn stages(size: usize) -> String {
+    // In one of them a body for ten thousand of the landscape's moves.
+    let size_of = |stage| if stage == Stage::LargeWorld { 100 * size } else { size };
+    Stage::ALL.map(|stage| stage_row(stage, size_of(stage)) + "\n").concat()
 }
 
 /// The rows of these scenes, as the table has them.

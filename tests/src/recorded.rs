@@ -46,14 +46,20 @@ impl<S: Recording, R: Replay<S>> Recorded<S, R> {
     /// Takes what the last frame said into both hashes, events into the first and contacts into the second.
     /// Allocates nothing.
     pub fn hash(&self, events: &mut Fnv1a, contacts: &mut Fnv1a) {
-        for event in S::events(&self.world) {
-            let (Event::Began { a, b, .. } | Event::Ended { a, b, .. }) = *event;
-            let (user_data_a, user_data_b) = event.user_data();
-            let flags = u64::from(event.is_began()) << 1 | u64::from(event.is_sensor());
-            events.add([bits(a), bits(b), user_data_a, user_data_b, flags]);
-        }
-        S::hash_contacts(&self.world, contacts);
+        hash(&self.world, events, contacts);
     }
+}
+
+/// Takes what a world's last frame said into both hashes, events into the first and contacts into the second.
+/// Allocates nothing.
+pub fn hash<S: Recording>(world: &World<S>, events: &mut Fnv1a, contacts: &mut Fnv1a) {
+    for event in S::events(world) {
+        let (Event::Began { a, b, .. } | Event::Ended { a, b, .. }) = *event;
+        let (user_data_a, user_data_b) = event.user_data();
+        let flags = u64::from(event.is_began()) << 1 | u64::from(event.is_sensor());
+        events.add([bits(a), bits(b), user_data_a, user_data_b, flags]);
+    }
+    S::hash_contacts(world, contacts);
 }
 
 fn bits(key: impl Key) -> u64 {

@@ -66,8 +66,8 @@
 //!   player expects
 //!
 //! Binaries of their own
-//! - `tests/golden`: what every named scene, and bodies on ground, say over sixty frames, by hash, on any number of
-//!   threads and in any build
+//! - `tests/golden`: what every named scene and stage, and bodies on ground, say over sixty frames, by hash, on any number
+//!   of threads and in any build
 //! - `tests/allocation`: a steady scene allocates nothing, a million operations let no memory grow, and what a body
 //!   takes
 //!
