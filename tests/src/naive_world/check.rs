@@ -107,8 +107,8 @@ fn wrong_with<S: Judged>(
     }
     let truth = record.word.separation;
     // Half-spaces may overlap without end, and have no manifold then. On ground, depths are along the normals of its
-    // surface, and have judges of their own; so is all of ground that has a front only.
-    let is_surface = record.is_one_sided || record.on_ground && record.overlapping;
+    // surface, and have judges of their own.
+    let is_surface = record.on_ground && record.overlapping;
     if record.word.is_doubtful || truth == f64::NEG_INFINITY || is_surface {
         return None;
     }
@@ -121,7 +121,8 @@ fn wrong_with<S: Judged>(
     if told.iter().any(|[separation, error]| separation + error < truth - ROUNDING) {
         return Some("nearer than it is");
     }
-    let is_whole = record.most == usize::MAX;
+    // Of ground with a front the nearest piece may be one that only its neighbours hide.
+    let is_whole = record.most == usize::MAX && !record.is_one_sided;
     if is_whole && separation - error > truth + ROUNDING {
         return Some("further than it is");
     }

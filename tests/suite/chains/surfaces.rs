@@ -246,3 +246,21 @@ fn a_plank_on_stairs_has_one_manifold_with_two_points() {
     let width = (one.anchor_b.x - other.anchor_b.x).abs();
     assert!(width > 4.0, "the outermost of what it lies on: {found:?}");
 }
+
+/// Symptom: a stick across a peak that is seen from below was told 7 to 25 cm deep in it, 5 cm from touching it.
+/// Cause: what lay over a piece was told along its normal also where it had come behind it, past its end.
+#[test]
+fn what_passes_by_the_end_of_a_piece_is_not_deep_in_it() {
+    let peak = chain(&[(-1.0, -1.0), (0.0, 0.0), (1.0, -1.0)]).one_sided();
+    let stick: Shape2 = asunder::Segment2::new(Vec2::new(-0.3, 0.0), Vec2::new(0.8, 0.0)).unwrap().into();
+    for gap in [0.05, 1e-2, 1e-3, 1e-6] {
+        for manifold in manifolds(&peak, &stick, &at(0.0, gap), 0.1) {
+            let is_as_far = |separation: f32| f64::from(separation + manifold.error) >= gap;
+            assert!(is_as_far(manifold.separation), "{gap}: {manifold:?}");
+            assert!(manifold.points.iter().all(|point| is_as_far(point.separation)), "{gap}: {manifold:?}");
+        }
+    }
+    // Once it touches the piece that it is in front of, it is pushed out of all of it.
+    let found = manifolds(&peak, &stick, &at(0.0, -1e-3), 0.1);
+    assert!(found.len() == 1 && found[0].separation < -0.2, "{found:?}");
+}

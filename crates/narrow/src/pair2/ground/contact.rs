@@ -166,6 +166,7 @@ impl Standing<'_> {
                 let points: ArrayVec<Point, 2> = parts.convex.over_edge(self.side == 1, edge, limit);
                 let normal = if self.side == 0 { surface.normal } else { -surface.normal };
                 let over = patch(normal, &points).map(Patch::deep_by_its_points);
+                let over = over.filter(|over| !(is_apart(&near, run) && over.is_behind()));
                 // At a corner that is hardly one, rounding may see nothing over either face.
                 let is_face = told == Told::Face;
                 if is_face { (over.or_else(kernels), None) } else { (over, kernels()) }
@@ -179,12 +180,19 @@ impl Standing<'_> {
     }
 }
 
+/// Whether there is a gap beyond rounding.
+///
+/// What is over a run then is in front of it, or else behind it, having come past its end: of that the run has nothing to
+/// tell.
+fn is_apart(near: &Near, run: &Run) -> bool {
+    f64::from(near.separation) > f64::from(near.error) + run.unevenness()
+}
+
 /// Whether a run that is asked about as one segment tells of its own.
 fn overlap(near: &Near, run: &Run) -> Overlap {
-    let clear = f64::from(near.error) + run.unevenness();
     if run.unevenness() == 0.0 {
         Overlap::Told(near.verdict.overlapping)
-    } else if f64::from(near.separation) > clear {
+    } else if is_apart(near, run) {
         Overlap::Told(false)
     } else {
         Overlap::Open

@@ -65,6 +65,11 @@ impl Patch {
         self
     }
 
+    /// Whether any of it is.
+    pub(super) fn is_behind(&self) -> bool {
+        self.0.separation < 0.0
+    }
+
     /// What of it is within a margin, if anything.
     pub(super) fn within(&self, margin: f32) -> Option<Self> {
         let mut manifold = self.0.clone();
