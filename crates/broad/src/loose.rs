@@ -241,8 +241,8 @@ impl<B: Bounds> LooseSweep<B> {
     fn loosen(&mut self, boxes: &[B], admit: &(impl Fn(u32, u32) -> bool + Sync)) -> bool {
         self.loose.resize(boxes.len(), B::NOTHING);
         self.widths.resize(boxes.len(), 0.0);
-        for place in 0..boxes.len() {
-            self.give(place, &boxes[place]);
+        for (place, now) in boxes.iter().enumerate() {
+            self.give(place, now);
         }
         self.state = State::Loose { frames: 0 };
         self.spent = self.cost_of_sweep();
