@@ -327,8 +327,10 @@ fn width_of<B: Bounds>(now: &B, had: &B, width: f32) -> f32 {
 
 /// Replaces `pairs` by those of which the boxes overlap.
 fn tell<B: Bounds>(near: &[PairId], boxes: &[B], pairs: &mut Vec<PairId>) {
-    pairs.clear();
-    pairs.resize(near.len(), PairId { a: 0, b: 0 });
+    // What is there already is written over.
+    if pairs.len() < near.len() {
+        pairs.resize(near.len(), PairId { a: 0, b: 0 });
+    }
     let mut told = 0;
     for &pair in near {
         // Written down in any case: no branch that nobody can guess.

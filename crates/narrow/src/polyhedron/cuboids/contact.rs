@@ -123,7 +123,6 @@ impl Touching<'_> {
     fn over_edges(&self, edge_a: usize, edge_b: usize, manifold: &mut Manifold3) -> Option<()> {
         let Self { placed, best, .. } = *self;
         let normal = placed.edge_normal(best.edges?.pair);
-        let looks = |axes: DVec3| axes.abs().max_element() >= ALIGNED_FACES;
         if looks(normal) && looks(placed.relative.turn_back(normal)) {
             return self.over_leaning(normal, manifold);
         }
@@ -138,7 +137,7 @@ impl Touching<'_> {
     /// So most cuboids touch that tremble on each other: of 64 pairs that lean by some 1e-4 rad, 4.6 thousand instructions
     /// a pair in all, and 10.0 where the general path was asked for these (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
     #[inline(never)]
-    fn over_leaning(&self, normal: DVec3, manifold: &mut Manifold3) -> Option<()> {
+    pub(super) fn over_leaning(&self, normal: DVec3, manifold: &mut Manifold3) -> Option<()> {
         let (slack, deep) = (self.placed.preference, self.deep());
         let within = if deep > self.margin { deep } else { self.margin };
         let size = normal.abs();
@@ -186,25 +185,22 @@ impl Touching<'_> {
         Some(())
     }
 
-    /// The nearest points of two edges that cross, each held to its edge.
+    /// The nearest points of two edges that cross, each held to its edge, as a contact.
     #[inline]
     fn crossing(&self, normal: DVec3, edge_a: usize, edge_b: usize) -> ContactPoint3 {
-        let Placed { half, basis, offset, .. } = self.placed;
-        let (i, j) = (names::axis_of(edge_a), names::axis_of(edge_b));
-        let corner = |half: DVec3, corner: usize| {
-            let side = |axis: usize| if corner >> axis & 1 == 1 { half[axis] } else { -half[axis] };
-            DVec3::new(side(0), side(1), side(2))
-        };
-        let a0 = corner(half[0], names::start(edge_a) & !(1 << i));
-        let b0 = *offset + self.placed.relative.turn(corner(half[1], names::start(edge_b) & !(1 << j)));
-        let along_a = DVec3::AXES[i] * (2.0 * half[0][i]);
-        let along_b = self.placed.axis_b(j) * (2.0 * half[1][j]);
-        let (between, cross) = (b0 - a0, along_a.cross(along_b));
-        // The axis came from this cross product, so it is not zero.
-        let inverse = 1.0 / cross.length_squared();
-        let s = (between.cross(along_b).dot(cross) * inverse).clamp(0.0, 1.0);
-        let t = (between.cross(along_a).dot(cross) * inverse).clamp(0.0, 1.0);
-        let (on_a, on_b) = (a0 + along_a * s, b0 + along_b * t);
+        let nearest = self.placed.nearest_of(edge_a, edge_b);
+        self.contact_at(nearest, normal, (edge_a, edge_b))
+    }
+
+    /// Points of two edges, in A's axes, as a contact.
+    #[inline(always)]
+    pub(super) fn contact_at(
+        &self,
+        [on_a, on_b]: [DVec3; 2],
+        normal: DVec3,
+        (edge_a, edge_b): (usize, usize),
+    ) -> ContactPoint3 {
+        let Placed { basis, offset, .. } = self.placed;
         ContactPoint3 {
             separation: normal.dot(on_b - on_a) as f32,
             anchor_a: basis.turn(on_a).as_vec3(),
@@ -212,6 +208,35 @@ impl Touching<'_> {
             feature: FeatureId::new(Feature::Edge(edge_a as u32), Feature::Edge(edge_b as u32)),
         }
     }
+}
+
+impl Placed {
+    /// The nearest points of two lines, each held to its edge; in A's axes.
+    #[inline]
+    pub(super) fn nearest_of(&self, edge_a: usize, edge_b: usize) -> [DVec3; 2] {
+        let Self { half, offset, .. } = self;
+        let (i, j) = (names::axis_of(edge_a), names::axis_of(edge_b));
+        let corner = |half: DVec3, corner: usize| {
+            let side = |axis: usize| if corner >> axis & 1 == 1 { half[axis] } else { -half[axis] };
+            DVec3::new(side(0), side(1), side(2))
+        };
+        let a0 = corner(half[0], names::start(edge_a) & !(1 << i));
+        let b0 = *offset + self.relative.turn(corner(half[1], names::start(edge_b) & !(1 << j)));
+        let along_a = DVec3::AXES[i] * (2.0 * half[0][i]);
+        let along_b = self.axis_b(j) * (2.0 * half[1][j]);
+        let (between, cross) = (b0 - a0, along_a.cross(along_b));
+        // The axis came from this cross product, so it is not zero.
+        let inverse = 1.0 / cross.length_squared();
+        let s = (between.cross(along_b).dot(cross) * inverse).clamp(0.0, 1.0);
+        let t = (between.cross(along_a).dot(cross) * inverse).clamp(0.0, 1.0);
+        [a0 + along_a * s, b0 + along_b * t]
+    }
+}
+
+/// Whether a face of a cuboid nearly looks along a direction in its axes, or against it.
+#[inline(always)]
+pub(super) fn looks(direction: DVec3) -> bool {
+    direction.abs().max_element() >= ALIGNED_FACES
 }
 
 /// Ascending: five comparisons.

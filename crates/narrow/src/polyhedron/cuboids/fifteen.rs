@@ -14,6 +14,7 @@ use crate::lanes::Lanes;
 use crate::precision::Precision;
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::PARALLEL_EDGES;
 
 /// The separations of the cores along fifteen axes, those of edges times the axis' length.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +69,20 @@ impl Fifteen {
     pub(super) fn edge_pair(&self, pair: usize) -> (f64, f64) {
         let (i, j) = (pair / 3 % 3, pair % 3);
         (self.edges[i].0[j], self.squared[i].0[j])
+    }
+
+    /// The edge pair that parts the cores the furthest, of those that part them and are not parallel up to rounding; or less
+    /// than the furthest where two are all but alike. Nothing where none parts them.
+    #[inline]
+    pub(super) fn best_edges(&self) -> Option<usize> {
+        let (mut best, mut most) = (None, 0.0);
+        for n in 0..9 {
+            let (scaled, squared) = self.edge_pair(n);
+            let is_sound = (scaled > 0.0) & (squared > PARALLEL_EDGES * PARALLEL_EDGES);
+            let found = if is_sound { scaled * scaled / squared } else { 0.0 };
+            (best, most) = if found > most { (Some(n), found) } else { (best, most) };
+        }
+        best
     }
 
     /// The greatest of all, none of them normalised.

@@ -28,13 +28,14 @@ pub(super) enum Settled {
     Beyond(Axis),
     /// They overlap for certain.
     Overlapping(Best),
-    /// A face parts the cores of sharp cuboids for certain, but not by more than the limit. Edges were not looked at.
+    /// A face parts the cores of sharp cuboids for certain, but not by more than the limit, and edges were not looked at; or no
+    /// face does, and edges do.
     Parted(Best),
     /// Neither is certain.
     Unclear,
 }
 
-/// The best axes of two cores; in a gap, faces alone.
+/// The best axes of two cores; in a gap that a face shows, faces alone.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Best {
     pub(super) face_a: Face,
@@ -77,7 +78,7 @@ impl Best {
     }
 
     #[inline(always)]
-    fn of_faces(&self) -> f64 {
+    pub(super) fn of_faces(&self) -> f64 {
         if self.face_b.separation > self.face_a.separation {
             self.face_b.separation
         } else {
@@ -160,6 +161,9 @@ impl Placed {
             if let Some(edges) = best.edges.filter(|edges| edges.separation > limit) {
                 let axis = self.edges(edges.pair);
                 return if axis.separation > limit { Settled::Beyond(axis) } else { Settled::Unclear };
+            }
+            if best.edges.is_some_and(|edges| edges.separation > 2.0 * rounding) && self.radii == 0.0 {
+                return Settled::Parted(best);
             }
         }
         if best.separation() + best.short < -2.0 * rounding {

@@ -44,19 +44,53 @@ fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     (shapes, poses, if round.is_multiple_of(2) { 0.0 } else { 0.03 })
 }
 
-#[test]
-fn side_by_side_or_one_by_one_the_points_are_the_same() {
-    let mut random = Random(0x9E6D_62D0_6F6A_3B1F);
-    let (mut compared, mut reduced, mut same_four, mut across, mut leaning) = ([0; 5], 0, 0, 0, 0);
-    for round in 0..8000 {
-        let (shapes, poses, margin) = pair(&mut random, round);
+/// Two cuboids, turned a little or much against each other, with two edges that cross over a gap, of which the margin closes
+/// most.
+fn crossed(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
+    let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
+    let shapes = halves.map(|half| Shape3::from(Cuboid::from_half_extents(half).unwrap()));
+    let tilt = [0.03, 0.09, 0.3, 1.0][round % 4];
+    let spin = Quat::from_vec4((random.vector() * tilt).extend(1.0)).normalize();
+    let turn = random.turn(0).normalize();
+    let (turns, axes) = ([turn, turn * spin], [round / 4 % 3, round / 12 % 3]);
+    let along = [0, 1].map(|i| turns[i] * Vec3::AXES[axes[i]]);
+    let normal = along[0].cross(along[1]).normalize();
+    // A place on the edge that is the furthest towards the other cuboid.
+    let mut place = |i: usize, towards: Vec3| {
+        let mut corner = halves[i].copysign(turns[i].inverse() * towards);
+        corner[axes[i]] *= 0.95 * random.number();
+        turns[i] * corner
+    };
+    let (on_a, on_b) = (place(0, normal), place(1, -normal));
+    let gap = [0.0, 0.001, 0.02, 0.035][round / 36 % 4] * random.number().abs();
+    let offset = on_a + normal * gap - on_b;
+    let poses = [(Vec3::ZERO, turns[0]), (offset, turns[1])].map(|(at, turn)| Pose3::new(at, turn).unwrap());
+    (shapes, poses, 0.03)
+}
+
+/// How pairs were told, and how that compared.
+#[derive(Debug, Default)]
+struct Compared {
+    /// By the number of points.
+    points: [usize; 5],
+    reduced: usize,
+    same_four: usize,
+    /// Told across a gap by a face, and by edges: a point, or more.
+    across_faces: usize,
+    across_edges: [usize; 2],
+    leaning: usize,
+}
+
+impl Compared {
+    /// What cuboids say by themselves, beside the general path.
+    fn hear(&mut self, round: usize, (shapes, poses, margin): ([Shape3; 2], [Pose3; 2], f32)) {
         let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
         let mut plain = Vec::new();
         let _ = pair.general_contact(margin, Hint::NONE, &mut Some(&mut plain));
         let (found, plain) = (pair.manifold(margin), plain.pop());
         let (Some(found), Some(plain)) = (&found, &plain) else {
             assert_eq!(found.is_some(), plain.is_some(), "round {round}");
-            continue;
+            return;
         };
         let size = f64::from(pair.size());
         let apart = f64::from(found.separation) - f64::from(plain.separation);
@@ -64,19 +98,25 @@ fn side_by_side_or_one_by_one_the_points_are_the_same() {
         assert!(apart.abs() <= errors, "round {round}: {found:?}, {plain:?}");
         let mut room = Manifold3::BLANK;
         let contact = pair.cuboids().unwrap().contact(reach_of(margin), Hint::NONE, Some(&mut room));
-        across += usize::from(matches!(contact, Contact::Near(_)));
-        let of_edges = |hint: Hint| hint.features().is_some_and(|of| matches!(of.a(), Feature::Edge(_)));
-        leaning += usize::from(
-            matches!(contact, Contact::Touching(hint) if of_edges(hint)) && room.points.len() > 2,
-        );
+        let of_edges = |hint: Hint| {
+            hint.features().is_some_and(|of| matches!((of.a(), of.b()), (Feature::Edge(_), Feature::Edge(_))))
+        };
+        match contact {
+            Contact::Near(hint) if of_edges(hint) => {
+                self.across_edges[usize::from(room.points.len() > 1)] += 1;
+            }
+            Contact::Near(_) => self.across_faces += 1,
+            Contact::Touching(hint) if of_edges(hint) && room.points.len() > 2 => self.leaning += 1,
+            _ => {}
+        }
         // Faces and edges that are even but for rounding may be chosen otherwise.
         if found.normal.dot(plain.normal) < 0.999_999 {
             let even = f64::from(found.separation - plain.separation).abs();
             assert!(even <= f64::from(found.error + plain.error), "round {round}: {found:?}, {plain:?}");
-            continue;
+            return;
         }
         assert_eq!(found.points.len(), plain.points.len(), "round {round}: {found:?}, {plain:?}");
-        compared[found.points.len()] += 1;
+        self.points[found.points.len()] += 1;
         if ids(found) == ids(plain) {
             for (one, other) in found.points.iter().zip(&plain.points) {
                 // Both are rounded to f32 at last; the numbers before that agree to some 1e-13.
@@ -85,17 +125,39 @@ fn side_by_side_or_one_by_one_the_points_are_the_same() {
                 assert!(is_near, "round {round}: {one:?}, {other:?}");
                 assert!(f64::from(one.separation - other.separation).abs() <= 1e-7 * size, "round {round}");
             }
-            same_four += usize::from(found.points.len() == 4);
+            self.same_four += usize::from(found.points.len() == 4);
         } else {
             // Of more than four corners any may be kept that are worth as much, but for two parts in a thousand.
             let areas = [found, plain].map(|manifold| area(&manifold.points, manifold.normal));
             let is_reduced = found.points.len() == 4 && areas[0] >= 0.997 * areas[1];
             assert!(is_reduced, "round {round}: {areas:?}, {found:?}, {plain:?}");
-            reduced += 1;
+            self.reduced += 1;
         }
     }
-    assert!(compared[1..].iter().all(|&count| count > 200), "{compared:?}");
-    assert!(across > 200, "{across} told by a face");
-    assert!(leaning > 200, "{leaning} told by faces along an axis of edges");
+}
+
+#[test]
+fn side_by_side_or_one_by_one_the_points_are_the_same() {
+    let mut random = Random(0x9E6D_62D0_6F6A_3B1F);
+    let mut compared = Compared::default();
+    for round in 0..8000 {
+        let pair = pair(&mut random, round);
+        compared.hear(round, pair);
+    }
+    assert!(compared.points[1..].iter().all(|&count| count > 200), "{compared:?}");
+    assert!(compared.across_faces > 200 && compared.leaning > 200, "{compared:?}");
+    let Compared { same_four, reduced, .. } = compared;
     assert!(same_four > 3500 && reduced * 50 < same_four, "{reduced} kept others, {same_four} the same");
+}
+
+#[test]
+fn edges_that_cross_over_a_gap_are_told_as_the_general_path_tells_them() {
+    let mut random = Random(0x51C4_0A3B_90D1_77E2);
+    let mut compared = Compared::default();
+    for round in 0..8000 {
+        let pair = crossed(&mut random, round);
+        compared.hear(round, pair);
+    }
+    let [alone, more] = compared.across_edges;
+    assert!(alone > 1500 && more > 200, "{compared:?}");
 }
