@@ -3,7 +3,7 @@
 //! A capsule that rests along the edge of a box is closest to it at either end, or anywhere between, by a hair. It
 //! rests on the whole stretch that both share, and so on both ends of that.
 
-use super::manifold::Point;
+use super::manifold::{Far, Point};
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
@@ -79,12 +79,8 @@ pub(super) fn side_by_side(
 /// vertices that are as far, which are few.
 fn edges_across(solid: &Solid, direction: DVec3, slack: f64) -> ArrayVec<u16, MAX_EDGES> {
     let local = solid.turned_back(direction);
-    let least = solid.local_support(local).reach - slack;
     let mut edges = ArrayVec::new();
-    for (vertex, place) in solid.vertices.iter().enumerate() {
-        if local.dot(place.as_dvec3()) < least {
-            continue;
-        }
+    for vertex in Far::from(solid, direction, slack).vertices() {
         for &half_edge in solid.topology.leaving(vertex) {
             let (from, to) = solid.topology.ends(half_edge.into());
             let along = solid.vertices[to].as_dvec3() - solid.vertices[from].as_dvec3();

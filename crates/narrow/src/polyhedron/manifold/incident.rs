@@ -36,7 +36,7 @@ pub(crate) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> Opposed 
     best.offer_around(solid, far.deepest, &far, normal);
     if best.face.is_none() {
         best.far = 1;
-        for vertex in (0..solid.vertices.len()).filter(|&vertex| far.members.has(vertex)) {
+        for vertex in far.vertices() {
             best.offer_around(solid, vertex, &far, normal);
         }
     }
@@ -92,7 +92,7 @@ impl Best {
 const FEW_VERTICES: usize = 24;
 
 /// The vertices that are as far in a direction as the furthest.
-struct Far {
+pub(in crate::polyhedron) struct Far {
     /// The furthest; of equals the lowest.
     deepest: usize,
     members: Members,
@@ -102,7 +102,7 @@ struct Far {
 impl Far {
     /// As [`Solid::support`]: lanes of f32 leave out what is lower by more than the slack and what they can be off, and
     /// f64 chooses among the rest.
-    fn from(solid: &Solid, direction: DVec3, slack: f64) -> Self {
+    pub(in crate::polyhedron) fn from(solid: &Solid, direction: DVec3, slack: f64) -> Self {
         let own = solid.turned_back(direction);
         if solid.vertices.len() <= FEW_VERTICES {
             return Self::of_few(solid, own, slack);
@@ -138,6 +138,16 @@ impl Far {
             }
         }
         Self { deepest, members, count }
+    }
+
+    /// All of them, ascending.
+    pub(in crate::polyhedron) fn vertices(&self) -> impl Iterator<Item = usize> + '_ {
+        let of_word = |(place, &word): (usize, &u64)| {
+            core::iter::successors(Some(word), |rest| Some(rest & rest.wrapping_sub(1)))
+                .take_while(|&rest| rest != 0)
+                .map(move |rest| 64 * place + rest.trailing_zeros() as usize)
+        };
+        self.members.0.iter().enumerate().flat_map(of_word)
     }
 
     /// The same one by one.

@@ -35,6 +35,7 @@ mod patch;
 mod single;
 
 pub(super) use frame::Frame;
+pub(super) use incident::Far;
 pub(crate) use incident::opposed_face;
 pub(super) use single::{are_side_by_side, nearest_edges};
 
@@ -268,10 +269,14 @@ fn add_aligned_faces<'a>(
     if a.is_slender() || b.is_slender() {
         return false;
     }
-    let [face_a, face_b] =
-        [opposed_face(a, -normal, depths.slack).face, opposed_face(b, normal, depths.slack).face];
-    let (facing_a, facing_b) = (a.normal(face_a), b.normal(face_b));
-    if facing_a.dot(normal) < ALIGNED_FACES || facing_b.dot(normal) > -ALIGNED_FACES {
+    // Of hulls most do not: mostly one face is enough to know.
+    let face_a = opposed_face(a, -normal, depths.slack).face;
+    let facing_a = a.normal(face_a);
+    if facing_a.dot(normal) < ALIGNED_FACES {
+        return false;
+    }
+    let face_b = opposed_face(b, normal, depths.slack).face;
+    if b.normal(face_b).dot(normal) > -ALIGNED_FACES {
         return false;
     }
     // A face that was merged of several reaches as far as the highest of its corners.
