@@ -10,6 +10,7 @@
 //! where that costs no less than sweeping the boxes, or the pairs of loose boxes are many more: no box is loose, and that is
 //!   tried again after twice as many frames each time
 //! ```
+//! A frame in which all get others, or lose them, takes up to three sweeps of the boxes.
 //! What rests upon each other trembles; what trembles is in its loose box for as long as it does. A frame then costs a
 //! comparison a box and one a pair. Told is the list of [`Sweep`](crate::Sweep), whatever came before: history decides only
 //! what it costs.
@@ -195,7 +196,7 @@ impl<B: Bounds> LooseSweep<B> {
                 self.state = State::Boxes { frames: frames - 1 };
                 false
             }
-            State::Noted if boxes.len() == self.loose.len() => self.loosen(boxes, admit),
+            State::Noted if boxes.len() >= self.loose.len() => self.loosen(boxes, admit),
             State::Loose { frames } if do_many && boxes.len() >= self.loose.len() => {
                 self.find_strays(boxes, moved);
                 self.go_on(boxes, frames, admit)
@@ -230,7 +231,9 @@ impl<B: Bounds> LooseSweep<B> {
         if self.strays.is_empty() {
             return 0;
         }
-        STRAY * (self.sweep.movers() + self.strays.len()) + NEAR * self.near.len()
+        // Each has as many pairs as any other.
+        let pairs = self.near.len() / self.loose.len().max(1);
+        (STRAY + NEAR * pairs) * (self.sweep.movers() + self.strays.len()) + NEAR * self.near.len()
     }
 
     /// Keeps where boxes are, to see how far they go.
@@ -250,14 +253,15 @@ impl<B: Bounds> LooseSweep<B> {
             self.give(place, now);
         }
         self.state = State::Loose { frames: 0 };
-        self.spent = self.cost_of_sweep();
         let most = 2 * self.told + boxes.len();
         // Room for the next times, too.
         self.strays.clear();
         self.strays.reserve(boxes.len() / FEW);
         self.near.clear();
         self.near.reserve(self.told + self.told / 2);
-        self.sweep.sweep_all(&self.loose, true, admit, most, &mut self.near).is_ok() || self.tighten()
+        let is_known = self.sweep.sweep_all(&self.loose, true, admit, most, &mut self.near).is_ok();
+        self.spent = SWEPT[0] * boxes.len() + SWEPT[1] * self.near.len();
+        is_known || self.tighten()
     }
 
     /// No box is loose for some time.

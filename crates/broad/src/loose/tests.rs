@@ -72,8 +72,11 @@ fn a_loose_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
                 } else {
                     match random.below(5) {
                         0 => Aabb3::NOTHING,
-                        // Inside out, where it was.
-                        1 => Aabb3::new(homes[place].max, homes[place].min),
+                        // Inside out, and in the middle of where it was.
+                        1 => {
+                            let middle = 0.5 * (homes[place].min + homes[place].max);
+                            Aabb3::new(middle + 1e-3, middle - 1e-3)
+                        }
                         2 => {
                             groups[place] = random.below(3) as u32;
                             changed.push(place as u32);
@@ -112,8 +115,8 @@ fn a_loose_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
     assert!(lists > 200, "{lists} frames in which a pair of loose boxes was none of boxes");
 }
 
-/// Steps of each of some frames; boxes are moved, each time, by what is told.
-fn steps(frames: u32, boxes: &mut [Aabb3], mut go: impl FnMut(&mut [Aabb3])) -> Vec<[usize; 2]> {
+/// Steps of each of some frames, and what was swept; boxes are moved, each time, by what is told.
+fn steps(frames: u32, boxes: &mut [Aabb3], mut go: impl FnMut(&mut [Aabb3])) -> Vec<([usize; 2], State)> {
     let (mut loose, mut plain, mut pairs) = (LooseSweep::new(), Sweep::new(), Vec::new());
     let places: Vec<u32> = (0..boxes.len() as u32).collect();
     let mut counted = Vec::new();
@@ -121,12 +124,17 @@ fn steps(frames: u32, boxes: &mut [Aabb3], mut go: impl FnMut(&mut [Aabb3])) -> 
         go(boxes);
         let moved = Moved { places: &places, has_changed: |_| false };
         let all = |_, _| true;
-        counted.push([
+        let counts = [
             steps_of(Way::ByCounts, || loose.update(boxes, moved, all, usize::MAX, &mut pairs).unwrap()),
             steps_of(Way::ByCounts, || plain.pairs(boxes, all, usize::MAX, &mut pairs).unwrap()),
-        ]);
+        ];
+        counted.push((counts, loose.state));
     }
     counted
+}
+
+fn sum(counted: &[([usize; 2], State)]) -> [usize; 2] {
+    counted.iter().fold([0, 0], |sum, ([loose, plain], _)| [sum[0] + loose, sum[1] + plain])
 }
 
 #[test]
@@ -139,7 +147,7 @@ fn boxes_that_tremble_are_hardly_ever_swept() {
             *one = beside(home, 0.002, &mut random);
         }
     });
-    let [loose, plain] = counted[20..].iter().fold([0, 0], |sum, one| [sum[0] + one[0], sum[1] + one[1]]);
+    let [loose, plain] = sum(&counted[20..]);
     assert!(plain > 180 * 3000 && loose * 50 < plain, "{loose} steps, {plain} of sweeps");
 }
 
@@ -151,12 +159,12 @@ fn boxes_that_fly_cost_little_more_than_sweeping_them() {
         moving.step();
         boxes.copy_from_slice(&moving.boxes);
     });
-    let [loose, plain] = counted.iter().fold([0, 0], |sum, one| [sum[0] + one[0], sum[1] + one[1]]);
+    let [loose, plain] = sum(&counted);
     assert!(loose * 10 < plain * 11, "{loose} steps, {plain} of sweeps");
-    assert!(
-        counted.iter().all(|[loose, plain]| *loose < 3 * plain),
-        "a frame that takes three times as many"
-    );
+    let is_slow = |([loose, plain], _): &([usize; 2], State)| *loose >= 3 * plain;
+    assert!(!counted.iter().any(is_slow), "a frame that takes three times as many");
+    let tried = counted.iter().filter(|(_, state)| matches!(state, State::Loose { .. })).count();
+    assert!((5..40).contains(&tried), "loose in {tried} of 400 frames");
 }
 
 /// One giant, and a plate without height: how wide a loose box is has to do with its own box alone.
