@@ -71,7 +71,8 @@ impl Touching<'_> {
         let nearest = placed.nearest_of(edge_a, edge_b);
         let above = (nearest[1] - nearest[0]).length() - least;
         let (rounding, separation) = (placed.precision.projection(), signed(least, false));
-        if !(above <= rounding.max(least * SLACK)) {
+        let is_met = above <= rounding.max(least * SLACK);
+        if !is_met {
             return None;
         }
         if f64::from(separation) >= self.margin {
