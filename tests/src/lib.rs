@@ -20,7 +20,7 @@
 //! - [`counting`]: an allocator that counts
 //! - [`recorded`]: the named worlds, played frame by frame, and what they say in one number
 //! - [`rolling`]: bodies that roll, fall, hop and creep over ground, played as those are
-//! - [`engine`], [`played`], [`stored`]: one face for both worlds, for what is done to them, and for their texts
+//! - [`engine`], [`played`]: one face for both worlds, and for what is done to them
 //! - [`judged`], [`naive_world`]: which bodies touch, by [`cores`] and [`exact_overlap`] alone, and the model of a world
 //!   that says so
 //!
@@ -55,7 +55,6 @@ pub mod rolling;
 pub mod shapes;
 pub mod solid;
 pub mod solver;
-pub mod stored;
 
 /// The guide's pages: what they show must run.
 #[cfg(doctest)]

@@ -120,6 +120,7 @@ mod shapes_peer;
 mod snapshots;
 mod solver;
 mod steady;
+mod stored;
 mod theory;
 mod world_crowds;
 mod world_events;

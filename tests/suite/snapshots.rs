@@ -4,6 +4,7 @@
 mod damaged;
 mod rollback;
 
+use crate::stored::Stored;
 use asunder::slotmap::Key;
 use asunder::{
     Collider, Collider3, Compound3, Hooks, Hull, Meeting, Plane, Pose3, Shape3, Side, Space, Volume, World,
@@ -11,7 +12,6 @@ use asunder::{
 };
 use asunder_tests::cases::Random;
 use asunder_tests::engine::{Change, Engine};
-use asunder_tests::stored::Stored;
 use glam::Vec3;
 use serde_json::json;
 

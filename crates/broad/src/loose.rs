@@ -147,7 +147,9 @@ impl<B: Bounds> LooseSweep<B> {
         limit: usize,
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
-        let outcome = if self.finds_near(boxes, &moved, &admit) {
+        // By reference all the way down: kernels are compiled once for each filter.
+        let admit = &admit;
+        let outcome = if self.finds_near(boxes, &moved, admit) {
             tell(&self.near, boxes, pairs);
             if pairs.len() > limit { Err(TooManyPairs { limit }) } else { Ok(()) }
         } else {

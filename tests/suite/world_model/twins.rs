@@ -1,6 +1,7 @@
 //! A world and its model, told the same; and the worlds that it was cloned or restored from, told the same too.
 
 use super::operation::Operation;
+use crate::stored::Stored;
 use asunder::slotmap::Key;
 use asunder::{Collider, Hooks, Meeting, Plane, Side, Volume, World};
 use asunder_tests::cases::Random;
@@ -8,7 +9,6 @@ use asunder_tests::engine::{Change, Engine};
 use asunder_tests::judged::Judged;
 use asunder_tests::naive_world::{NaiveWorld, Tally};
 use asunder_tests::played::Played;
-use asunder_tests::stored::Stored;
 
 /// All that a list needs of a dimension.
 pub(super) trait Stage: Judged + Played + Stored {}

@@ -1,12 +1,14 @@
 //! Worlds as text, and back.
+//!
+//! Not in the tests' library: where rustdoc sees its opaque types from `asunder-benches`, it runs out of stack (1.95).
 
-use crate::engine::Engine;
 use asunder::{Plane, Snapshot, Volume, World};
+use asunder_tests::engine::Engine;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// A dimension's world as data, as text, and back.
-pub trait Stored: Engine {
+pub(crate) trait Stored: Engine {
     /// `World::snapshot`.
     fn snapshot(world: &World<Self>) -> impl Serialize + DeserializeOwned + PartialEq + core::fmt::Debug;
     /// The snapshot's number.
