@@ -116,8 +116,7 @@ impl<B: Bounds> CoherentSweep<B> {
             self.note_movers(moved, boxes.len());
         }
         self.known = boxes.len();
-        let can_stay = self.movers.len() * FEW <= boxes.len() && self.idle * IDLE_A_BOX <= boxes.len();
-        if !(few && self.is_kept && can_stay) {
+        if !few || self.is_worn(0) {
             return self.sweep_all(boxes, few, admit, limit, pairs);
         }
         self.idle += self.movers.len().saturating_sub(moved.len());
@@ -170,8 +169,8 @@ impl<B: Bounds> CoherentSweep<B> {
 
     /// Whether all are swept again, or nearly, where so many more move.
     pub(crate) fn is_worn(&self, more: usize) -> bool {
-        let can_stay = (self.movers.len() + more) * FEW <= self.known && self.idle * IDLE_A_BOX <= self.known;
-        !(self.is_kept && can_stay)
+        let are_few = (self.movers.len() + more) * FEW <= self.known;
+        !(self.is_kept && are_few && self.idle * IDLE_A_BOX <= self.known)
     }
 
     /// Boxes that have moved since all were swept.

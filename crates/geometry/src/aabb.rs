@@ -158,12 +158,7 @@ impl Bounds for Aabb2 {
 
     #[inline]
     fn overlaps(&self, other: &Self) -> bool {
-        self.is_valid()
-            && other.is_valid()
-            && self.min.x <= other.max.x
-            && other.min.x <= self.max.x
-            && self.min.y <= other.max.y
-            && other.min.y <= self.max.y
+        self.is_valid() && other.is_valid() && self.overlaps_valid(other)
     }
 
     #[inline]
@@ -203,14 +198,7 @@ impl Bounds for Aabb3 {
 
     #[inline]
     fn overlaps(&self, other: &Self) -> bool {
-        self.is_valid()
-            && other.is_valid()
-            && self.min.x <= other.max.x
-            && other.min.x <= self.max.x
-            && self.min.y <= other.max.y
-            && other.min.y <= self.max.y
-            && self.min.z <= other.max.z
-            && other.min.z <= self.max.z
+        self.is_valid() && other.is_valid() && self.overlaps_valid(other)
     }
 
     #[inline]
