@@ -1,7 +1,7 @@
 //! What a narrow phase says: separations, closest points, manifolds. One set a dimension, alike in every name.
 
 use crate::feature::{FeatureId, Hint};
-use arrayvec::ArrayVec;
+use crate::points::ContactPoints;
 use asunder_geometry::glam::{Vec2, Vec3};
 use core::ops::Range;
 
@@ -304,7 +304,7 @@ pub struct ContactPoint3 {
 /// assert!(manifold.points.is_sorted_by_key(|point| point.feature));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold2 {
     /// Which part of A, for shapes made of several, and for ground; else 0.
@@ -319,7 +319,7 @@ pub struct Manifold2 {
     /// |true - reported| <= error, in metres.
     pub error: f32,
     /// Where they touch. Never empty.
-    pub points: ArrayVec<ContactPoint2, 2>,
+    pub points: ContactPoints<ContactPoint2, 2>,
 }
 
 /// How two convex shapes in space touch: one normal, and one to four points, in order of their feature ids.
@@ -337,7 +337,7 @@ pub struct Manifold2 {
 /// assert!(manifold.points.is_sorted_by_key(|point| point.feature));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Manifold3 {
     /// Which part of A, for shapes made of several, and for ground; else 0.
@@ -355,7 +355,7 @@ pub struct Manifold3 {
     pub error: f32,
     /// Where they touch. Never empty. Of more corners than four, those that hold the patch by at least 95 % of the best four's
     /// area, one of them as deep as any up to that: the same from frame to frame, but for a coincidence, while their features are.
-    pub points: ArrayVec<ContactPoint3, 4>,
+    pub points: ContactPoints<ContactPoint3, 4>,
 }
 
 /// What a pair looks like within a limit; `N` is the plane's or the space's.

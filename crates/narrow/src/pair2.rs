@@ -8,12 +8,12 @@ use crate::batch::{Met, beyond};
 use crate::exact::Site2;
 use crate::feature::Hint;
 use crate::least::Least;
+use crate::points::ContactPoints;
 use crate::polygon::convex::Convex;
 use crate::polygon::manifold::Touch;
 use crate::polygon::measure::{Asked, Near, Probe};
 use crate::polygon::outline::Turn;
 use crate::polygon::quick::Bodies;
-use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
@@ -440,7 +440,7 @@ impl Place {
 /// position and from B's.
 #[inline]
 fn manifold(near: &Near, touch: &Touch, (indices, shifts): ([u32; 2], [DVec2; 2])) -> Manifold2 {
-    let mut points = ArrayVec::new();
+    let mut points = ContactPoints::new();
     for point in &touch.points {
         points.push(ContactPoint2 {
             separation: point.separation as f32,

@@ -5,8 +5,8 @@ use crate::feature::OnFace;
 use crate::footing::{Footing, Girth};
 use crate::jobs2::Job2;
 use crate::persistent::{THEIRS, Terms, Way, lost, measured_from, single, slack_of, widest_reach_of};
+use crate::points::ContactPoints;
 use crate::precision::signed;
-use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
@@ -76,7 +76,7 @@ impl Persistent2 {
             footing: footing_of(job, edge, manifold),
         };
         let poses = [*job.pose_a, *job.pose_b];
-        terms.are_sound(found).then(|| Self { manifold: manifold.clone(), terms, poses })
+        terms.are_sound(found).then_some(Self { manifold: *manifold, terms, poses })
     }
 
     /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of no
@@ -122,7 +122,7 @@ impl Persistent2 {
     /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
     pub fn carry_on(&self, poses: [&Pose2; 2], to: &mut Vec<Manifold2>) -> bool {
         if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
-            to.push(self.manifold.clone());
+            to.push(self.manifold);
             return true;
         }
         let moved = if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
@@ -182,7 +182,7 @@ impl Persistent2 {
     /// The manifold as it is now; nothing where it has to be made anew.
     fn filled(&self, moved: &Moved) -> Option<Manifold2> {
         let of = &self.manifold;
-        let mut to = Manifold2 { normal: moved.normal.as_vec2(), points: ArrayVec::new(), ..*of };
+        let mut to = Manifold2 { normal: moved.normal.as_vec2(), points: ContactPoints::new(), ..*of };
         let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
         for point in &of.points {
             let then = f64::from(point.separation);
@@ -196,7 +196,7 @@ impl Persistent2 {
                 (held + moved.offset - out, held)
             };
             (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
-            let _ = to.points.try_push(ContactPoint2 {
+            to.points.push(ContactPoint2 {
                 separation: height as f32,
                 anchor_a: on_a.as_vec2(),
                 anchor_b: on_b.as_vec2(),
@@ -272,7 +272,7 @@ fn footing_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> Option<Foot
     for point in &manifold.points {
         (low, high) = (low.min(point.separation), high.max(point.separation));
     }
-    let width = match manifold.points.as_slice() {
+    let width = match &*manifold.points {
         [one, other] => (other.anchor_a - one.anchor_a).as_dvec2().length(),
         [one] => {
             let (shape, pose, edge, anchor) = match edge {

@@ -7,7 +7,7 @@ use asunder_narrow::{Answer, Batch3, FeatureId, Hint, Job3, Manifold3, Pair3, co
 
 /// The same with both shapes swapped.
 fn mirrored(manifold: &Manifold3) -> Manifold3 {
-    let mut mirrored = manifold.clone();
+    let mut mirrored = *manifold;
     core::mem::swap(&mut mirrored.part_a, &mut mirrored.part_b);
     mirrored.normal = -manifold.normal;
     for point in &mut mirrored.points {

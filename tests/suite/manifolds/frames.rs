@@ -17,7 +17,7 @@ pub(super) fn frame(case: &Case3, hint: Hint, margin: f32) -> (Manifold3, Hint) 
     let mut batch = Batch3::default();
     collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor: false }], &mut batch);
     let Answer::Contact { hint, .. } = batch.answers[0] else { panic!("a contact: {case:?}") };
-    (batch.manifolds[0].clone(), hint)
+    (batch.manifolds[0], hint)
 }
 
 /// A wide box on a small one, tilted so that its own face is the better axis by so many preferences: along the small

@@ -45,7 +45,7 @@ impl Solids {
             footing: footing_of(job, manifold, hold.width),
         };
         let poses = [*job.pose_a, *job.pose_b];
-        terms.are_sound(found).then(|| Self { manifold: manifold.clone(), terms, poses })
+        terms.are_sound(found).then_some(Self { manifold: *manifold, terms, poses })
     }
 
     /// Up to which drift this one can be moved along, in metres.
@@ -77,7 +77,7 @@ impl Solids {
     /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
     pub(super) fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
         if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
-            to.push(self.manifold.clone());
+            to.push(self.manifold);
             return true;
         }
         if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {

@@ -59,8 +59,7 @@ impl Asking<'_> {
         let off = (f64::from(separation) - deepest).abs();
         let error = precision.of_distance(deepest, doubt + hidden + off);
         (manifold.separation, manifold.error) = (separation, error);
-        let room = manifold.points.remaining_capacity();
-        manifold.points.extend(group.pins.iter().take(room).map(|pin| {
+        manifold.points.extend(group.pins.iter().map(|pin| {
             let of_body = (on.basis.turn(pin.on_body) - on.to_body).as_vec3();
             let of_ground = on.basis.turn(pin.on_ground).as_vec3();
             let (anchor_a, anchor_b, feature) = if on.is_b {

@@ -3,6 +3,7 @@
 use super::super::Place;
 use crate::answer::{ContactPoint2, Manifold2};
 use crate::feature::{Feature, FeatureId};
+use crate::points::ContactPoints;
 use crate::polygon::manifold::Point;
 use crate::polygon::measure::Near;
 use crate::precision::signed;
@@ -72,7 +73,7 @@ impl Patch {
 
     /// What of it is within a margin, if anything.
     pub(super) fn within(&self, margin: f32) -> Option<Self> {
-        let mut manifold = self.0.clone();
+        let mut manifold = self.0;
         manifold.points.retain(|point| point.separation <= margin);
         (!manifold.points.is_empty()).then_some(Self(manifold))
     }
@@ -159,13 +160,13 @@ fn widest(
     points: &[ContactPoint2],
     place: impl Fn(&ContactPoint2) -> f32,
     preference: f32,
-) -> ArrayVec<ContactPoint2, 2> {
+) -> ContactPoints<ContactPoint2, 2> {
     let least = |by: &dyn Fn(&ContactPoint2) -> f32| {
         points.iter().copied().reduce(|best, next| if by(&next) < by(&best) { next } else { best })
     };
     let [left, right, deepest] =
         [least(&place), least(&|point| -place(point)), least(&|point| point.separation)];
-    let mut kept = ArrayVec::new();
+    let mut kept = ContactPoints::new();
     if let (Some(left), Some(right), Some(deepest)) = (left, right, deepest) {
         let is_deeper = deepest.separation < left.separation.min(right.separation) - preference;
         let one = if is_deeper { deepest } else { left };

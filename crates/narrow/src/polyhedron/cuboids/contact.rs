@@ -10,8 +10,8 @@ use super::settled::Best;
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, FeatureId};
 use crate::lanes::Lanes;
+use crate::points::ContactPoints;
 use crate::precision::signed;
-use arrayvec::ArrayVec;
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::ALIGNED_FACES;
@@ -24,7 +24,7 @@ impl Manifold3 {
         normal: Vec3::ZERO,
         separation: 0.0,
         error: 0.0,
-        points: ArrayVec::new_const(),
+        points: ContactPoints::new(),
     };
 }
 
@@ -305,7 +305,7 @@ impl Over {
                 continue;
             }
             last = names;
-            let _ = manifold.points.try_push(ContactPoint3 {
+            manifold.points.push(ContactPoint3 {
                 separation: height.0[k] as f32,
                 anchor_a: Vec3::new(on_a[0][k], on_a[1][k], on_a[2][k]),
                 anchor_b: Vec3::new(on_b[0][k], on_b[1][k], on_b[2][k]),
