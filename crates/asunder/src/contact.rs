@@ -63,8 +63,38 @@ pub(crate) struct Candidate<K> {
     pub(crate) hint: Hint,
     /// The place of the pair's persistent manifold.
     pub(crate) persistent: u32,
+    /// Its contact, if it has one.
+    pub(crate) contact: ContactNumber,
     /// Of bodies that are apart, until when they stay so: see `odometer`.
     pub(crate) until: f64,
+}
+
+/// The number of a candidate's contact among the records, if it has one, and whether that has begun: of most contacts that go on,
+/// nothing else of last update's is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ContactNumber(u32);
+
+impl ContactNumber {
+    /// No contact.
+    pub(crate) const NONE: Self = Self(u32::MAX);
+
+    /// The highest bit: nobody has memory for as many records.
+    const BEGUN: u32 = 1 << 31;
+
+    pub(crate) const fn new(number: usize, begun: bool) -> Self {
+        Self(number as u32 | if begun { Self::BEGUN } else { 0 })
+    }
+
+    #[inline]
+    pub(crate) const fn number(self) -> Option<usize> {
+        if self.0 == Self::NONE.0 { None } else { Some((self.0 & !Self::BEGUN) as usize) }
+    }
+
+    /// Its number, if it has begun.
+    #[inline]
+    pub(crate) fn begun(self) -> Option<u32> {
+        (self != Self::NONE && self.0 & Self::BEGUN != 0).then_some(self.0 & !Self::BEGUN)
+    }
 }
 
 /// Where the manifolds of a contact stand: in the list of the chunk that the pair was in.

@@ -7,13 +7,13 @@
 //! look at the others:                                                                       (answer)
 //!   their bodies hardly drifted since the manifold was made: it is moved along
 //!   else: the narrow phase is asked, with the hint that the pair has
-//! candidates and contacts of them all, beside last update's contacts                        (settle)
+//! candidates and contacts of them all, in order                                             (settle)
 //! ```
 //! What becomes of a chunk is a function of its pairs and of what was before.
 
 use super::settle::{Both, Settled};
 use crate::collider::Collider;
-use crate::contact::{Candidate, Place, Record};
+use crate::contact::{Candidate, ContactNumber, Place, Record};
 use crate::motion::{Motions, approach};
 use crate::odometer::Odometer;
 use crate::records::Records;
@@ -41,8 +41,6 @@ pub(super) struct Chunk<'c, S: Space> {
     /// Its own part of last update's lists.
     pub(super) last_candidates: &'c [Candidate<S::Key>],
     pub(super) last_records: &'c Records<S::Key>,
-    /// The first pair of the next chunk.
-    pub(super) until: Option<PairId>,
     pub(super) candidates: &'c mut [Candidate<S::Key>],
     pub(super) records: &'c mut Vec<Record<S::Key>>,
     pub(super) answered: &'c mut Batch<S::Manifold>,
@@ -92,11 +90,11 @@ impl<S: Space> Asker<'_, S> {
         let mut last = last_candidates.iter().peekable();
         for (&pair, candidate) in pairs.iter().zip(candidates.iter_mut()) {
             while let Some(gone) = last.next_if(|known| known.pair < pair) {
-                settled.vacate(gone.persistent);
+                settled.give_up(gone);
             }
             let (a, b) = (pair.a as usize, pair.b as usize);
             let keys = (self.keys[a], self.keys[b]);
-            let (mut hint, mut persistent) = (Hint::NONE, NOWHERE);
+            let (mut hint, mut persistent, mut contact) = (Hint::NONE, NOWHERE, ContactNumber::NONE);
             if let Some(known) = last.next_if(|known| known.pair == pair) {
                 // A reused slot is a new body.
                 let is_same = known.keys == keys;
@@ -107,15 +105,18 @@ impl<S: Space> Asker<'_, S> {
                     continue;
                 }
                 if is_same && !of_another_shape(self.reshaped, pair) {
-                    (hint, persistent) = (known.hint, known.persistent);
-                } else {
+                    (hint, persistent, contact) = (known.hint, known.persistent, known.contact);
+                } else if is_same {
+                    contact = known.contact;
                     settled.vacate(known.persistent);
+                } else {
+                    settled.give_up(known);
                 }
             }
-            *candidate = Candidate { pair, keys, hint, persistent, until: f64::NEG_INFINITY };
+            *candidate = Candidate { pair, keys, hint, persistent, contact, until: f64::NEG_INFINITY };
             settled.ways.push(Way::Open);
         }
-        last.for_each(|gone| settled.vacate(gone.persistent));
+        last.for_each(|gone| settled.give_up(gone));
     }
 
     /// Moves manifolds along, or asks the narrow phase.

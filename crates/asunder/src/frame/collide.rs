@@ -3,7 +3,7 @@
 //! ```text
 //! cut the pairs into chunks
 //! for each chunk, in parallel:
-//!   find its part of last update's candidates and contacts
+//!   find its part of last update's candidates
 //!   what is carried on, moved along, or asked about                                         (ask)
 //!   candidates and contacts, and what of last update's goes on                              (settle)
 //! ```
@@ -26,7 +26,7 @@
 
 use super::ask::{Asker, Chunk};
 use super::settle::Settled;
-use crate::contact::{Candidate, Record};
+use crate::contact::{Candidate, ContactNumber, Record};
 use crate::records::{Records, chunk_of};
 use crate::slab::NOWHERE;
 use crate::space::Space;
@@ -76,15 +76,15 @@ fn ask<S: Space>(world: &mut World<S>) {
         last_answered,
         spare: Mutex::new(spare),
     };
-    let part =
-        Part { first: 0, size, pairs, last_candidates, until: None, candidates, records, answered, settled };
+    let part = Part { first: 0, size, pairs, last_candidates, candidates, records, answered, settled };
     part.work(&asker, last_records);
 }
 
 /// What is written over.
 fn blank<K: Key>() -> Candidate<K> {
     let (pair, keys) = (PairId { a: 0, b: 0 }, (K::null(), K::null()));
-    Candidate { pair, keys, hint: Hint::NONE, persistent: NOWHERE, until: f64::NEG_INFINITY }
+    let (persistent, contact) = (NOWHERE, ContactNumber::NONE);
+    Candidate { pair, keys, hint: Hint::NONE, persistent, contact, until: f64::NEG_INFINITY }
 }
 
 /// As many of a list as are needed; the others are cleared.
@@ -104,8 +104,6 @@ struct Part<'c, S: Space> {
     size: usize,
     pairs: &'c [PairId],
     last_candidates: &'c [Candidate<S::Key>],
-    /// The first pair that comes after it.
-    until: Option<PairId>,
     candidates: &'c mut [Candidate<S::Key>],
     records: &'c mut [Vec<Record<S::Key>>],
     answered: &'c mut [Batch<S::Manifold>],
@@ -125,14 +123,13 @@ impl<S: Space> Part<'_, S> {
             }
             return;
         }
-        let Self { first, pairs, last_candidates, until, candidates, records, answered, settled, .. } = self;
+        let Self { first, pairs, last_candidates, candidates, records, answered, settled, .. } = self;
         if let ([records], [answered], [settled]) = (records, answered, settled) {
             asker.ask(Chunk {
                 number: first as u32,
                 pairs,
                 last_candidates,
                 last_records,
-                until,
                 candidates,
                 records,
                 answered,
@@ -158,7 +155,6 @@ impl<S: Space> Part<'_, S> {
             size: self.size,
             pairs: pairs.0,
             last_candidates: last_candidates.0,
-            until: Some(first),
             candidates: candidates.0,
             records: records.0,
             answered: answered.0,
@@ -169,7 +165,6 @@ impl<S: Space> Part<'_, S> {
             size: self.size,
             pairs: pairs.1,
             last_candidates: last_candidates.1,
-            until: self.until,
             candidates: candidates.1,
             records: records.1,
             answered: answered.1,

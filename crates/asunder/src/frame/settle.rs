@@ -1,22 +1,18 @@
-//! What came of the pairs of a chunk, as candidates and records, beside last update's.
+//! What came of the pairs of a chunk, as candidates and records, in their order.
+//!
+//! A candidate knows the number of its contact and whether that had begun, so that a contact that goes on is not looked up in
+//! last update's list.
 
 use super::ask::{Asker, Chunk, Way, manifolds_at, of_another_shape};
 use crate::collider::Collider;
-use crate::contact::{Candidate, Place, Record};
+use crate::contact::{Candidate, ContactNumber, Place, Record};
 use crate::odometer::Odometer;
-use crate::records::Walk;
+use crate::records::CHUNK;
 use crate::slab::NOWHERE;
 use crate::space::Space;
 use asunder_broad::PairId;
 use asunder_narrow::{Answer, Batch};
-use core::iter::Peekable;
 use std::sync::PoisonError;
-
-/// One of last update's records, and its number.
-type Numbered<'r, K> = (usize, &'r Record<K>);
-
-/// What is left of them.
-type LastRecords<'c, K> = Peekable<Walk<'c, K>>;
 
 /// Two bodies.
 pub(super) type Both<'a, S> = (&'a Collider<S>, &'a Collider<S>);
@@ -98,64 +94,43 @@ impl<S: Space> Settled<S> {
         }
     }
 
-    fn set_aside(&mut self, (number, gone): Numbered<'_, S::Key>) {
-        if gone.begun {
-            self.ended.push(number as u32);
-        }
+    /// Of a pair that is none any more, and all that was its.
+    pub(super) fn give_up(&mut self, gone: &Candidate<S::Key>) {
+        self.vacate(gone.persistent);
+        self.set_aside(gone.contact);
+    }
+
+    /// A contact of last update is over.
+    fn set_aside(&mut self, gone: ContactNumber) {
+        self.ended.extend(gone.begun());
     }
 
     /// Whether a contact has begun, and is new: what had begun goes on, until it is over.
     #[inline(always)]
-    fn begin(
-        &mut self,
-        record: &mut Record<S::Key>,
-        before: Option<Numbered<'_, S::Key>>,
-        is_reshaped: bool,
-    ) {
-        let goes_on = before.filter(|(_, before)| {
-            // A reused slot is a new body: its predecessor's contact ended. The margin's memory does not outlive a shape: a
-            // contact that the new one does not touch is over. So is one beyond the margin, whatever a motion may bring.
-            let is_over = record.speculative || (is_reshaped && !record.overlapping);
-            before.keys == record.keys && !is_over
-        });
-        if let (Some(gone), None) = (before, goes_on) {
-            self.set_aside(gone);
+    fn begin(&mut self, record: &mut Record<S::Key>, before: ContactNumber, is_reshaped: bool) {
+        // The margin's memory does not outlive a shape: a contact that the new one does not touch is over. So is one beyond the
+        // margin, whatever a motion may bring.
+        let is_over = record.speculative || (is_reshaped && !record.overlapping);
+        if is_over {
+            self.set_aside(before);
         }
-        let had_begun = goes_on.is_some_and(|(_, before)| before.begun);
+        let had_begun = !is_over && before.begun().is_some();
         record.begun = record.overlapping || had_begun;
         record.is_new = record.begun && !had_begun;
-    }
-
-    /// Last update's record of a pair; those before it are gone.
-    #[inline]
-    fn before<'r>(
-        &mut self,
-        pair: PairId,
-        last: &mut LastRecords<'r, S::Key>,
-    ) -> Option<Numbered<'r, S::Key>> {
-        while let Some(gone) = last.next_if(|(_, last)| last.pair < pair) {
-            self.set_aside(gone);
-        }
-        last.next_if(|(_, last)| last.pair == pair)
     }
 }
 
 impl<S: Space> Asker<'_, S> {
     /// Settles the candidates of a chunk and makes its records, in order of the pairs.
     pub(super) fn settle(&self, chunk: Chunk<'_, S>) {
-        let Chunk {
-            number: chunk, pairs, last_records, until, candidates, records, answered, settled, ..
-        } = chunk;
-        let last = match pairs.first() {
-            Some(&first) if chunk > 0 => last_records.from(first),
-            _ => last_records.iter(),
-        };
-        let (mut last, mut next) = (last.peekable(), 0);
+        let Chunk { number: chunk, last_records, candidates, records, answered, settled, .. } = chunk;
+        let mut next = 0;
         for (number, candidate) in candidates.iter_mut().enumerate() {
-            let pair = candidate.pair;
-            let before = settled.before(pair, &mut last);
-            let record = match settled.ways[number] {
-                Way::Carried => before.map(|(_, before)| self.carried(before, answered, chunk)),
+            let (way, before) = (settled.ways[number], candidate.contact);
+            let record = match way {
+                Way::Carried => {
+                    before.number().map(|number| self.carried(last_records.get(number), answered, chunk))
+                }
                 Way::Moved { at, count, overlapping, user_data } => {
                     let place = Place { chunk, start: at, end: at + count };
                     let met = Met { overlapping, user_data, sensor: false };
@@ -167,7 +142,7 @@ impl<S: Space> Asker<'_, S> {
                     let Some((answer, both)) = answered.answers.get(next).zip(both) else { break };
                     next += 1;
                     self.learn(candidate, answer);
-                    match self.kept_of((pair, both), answer, answered, settled) {
+                    match self.kept_of((candidate.pair, both), answer, answered, settled) {
                         Some(kept) => settled.kept.push((number as u32, kept)),
                         None => settled.vacate(core::mem::replace(&mut candidate.persistent, NOWHERE)),
                     }
@@ -184,19 +159,22 @@ impl<S: Space> Asker<'_, S> {
                 // A body of it is gone.
                 Way::Open => None,
             };
-            match record {
+            candidate.contact = match record {
                 Some(mut record) => {
-                    settled.begin(&mut record, before, of_another_shape(self.reshaped, pair));
+                    settled.begin(&mut record, before, of_another_shape(self.reshaped, candidate.pair));
                     settled.tally.count(&record);
+                    let number = chunk as usize * CHUNK + records.len();
                     records.push(record);
+                    ContactNumber::new(number, record.begun)
                 }
-                None => before.into_iter().for_each(|gone| settled.set_aside(gone)),
-            }
+                None => {
+                    settled.set_aside(before);
+                    ContactNumber::NONE
+                }
+            };
         }
-        let is_its_own = |record: &Record<S::Key>| until.is_none_or(|until| record.pair < until);
-        while let Some(gone) = last.next_if(|(_, last)| is_its_own(last)) {
-            settled.set_aside(gone);
-        }
+        // Those that are gone came first. Numbers ascend as pairs do.
+        settled.ended.sort_unstable();
     }
 
     /// What an answer says of a pair for the next update.

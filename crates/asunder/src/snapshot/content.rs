@@ -180,7 +180,8 @@ impl<S: Saved> SlotForm<S> {
 impl<S: Saved> CandidateForm<S> {
     fn of(candidate: &Candidate<S::Key>, all: &Slab<S::Persistent>) -> Self {
         // The pair is that of the keys' slots; which place a persistent manifold has does not matter.
-        let Candidate { pair: _, keys, hint, persistent, until } = candidate;
+        // Which contact is its own is found again: contacts are saved in the same order.
+        let Candidate { pair: _, keys, hint, persistent, contact: _, until } = candidate;
         let persistent = all.get(*persistent).cloned();
         Self { keys: *keys, hint: *hint, persistent, until: Some(*until).filter(|until| until.is_finite()) }
     }

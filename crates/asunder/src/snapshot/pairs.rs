@@ -4,7 +4,7 @@ use super::content::{CandidateForm, ContactForm, SlotForm};
 use super::error::SnapshotError;
 use super::shapes::Saved;
 use super::slots::version_of;
-use crate::contact::{Candidate, Place, Record};
+use crate::contact::{Candidate, ContactNumber, Place, Record};
 use crate::event::Event;
 use crate::motion::Hit;
 use crate::slab::NOWHERE;
@@ -88,18 +88,19 @@ impl<S: Saved> Judge<'_, S> {
             let persistent = if form.persistent.is_some() { all.len() as u32 } else { NOWHERE };
             all.extend(form.persistent.clone());
             let until = form.until.unwrap_or(f64::NEG_INFINITY);
-            candidates.push(Candidate { pair, keys: form.keys, hint: form.hint, persistent, until });
+            let contact = ContactNumber::NONE;
+            candidates.push(Candidate { pair, keys: form.keys, hint: form.hint, persistent, contact, until });
         }
         Ok((candidates, all))
     }
 
-    /// Each contact is that of a candidate: two sorted lists, walked once.
+    /// Each contact is that of a candidate, which learns its number: two sorted lists, walked once.
     pub(super) fn records(
         &self,
         forms: &[ContactForm<S>],
-        candidates: &[Candidate<S::Key>],
+        candidates: &mut [Candidate<S::Key>],
     ) -> Result<Records<S>, SnapshotError> {
-        let mut candidates = candidates.iter();
+        let mut candidates = candidates.iter_mut();
         let (mut records, mut all) = (Vec::with_capacity(forms.len()), Vec::new());
         for (index, form) in forms.iter().enumerate() {
             // Candidates have been judged. A contact out of order finds none left.
@@ -117,6 +118,7 @@ impl<S: Saved> Judge<'_, S> {
             if !manifolds.iter().all(S::is_sound) {
                 return Err(SnapshotError::Manifold { index });
             }
+            candidate.contact = ContactNumber::new(index, *begun);
             let start = all.len();
             all.extend_from_slice(manifolds);
             u32::try_from(all.len()).map_err(|_| SnapshotError::Contact { index })?;

@@ -48,9 +48,9 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
     let judge = Judge { slots };
     judge.events(events)?;
     judge.impacts(impacts)?;
-    let (candidates, persistent) = judge.candidates(candidates)?;
+    let (mut candidates, persistent) = judge.candidates(candidates)?;
     let odometers = revived_odometers(odometers, slots.len())?;
-    let (records, manifolds) = judge.records(contacts, &candidates)?;
+    let (records, manifolds) = judge.records(contacts, &mut candidates)?;
     if let Some(index) = edited.as_ref().map(Vec::len).filter(|&lists| lists != records.len()) {
         return Err(SnapshotError::Contact { index });
     }
