@@ -147,3 +147,18 @@ impl<K: slotmap::Key> Record<K> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_keeps_whether_its_contact_has_begun() {
+        for number in [0, 1, 1023, 1024, (1 << 31) - 2] {
+            let (begun, near) = (ContactNumber::new(number, true), ContactNumber::new(number, false));
+            assert_eq!((begun.number(), near.number()), (Some(number), Some(number)));
+            assert_eq!((begun.begun(), near.begun()), (Some(number as u32), None));
+        }
+        assert_eq!((ContactNumber::NONE.number(), ContactNumber::NONE.begun()), (None, None));
+    }
+}

@@ -65,39 +65,58 @@ impl Feature {
 /// assert_eq!(FeatureId::from_bits(id.to_bits()), id);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct FeatureId(u64);
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "u64", into = "u64")
+)]
+// Not a u64, which would make each contact point 4 bytes longer, and a frame of bodies that rest reads and writes little else.
+pub struct FeatureId([u32; 2]);
 
 impl FeatureId {
     /// The id of a feature of A that meets a feature of B.
     pub const fn new(a: Feature, b: Feature) -> Self {
-        Self((a.to_bits() as u64) << 32 | b.to_bits() as u64)
+        Self([a.to_bits(), b.to_bits()])
     }
 
     /// The feature of A.
     pub const fn a(self) -> Feature {
-        Feature::from_bits((self.0 >> 32) as u32)
+        Feature::from_bits(self.0[0])
     }
 
     /// The feature of B.
     pub const fn b(self) -> Feature {
-        Feature::from_bits(self.0 as u32)
+        Feature::from_bits(self.0[1])
     }
 
     /// Both features, the lower first: the same for the other order of the shapes.
     pub(crate) const fn in_any_order(self) -> [u32; 2] {
-        let (a, b) = ((self.0 >> 32) as u32, self.0 as u32);
+        let [a, b] = self.0;
         if a < b { [a, b] } else { [b, a] }
     }
 
     /// All 64 bits, for storage.
     pub const fn to_bits(self) -> u64 {
-        self.0
+        (self.0[0] as u64) << 32 | self.0[1] as u64
     }
 
     /// The id with these bits.
     pub const fn from_bits(bits: u64) -> Self {
-        Self(bits)
+        Self([(bits >> 32) as u32, bits as u32])
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<u64> for FeatureId {
+    fn from(bits: u64) -> Self {
+        Self::from_bits(bits)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<FeatureId> for u64 {
+    fn from(id: FeatureId) -> Self {
+        id.to_bits()
     }
 }
 
