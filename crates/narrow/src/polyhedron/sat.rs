@@ -47,7 +47,7 @@
 //! direction of the search before as a first bound (no gain); the furthest vertex as a sum of indices
 //! without branches (20 % slower: branches are guessed, sums are waited for); arcs' eights given up between the two
 //! great circles and the meeting point (cones 15 % faster, all else 3 to 6 % slower); a support search that keeps its
-//! projections for the second look (a fifth fewer of its instructions, no time), or takes f32's winner where none is near (no time).
+//! projections for the second look (a fifth fewer instructions, no time), or takes f32's winner where none is near (none).
 //!
 //! Cost: linear in faces, edges and vertices; what the spheres leave, faces times vertices and edges times edges.
 
