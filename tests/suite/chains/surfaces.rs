@@ -2,7 +2,7 @@
 
 use super::{at, chain, noise, sliders, towards, turned};
 use asunder::glam::{DVec2, Vec2};
-use asunder::{Chain, Circle, Feature, Manifold2, Pair2, Pose2, Rect, Shape2};
+use asunder::{Capsule2, Chain, Circle, Feature, Manifold2, Pair2, Polygon, Pose2, Rect, Shape2};
 use core::ops::ControlFlow;
 
 fn circle(radius: f32) -> Shape2 {
@@ -263,4 +263,70 @@ fn what_passes_by_the_end_of_a_piece_is_not_deep_in_it() {
     // Once it touches the piece that it is in front of, it is pushed out of all of it.
     let found = manifolds(&peak, &stick, &at(0.0, -1e-3), 0.1);
     assert!(found.len() == 1 && found[0].separation < -0.2, "{found:?}");
+}
+
+/// How far a point is from the core of a rounded body, and the nearest point of that core; both in the body's axes.
+fn from_core(core: &[Vec2], point: DVec2) -> (f64, DVec2) {
+    let nearest = |i: usize| {
+        let [from, to] = [core[i], core[(i + 1) % core.len()]].map(Vec2::as_dvec2);
+        let along = to - from;
+        from + along * ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0)
+    };
+    let far = |foot: &DVec2| (point - *foot).length();
+    let foot = (0..core.len()).map(nearest).min_by(|one, other| far(one).total_cmp(&far(other))).unwrap();
+    (far(&foot), foot)
+}
+
+/// Symptom: where a capsule was pushed out of a hollow along the normal of a piece that it is tilted to, its anchor lay up
+/// to 0.98 of its radius inside it, and was told to be as much less deep than the capsule is there.
+/// Cause: where the end of the piece cuts off the side of a core, that was moved out along the normal, as corners are that
+/// look that way, and not to the surface that is there.
+#[test]
+fn where_a_piece_ends_the_anchor_of_a_tilted_body_lies_on_its_surface() {
+    let capsule = Capsule2::from_half_height(0.6, 0.25).unwrap();
+    let rect = Rect::from_half_extents(Vec2::new(0.5, 0.25)).unwrap();
+    let triangle =
+        Polygon::hull_of(&[Vec2::new(-0.5, -0.3), Vec2::new(0.5, -0.2), Vec2::new(0.0, 0.5)]).unwrap();
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let bodies: [(Shape2, Vec<Vec2>, f64); 3] = [
+        (capsule.into(), vec![Vec2::Y * 0.6, Vec2::Y * -0.6], 0.25),
+        (
+            rect.rounded(0.125).unwrap().into(),
+            corners.map(|(x, y)| Vec2::new(0.5 * x, 0.25 * y)).to_vec(),
+            0.125,
+        ),
+        (triangle.clone().rounded(0.25).unwrap().into(), triangle.vertices().to_vec(), 0.25),
+    ];
+    let mut tilted_at_ends = 0;
+    for i in 0..6000 {
+        let number = |k: usize| noise(i * 64 + k);
+        let mut x = 3.0;
+        // Hills and hollows down to the left, seen from above; every other time from below as well.
+        let points: Vec<Vec2> = (0..9)
+            .map(|k| {
+                x -= 0.1 + 1.2 * number(k);
+                Vec2::new(x as f32, (1.2 * number(k + 9) - 0.6) as f32)
+            })
+            .collect();
+        let hills = Chain::open(points).unwrap();
+        let hills = if i % 2 == 0 { hills.one_sided() } else { hills };
+        let (body, core, radius) = &bodies[i % 3];
+        let turn = turned(towards(7.0 * number(20)));
+        let pose = Pose2::new([4.0 * number(21) - 3.0, 1.8 * number(22) - 0.6], turn).unwrap();
+        let (cos, sin) = (f64::from(turn.cos()), f64::from(turn.sin()));
+        let seen = |v: DVec2| DVec2::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
+        for manifold in manifolds(&hills, body, &pose, [0.0, 0.1][i / 6 % 2]) {
+            let normal = seen(manifold.normal.as_dvec2());
+            for point in &manifold.points {
+                let (far, foot) = from_core(core, seen(point.anchor_b.as_dvec2()));
+                // Roundings of anchors to f32, and how much deeper counts as even: 5e-7 of a diameter.
+                assert!((far - radius).abs() < 2e-6, "{i}: {far} from the core, {point:?} of {manifold:?}");
+                let out = (seen(point.anchor_b.as_dvec2()) - foot) / far;
+                assert!(out.dot(normal) < 1e-5, "{i}: on the far side, {point:?} of {manifold:?}");
+                let is_cut = matches!(point.feature.a(), Feature::Vertex(_)) && point.separation < 0.0;
+                tilted_at_ends += usize::from(is_cut && out.dot(normal) > -0.9);
+            }
+        }
+    }
+    assert!(tilted_at_ends > 300, "{tilted_at_ends}");
 }

@@ -10,7 +10,7 @@
 //! ```
 //! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest,
 //! along the normal; the other end of a tilted edge along that edge's own normal, since the shape's surface beyond it
-//! looks that way.
+//! looks that way; over ground, where the reference edge may cut off what is deepest, the surface over the cut.
 
 use super::distance::Witness;
 use super::placed::Placed;
@@ -75,7 +75,7 @@ pub(crate) fn touch(
     let least = deep - a.radius() - b.radius();
     // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
     // deeper than zero: a body that rests exactly on an edge rests on both of its ends.
-    let depths = Depths { deep, within: margin.max(least) };
+    let depths = Depths { deep, within: margin.max(least), is_cut: false };
     let on_edge = |axis: &Axis| {
         let points = match axis.of {
             AxisOf::EdgeA(edge) => edge_points([a, b], edge, axis, depths, false),
@@ -118,6 +118,8 @@ struct Depths {
     deep: f64,
     /// Points of the shapes no further apart than this are wanted.
     within: f64,
+    /// Whether what is deepest may be cut off, beside the reference edge: the axis may be far from the best.
+    is_cut: bool,
 }
 
 /// The deepest vertex of the shape whose edge the axis is not, and its foot on that edge's line: what is left where an
@@ -190,6 +192,30 @@ impl Reference {
     #[inline]
     fn lowest(&self, point: DVec2, radius: f64, features: (Feature, Feature)) -> Point {
         self.contact(point - self.normal * radius, features)
+    }
+
+    /// The same of a point at which an edge of the core is cut off. `out` leads from the edge to the surface.
+    ///
+    /// What is deepest of a whole shape is a radius below its core. Below a cut, there is the surface of a tilted edge, or
+    /// of the arc around its deeper end.
+    #[cold]
+    fn over_cut(
+        &self,
+        point: DVec2,
+        ([start, end], out): ([DVec2; 2], DVec2),
+        features: (Feature, Feature),
+    ) -> Point {
+        let deeper = if self.normal.dot(end) < self.normal.dot(start) { end } else { start };
+        let from_end = point - deeper;
+        let (above, aside) = (self.normal.dot(from_end), self.normal.perp_dot(from_end).abs());
+        let squared = out.length_squared();
+        let below = if aside < self.normal.perp_dot(out).abs() {
+            above + (squared - aside * aside).sqrt()
+        } else {
+            // So far aside an edge reaches only if it leans by less than a right angle.
+            squared / -self.normal.dot(out)
+        };
+        self.lowest(point, below, features)
     }
 
     /// The contact of a point of the other shape's surface with its foot on the line. Features: the reference's first.
@@ -281,7 +307,7 @@ pub(crate) fn over_edge(
     }
     let of = if is_b { AxisOf::EdgeB(edge) } else { AxisOf::EdgeA(edge) };
     let axis = Axis { separation: deep, normal: if is_b { -normal } else { normal }, of };
-    edge_points([outline, incident], edge, &axis, Depths { deep, within }, is_b)
+    edge_points([outline, incident], edge, &axis, Depths { deep, within, is_cut: true }, is_b)
 }
 
 /// Contact points of an edge of `outline` with this outward normal, and the incident shape.
@@ -306,8 +332,13 @@ fn edge_points(
     let ends = [incident.point(edges[1].0), incident.point(edges[1].1)];
     let mut points: ArrayVec<Point, 2> = ArrayVec::new();
     if let Some([one, other]) = clip(&reference.ends, ends, edges) {
-        let one = reference.lowest(one.0, radius, one.1);
-        let other = reference.lowest(other.0, radius, other.1);
+        let lowest = |(point, features): (DVec2, (Feature, Feature))| match features.0 {
+            Feature::Vertex(_) if depths.is_cut && radius > 0.0 => {
+                reference.over_cut(point, (ends, incident.outward(second) * radius), features)
+            }
+            _ => reference.lowest(point, radius, features),
+        };
+        let (one, other) = (lowest(one), lowest(other));
         // How deep the cores are, seen from a contact made along the normal.
         let is_kept = |contact: &Point| {
             let core = contact.separation + outline.radius() + radius;
@@ -334,11 +365,6 @@ fn edge_points(
         let outwards = incident.outward(second) * radius;
         let clipped = clip(&reference.ends, [ends[0] + outwards, ends[1] + outwards], edges);
         add_tilted(&mut points, &reference, clipped, depths);
-    }
-    if let [first, second] = points.as_mut_slice()
-        && second.feature < first.feature
-    {
-        core::mem::swap(first, second);
     }
     points
 }
@@ -370,6 +396,11 @@ fn add_tilted(points: &mut ArrayVec<Point, 2>, reference: &Reference, clipped: C
     }
     let room = points.remaining_capacity();
     points.extend(ends.into_iter().take(room));
+    if let [first, second] = points.as_mut_slice()
+        && second.feature < first.feature
+    {
+        core::mem::swap(first, second);
+    }
 }
 
 /// Points of the incident edge and their features, the reference's first.
