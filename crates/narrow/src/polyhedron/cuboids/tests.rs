@@ -1,6 +1,7 @@
 //! Contact points of two cuboids, made side by side, against those of the general clipper, made one by one.
 
 use super::super::sat::tests::Random;
+use super::super::sat::{AxisOf, hint_to};
 use super::asked::Contact;
 use crate::pair3::reach_of;
 use crate::{ContactPoint3, Feature, FeatureId, Hint, Manifold3, Pair3};
@@ -160,4 +161,113 @@ fn edges_that_cross_over_a_gap_are_told_as_the_general_path_tells_them() {
     }
     let [alone, more] = compared.across_edges;
     assert!(alone > 1500 && more > 200, "{compared:?}");
+}
+
+fn about(axis: Vec3, angle: f32) -> Quat {
+    let (sin, cos) = libm::sincosf(0.5 * angle);
+    Quat::from_vec4((axis * sin).extend(cos))
+}
+
+/// The rotation of a cuboid whose edges along one of its axes lead along x, rolled around them.
+fn lying(axis: usize, roll: f32) -> Quat {
+    about(Vec3::X, roll) * Quat::from_rotation_arc(Vec3::AXES[axis], Vec3::X)
+}
+
+/// Two cuboids by their rotations, so far apart along a normal where an edge of each is, at these places along its axis.
+fn over_each_other(
+    halves: [Vec3; 2],
+    turns: [Quat; 2],
+    edges: [(usize, f32); 2],
+    gap: Vec3,
+) -> ([Shape3; 2], [Pose3; 2]) {
+    let [on_a, on_b] = [0, 1].map(|i| {
+        let towards = if i == 0 { gap } else { -gap };
+        let mut corner = halves[i].copysign(turns[i].inverse() * towards);
+        corner[edges[i].0] = edges[i].1;
+        turns[i] * corner
+    });
+    let poses = [(Vec3::ZERO, turns[0]), (on_a + gap - on_b, turns[1])];
+    let shapes = halves.map(|half| Shape3::from(Cuboid::from_half_extents(half).unwrap()));
+    (shapes, poses.map(|(at, turn)| Pose3::new(at, turn.normalize()).unwrap()))
+}
+
+/// What cuboids say by themselves of their contact across a gap, if they do, has the normal and the points of the general
+/// path; whether they do, and how many points there are.
+fn told_alike(name: &str, (shapes, poses): &([Shape3; 2], [Pose3; 2]), hint: Hint) -> Option<(bool, usize)> {
+    const MARGIN: f32 = 0.03;
+    let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
+    let (mut room, mut plain) = (Manifold3::BLANK, Vec::new());
+    let contact = pair.cuboids().unwrap().contact(reach_of(MARGIN), hint, Some(&mut room));
+    let _ = pair.general_contact(MARGIN, hint, &mut Some(&mut plain));
+    let plain = plain.pop().filter(|plain| plain.separation > 0.0)?;
+    let is_told = matches!(contact, Contact::Near(_));
+    if is_told {
+        assert!(room.normal.dot(plain.normal) > 0.999_999, "{name}: {room:?}, {plain:?}");
+        assert_eq!(ids(&room), ids(&plain), "{name}: {room:?}, {plain:?}");
+    }
+    Some((is_told, plain.points.len()))
+}
+
+/// Edges that all but run along each other, or with their ends over each other alone, touch on both ends of what they share.
+/// The point where they cross would be one, and anywhere between those.
+#[test]
+fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
+    let mut random = Random(0x2B1D_7C45_E09A_6F33);
+    let (mut crossing, mut beside) = (0, 0);
+    for round in 0..4000 {
+        let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
+        let turn = random.turn(0).normalize();
+        // From parallel but for rounding to a third of a radian, with so much to share that the ends of it are a preference
+        // or so beside each other.
+        let angle = libm::powf(10.0, -3.5 + 3.0 * random.number());
+        let shared = (3e-6 / angle).min(0.2);
+        let edges = [round % 3, round / 3 % 3];
+        // Not at the very end: there the general path may name the corner, as near but for rounding.
+        let mut end = |i: usize| halves[i][edges[i]] - shared * (0.1 + 0.9 * random.number().abs());
+        let places = [end(0), -end(1)];
+        let rolls = [0, 1].map(|_| 0.8 + 0.5 * random.number());
+        let turns =
+            [turn * lying(edges[0], rolls[0]), turn * about(Vec3::Z, angle) * lying(edges[1], rolls[1])];
+        let gap = turn * Vec3::Z * (0.001 + 0.02 * random.number().abs());
+        let pair = over_each_other(halves, turns, [(edges[0], places[0]), (edges[1], places[1])], gap);
+        match told_alike(&format!("round {round}"), &pair, Hint::NONE) {
+            Some((true, _)) => crossing += 1,
+            Some((false, 2)) => beside += 1,
+            _ => {}
+        }
+    }
+    assert!(crossing > 300 && beside > 500, "{crossing} cross, {beside} lie side by side");
+}
+
+/// A face that parts cuboids by less than their edges do, but by no more than counts, is what they touch on; by twice as much
+/// where it was in the last frame.
+#[test]
+fn edges_that_cross_hardly_nearer_than_a_face_parts_are_left_to_the_general_path() {
+    let mut random = Random(0x7D20_98F1_3C5B_A64E);
+    let (mut of_edges, mut left) = (0, [0; 2]);
+    for round in 0..4000 {
+        let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
+        let turn = random.turn(0).normalize();
+        // How far the normal where edges cross leans from that of A's upper face, over its side ahead.
+        let lean = libm::powf(10.0, -3.0 + 2.5 * random.number());
+        let (across, edge) = (0.3 + 1.2 * random.number().abs(), round % 3);
+        // What of B's edge is beyond the side lies lower over the face than where it crosses.
+        let beyond = (4e-6 / lean).min(0.1) * random.number().abs();
+        let turns =
+            [turn * lying(0, lean), turn * about(Vec3::Z, across) * lying(edge, 0.8 + 0.5 * random.number())];
+        let places = [0.9 * halves[0].x * random.number(), halves[1][edge] - beyond];
+        let gap = turn * Vec3::Z * ((4e-6 / (lean * lean)).min(0.02) * random.number().abs());
+        let pair = over_each_other(halves, turns, [(0, places[0]), (edge, places[1])], gap);
+        for (kept, hint) in [Hint::NONE, hint_to(AxisOf::FaceA(5))].into_iter().enumerate() {
+            match told_alike(&format!("round {round}"), &pair, hint) {
+                Some((true, _)) => of_edges += 1,
+                Some((false, _)) => left[kept] += 1,
+                None => {}
+            }
+        }
+    }
+    assert!(
+        of_edges > 500 && left.iter().all(|&count| count > 500),
+        "{of_edges} told by themselves, {left:?} left"
+    );
 }
