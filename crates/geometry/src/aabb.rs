@@ -32,7 +32,10 @@ pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Se
     /// Whether the box is a set of points: no NaN, no minimum above its maximum.
     fn is_valid(&self) -> bool;
     /// The elimination test: whether the two closed boxes share a point. Invalid boxes share none.
-    fn overlaps(&self, other: &Self) -> bool;
+    #[inline]
+    fn overlaps(&self, other: &Self) -> bool {
+        self.is_valid() && other.is_valid() && self.overlaps_valid(other)
+    }
     /// The same of two boxes that are valid: what it says of others means nothing. No branch.
     fn overlaps_valid(&self, other: &Self) -> bool;
     /// Whether the other box lies in this one: none of its bounds is beyond. The empty [`Bounds::NOTHING`] lies in every
@@ -157,11 +160,6 @@ impl Bounds for Aabb2 {
     }
 
     #[inline]
-    fn overlaps(&self, other: &Self) -> bool {
-        self.is_valid() && other.is_valid() && self.overlaps_valid(other)
-    }
-
-    #[inline]
     fn overlaps_valid(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() & other.min.cmple(self.max).all()
     }
@@ -194,11 +192,6 @@ impl Bounds for Aabb3 {
     #[inline]
     fn is_valid(&self) -> bool {
         self.min.x <= self.max.x && self.min.y <= self.max.y && self.min.z <= self.max.z
-    }
-
-    #[inline]
-    fn overlaps(&self, other: &Self) -> bool {
-        self.is_valid() && other.is_valid() && self.overlaps_valid(other)
     }
 
     #[inline]

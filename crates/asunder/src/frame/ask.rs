@@ -104,13 +104,13 @@ impl<S: Space> Asker<'_, S> {
                     settled.ways.push(Way::Carried);
                     continue;
                 }
-                if is_same && !of_another_shape(self.reshaped, pair) {
-                    (hint, persistent, contact) = (known.hint, known.persistent, known.contact);
-                } else if is_same {
+                if !is_same {
+                    settled.give_up(known);
+                } else if of_another_shape(self.reshaped, pair) {
                     contact = known.contact;
                     settled.vacate(known.persistent);
                 } else {
-                    settled.give_up(known);
+                    (hint, persistent, contact) = (known.hint, known.persistent, known.contact);
                 }
             }
             *candidate = Candidate { pair, keys, hint, persistent, contact, until: f64::NEG_INFINITY };

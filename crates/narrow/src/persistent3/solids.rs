@@ -113,8 +113,6 @@ impl Solids {
         (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, of.normal);
         to.separation = signed(f64::from(of.separation) + rise, self.terms.overlapping);
         to.error = error;
-        // One by one: a list of up to four is copied as a whole by a call that has to guess how long it is (boxes_pile 5 to 10 %,
-        // AMD EPYC, Zen 4, 2026-11-23).
         for point in &of.points {
             let height = f64::from(point.separation) + rise;
             let out = normal * height;

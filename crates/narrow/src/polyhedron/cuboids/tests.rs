@@ -49,24 +49,34 @@ fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
 /// most.
 fn crossed(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
-    let shapes = halves.map(|half| Shape3::from(Cuboid::from_half_extents(half).unwrap()));
     let tilt = [0.03, 0.09, 0.3, 1.0][round % 4];
     let spin = Quat::from_vec4((random.vector() * tilt).extend(1.0)).normalize();
     let turn = random.turn(0).normalize();
     let (turns, axes) = ([turn, turn * spin], [round / 4 % 3, round / 12 % 3]);
     let along = [0, 1].map(|i| turns[i] * Vec3::AXES[axes[i]]);
     let normal = along[0].cross(along[1]).normalize();
-    // A place on the edge that is the furthest towards the other cuboid.
-    let mut place = |i: usize, towards: Vec3| {
-        let mut corner = halves[i].copysign(turns[i].inverse() * towards);
-        corner[axes[i]] *= 0.95 * random.number();
-        turns[i] * corner
-    };
-    let (on_a, on_b) = (place(0, normal), place(1, -normal));
+    let edges = [0, 1].map(|i| (axes[i], 0.95 * random.number() * halves[i][axes[i]]));
     let gap = [0.0, 0.001, 0.02, 0.035][round / 36 % 4] * random.number().abs();
-    let offset = on_a + normal * gap - on_b;
-    let poses = [(Vec3::ZERO, turns[0]), (offset, turns[1])].map(|(at, turn)| Pose3::new(at, turn).unwrap());
+    let (shapes, poses) = over_each_other(halves, turns, edges, (normal, gap));
     (shapes, poses, 0.03)
+}
+
+/// Two cuboids by their rotations, so many metres apart along a normal where an edge of each is, at these places along its axis.
+fn over_each_other(
+    halves: [Vec3; 2],
+    turns: [Quat; 2],
+    edges: [(usize, f32); 2],
+    (normal, gap): (Vec3, f32),
+) -> ([Shape3; 2], [Pose3; 2]) {
+    let [on_a, on_b] = [0, 1].map(|i| {
+        let towards = if i == 0 { normal } else { -normal };
+        let mut corner = halves[i].copysign(turns[i].inverse() * towards);
+        corner[edges[i].0] = edges[i].1;
+        turns[i] * corner
+    });
+    let poses = [(Vec3::ZERO, turns[0]), (on_a + normal * gap - on_b, turns[1])];
+    let shapes = halves.map(|half| Shape3::from(Cuboid::from_half_extents(half).unwrap()));
+    (shapes, poses.map(|(at, turn)| Pose3::new(at, turn.normalize()).unwrap()))
 }
 
 /// How pairs were told, and how that compared.
@@ -83,6 +93,15 @@ struct Compared {
 }
 
 impl Compared {
+    /// Of 8000 pairs.
+    fn of(seed: u64, pair: impl Fn(&mut Random, usize) -> ([Shape3; 2], [Pose3; 2], f32)) -> Self {
+        let (mut random, mut compared) = (Random(seed), Self::default());
+        for round in 0..8000 {
+            compared.hear(round, pair(&mut random, round));
+        }
+        compared
+    }
+
     /// What cuboids say by themselves, beside the general path.
     fn hear(&mut self, round: usize, (shapes, poses, margin): ([Shape3; 2], [Pose3; 2], f32)) {
         let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
@@ -139,12 +158,7 @@ impl Compared {
 
 #[test]
 fn side_by_side_or_one_by_one_the_points_are_the_same() {
-    let mut random = Random(0x9E6D_62D0_6F6A_3B1F);
-    let mut compared = Compared::default();
-    for round in 0..8000 {
-        let pair = pair(&mut random, round);
-        compared.hear(round, pair);
-    }
+    let compared = Compared::of(0x9E6D_62D0_6F6A_3B1F, pair);
     assert!(compared.points[1..].iter().all(|&count| count > 200), "{compared:?}");
     assert!(compared.across_faces > 200 && compared.leaning > 200, "{compared:?}");
     let Compared { same_four, reduced, .. } = compared;
@@ -153,12 +167,7 @@ fn side_by_side_or_one_by_one_the_points_are_the_same() {
 
 #[test]
 fn edges_that_cross_over_a_gap_are_told_as_the_general_path_tells_them() {
-    let mut random = Random(0x51C4_0A3B_90D1_77E2);
-    let mut compared = Compared::default();
-    for round in 0..8000 {
-        let pair = crossed(&mut random, round);
-        compared.hear(round, pair);
-    }
+    let compared = Compared::of(0x51C4_0A3B_90D1_77E2, crossed);
     let [alone, more] = compared.across_edges;
     assert!(alone > 1500 && more > 200, "{compared:?}");
 }
@@ -171,24 +180,6 @@ fn about(axis: Vec3, angle: f32) -> Quat {
 /// The rotation of a cuboid whose edges along one of its axes lead along x, rolled around them.
 fn lying(axis: usize, roll: f32) -> Quat {
     about(Vec3::X, roll) * Quat::from_rotation_arc(Vec3::AXES[axis], Vec3::X)
-}
-
-/// Two cuboids by their rotations, so far apart along a normal where an edge of each is, at these places along its axis.
-fn over_each_other(
-    halves: [Vec3; 2],
-    turns: [Quat; 2],
-    edges: [(usize, f32); 2],
-    gap: Vec3,
-) -> ([Shape3; 2], [Pose3; 2]) {
-    let [on_a, on_b] = [0, 1].map(|i| {
-        let towards = if i == 0 { gap } else { -gap };
-        let mut corner = halves[i].copysign(turns[i].inverse() * towards);
-        corner[edges[i].0] = edges[i].1;
-        turns[i] * corner
-    });
-    let poses = [(Vec3::ZERO, turns[0]), (on_a + gap - on_b, turns[1])];
-    let shapes = halves.map(|half| Shape3::from(Cuboid::from_half_extents(half).unwrap()));
-    (shapes, poses.map(|(at, turn)| Pose3::new(at, turn.normalize()).unwrap()))
 }
 
 /// What cuboids say by themselves of their contact across a gap, if they do, has the normal and the points of the general
@@ -228,7 +219,7 @@ fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
         let rolls = [0, 1].map(|_| 0.8 + 0.5 * random.number());
         let turns =
             [turn * lying(edges[0], rolls[0]), turn * about(Vec3::Z, angle) * lying(edges[1], rolls[1])];
-        let gap = turn * Vec3::Z * (0.001 + 0.02 * random.number().abs());
+        let gap = (turn * Vec3::Z, 0.001 + 0.02 * random.number().abs());
         let pair = over_each_other(halves, turns, [(edges[0], places[0]), (edges[1], places[1])], gap);
         match told_alike(&format!("round {round}"), &pair, Hint::NONE) {
             Some((true, _)) => crossing += 1,
@@ -256,7 +247,7 @@ fn edges_that_cross_hardly_nearer_than_a_face_parts_are_left_to_the_general_path
         let turns =
             [turn * lying(0, lean), turn * about(Vec3::Z, across) * lying(edge, 0.8 + 0.5 * random.number())];
         let places = [0.9 * halves[0].x * random.number(), halves[1][edge] - beyond];
-        let gap = turn * Vec3::Z * ((4e-6 / (lean * lean)).min(0.02) * random.number().abs());
+        let gap = (turn * Vec3::Z, (4e-6 / (lean * lean)).min(0.02) * random.number().abs());
         let pair = over_each_other(halves, turns, [(0, places[0]), (edge, places[1])], gap);
         for (kept, hint) in [Hint::NONE, hint_to(AxisOf::FaceA(5))].into_iter().enumerate() {
             match told_alike(&format!("round {round}"), &pair, hint) {
