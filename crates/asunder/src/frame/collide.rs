@@ -29,6 +29,7 @@
 
 use super::ask::{Asker, Chunk};
 use super::settle::Settled;
+use crate::collider::Tag;
 use crate::contact::{Candidate, ContactNumber, Record};
 use crate::records::{Records, chunk_of};
 use crate::slab::NOWHERE;
@@ -47,13 +48,22 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     let World { candidates, records, answered, scratch, .. } = world;
     core::mem::swap(candidates, &mut scratch.last_candidates);
     core::mem::swap(records, &mut scratch.last_records);
-    core::mem::swap(answered, &mut scratch.last_answered);
+    if does_any_stay(&world.keys, &world.tags, &world.is_moved) {
+        core::mem::swap(answered, &mut scratch.last_answered);
+    }
     world.reshaped.sort_unstable();
     ask(world);
     for slot in world.moved.drain(..) {
         world.is_moved[slot as usize] = false;
         world.odometers[slot as usize].close();
     }
+}
+
+/// Whether a body stays where it is that may meet another that does: else no contact is carried on, and last update's manifolds
+/// may be written over. Cost: linear in the bodies before the first that stays.
+fn does_any_stay<K: Key>(keys: &[K], tags: &[Tag], is_moved: &[bool]) -> bool {
+    let bodies = keys.iter().zip(tags).zip(is_moved);
+    bodies.into_iter().any(|((key, tag), is_moved)| !is_moved && !tag.is_fixed() && !key.is_null())
 }
 
 /// Works through the chunks.
