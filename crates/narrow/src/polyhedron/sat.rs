@@ -175,6 +175,8 @@ impl Axes {
 pub(crate) struct Search<'a> {
     /// A separation that the shapes have for certain: what is no better is left out.
     pub(crate) known: f64,
+    /// Of an axis that is not proved to be the best: no face that shows no more is either.
+    pub(crate) unproved: f64,
     /// How far edges may lie from the supporting planes of the axis that is theirs.
     pub(crate) slack: f64,
     pub(crate) precision: &'a Precision,
@@ -201,7 +203,8 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     let mut sights = [Sight::new(a, b), Sight::new(b, a)];
     let mut found = Found::new(search);
     let first = found.by_first_faces(&mut sights, search);
-    if !found.is_proved((a, b), &first, search) {
+    let is_better = found.axes.best().separation > search.unproved;
+    if !(is_better && found.is_proved((a, b), &first, search)) {
         found.by_faces(&mut sights, &first, search);
         found.by_edges(&mut sights, search);
     }

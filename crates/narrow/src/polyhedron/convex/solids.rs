@@ -109,8 +109,9 @@ impl Convex<'_> {
     /// is, and what shows less is culled.
     fn overlap_by_axes(&self, (a, b): (&Solid, &Solid), hinted: Option<Hinted>) -> Probe {
         let doubt = 8.0 * self.precision.projection();
-        let known = hinted.map_or(f64::NEG_INFINITY, |hinted| hinted.axis.separation - doubt);
-        self.overlap_of_cores(self.all_axes(a, b, known), OVERLAPPING, 0.0)
+        let unproved = hinted.map_or(f64::NEG_INFINITY, |hinted| hinted.axis.separation);
+        let search = Search { unproved, ..self.search(unproved - doubt) };
+        self.overlap_of_cores(separating_axes(a, b, &search), OVERLAPPING, 0.0)
     }
 
     fn probe_cuboids(
@@ -399,6 +400,6 @@ impl Convex<'_> {
 
     fn search(&self, known: f64) -> Search<'_> {
         let slack = self.preference() + 4.0 * self.precision.planarity;
-        Search { known, slack, precision: &self.precision }
+        Search { known, unproved: f64::NEG_INFINITY, slack, precision: &self.precision }
     }
 }

@@ -88,12 +88,21 @@ pub(super) fn for_edge_pairs(
     mut visit: impl FnMut([usize; 2], usize),
 ) {
     let mut octets = ArcOctets::new_const();
-    add_turned(a, (b, edges_b), &mut octets);
+    let mut few = ArrayVec::<EdgeArc, FEW>::new_const();
+    if edges_a.len().max(edges_b.len()) <= FEW {
+        let basis = basis_of(a, b);
+        few.extend(edges_b.iter().map(|&edge| turned_arc(&b.arcs[edge as usize], &basis)));
+    } else {
+        add_turned(a, (b, edges_b), &mut octets);
+    }
     for &edge_a in edges_a {
         let arc_a = &a.arcs[edge_a as usize];
         let half_edge_a = a.topology.edges()[edge_a as usize].into();
-        for (first, (octet, chunk)) in (0..).step_by(8).zip(octets.iter().zip(edges_b.chunks(8))) {
-            let crossing = may_cross_eight(arc_a, octet);
+        for (first, chunk) in (0..).step_by(8).zip(edges_b.chunks(8)) {
+            let crossing = match octets.get(first / 8) {
+                Some(octet) => may_cross_eight(arc_a, octet),
+                None => may_cross_few(arc_a, &few),
+            };
             if crossing == [0; 8] {
                 continue;
             }
@@ -139,14 +148,31 @@ pub(super) fn for_many_edge_pairs(
     }
 }
 
+/// Up to so many edges of either are looked at one by one: most solids that overlap leave two of each, for which an eight took
+/// four times as long to lay out as to look at.
+const FEW: usize = 4;
+
+/// B's axes as A sees them.
+#[inline(always)]
+fn basis_of(a: &Solid, b: &Solid) -> [Vec3; 3] {
+    let [x, y, z] = a.axes_of(b);
+    [x.as_vec3(), y.as_vec3(), z.as_vec3()]
+}
+
+/// [`ArcOctet::turned`] of one arc.
+#[inline(always)]
+fn turned_arc(arc: &EdgeArc, [x, y, z]: &[Vec3; 3]) -> EdgeArc {
+    let turn = |v: Vec3| *x * v.x + *y * v.y + *z * v.z;
+    EdgeArc { along: turn(arc.along), ends: [turn(arc.ends[0]), turn(arc.ends[1])], middle: turn(arc.middle) }
+}
+
 /// Those of all edges that are left of a solid: too much to be handed back by value.
 type ArcOctets = ArrayVec<ArcOctet, { MAX_EDGES.div_ceil(8) }>;
 
 /// The arcs of B's edges in A's axes.
 #[inline(always)]
 fn add_turned(a: &Solid, (b, edges_b): (&Solid, &[u16]), octets: &mut ArcOctets) {
-    let [x, y, z] = a.axes_of(b);
-    let basis = [x.as_vec3(), y.as_vec3(), z.as_vec3()];
+    let basis = basis_of(a, b);
     for chunk in edges_b.chunks(8).take(octets.capacity()) {
         let mut octet = ArcOctet::NONE;
         for (i, &edge) in chunk.iter().enumerate() {
@@ -157,7 +183,7 @@ fn add_turned(a: &Solid, (b, edges_b): (&Solid, &[u16]), octets: &mut ArcOctets)
 }
 
 /// Whether an arc of A may cross the negative of an arc of B, in the same axes.
-#[cfg(test)]
+#[inline(always)]
 pub(super) fn may_cross(a: &EdgeArc, b: &EdgeArc) -> bool {
     let dot = |v: Vec3, w: Vec3| v.x * w.x + v.y * w.y + v.z * w.z;
     if same_side(dot(a.along, b.ends[0]), dot(a.along, b.ends[1])) {
@@ -169,6 +195,16 @@ pub(super) fn may_cross(a: &EdgeArc, b: &EdgeArc) -> bool {
     // An arc is no longer than a half circle, so its middle tells which of the two points it passes.
     let meeting = a.along.cross(b.along);
     !opposite(dot(meeting, a.middle), -dot(meeting, b.middle))
+}
+
+/// [`may_cross_eight`] of a few.
+fn may_cross_few(a: &EdgeArc, few: &[EdgeArc]) -> [u32; 8] {
+    count_step();
+    let mut crossing = [0; 8];
+    for (crossing, b) in crossing.iter_mut().zip(few) {
+        *crossing = u32::from(may_cross(a, b));
+    }
+    crossing
 }
 
 /// `may_cross` of one arc and eight: 1 where they may, else 0. Numbers and not bools, so that lanes stay lanes.
