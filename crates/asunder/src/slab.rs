@@ -36,14 +36,20 @@ impl<T> Slab<T> {
 }
 
 impl<T> Slab<T> {
-    /// Puts something in the place it had, or where there is one if it had none. Says where it is now, and what was there.
-    pub(crate) fn put(&mut self, own: u32, item: T) -> (u32, Option<T>) {
+    /// Puts something in the place it had, or where there is one if it had none; says where it is now. What was there is shown
+    /// first: it is large, and handed back it would be moved twice more.
+    #[inline]
+    pub(crate) fn put(&mut self, own: u32, item: T, show: impl FnOnce(&mut T)) -> u32 {
         let place = if own == NOWHERE { self.vacant.pop().unwrap_or(NOWHERE) } else { own };
         match self.items.get_mut(place as usize) {
-            Some(old) => (place, Some(core::mem::replace(old, item))),
+            Some(old) => {
+                show(old);
+                *old = item;
+                place
+            }
             None => {
                 self.items.push(item);
-                (self.items.len() as u32 - 1, None)
+                self.items.len() as u32 - 1
             }
         }
     }
@@ -56,12 +62,20 @@ mod tests {
     #[test]
     fn places_stay_and_are_used_again() {
         let mut slab = Slab::new();
-        assert_eq!([slab.put(NOWHERE, 'a'), slab.put(NOWHERE, 'b')], [(0, None), (1, None)]);
-        assert_eq!((slab.put(0, 'c'), slab.get(0), slab.get(1)), ((0, Some('a')), Some(&'c'), Some(&'b')));
+        let mut put = |slab: &mut Slab<char>, own: u32, item: char| {
+            let mut before = None;
+            let place = slab.put(own, item, |old| before = Some(*old));
+            (place, before)
+        };
+        assert_eq!([put(&mut slab, NOWHERE, 'a'), put(&mut slab, NOWHERE, 'b')], [(0, None), (1, None)]);
+        assert_eq!(
+            (put(&mut slab, 0, 'c'), slab.get(0), slab.get(1)),
+            ((0, Some('a')), Some(&'c'), Some(&'b'))
+        );
         slab.vacate(0);
         slab.vacate(NOWHERE);
-        assert_eq!((slab.put(NOWHERE, 'd'), slab.get(0)), ((0, Some('c')), Some(&'d')));
-        assert_eq!(slab.put(NOWHERE, 'e'), (2, None));
+        assert_eq!((put(&mut slab, NOWHERE, 'd'), slab.get(0)), ((0, Some('c')), Some(&'d')));
+        assert_eq!(put(&mut slab, NOWHERE, 'e'), (2, None));
         assert_eq!((slab.get(2), slab.get(NOWHERE)), (Some(&'e'), None));
     }
 }

@@ -166,9 +166,9 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     #[doc(hidden)]
     fn lend(from: &mut Self::Spare, to: &mut Self::Spare);
 
-    /// Keeps the memory of what is kept no longer.
+    /// Takes the memory of what is kept no longer.
     #[doc(hidden)]
-    fn reclaim(spare: &mut Self::Spare, kept: Self::Persistent);
+    fn reclaim(spare: &mut Self::Spare, kept: &mut Self::Persistent);
 
     /// Appends what was kept, moved along, unless it has to be made anew: bodies drifted, margins changed, or one has
     /// become a sensor.
@@ -268,7 +268,7 @@ impl Space for Plane {
 
     fn lend((): &mut (), (): &mut ()) {}
 
-    fn reclaim((): &mut (), _: Persistent2) {}
+    fn reclaim((): &mut (), _: &mut Persistent2) {}
 
     fn carry_on(
         persistent: &Persistent2,
@@ -370,7 +370,7 @@ impl Space for Volume {
         from.lend(to);
     }
 
-    fn reclaim(spare: &mut Spare3, kept: Persistent3) {
+    fn reclaim(spare: &mut Spare3, kept: &mut Persistent3) {
         spare.take(kept);
     }
 

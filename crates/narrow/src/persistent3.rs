@@ -72,20 +72,21 @@ enum Kind {
 /// };
 /// let (mut batch, mut spare) = (Batch3::default(), Spare3::default());
 /// collide3(&[job], &mut batch);
-/// let kept = Persistent3::lasting(&job, &batch.answers[0], &batch.manifolds, 0.0, &mut spare).expect("it lies still");
+/// let mut kept = Persistent3::lasting(&job, &batch.answers[0], &batch.manifolds, 0.0, &mut spare).expect("it lies still");
 /// let slid = Pose3::at([0.102, 0.499, 0.2])?;
 /// assert!(kept.carry_on([&pose_a, &slid], &mut batch.manifolds), "by two millimetres");
-/// spare.take(kept);
+/// spare.take(&mut kept);
+/// assert!(!spare.is_empty() && !kept.carry_on([&pose_a, &slid], &mut batch.manifolds));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Spare3(Vec<Memory>);
 
 impl Spare3 {
-    /// Keeps the memory of what is kept no longer. Of what has none, nothing. Cost: constant.
-    pub fn take(&mut self, kept: Persistent3) {
-        if let Kind::Grounded(kept) = kept.0 {
-            self.0.push(kept.into_memory());
+    /// Takes the memory of what is kept no longer, which then carries nothing on. Of what has none, nothing. Cost: constant.
+    pub fn take(&mut self, kept: &mut Persistent3) {
+        if let Kind::Grounded(kept) = &mut kept.0 {
+            self.0.push(kept.take_memory());
         }
     }
 
@@ -133,9 +134,9 @@ impl Persistent3 {
         if step > f64::from(Self::most_reach(job)) {
             return None;
         }
-        let made = Self::made((job, answer, manifolds), spare)?;
+        let mut made = Self::made((job, answer, manifolds), spare)?;
         if step > f64::from(made.reach()) {
-            spare.take(made);
+            spare.take(&mut made);
             return None;
         }
         Some(made)

@@ -22,11 +22,8 @@ pub(super) fn merge<S: Space>(world: &mut World<S>) {
         }
         for (number, kept) in settled.kept.drain(..) {
             let Some(candidate) = candidates.get_mut(chunk * size + number as usize) else { break };
-            let (place, before) = persistent.put(candidate.persistent, kept);
-            candidate.persistent = place;
-            if let Some(before) = before {
-                S::reclaim(spare, before);
-            }
+            candidate.persistent =
+                persistent.put(candidate.persistent, kept, |before| S::reclaim(spare, before));
         }
     }
     reshaped.clear();

@@ -155,9 +155,10 @@ impl Grounded {
         Some(Self { memory, witness, is_ground_b, is_ball, cost, margin, reach, arm, poses })
     }
 
-    /// Its memory, for what comes after it.
-    pub(super) fn into_memory(self) -> Memory {
-        self.memory
+    /// Its memory, for what comes after it. What is left carries nothing on.
+    pub(super) fn take_memory(&mut self) -> Memory {
+        self.reach = -1.0;
+        core::mem::take(&mut self.memory)
     }
 
     pub(super) const fn reach(&self) -> f32 {
