@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn places_stay_and_are_used_again() {
         let mut slab = Slab::new();
-        let mut put = |slab: &mut Slab<char>, own: u32, item: char| {
+        let put = |slab: &mut Slab<char>, own: u32, item: char| {
             let mut before = None;
             let place = slab.put(own, item, |old| before = Some(*old));
             (place, before)

@@ -16,7 +16,9 @@
 //!    0.78 to 0.90 of a frame on two threads. On one thread it costs 3 to 10 % of frames that all but rest;
 //! 4. a list of points has nothing to drop: forgetting last frame's manifolds read each of them once more, a twenty-fifth;
 //! 5. a candidate knows the number of its contact, and last update's contacts are not walked beside the pairs: a twentieth;
-//! 6. points of 36 bytes in place of 40, by ids of two halves: heaps of boxes another twentieth, pyramids nothing.
+//! 6. points of 36 bytes in place of 40, by ids of two halves: heaps of boxes another twentieth, pyramids nothing;
+//! 7. where every body moves that may, no contact is carried on, and manifolds are written over last update's, which is less
+//!    memory in turn: 1.02 to 1.04 times as fast.
 //!
 //! Tried, on one thread (medians of runs next to each other, on a busy machine): chunks of 128 pairs, 9 % slower than 256: each
 //! has lists of its own, and begins with waiting for each of them. What is kept to be moved along in a box of its own: pyramids

@@ -40,14 +40,14 @@
 //! 7. *the edges themselves* (4): prisms 1.1 -> 0.8, flat ones 0.8 -> 0.6;
 //! 8. *no closer look* where it settles nothing: cones 0.9 -> 0.7.
 //!
-//! Tried, and dropped: AVX2 for the whole test behind run-time detection (0 to 15 % slower, though the whole program
-//! compiled for it is 8 to 15 % faster: calls that are not inlined pay for the border); AVX2 for the support alone (no
-//! gain); one lane in place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow
-//! for 8 vertices); masks in place of eight numbers (slower in portable Rust); the best
-//! direction of the search before as a first bound (no gain); the furthest vertex as a sum of indices
-//! without branches (20 % slower: branches are guessed, sums are waited for); arcs' eights given up between the two
-//! great circles and the meeting point (cones 15 % faster, all else 3 to 6 % slower); a support search that keeps its
-//! projections for the second look (a fifth fewer instructions, no time), or takes f32's winner where none is near (none).
+//! Tried, and dropped: AVX2 for the whole test behind run-time detection (0 to 15 % slower, though the whole program compiled for
+//! it is 8 to 15 % faster: calls that are not inlined pay for the border); AVX2 for the support alone (no gain); one lane in
+//! place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow for 8 vertices); masks in place
+//! of eight numbers (slower in portable Rust); the best direction of the search before as a first bound (no gain); the furthest
+//! vertex as a sum of indices without branches (20 % slower: branches are guessed, sums are waited for); arcs' eights given up
+//! between the two great circles and the meeting point (cones 15 % faster, all else 3 to 6 % slower); a support search that keeps
+//! its projections for the second look (a fifth fewer instructions, no time), or takes f32's winner where none is near (none);
+//! the corners of last frame's axis shown to either solid first, where that was not proved (crowds 2 % slower, else nothing).
 //!
 //! Cost: linear in faces, edges and vertices; what the spheres leave, faces times vertices and edges times edges.
 
@@ -203,8 +203,7 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     let mut sights = [Sight::new(a, b), Sight::new(b, a)];
     let mut found = Found::new(search);
     let first = found.by_first_faces(&mut sights, search);
-    let is_better = found.axes.best().separation > search.unproved;
-    if !(is_better && found.is_proved((a, b), &first, search)) {
+    if found.axes.best().separation <= search.unproved || !found.is_proved((a, b), &first, search) {
         found.by_faces(&mut sights, &first, search);
         found.by_edges(&mut sights, search);
     }
