@@ -23,16 +23,14 @@
 //! test took 52 us on mixed pairs and 85 on deep ones, and takes 1.6 and 6.5):
 //!
 //! 1. *arcs eight at a time*, in f32, over data built with the hull: deep 85 -> 19 us;
-//! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 ->
-//!    7.8 us;
-//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound
-//!    will do, f32 alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
-//! 4. *the edges themselves, and vertices seen so far*, bound an edge pair's axis before it is projected, without a
-//!    quotient: prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they do: 3.3
-//!    -> 3.1;
-//! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold,
-//!    sliding 4.2 -> 1.0, tumbling 3.2 -> 1.7. In a gap the same (`across`). Where it is not proved, it is the bound
-//!    to beat from the start: a frame of a pile of hulls 5 % less (2026-11-22).
+//! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 -> 7.8 us;
+//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound will do, f32
+//!    alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
+//! 4. *the edges themselves, and vertices seen so far*, bound an edge pair's axis before it is projected, without a quotient:
+//!    prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they do: 3.3 -> 3.1;
+//! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold, sliding 4.2 ->
+//!    1.0, tumbling 3.2 -> 1.7. In a gap the same (`across`). Where it is not proved, it is the bound to beat from the start: a
+//!    frame of a pile of hulls 5 % less (2026-11-22).
 //!
 //! And on two of 256 that are symmetric enough for nothing to be culled, as equal double cones in one place (1.9 ms):
 //!
