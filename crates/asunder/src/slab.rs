@@ -33,9 +33,7 @@ impl<T> Slab<T> {
             self.vacant.push(place);
         }
     }
-}
 
-impl<T> Slab<T> {
     /// Puts something in the place it had, or where there is one if it had none; says where it is now. What was there is shown
     /// first: it is large, and handed back it would be moved twice more.
     #[inline]

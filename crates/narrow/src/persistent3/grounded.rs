@@ -198,7 +198,7 @@ impl Grounded {
     pub(super) fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
         let [body_then, ground_then] = self.sides([&self.poses[0], &self.poses[1]]);
         let [body, ground] = self.sides(poses);
-        if !ground.same_bits(ground_then) {
+        if !ground.same_bits(ground_then) || self.reach < 0.0 {
             return false;
         }
         if body.same_bits(body_then) {

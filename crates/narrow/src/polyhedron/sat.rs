@@ -173,7 +173,7 @@ impl Axes {
 pub(crate) struct Search<'a> {
     /// A separation that the shapes have for certain: what is no better is left out.
     pub(crate) known: f64,
-    /// Of an axis that is not proved to be the best: no face that shows no more is either.
+    /// What an axis shows that was not proved to be the best: a face that shows no more is not proved either.
     pub(crate) unproved: f64,
     /// How far edges may lie from the supporting planes of the axis that is theirs.
     pub(crate) slack: f64,

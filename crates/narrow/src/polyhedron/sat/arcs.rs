@@ -184,7 +184,7 @@ fn add_turned(a: &Solid, (b, edges_b): (&Solid, &[u16]), octets: &mut ArcOctets)
 
 /// Whether an arc of A may cross the negative of an arc of B, in the same axes.
 #[inline(always)]
-pub(super) fn may_cross(a: &EdgeArc, b: &EdgeArc) -> bool {
+fn may_cross(a: &EdgeArc, b: &EdgeArc) -> bool {
     let dot = |v: Vec3, w: Vec3| v.x * w.x + v.y * w.y + v.z * w.z;
     if same_side(dot(a.along, b.ends[0]), dot(a.along, b.ends[1])) {
         return false;
@@ -262,6 +262,34 @@ mod tests {
             crossings += lanes.iter().filter(|&&lane| lane).count();
         }
         assert!((100..15_900).contains(&crossings), "both answers came up: {crossings}");
+    }
+
+    #[test]
+    fn few_edges_are_told_apart_as_many_are() {
+        let mut random = Random(0x9E37_79B9_7F4A_7C15);
+        let mut visited = 0;
+        for case in 0..200_u64 {
+            let poses = [case, case / 4].map(|kind| Pose3::new(random.vector(), random.turn(kind)).unwrap());
+            let (shape_a, shape_b) = (random.hull(case), random.hull(case / 3));
+            convex(&shape_a, poses[0], &shape_b, poses[1]).with_solids(|a, b| {
+                let [all_a, all_b] = [a, b].map(|solid| (0..solid.arcs.len() as u16).collect::<Vec<_>>());
+                let pairs_of = |edges_a: &[u16], edges_b: &[u16]| {
+                    let mut pairs = Vec::new();
+                    for_edge_pairs((a, edges_a), (b, edges_b), |pair, _| pairs.push(pair));
+                    pairs
+                };
+                let mut in_fours: Vec<[usize; 2]> = all_a
+                    .chunks(FEW)
+                    .flat_map(|some_a| all_b.chunks(FEW).flat_map(|some_b| pairs_of(some_a, some_b)))
+                    .collect();
+                in_fours.sort_unstable();
+                let mut at_once = pairs_of(&all_a, &all_b);
+                at_once.sort_unstable();
+                assert_eq!(in_fours, at_once, "case {case}");
+                visited += at_once.len();
+            });
+        }
+        assert!(visited > 1000, "{visited}");
     }
 
     /// Whether the arcs of two edges cross for certain, in f64 and in the frame of the pair.
