@@ -109,6 +109,7 @@ mod peer;
 mod persistent;
 mod persistent_ground;
 mod plane;
+mod plumb;
 mod polygons;
 mod questions;
 mod refusals;

@@ -88,7 +88,7 @@ fn check(persistent: &Persistent3, pair: &PosedPair3, margin: f32, story: &str) 
     let apart = along(pair, manifold.normal.as_dvec3());
     let shown = f64::from(manifold.separation - manifold.error) - 2e-6 * size;
     assert!(apart >= shown, "{story}: {apart} along the normal, {manifold:?}");
-    let then = &persistent.manifolds()[0];
+    let then = persistent.manifolds().next().unwrap();
     assert_eq!(manifold.points.len(), then.points.len());
     let offset = pair.pose_b.position() - pair.pose_a.position();
     for (point, before) in manifold.points.iter().zip(&then.points) {
@@ -165,8 +165,8 @@ fn what_is_close_to_call_is_not_kept() {
     let mut seen = 0;
     for pair in pairs3(SolidKind::Box, PairSet::Rest, 60, 9) {
         let Some(persistent) = kept(&pair, 0.0) else { continue };
-        let normal = persistent.manifolds()[0].normal.as_dvec3();
-        let depth = -f64::from(persistent.manifolds()[0].separation);
+        let then = persistent.manifolds().next().unwrap();
+        let (normal, depth) = (then.normal.as_dvec3(), -f64::from(then.separation));
         let lifted = |by: f64| {
             let pose_b = Pose3::new(pair.pose_b.position() + normal * by, pair.pose_b.rotation()).unwrap();
             PosedPair3 { pose_b, ..pair.clone() }
@@ -261,7 +261,8 @@ fn far_ends_are_as_far_apart_along_the_normal_as_is_told() {
         for _ in 0..200 {
             let (spin, step) = (random.range(0.0, 1e-5), random.range(0.0, 3e-5));
             let small = small(&mut random, spin, step);
-            let around = pair.pose_b.position() + persistent.manifolds()[0].points[0].anchor_b.as_dvec3();
+            let then = persistent.manifolds().next().unwrap();
+            let around = pair.pose_b.position() + then.points[0].anchor_b.as_dvec3();
             let now = PosedPair3 { pose_b: moved(&pair.pose_b, small, around), ..pair.clone() };
             if persistent.carry_on([&now.pose_a, &now.pose_b], &mut Vec::new()) {
                 check(&persistent, &now, 0.01, &format!("{way}"));

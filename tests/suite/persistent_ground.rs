@@ -220,7 +220,7 @@ fn check(stand: &Stand, kept: &Persistent3, now: &Pose3, story: &str, tally: &mu
         (one.normal.as_dvec3() - other.normal.as_dvec3()).length() <= 0.3
     };
     let errors = |one: &Manifold3, other: &Manifold3| f64::from(one.error + other.error) + even;
-    let made = kept.manifolds().iter().map(|manifold| manifold.error).fold(0.0, f32::max);
+    let made = kept.manifolds().map(|manifold| manifold.error).fold(0.0, f32::max);
     for manifold in &found {
         // What it was, and twice a drift of 2^-15 of how far the body reaches, and rounding.
         let arm = stand.size() + f64::from(stand.body.center().length());

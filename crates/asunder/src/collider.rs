@@ -43,6 +43,10 @@ impl Tag {
         Self { layers: body.layers, owner: body.owner, fixed: body.fixed }
     }
 
+    pub(crate) const fn is_fixed(&self) -> bool {
+        self.fixed
+    }
+
     /// Whether both sides agree. Two fixed bodies never meet, nor do two of one owner.
     #[inline]
     pub(crate) fn may_meet(&self, other: &Self) -> bool {

@@ -25,6 +25,12 @@ impl<const N: usize> Lanes<N> {
         self.map(f64::abs)
     }
 
+    /// As numbers of half the width hold them.
+    #[inline(always)]
+    pub(crate) fn rounded(self) -> Self {
+        self.map(|lane| f64::from(lane as f32))
+    }
+
     /// The lesser lane by lane; where either is no number, the other's.
     #[inline(always)]
     pub(crate) fn least(self, other: Self) -> Self {

@@ -72,6 +72,7 @@ mod pair3;
 mod persistent;
 mod persistent2;
 mod persistent3;
+mod plumb;
 mod points;
 mod polygon;
 mod polyhedron;

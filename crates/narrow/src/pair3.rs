@@ -14,7 +14,7 @@ use crate::polyhedron::convex::{Asked, Convex, IDENTITY, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::placed::Posed;
 use crate::polyhedron::manifold::Touch;
-use crate::polyhedron::sat::hint_with;
+use crate::polyhedron::sat::{AxisOf, hint_with};
 use crate::precision::rounded_down;
 use crate::room::{Deepest, Room, in_place};
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -67,6 +67,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) basis: Basis3,
     /// Each part's origin less its body's position, in world axes.
     shifts: [DVec3; 2],
+    /// B's position less A's, in world axes.
+    between: DVec3,
     pub(crate) convex: Convex<'a>,
 }
 
@@ -417,7 +419,13 @@ impl<'a> Pair3<'a> {
             basis.turn_back(between),
             self.summed(shift_a, shift_b),
         );
-        Parts { indices: [a.index, b.index], basis, shifts: [shift_a, shift_b], convex }
+        Parts {
+            indices: [a.index, b.index],
+            basis,
+            shifts: [shift_a, shift_b],
+            between: self.between,
+            convex,
+        }
     }
 }
 
@@ -465,6 +473,7 @@ impl Parts<'_> {
                     feature: point.feature,
                 });
             }
+            manifold.plumb(matches!(touch.of, Some(AxisOf::FaceB(_))), self.between);
         }
         touch.of.map_or(near.hint, |of| hint_with(near.hint, of))
     }

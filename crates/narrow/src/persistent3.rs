@@ -43,7 +43,7 @@ use solids::Solids;
 /// assert!(persistent.reach() > 1e-3 && persistent.reach() <= Persistent3::most_reach(&job));
 /// assert_eq!(Persistent3::lasting(&job, &batch.answers[0], &batch.manifolds, 0.1, &mut Spare3::default()), None, "bodies as fast as that");
 /// assert!((moved[0].points[0].separation + 0.125 + 4e-6).abs() < 1e-8);
-/// assert_eq!(moved[0].points[0].feature, persistent.manifolds()[0].points[0].feature);
+/// assert!(persistent.manifolds().all(|then| then.points[0].feature == moved[0].points[0].feature));
 /// let gone = Pose3::at([0.5, 0.25, 1.875 - 4e-3])?;
 /// assert!(!persistent.carry_on([&pose_a, &gone], &mut moved), "too far: it must be made anew");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -170,12 +170,13 @@ impl Persistent3 {
         }
     }
 
-    /// The manifolds as they were made: one, or on ground one or more.
-    pub fn manifolds(&self) -> &[Manifold3] {
-        match &self.0 {
-            Kind::Solids(kept) => core::slice::from_ref(kept.manifold()),
-            Kind::Grounded(kept) => kept.manifolds(),
-        }
+    /// The manifolds as they were made: one, or on ground one or more. Bit by bit.
+    pub fn manifolds(&self) -> impl Iterator<Item = Manifold3> {
+        let (one, more) = match &self.0 {
+            Kind::Solids(kept) => (Some(kept.manifold()), [].as_slice()),
+            Kind::Grounded(kept) => (None, kept.manifolds()),
+        };
+        one.into_iter().chain(more.iter().copied())
     }
 
     /// Whether the shapes overlapped, and do for as long as the manifolds are carried on.
@@ -210,5 +211,16 @@ impl Persistent3 {
             Kind::Solids(kept) => kept.carry_on(poses, to),
             Kind::Grounded(kept) => kept.carry_on(poses, to),
         }
+    }
+}
+
+#[cfg(all(test, target_pointer_width = "64"))]
+mod tests {
+    use super::*;
+
+    /// A frame of bodies that rest reads each, and waits for memory: see `Solids`.
+    #[test]
+    fn what_is_kept_takes_four_lines_of_memory() {
+        assert!(size_of::<Persistent3>() <= 256, "{}", size_of::<Persistent3>());
     }
 }

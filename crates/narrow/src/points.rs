@@ -31,11 +31,11 @@ pub struct ContactPoints<P, const N: usize> {
 }
 
 /// What may be a contact point.
-trait Blank: Copy {
+pub(crate) trait Blank: Copy {
     const BLANK: Self;
 }
 
-const NOTHING: FeatureId = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
+pub(crate) const NOTHING: FeatureId = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
 
 impl Blank for ContactPoint2 {
     const BLANK: Self =

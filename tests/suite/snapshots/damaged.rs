@@ -308,9 +308,9 @@ fn what_is_kept_has_lengths_that_can_be() {
         assert!(said.contains(&format!("candidate {number} keeps")), "{said}");
     };
     let (much, more) = (json!(f64::from(f32::MAX)), json!(0.5));
-    refused(solids, "Solids", &["manifold", "error"], much.clone());
-    refused(solids, "Solids", &["manifold", "error"], more.clone());
-    refused(solids, "Solids", &["manifold", "separation"], json!(-f64::from(f32::MAX)));
+    refused(solids, "Solids", &["error"], much.clone());
+    refused(solids, "Solids", &["error"], more.clone());
+    refused(solids, "Solids", &["separation"], json!(-f64::from(f32::MAX)));
     refused(solids, "Solids", &["terms", "slack"], more);
     refused(solids, "Solids", &["terms", "arms", "1"], much.clone());
     refused(grounded, "Grounded", &["memory", "manifolds", "0", "error"], much.clone());

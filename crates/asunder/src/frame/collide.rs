@@ -16,7 +16,10 @@
 //!    0.78 to 0.90 of a frame on two threads. On one thread it costs 3 to 10 % of frames that all but rest;
 //! 4. a list of points has nothing to drop: forgetting last frame's manifolds read each of them once more, a twenty-fifth;
 //! 5. a candidate knows the number of its contact, and last update's contacts are not walked beside the pairs: a twentieth;
-//! 6. points of 36 bytes in place of 40, by ids of two halves: heaps of boxes another twentieth, pyramids nothing.
+//! 6. points of 36 bytes in place of 40, by ids of two halves: heaps of boxes another twentieth, pyramids nothing;
+//! 7. where every body moves that may, no contact is carried on, and manifolds are written over last update's, which is less
+//!    memory in turn: 1.03 times as fast;
+//! 8. what is kept to be moved along in 248 bytes in place of 304, points by one of their ends: 1.03 to 1.06 times.
 //!
 //! Tried, on one thread (medians of runs next to each other, on a busy machine): chunks of 128 pairs, 9 % slower than 256: each
 //! has lists of its own, and begins with waiting for each of them. What is kept to be moved along in a box of its own: pyramids
@@ -29,6 +32,7 @@
 
 use super::ask::{Asker, Chunk};
 use super::settle::Settled;
+use crate::collider::Tag;
 use crate::contact::{Candidate, ContactNumber, Record};
 use crate::records::{Records, chunk_of};
 use crate::slab::NOWHERE;
@@ -47,12 +51,39 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     let World { candidates, records, answered, scratch, .. } = world;
     core::mem::swap(candidates, &mut scratch.last_candidates);
     core::mem::swap(records, &mut scratch.last_records);
-    core::mem::swap(answered, &mut scratch.last_answered);
+    let does_any_stay = does_any_stay(&world.moved, &world.keys, &world.tags, &world.is_moved);
+    if does_any_stay {
+        core::mem::swap(answered, &mut scratch.last_answered);
+    }
     world.reshaped.sort_unstable();
     ask(world);
+    if !does_any_stay {
+        make_room_as_in(&world.answered, &mut world.scratch.last_answered);
+    }
     for slot in world.moved.drain(..) {
         world.is_moved[slot as usize] = false;
         world.odometers[slot as usize].close();
+    }
+}
+
+/// Whether a body may stay where it is that may meet another that does: else no contact is carried on, and last update's
+/// manifolds may be written over. Cost: linear in what moved: where most bodies are at rest, nobody looks.
+fn does_any_stay<K: Key>(moved: &[u32], keys: &[K], tags: &[Tag], is_moved: &[bool]) -> bool {
+    let mut bodies = keys.iter().zip(tags).zip(is_moved);
+    2 * moved.len() < keys.len()
+        || bodies.any(|((key, tag), is_moved)| !is_moved && !tag.is_fixed() && !key.is_null())
+}
+
+/// Makes the lists that were not needed as roomy as the others: so that a body that stays allocates nothing then, and what a
+/// world takes is settled as soon as if they took turns. Memory that nobody writes to costs no time.
+fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
+    if others.len() < answered.len() {
+        others.resize_with(answered.len(), Batch::default);
+    }
+    for (one, other) in answered.iter().zip(others) {
+        other.clear();
+        other.answers.reserve_exact(one.answers.capacity());
+        other.manifolds.reserve_exact(one.manifolds.capacity());
     }
 }
 

@@ -330,7 +330,7 @@ impl Saved for Volume {
     }
 
     fn is_lasting(persistent: &Self::Persistent) -> bool {
-        persistent.manifolds().iter().all(Self::is_sound) && persistent.is_sound()
+        persistent.manifolds().all(|manifold| Self::is_sound(&manifold)) && persistent.is_sound()
     }
 }
 

@@ -140,6 +140,12 @@ impl Told for Seen<'_> {
         if self.ball.is_b { [on_sphere, on_cuboid] } else { [on_cuboid, on_sphere] }
     }
 
+    #[inline]
+    /// From the cuboid, in either order.
+    fn measured_from(&self) -> (bool, DVec3) {
+        (self.ball.is_b, self.ball.pair.between)
+    }
+
     fn feature(&self) -> FeatureId {
         let (of_cuboid, of_sphere) = (self.nearest.feature(), Feature::Vertex(0));
         if self.ball.is_b {

@@ -88,6 +88,8 @@ pub(super) trait Told {
     /// Where they are nearest to each other, or deepest in each other.
     fn anchors(&self) -> [Vec3; 2];
     fn feature(&self) -> FeatureId;
+    /// Whether points are measured from B, and B's position less A's, in world axes.
+    fn measured_from(&self) -> (bool, DVec3);
 
     /// Whether they overlap: by the number, and where it may be rounding, exactly.
     #[inline]
@@ -147,6 +149,8 @@ pub(super) trait Told {
             (manifold.normal, manifold.separation, manifold.error) = (normal, separation, error);
             let ([anchor_a, anchor_b], feature) = (self.anchors(), self.feature());
             manifold.points.push(ContactPoint3 { separation, anchor_a, anchor_b, feature });
+            let (is_from_b, between) = self.measured_from();
+            manifold.plumb(is_from_b, between);
         }
         Some(overlapping)
     }
@@ -179,6 +183,11 @@ impl Told for Balls<'_> {
     fn anchors(&self) -> [Vec3; 2] {
         let axis = self.axis();
         [(axis * self.radii[0]).as_vec3(), (axis * -self.radii[1]).as_vec3()]
+    }
+
+    #[inline]
+    fn measured_from(&self) -> (bool, DVec3) {
+        (false, self.pair.between)
     }
 
     fn feature(&self) -> FeatureId {

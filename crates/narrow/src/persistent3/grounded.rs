@@ -49,8 +49,6 @@ fn most_loss(radius: f32) -> f32 {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Grounded {
     memory: Memory,
-    /// What shows that they overlap; nothing where they do not.
-    witness: Option<Witness>,
     is_ground_b: bool,
     /// Nothing of it depends on how it is turned.
     is_ball: bool,
@@ -65,12 +63,14 @@ pub(super) struct Grounded {
     poses: [Pose3; 2],
 }
 
-/// The manifolds, and what holds the points of each.
+/// The manifolds, what holds the points of each, and what shows that the two overlap; nothing where they do not.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Memory {
     manifolds: Vec<Manifold3>,
     grips: Vec<[Grip; 4]>,
+    /// At most one. Here for its size: whatever is kept takes the room of the largest that there is.
+    witness: Vec<Witness>,
 }
 
 /// Manifolds of most bodies: for so many there is room from the start.
@@ -80,8 +80,10 @@ impl Memory {
     fn clear(&mut self) {
         self.manifolds.clear();
         self.grips.clear();
+        self.witness.clear();
         self.manifolds.reserve(MANY);
         self.grips.reserve(MANY);
+        self.witness.reserve(1);
     }
 }
 
@@ -147,12 +149,14 @@ impl Grounded {
         }
         let cost = if cost == 0.0 { 0.0 } else { (cost.min(UNKNOWN) as f32).next_up() };
         reach = reach.min(most_loss(body.outer_radius()) / cost);
-        let witness = if *overlapping { Some(Witness::of(&on, found, &near, arm)?) } else { None };
+        if *overlapping {
+            memory.witness.push(Witness::of(&on, found, &near, arm)?);
+        }
         memory.manifolds.extend_from_slice(found);
         let (is_ball, margin) = (matches!(body, Shape3::Sphere(_)), job.margin);
         let poses = [*job.pose_a, *job.pose_b];
         let memory = core::mem::take(memory);
-        Some(Self { memory, witness, is_ground_b, is_ball, cost, margin, reach, arm, poses })
+        Some(Self { memory, is_ground_b, is_ball, cost, margin, reach, arm, poses })
     }
 
     /// Its memory, for what comes after it. What is left carries nothing on.
@@ -170,7 +174,7 @@ impl Grounded {
     }
 
     pub(super) const fn overlapping(&self) -> bool {
-        self.witness.is_some()
+        !self.memory.witness.is_empty()
     }
 
     pub(super) const fn margin(&self) -> f32 {
@@ -178,7 +182,7 @@ impl Grounded {
     }
 
     pub(super) fn is_sound(&self) -> bool {
-        let Memory { manifolds, grips } = &self.memory;
+        let Memory { manifolds, grips, witness } = &self.memory;
         !manifolds.is_empty()
             && manifolds.len() == grips.len()
             && manifolds.iter().all(|of| are_lengths(&[of.separation, of.error]))
@@ -186,7 +190,8 @@ impl Grounded {
             && (0.0..=self.arm).contains(&self.reach)
             && (0.0..=UNKNOWN as f32 * 1.001).contains(&self.cost)
             && grips.iter().flatten().all(Grip::is_sound)
-            && self.witness.as_ref().is_none_or(Witness::is_sound)
+            && witness.len() <= 1
+            && witness.iter().all(Witness::is_sound)
     }
 
     /// Which of two things is the body's and which the ground's.
@@ -218,7 +223,7 @@ impl Grounded {
         // What is not a number is not close.
         let is_close = drift <= f64::from(self.reach);
         let is_certain =
-            || self.witness.as_ref().is_none_or(|witness| witness.holds(&moved, body.basis(), arm));
+            || self.memory.witness.iter().all(|witness| witness.holds(&moved, body.basis(), arm));
         is_close && is_certain() && self.move_along(&moved, to)
     }
 

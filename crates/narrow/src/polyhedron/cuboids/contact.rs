@@ -10,6 +10,7 @@ use super::settled::Best;
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, FeatureId};
 use crate::lanes::Lanes;
+use crate::plumb::{ends, stays_on_a};
 use crate::points::ContactPoints;
 use crate::precision::signed;
 use asunder_geometry::Basis3;
@@ -201,10 +202,17 @@ impl Touching<'_> {
         (edge_a, edge_b): (usize, usize),
     ) -> ContactPoint3 {
         let Placed { basis, offset, .. } = self.placed;
+        let separation = normal.dot(on_b - on_a) as f32;
+        let out = basis.turn(normal).as_vec3().as_dvec3() * f64::from(separation);
+        let is_by_a = stays_on_a(false, self.placed.half.map(DVec3::length_squared));
+        let held = if is_by_a { basis.turn(on_a) } else { basis.turn(on_b - *offset) };
+        // As it is told.
+        let held = held.as_vec3().as_dvec3();
+        let [anchor_a, anchor_b] = ends(held, is_by_a, self.posed.between(), out);
         ContactPoint3 {
-            separation: normal.dot(on_b - on_a) as f32,
-            anchor_a: basis.turn(on_a).as_vec3(),
-            anchor_b: basis.turn(on_b - *offset).as_vec3(),
+            separation,
+            anchor_a: anchor_a.as_vec3(),
+            anchor_b: anchor_b.as_vec3(),
             feature: FeatureId::new(Feature::Edge(edge_a as u32), Feature::Edge(edge_b as u32)),
         }
     }
@@ -259,6 +267,8 @@ struct Over {
     /// From the other body's position to the reference body's.
     back: DVec3,
     is_b: bool,
+    /// Whether points' ends on the face stay where they are, and the others are plumb.
+    do_feet_stay: bool,
 }
 
 impl Over {
@@ -272,7 +282,9 @@ impl Over {
         let out = axes[i] * sign_of(face);
         let between = posed.between();
         let back = if is_b { between } else { -between };
-        Self { middle: out * placed.half[usize::from(is_b)][i], u: axes[u], v: axes[v], out, back, is_b }
+        let middle = out * placed.half[usize::from(is_b)][i];
+        let do_feet_stay = stays_on_a(is_b, placed.half.map(DVec3::length_squared)) != is_b;
+        Self { middle, u: axes[u], v: axes[v], out, back, is_b, do_feet_stay }
     }
 
     /// Writes contacts, by the slots in the low bits of their names, and the normal.
@@ -290,8 +302,16 @@ impl Over {
         let [u, v, height] = places;
         let (mut feet, mut others) = ([[0.0_f32; 4]; 3], [[0.0_f32; 4]; 3]);
         for c in 0..3 {
+            let back = Lanes::all(self.back[c]);
             let foot = Lanes::all(self.middle[c]) + (u * self.u[c] + v * self.v[c]);
-            let other = foot + height * self.out[c] + Lanes::all(self.back[c]);
+            let other = foot + height * self.out[c] + back;
+            // One end by the other, and by the normal and the height as they are told.
+            let out = height.rounded() * f64::from(self.out[c] as f32);
+            let (foot, other) = if self.do_feet_stay {
+                (foot, foot.rounded() + back + out)
+            } else {
+                (other.rounded() - back - out, other)
+            };
             for k in 0..4 {
                 (feet[c][k], others[c][k]) = (foot.0[k] as f32, other.0[k] as f32);
             }
