@@ -261,6 +261,10 @@ pub struct ContactPoint2 {
 
 /// One point of a manifold in space.
 ///
+/// Of solids one end is the foot of the other, bit by bit: with `offset` from A's position to B's in f64 and `out` the normal times
+/// the separation, `anchor_b` is `anchor_a - offset + out` rounded once, at all points of a manifold, or `anchor_a` is
+/// `anchor_b + offset - out`.
+///
 /// ```
 /// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
 /// use asunder_narrow::{ContactPoint3, Pair3};
