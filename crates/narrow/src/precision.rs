@@ -41,6 +41,12 @@ impl Precision {
         self.roundings * (f64::EPSILON / 2.0) * self.reach
     }
 
+    /// Below this depth an overlap has no direction: what rounding, and faces that are not quite flat, may make of one.
+    #[inline]
+    pub(crate) fn doubt_of_depth(&self) -> f64 {
+        8.0 * self.projection() + 4.0 * self.planarity
+    }
+
     /// How much less than the truth an axis may show that is normal to a face.
     #[inline]
     pub(crate) fn of_face(&self) -> f64 {

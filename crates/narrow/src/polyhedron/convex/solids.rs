@@ -3,7 +3,7 @@
 //! ```text
 //! contact points   what last frame's hint tells of a gap, or will tell in the next: the distance            (sat::across)
 //! two cuboids      all fifteen axes; in a gap, or where those cannot tell, the distance
-//! anything else    last frame's axis
+//! anything else    last frame's axis, or one beside it                                                   (sat::walk)
 //!                  a search for a direction that parts them, or for a common point                     (portal)
 //!                  the distance, if there may be one within the limit                                  (distance)
 //!                  the best axis, in overlap, and where contact points are wanted                      (sat)
@@ -21,7 +21,7 @@ use crate::polyhedron::distance::{Close, Reached, Until, Witness, distance};
 use crate::polyhedron::manifold::{Ask, nearest_edges, touch};
 use crate::polyhedron::portal::{self, Found};
 use crate::polyhedron::sat::{
-    Axes, Axis, Hinted, Search, across_edges, face_axes, hint_of, hint_to, separating_axes,
+    Axes, Axis, Ended, Hinted, Search, across_edges, face_axes, hint_of, hint_to, separating_axes,
 };
 use crate::polyhedron::solid::Solid;
 use crate::precision::{at_least, signed};
@@ -66,8 +66,14 @@ impl Convex<'_> {
         {
             return self.probe_cuboids(&cuboids, (a, b), beyond, asked.wanted);
         }
-        if let Some(axes) = hinted.and_then(|hinted| hinted.proved((a, b), &self.precision)) {
-            return self.overlap_of_cores(axes, OVERLAPPING, 0.0);
+        if let Some(hinted) = &hinted {
+            match hinted.walk((a, b), &self.precision) {
+                Ended::Best(axes) => return self.overlap_of_cores(axes, OVERLAPPING, 0.0),
+                Ended::Apart(axis) if axis.separation > beyond => {
+                    return self.beyond(axis.separation, hint_of(&axis));
+                }
+                _ => {}
+            }
         }
         let reached = match portal::search(a, b, beyond, &self.precision) {
             Found::Beyond(direction, separation) => return self.beyond(separation, Hint::towards(direction)),

@@ -1,12 +1,13 @@
 //! What the last frame learnt: the axis that was the best, tried first, and what contact points were made on.
 
 use super::super::solid::Solid;
-use super::facet::is_nearest;
+use super::facet::{Near, judge};
 use super::{Axes, Axis, AxisOf, Cross};
 use crate::feature::{Feature, FeatureId, Hint, OnFace};
 use crate::precision::Precision;
+use asunder_geometry::glam::DVec3;
 
-/// An axis that a hint names, evaluated.
+/// An axis that a hint names, or a walk from one comes to, evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hinted {
     pub(crate) axis: Axis,
@@ -16,10 +17,31 @@ pub(crate) struct Hinted {
     pub(super) doubt: f64,
 }
 
+/// What is known of an evaluated axis.
+#[allow(clippy::large_enum_variant, reason = "as Probe")]
+pub(crate) enum Judged {
+    /// It is the best, and is all that the axes of these solids come to.
+    Best(Axes),
+    /// It is not, or hardly: along this unit direction the solids overlap by less, or too close to call.
+    Beaten(DVec3),
+    Open,
+}
+
 impl Hinted {
     /// Nothing where the hint names no axis that this pair has.
     pub(crate) fn new((a, b): (&Solid, &Solid), hint: Hint, precision: &Precision) -> Option<Self> {
-        let of = axis_in(hint)?;
+        let of = match axis_in(hint)? {
+            // Of other shapes, it may be the half of an edge that names none.
+            AxisOf::Edges(edge_a, edge_b) if a.has_edge(edge_a as u32) && b.has_edge(edge_b as u32) => {
+                AxisOf::Edges(a.topology.edge_of(edge_a), b.topology.edge_of(edge_b))
+            }
+            of => of,
+        };
+        Self::at((a, b), of, precision)
+    }
+
+    /// Nothing where this pair has no such axis.
+    pub(super) fn at((a, b): (&Solid, &Solid), of: AxisOf, precision: &Precision) -> Option<Self> {
         let (normal, doubt) = match of {
             AxisOf::FaceA(face) if a.has_face(face as u32) => (a.normal(face), precision.of_face()),
             AxisOf::FaceB(face) if b.has_face(face as u32) => (-b.normal(face), precision.of_face()),
@@ -42,13 +64,18 @@ impl Hinted {
         Some(Self { axis, deepest: deepest.vertex, doubt })
     }
 
-    /// The axes of solids that overlap, where this one is known to be the best.
-    pub(crate) fn proved(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Option<Axes> {
-        let uneven = is_nearest((a, b), &self.axis, self.deepest, precision)?;
-        let mut axes = Axes::NONE;
-        axes.offer(self.axis);
-        axes.raise(self.axis.separation, self.doubt + uneven);
-        Some(axes)
+    /// Whether it is the best axis of solids that overlap along it, and so overlap.
+    pub(crate) fn judged(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Judged {
+        match judge((a, b), &self.axis, self.deepest, precision) {
+            Near::Nearest(uneven) => {
+                let mut axes = Axes::NONE;
+                axes.offer(self.axis);
+                axes.raise(self.axis.separation, self.doubt + uneven);
+                Judged::Best(axes)
+            }
+            Near::Beaten(direction) => Judged::Beaten(direction),
+            Near::Open => Judged::Open,
+        }
     }
 }
 

@@ -21,6 +21,8 @@ pub(super) struct Level {
 }
 
 impl Level {
+    pub(super) const NONE: Self = Self { vertices: ArrayVec::new_const() };
+
     /// Around the furthest vertex against an outward direction, vertices that are further by no more than `slack` metres.
     #[inline]
     pub(super) fn around(solid: &Solid, deepest: usize, outward: DVec3, slack: f64) -> Self {

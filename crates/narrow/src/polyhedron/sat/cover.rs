@@ -1,0 +1,299 @@
+//! A proof that no direction is better than an axis, by single vertices of the difference: for pairs of which the ball in the
+//! middle does not tell.
+//!
+//! The facet T, at depth d along the axis n, belongs to M = A - B, and so does each vertex of A less each of B. The axis is
+//! the best one if M reaches d or more in every direction.
+//!
+//! ```text
+//! plane    the sphere of directions, seen from n: one at angle t to n is the point x at 1 / tan (t / 2), n itself is at infinity
+//! outline  a corner q of T, as seen along n, reaches d where q.x >= d: what no corner does is a convex polygon about x = 0
+//! disc     a point m of M reaches d in a disc:  (d - m.n) |x|^2 - 2 m.x + (d + m.n) <= 0;  a ball of radius r likewise, with d - r
+//! cover    each piece of the polygon has a disc. Where one of its corners is out, so is the vertex of M that is furthest
+//!          there: either its disc has that corner, and the piece is cut in two where either disc does better, or M
+//!          does not reach d there, and the direction beats the axis
+//! ```
+//! A disc that has all corners of a convex piece has the piece. All products, and most often two or three vertices: of pairs
+//! in the air whose ball does not tell, a sixth need none, three quarters one or two. What the search for all axes takes,
+//! which it saves, is 1.3 us; it takes 0.15 to 0.3 (AMD EPYC, Zen 4, 2026-11-24).
+//!
+//! The polygon is what an expanding polytope has to cover still, laid out flat (van den Bergen, "Proximity queries and
+//! penetration depth computation on 3D game objects", GDC 2001); that bounds by points of a sphere become discs is the
+//! stereographic projection.
+
+use super::super::solid::Solid;
+use super::AxisOf;
+use super::level::Level;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::{DVec2, DVec3};
+
+/// Corners of a facet, or of a piece, at most: of others nothing is proved.
+const MOST_CORNERS: usize = 16;
+
+/// Pieces that wait at most.
+const MOST_PIECES: usize = 8;
+
+/// Vertices of the difference that are asked for at most. Two are enough for nine of ten.
+const MOST_VERTICES: usize = 6;
+
+/// Pieces that are looked at, at most.
+const MOST_STEPS: usize = 32;
+
+/// By what share the outline may have to be widened for rounding.
+const MOST_GROWTH: f64 = 1e-3;
+
+/// What the cover has told.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Cover {
+    /// No direction is better.
+    Whole,
+    /// This one is, by a unit vector, or is too close to call.
+    Torn(DVec3),
+    /// Nothing.
+    Unknown,
+}
+
+type Corners = ArrayVec<DVec2, MOST_CORNERS>;
+
+/// What of both solids the facet is the difference of, by their vertices: a face with a vertex, an edge or a face, or two edges.
+pub(super) struct Facet {
+    of_a: ArrayVec<usize, MOST_CORNERS>,
+    of_b: ArrayVec<usize, MOST_CORNERS>,
+}
+
+impl Facet {
+    /// Of the other solid's furthest vertex against a face, and what is as far; nothing of a face of many corners.
+    pub(super) fn new(
+        (a, b): (&Solid, &Solid),
+        of: AxisOf,
+        (deepest, level): (usize, &Level),
+    ) -> Option<Self> {
+        let other = || {
+            if level.is_empty() { all([deepest].into_iter()) } else { all(level.vertices().iter().copied()) }
+        };
+        let edge = |solid: &Solid, edge: usize| {
+            let (from, to) = solid.topology.ends(edge);
+            all([from, to].into_iter())
+        };
+        let (of_a, of_b) = match of {
+            AxisOf::FaceA(face) => (all(a.topology.face_vertices(face))?, other()?),
+            AxisOf::FaceB(face) => (other()?, all(b.topology.face_vertices(face))?),
+            AxisOf::Edges(edge_a, edge_b) => (edge(a, edge_a)?, edge(b, edge_b)?),
+        };
+        Some(Self { of_a, of_b })
+    }
+}
+
+/// So many vertices, or nothing where they are too many.
+fn all(mut vertices: impl Iterator<Item = usize>) -> Option<ArrayVec<usize, MOST_CORNERS>> {
+    let mut list = ArrayVec::new_const();
+    vertices.try_for_each(|vertex| list.try_push(vertex)).ok()?;
+    Some(list)
+}
+
+/// The directions, laid out flat.
+struct Plane {
+    normal: DVec3,
+    axes: [DVec3; 2],
+    /// What must be reached, in metres.
+    depth: f64,
+}
+
+/// The directions in which a point or ball of the difference reaches the depth: |x|^2 - 2 c.x + k <= 0.
+#[derive(Clone, Copy)]
+struct Disc {
+    center: DVec2,
+    constant: f64,
+}
+
+/// What is to be covered, and by what.
+struct Piece {
+    corners: Corners,
+    disc: Disc,
+}
+
+/// Whether the difference reaches a depth along every unit direction, of which a facet at that depth lies across `normal`.
+pub(super) fn cover(
+    (a, b): (&Solid, &Solid),
+    (normal, facet): (DVec3, &Facet),
+    (depth, doubt): (f64, f64),
+) -> Cover {
+    let (x, y) = normal.any_orthonormal_pair();
+    let plane = Plane { normal, axes: [x, y], depth: depth + doubt };
+    let Some(corners) = plane.outline((a, b), facet, (depth, doubt)) else { return Cover::Unknown };
+    // Of a centre that is not inside, a radius below zero says by how much it is not.
+    let ball = plane.disc(a.center() - b.center(), a.inner_radius + b.inner_radius);
+    let Some(disc) = ball else { return Cover::Unknown };
+    let mut left = ArrayVec::<Piece, MOST_PIECES>::new();
+    left.push(Piece { corners, disc });
+    let mut discs = ArrayVec::<Disc, MOST_VERTICES>::new();
+    for _ in 0..MOST_STEPS {
+        let Some(piece) = left.last() else { return Cover::Whole };
+        let Some(out) = piece.furthest_out() else {
+            left.pop();
+            continue;
+        };
+        let known = discs.iter().find(|disc| disc.holds(out)).copied();
+        let Some(disc) = known.or_else(|| plane.disc(plane.furthest((a, b), out), 0.0)) else {
+            return Cover::Unknown;
+        };
+        if !disc.holds(out) {
+            return Cover::Torn(plane.direction(out));
+        }
+        if known.is_none() && discs.try_push(disc).is_err() || cut_last(&mut left, disc).is_none() {
+            return Cover::Unknown;
+        }
+    }
+    Cover::Unknown
+}
+
+impl Plane {
+    fn flat(&self, point: DVec3) -> DVec2 {
+        DVec2::new(self.axes[0].dot(point), self.axes[1].dot(point))
+    }
+
+    fn direction(&self, at: DVec2) -> DVec3 {
+        let square = at.length_squared();
+        let (up, aside) = ((square - 1.0) / (square + 1.0), 2.0 / (square + 1.0));
+        self.normal * up + (self.axes[0] * at.x + self.axes[1] * at.y) * aside
+    }
+
+    /// Nothing of what reaches the depth along the normal itself, which no point should.
+    fn disc(&self, center: DVec3, radius: f64) -> Option<Disc> {
+        let (up, short) = (self.normal.dot(center), self.depth - radius);
+        let scale = 1.0 / (short - up);
+        let is_short = scale > 0.0 && scale.is_finite();
+        is_short.then(|| Disc { center: self.flat(center) * scale, constant: (short + up) * scale })
+    }
+
+    /// A vertex of the difference that is the furthest in a direction up to a rounding of f32: where it does not reach far
+    /// enough by that, nothing is lost but the proof.
+    fn furthest(&self, (a, b): (&Solid, &Solid), at: DVec2) -> DVec3 {
+        let direction = self.direction(at);
+        let (of_a, of_b) = (a.rough_support(direction).0, b.rough_support(-direction).0);
+        a.point(of_a.vertex) - b.point(of_b.vertex)
+    }
+
+    /// The directions in which no corner of the facet reaches its depth, widened by what rounding may have moved the corners.
+    fn outline(
+        &self,
+        (a, b): (&Solid, &Solid),
+        facet: &Facet,
+        (depth, doubt): (f64, f64),
+    ) -> Option<Corners> {
+        let sum = self.difference((a, b), facet)?;
+        let (mut outline, mut furthest) = (Corners::new(), 0.0_f64);
+        let mut from = *sum.last()?;
+        for &to in &sum {
+            let area = from.perp_dot(to);
+            // The origin lies straight behind the facet, or this is no proof.
+            let is_around = area > 0.0;
+            if !is_around {
+                return None;
+            }
+            let at = (to - from).perp() * (-depth / area);
+            furthest = furthest.max(at.length_squared());
+            outline.push(at);
+            from = to;
+        }
+        let growth = doubt * furthest.sqrt() / depth;
+        // What is not a number is not small.
+        let is_small = growth < MOST_GROWTH;
+        for at in &mut outline {
+            *at *= 1.0 + 2.0 * growth;
+        }
+        is_small.then_some(outline)
+    }
+
+    /// The facet's corners as seen against the normal, counter-clockwise: the sides of both features, by the way they lead.
+    fn difference(&self, (a, b): (&Solid, &Solid), facet: &Facet) -> Option<Corners> {
+        let of_a = from_lowest(facet.of_a.iter().map(|&vertex| self.flat(a.point(vertex))));
+        let of_b = from_lowest(facet.of_b.iter().map(|&vertex| -self.flat(b.point(vertex))));
+        let (mut i, mut j, mut sum) = (0, 0, Corners::new());
+        let side = |list: &Corners, i: usize| list[(i + 1) % list.len()] - list[i % list.len()];
+        let sides = |list: &Corners| if list.len() > 1 { list.len() } else { 0 };
+        while i < sides(&of_a) || j < sides(&of_b) {
+            sum.try_push(of_a[i % of_a.len()] + of_b[j % of_b.len()]).ok()?;
+            let is_of_a =
+                j == sides(&of_b) || i < sides(&of_a) && side(&of_a, i).perp_dot(side(&of_b, j)) >= 0.0;
+            if is_of_a { i += 1 } else { j += 1 }
+        }
+        Some(sum)
+    }
+}
+
+/// The corners of a convex polygon counter-clockwise, from the lowest on.
+fn from_lowest(corners: impl Iterator<Item = DVec2>) -> Corners {
+    let mut list: Corners = corners.take(MOST_CORNERS).collect();
+    let area: f64 = (2..list.len()).map(|i| (list[i - 1] - list[0]).perp_dot(list[i] - list[0])).sum();
+    if area < 0.0 {
+        list.reverse();
+    }
+    let mut lowest = 0;
+    for (i, corner) in list.iter().enumerate() {
+        if (corner.y, corner.x) < (list[lowest].y, list[lowest].x) {
+            lowest = i;
+        }
+    }
+    list.rotate_left(lowest);
+    list
+}
+
+impl Disc {
+    /// At or below zero inside.
+    #[inline(always)]
+    fn power(&self, at: DVec2) -> f64 {
+        at.length_squared() - 2.0 * self.center.dot(at) + self.constant
+    }
+
+    #[inline(always)]
+    fn holds(&self, at: DVec2) -> bool {
+        self.power(at) <= 0.0
+    }
+}
+
+impl Piece {
+    /// The corner that is furthest out of the disc, if any is.
+    #[inline(always)]
+    fn furthest_out(&self) -> Option<DVec2> {
+        let mut most = (0.0, None);
+        for &at in &self.corners {
+            let power = self.disc.power(at);
+            // What is not a number is out.
+            let is_no_further = power <= most.0;
+            if !is_no_further {
+                most = (power, Some(at));
+            }
+        }
+        most.1
+    }
+}
+
+/// Cuts the last piece in two: what another disc does better, and what its own does.
+///
+/// Sutherland and Hodgman, "Reentrant polygon clipping" (1974), by both sides at once.
+fn cut_last(pieces: &mut ArrayVec<Piece, MOST_PIECES>, disc: Disc) -> Option<()> {
+    let piece = pieces.last_mut()?;
+    let (own, whole) = (piece.disc, core::mem::take(&mut piece.corners));
+    let mut better = Corners::new();
+    // Where both have the same power: a line. Of numbers that are none, all is left to its own disc, which does not hold it.
+    let side = |at: DVec2| 2.0 * (disc.center - own.center).dot(at) + (own.constant - disc.constant);
+    let mut before = *whole.last()?;
+    let mut was = side(before);
+    for &corner in &whole {
+        let is = side(corner);
+        if (is > 0.0) != (was > 0.0) {
+            let cut = before + (corner - before) * (was / (was - is));
+            piece.corners.try_push(cut).ok()?;
+            better.try_push(cut).ok()?;
+        }
+        if is > 0.0 { &mut better } else { &mut piece.corners }.try_push(corner).ok()?;
+        (before, was) = (corner, is);
+    }
+    if piece.corners.is_empty() {
+        pieces.pop();
+    }
+    if better.is_empty() {
+        return Some(());
+    }
+    pieces.try_push(Piece { corners: better, disc }).ok()
+}
