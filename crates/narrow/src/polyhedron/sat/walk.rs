@@ -56,8 +56,6 @@ struct Side {
     edge: usize,
     face: usize,
     vertex: usize,
-    /// The end of the other's edge that the arc comes from.
-    past: Option<usize>,
 }
 
 impl Hinted {
@@ -165,7 +163,7 @@ fn foot_on_face(
     }
     let Some(half_edge) = beyond else { return Foot::Inside };
     let face = usize::from(halves[usize::from(halves[half_edge].twin)].face);
-    Foot::Beyond(Side { is_of_a, edge: solid.topology.edge_of(half_edge), face, vertex, past: None })
+    Foot::Beyond(Side { is_of_a, edge: solid.topology.edge_of(half_edge), face, vertex })
 }
 
 /// Where two edges cross, as seen along their axis.
@@ -215,7 +213,7 @@ impl Side {
         let way = other.point(vertex) - other.point(past);
         let [one, twin] = faces.map(|face| solid.normal(face).dot(way));
         let face = if one < twin { faces[0] } else { faces[1] };
-        Some(Self { is_of_a, edge, face, vertex, past: Some(past) })
+        Some(Self { is_of_a, edge, face, vertex })
     }
 
     /// What lies over there: the face, or the edges whose arcs cross first.
@@ -240,9 +238,6 @@ impl Side {
         let (mut first, mut crossed) = (1.0, None);
         for &half_edge in other.topology.leaving(self.vertex) {
             let (_, to) = other.topology.ends(half_edge.into());
-            if Some(to) == self.past {
-                continue;
-            }
             let along = other.vertices[to].as_dvec3() - from;
             let (now, then) = (here.dot(along).max(0.0), there.dot(along));
             if then < 0.0 && now < first * (now - then) {
