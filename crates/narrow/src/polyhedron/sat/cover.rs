@@ -213,11 +213,21 @@ impl Plane {
         let sides = |list: &Corners| if list.len() > 1 { list.len() } else { 0 };
         while i < sides(&of_a) || j < sides(&of_b) {
             sum.try_push(of_a[i % of_a.len()] + of_b[j % of_b.len()]).ok()?;
-            let is_of_a =
-                j == sides(&of_b) || i < sides(&of_a) && side(&of_a, i).perp_dot(side(&of_b, j)) >= 0.0;
+            let is_of_a = j == sides(&of_b) || i < sides(&of_a) && is_first([side(&of_a, i), side(&of_b, j)]);
             if is_of_a { i += 1 } else { j += 1 }
         }
         Some(sum)
+    }
+}
+
+/// Whether the one of two ways has the lesser angle, from zero to a full turn, or both the same.
+fn is_first([one, other]: [DVec2; 2]) -> bool {
+    // Opposite ways have no cross product that could tell.
+    let is_down = |way: DVec2| way.y < 0.0 || way.y == 0.0 && way.x < 0.0;
+    match (is_down(one), is_down(other)) {
+        (false, true) => true,
+        (true, false) => false,
+        _ => one.perp_dot(other) >= 0.0,
     }
 }
 

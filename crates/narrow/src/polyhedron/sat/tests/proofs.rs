@@ -181,7 +181,6 @@ fn only_the_best_axis_is_proved_and_walks_lead_to_it() {
             seen.look((a, b), &pair, axes, case);
         });
     }
-    println!("{seen:?}");
     assert!(seen.stale > 50_000 && seen.proved > 200 && seen.edges_proved > 10, "{seen:?}");
     assert!(seen.shallow > 100 && seen.shallow_proved * 100 > seen.shallow * 98, "{seen:?}");
     assert!(seen.deep > 300 && seen.deep_proved * 5 > seen.deep * 4, "{seen:?}");
@@ -204,8 +203,8 @@ fn what_stands_upright_side_by_side_is_proved_by_whole_edges_and_by_balls_along_
         let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
         pair.with_solids(|a, b| seen.look((a, b), &pair, every_axis(a, b, 5), case));
     }
-    println!("{seen:?}");
     assert!(seen.stale > 30_000 && seen.proved > 400 && seen.beaten > 1000 && seen.led > 3000, "{seen:?}");
+    assert!(seen.deep > 400 && seen.deep_proved * 100 > seen.deep * 98, "{seen:?}");
 }
 
 /// The axis that the whole test finds best.
