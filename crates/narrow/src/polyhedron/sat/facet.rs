@@ -12,13 +12,11 @@
 //!        about one of what is left when both centres are moved along the arms inside their solids
 //! proof  the ball reaches d in every direction in which the disc does not
 //! ```
-//! Where it does not, single vertices of M are asked (`cover`).
-//!
 //! Then the ball of radius d about the origin lies inside M, which it touches at the foot. Of pairs that overlap by
 //! little next to their faces, which is most of them, nearly all are settled so; where last frame's axis is still
 //! the best, nothing but that axis is ever asked for. The idea is that of an expanding polytope's last step (van
 //! den Bergen, "Proximity queries and penetration depth computation on 3D game objects", GDC 2001), with a polytope
-//! that needs no expanding.
+//! that needs no expanding. Where the ball does not tell, single vertices of M do (`cover`).
 //!
 //! Of what is long and thin the ball in the middle covers little, but there are others along it; and of what stands upright
 //! beside it, whole edges are furthest. A frame of a crowd, 970 pairs of limbs and trunks: 430 came to all axes, now 116; 290
