@@ -33,7 +33,7 @@
 //!    frame of a pile of hulls 5 % less (2026-11-22);
 //! 6. *a walk to it* from last frame's axis, or from the best of two promising faces, over the facets between (`walk`), and
 //!    single vertices where no ball proves the end (`cover`): of hulls that fall on each other 4 pairs a frame come to the rest
-//!    of this test, where it was 670. Frames 8 to 20 % less (2026-11-24).
+//!    of this test, where it was 670. Frames 7 to 20 % less (2026-11-24).
 //!
 //! And on two of 256 that are symmetric enough for nothing to be culled, as equal double cones in one place (1.9 ms):
 //!

@@ -14,7 +14,7 @@
 //! Each axis is believed for what all vertices show along it, and each step must show more than the one before, so that
 //! neither hints nor rounding can lead astray or around. Pairs a frame that come to all axes of the test: of hulls that fall on
 //! each other 4, where it was 670; of hulls at rest 5 for 370; of 10,000 boxes and hulls in the air 15 for 450; of a crowd 16 for
-//! 100. The frames take 0.92, 0.8, 0.9 and 0.98 of the time (AMD EPYC, Zen 4, 2026-11-24).
+//! 100. The frames take 0.93, 0.8, 0.9 and 0.98 of the time (AMD EPYC, Zen 4, 2026-11-24).
 //!
 //! Lin and Canny walk so over the features of both solids in a gap ("A fast algorithm for incremental distance calculation",
 //! ICRA 1991); here it goes over those of their difference, in overlap.
