@@ -4,6 +4,7 @@ use crate::counted::count_step;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::ALIGNED_FACES;
 use asunder_geometry::{Basis3, Core3, EdgeArc, EdgeOctet, FaceOctet, Topology, VertexOctet};
+use wide::f32x8;
 
 /// A core in the frame of a pair: A's axes, about A's position. Most often a polyhedron; a triangle or flat hull has
 /// two faces back to back, a segment or point none.
@@ -173,14 +174,21 @@ impl<'a> Solid<'a> {
         let lanes = direction.as_vec3();
         let least = self.least_lane(lanes);
         let mut best = Support { vertex: 0, reach: f64::NEG_INFINITY };
-        for (place, octet) in self.vertex_octets.iter().enumerate() {
-            let reach = project(octet, lanes);
-            let mut is_any = false;
-            for reach in reach {
-                is_any |= reach >= least;
+        for (chunk, octets) in self.vertex_octets.chunks(4).enumerate() {
+            let mut near = 0;
+            for (place, octet) in octets.iter().enumerate() {
+                near |= lanes_from(project(octet, lanes), least) << (8 * place);
             }
-            if is_any {
-                choose(octet, direction, (reach, least), 8 * place, &mut best);
+            // Most often one. Which it is nobody can guess: no branch asks.
+            while near != 0 {
+                let vertex = 32 * chunk + near.trailing_zeros() as usize;
+                near &= near - 1;
+                // Places past the last vertex are not vertices.
+                let Some(point) = self.vertices.get(vertex) else { break };
+                let reach = direction.dot(point.as_dvec3());
+                if reach > best.reach {
+                    best = Support { vertex, reach };
+                }
             }
         }
         best
@@ -192,11 +200,7 @@ impl<'a> Solid<'a> {
     #[inline]
     pub(crate) fn rough_support(&self, direction: DVec3) -> (Support, f64) {
         let lanes = self.back(direction).as_vec3();
-        let (best, vertex) = if self.vertex_octets.len() <= FEW_OCTETS {
-            furthest_of_few(self.vertex_octets, lanes)
-        } else {
-            furthest_of_many(self.vertex_octets, lanes)
-        };
+        let (best, vertex) = furthest(self.vertex_octets, lanes);
         let doubt = self.lane_doubt(lanes);
         let reach = f64::from(best + doubt) + direction.dot(self.position);
         // What fills up the last eight is the first vertex.
@@ -215,15 +219,7 @@ impl<'a> Solid<'a> {
     /// What a vertex' lane comes to at least if the vertex may be the furthest, in the shape's own axes.
     #[inline(always)]
     pub(super) fn least_lane(&self, direction: Vec3) -> f32 {
-        let doubt = self.lane_doubt(direction);
-        let mut top = [f32::NEG_INFINITY; 8];
-        for octet in self.vertex_octets {
-            let reach = project(octet, direction);
-            for i in 0..8 {
-                top[i] = if reach[i] > top[i] { reach[i] } else { top[i] };
-            }
-        }
-        greatest(top) - doubt
+        highest(self.vertex_octets, direction) - self.lane_doubt(direction)
     }
 
     /// [`Solid::support`] by its definition.
@@ -319,50 +315,31 @@ pub(super) fn project(octet: &VertexOctet, direction: Vec3) -> [f32; 8] {
     reach
 }
 
-/// Up to so many eights of vertices the call would cost more than what is called.
-const FEW_OCTETS: usize = 4;
-
-/// The greatest projection, and the vertex that it is of, or a place behind the last.
+/// The greatest projection, and the vertex that it is of, or a place behind the last; of equals that of the lowest lane.
 #[inline(always)]
-fn furthest_of_few(octets: &[VertexOctet], direction: Vec3) -> (f32, usize) {
-    let (mut top, mut place) = ([f32::NEG_INFINITY; 8], [0_u32; 8]);
-    for (octet, number) in octets.iter().zip((0_u32..).step_by(8)) {
-        let reach = project(octet, direction);
-        for i in 0..8 {
-            let is_higher = reach[i] > top[i];
-            top[i] = if is_higher { reach[i] } else { top[i] };
-            place[i] = if is_higher { number } else { place[i] };
-        }
+fn furthest(octets: &[VertexOctet], direction: Vec3) -> (f32, usize) {
+    let best = highest(octets, direction);
+    let (mut lane, mut place) = (8, 0);
+    for (octet, first) in octets.iter().zip((0..).step_by(8)) {
+        let lowest = lanes_from(project(octet, direction), best).trailing_zeros() as usize;
+        let is_lower = lowest < lane;
+        lane = if is_lower { lowest } else { lane };
+        place = if is_lower { first } else { place };
     }
-    let (mut best, mut vertex) = (top[0], place[0]);
-    for i in 1..8 {
-        let is_higher = top[i] > best;
-        best = if is_higher { top[i] } else { best };
-        vertex = if is_higher { place[i] + i as u32 } else { vertex };
-    }
-    (best, vertex as usize)
+    (best, place + lane)
 }
 
-/// The same of many, its places in f32: portable code makes eight branches of whole numbers. 256 vertices 130 -> 75 ns.
-#[inline(never)]
-fn furthest_of_many(octets: &[VertexOctet], direction: Vec3) -> (f32, usize) {
-    let (mut top, mut place, mut number) = ([f32::NEG_INFINITY; 8], [0.0_f32; 8], 0.0);
+/// The greatest projection.
+#[inline(always)]
+fn highest(octets: &[VertexOctet], direction: Vec3) -> f32 {
+    let mut top = [f32::NEG_INFINITY; 8];
     for octet in octets {
         let reach = project(octet, direction);
         for i in 0..8 {
-            let is_higher = reach[i] > top[i];
-            top[i] = if is_higher { reach[i] } else { top[i] };
-            place[i] = if is_higher { number } else { place[i] };
+            top[i] = if reach[i] > top[i] { reach[i] } else { top[i] };
         }
-        number += 8.0;
     }
-    let (mut best, mut vertex) = (top[0], place[0]);
-    for i in 1..8 {
-        let is_higher = top[i] > best;
-        best = if is_higher { top[i] } else { best };
-        vertex = if is_higher { place[i] + i as f32 } else { vertex };
-    }
-    (best, vertex as usize)
+    greatest(top)
 }
 
 #[inline(always)]
@@ -372,24 +349,13 @@ fn greatest(lanes: [f32; 8]) -> f32 {
     greater(greater(four[0], four[2]), greater(four[1], four[3]))
 }
 
-/// The furthest of those vertices of an octet whose lanes come to `least`, in f64.
+/// Which of eight lanes come to `least`: a bit each, the first the lowest.
+///
+/// Processors have an instruction for it that plain loops do not come to: they make eight shifts, or turn four octets into
+/// columns first. [`Solid::support`] takes two thirds of the time with it, a frame of falling hulls 0.91.
 #[inline(always)]
-fn choose(
-    octet: &VertexOctet,
-    direction: DVec3,
-    (lanes, least): ([f32; 8], f32),
-    first: usize,
-    best: &mut Support,
-) {
-    for (i, lane) in lanes.into_iter().enumerate() {
-        if lane >= least {
-            let vertex = Vec3::new(octet.x[i], octet.y[i], octet.z[i]);
-            let reach = direction.dot(vertex.as_dvec3());
-            if reach > best.reach {
-                *best = Support { vertex: first + i, reach };
-            }
-        }
-    }
+pub(super) fn lanes_from(lanes: [f32; 8], least: f32) -> u32 {
+    f32x8::new(lanes).simd_ge(f32x8::splat(least)).to_bitmask()
 }
 
 #[cfg(test)]
@@ -397,7 +363,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_furthest_of_many_is_the_furthest_of_few() {
+    fn every_lane_has_its_bit() {
+        for bits in 0..256 {
+            let lanes = core::array::from_fn(|i| if bits >> i & 1 == 1 { 2.0 } else { [1.0, f32::NAN][i % 2] });
+            assert_eq!(lanes_from(lanes, 2.0), bits);
+        }
+    }
+
+    #[test]
+    fn the_furthest_is_that_of_the_lowest_lane() {
         let mut state = 7_u32;
         // Coarse, so that many are equally far.
         let mut number = || {
@@ -410,11 +384,13 @@ mod tests {
             let octets: Vec<_> =
                 (0..=case % 32).map(|_| VertexOctet { x: eight(), y: eight(), z: eight() }).collect();
             let direction = Vec3::new(number(), number(), number());
-            let (reach, vertex) = furthest_of_many(&octets, direction);
-            assert_eq!((reach, vertex), furthest_of_few(&octets, direction));
-            places[vertex / 8] += 1;
-            let reaches = octets.iter().flat_map(|octet| project(octet, direction));
-            ties += usize::from(reaches.filter(|&other| other == reach).count() > 1);
+            let reaches: Vec<f32> = octets.iter().flat_map(|octet| project(octet, direction)).collect();
+            let greatest = reaches.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+            let mut furthest_ones = (0..reaches.len()).filter(|&vertex| reaches[vertex] == greatest);
+            ties += usize::from(furthest_ones.clone().count() > 1);
+            let lowest = furthest_ones.by_ref().min_by_key(|vertex| (vertex % 8, *vertex)).unwrap();
+            assert_eq!(furthest(&octets, direction), (greatest, lowest));
+            places[lowest / 8] += 1;
         }
         assert!(ties > 500 && places[..16].iter().all(|&count| count > 10), "{ties}, {places:?}");
     }
