@@ -7,6 +7,7 @@ mod part;
 
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::batch::{Met, beyond};
+use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::ground3::{OnGround, contact_on_ground};
 use crate::least::Least;
@@ -313,9 +314,7 @@ impl<'a> Pair3<'a> {
         if self.is_compound() {
             return self.contact_of_parts(asked, margin, manifolds);
         }
-        let bases = self.bases();
-        let [a, b] = [Part::whole(self.shape_a, &bases[0]), Part::whole(self.shape_b, &bases[1])];
-        let (hint, found) = self.parts(&bases, a, b).contact(asked, margin, manifolds);
+        let (hint, found) = self.wholes().contact(asked, margin, manifolds);
         (hint, found.map(|found| found.overlapping))
     }
 
@@ -399,6 +398,21 @@ impl<'a> Pair3<'a> {
     /// How long the vectors are that the way from part to part is a sum of, where it is one of several.
     fn summed(&self, shift_a: DVec3, shift_b: DVec3) -> f64 {
         if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
+    }
+
+    /// Two shapes that are no compounds as parts, in A's axes: as [`Pair3::parts`] has them, but for what no whole shape asks for.
+    /// A frame of hulls in the air makes thousands of them.
+    #[inline(always)]
+    fn wholes(&self) -> Parts<'a> {
+        let basis = self.pose_a.basis();
+        let site = |shape, body: &Pose3| Site3 { shape, body: *body, part: None };
+        let convex = Convex::new(
+            [site(self.shape_a, &self.pose_a), site(self.shape_b, &self.pose_b)],
+            self.pose_b.basis_from(&self.pose_a),
+            basis.turn_back(self.between),
+            0.0,
+        );
+        Parts { indices: [0; 2], basis, shifts: [DVec3::ZERO; 2], between: self.between, convex }
     }
 
     pub(crate) fn parts(&self, bases: &[Basis3; 2], a: Part<'a>, b: Part<'a>) -> Parts<'a> {

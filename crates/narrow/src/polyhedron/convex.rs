@@ -24,6 +24,7 @@
 //! plane out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
+mod parted;
 mod solids;
 mod told;
 
@@ -158,6 +159,9 @@ impl<'a> Convex<'a> {
             };
             return (probe, is_made);
         };
+        if let Some(probe) = self.parted_as_before(asked) {
+            return (probe, false);
+        }
         self.with_solids(|a, b| {
             let probe = self.probe_any_solids(a, b, asked);
             let is_made = match &probe {

@@ -211,9 +211,7 @@ impl<'a> Solid<'a> {
     /// How far the lanes of two vertices may be off together, in the shape's own axes.
     #[inline(always)]
     fn lane_doubt(&self, direction: Vec3) -> f32 {
-        // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides; and one each
-        // where the doubt, and perhaps a slack, is taken off.
-        10.5 * (f32::EPSILON / 2.0) * self.extent * direction.abs().element_sum()
+        lane_doubt(self.extent, direction)
     }
 
     /// What a vertex' lane comes to at least if the vertex may be the furthest, in the shape's own axes.
@@ -302,6 +300,22 @@ impl<'a> Solid<'a> {
         let ends = [(one, other), (other, one)];
         self.topology.edges().iter().map(|&e| e as usize).find(|&e| ends.contains(&self.topology.ends(e)))
     }
+}
+
+/// How far the lanes of two vertices may be off together, of which no coordinate is greater than `extent`.
+#[inline(always)]
+fn lane_doubt(extent: f32, direction: Vec3) -> f32 {
+    // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides; and one each
+    // where the doubt, and perhaps a slack, is taken off.
+    10.5 * (f32::EPSILON / 2.0) * extent * direction.abs().element_sum()
+}
+
+/// No less than how far vertices reach along a direction of any length, all in their own axes: as
+/// [`Solid::rough_support`], without the vertex. No coordinate is greater than `extent`.
+#[inline]
+pub(super) fn bound_of_reach(octets: &[VertexOctet], extent: f32, direction: DVec3) -> f64 {
+    let lanes = direction.as_vec3();
+    f64::from(highest(octets, lanes) + lane_doubt(extent, lanes))
 }
 
 /// Projections of eight vertices.

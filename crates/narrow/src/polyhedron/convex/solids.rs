@@ -152,7 +152,7 @@ impl Convex<'_> {
         })
     }
 
-    fn beyond(&self, separation: f64, hint: Hint) -> Probe {
+    pub(super) fn beyond(&self, separation: f64, hint: Hint) -> Probe {
         Probe::Beyond(at_least(separation - self.radii, &self.precision), hint)
     }
 
