@@ -109,6 +109,7 @@ pub(crate) const IDENTITY: Basis3 = Basis3 { x: DVec3::X, y: DVec3::Y, z: DVec3:
 impl<'a> Convex<'a> {
     /// Two shapes, B's axes and position as A sees them. `summed` is how long the vectors were that the position is a
     /// sum of, in metres, where it is one of several.
+    #[inline(always)]
     pub(crate) fn new(sites: [Site3<'a>; 2], relative: Basis3, offset: DVec3, summed: f64) -> Self {
         let (shape_a, shape_b) = (sites[0].shape, sites[1].shape);
         let radii = f64::from(shape_a.radius()) + f64::from(shape_b.radius());
