@@ -87,10 +87,6 @@ impl Best {
     }
 }
 
-/// Up to so many vertices are looked through one by one. Contact points in all: 323 ns in place of 367 for wedges and
-/// cylinders of up to 24, but 380 in place of 362 for hulls of 32 (AMD EPYC, Zen 4, 2026-11-21).
-const FEW_VERTICES: usize = 24;
-
 /// The vertices that are as far in a direction as the furthest.
 pub(in crate::polyhedron) struct Far {
     /// The furthest; of equals the lowest.
@@ -104,9 +100,6 @@ impl Far {
     /// f64 chooses among the rest.
     pub(in crate::polyhedron) fn from(solid: &Solid, direction: DVec3, slack: f64) -> Self {
         let own = solid.turned_back(direction);
-        if solid.vertices.len() <= FEW_VERTICES {
-            return Self::of_few(solid, own, slack);
-        }
         let lanes = own.as_vec3();
         // Rounded up by more than its conversion may round it down.
         let least = solid.least_lane(lanes) - (slack as f32) * (1.0 + 2.0 * f32::EPSILON);
@@ -146,20 +139,6 @@ impl Far {
                 .map(move |rest| 64 * place + rest.trailing_zeros() as usize)
         };
         self.members.0.iter().enumerate().flat_map(of_word)
-    }
-
-    /// The same one by one.
-    fn of_few(solid: &Solid, own: DVec3, slack: f64) -> Self {
-        let reaches: ArrayVec<f64, FEW_VERTICES> =
-            solid.vertices.iter().map(|point| own.dot(point.as_dvec3())).collect();
-        let furthest =
-            reaches.iter().fold(f64::NEG_INFINITY, |most, &reach| if reach > most { reach } else { most });
-        let least = furthest - slack;
-        let bit = |(i, &reach): (usize, &f64)| u64::from(reach >= least) << i;
-        let members = reaches.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit);
-        let is_furthest = |i: &usize| reaches[*i] == furthest;
-        let deepest = (members.trailing_zeros() as usize..reaches.len()).find(is_furthest).unwrap_or(0);
-        Self { deepest, members: Members([members, 0, 0, 0]), count: members.count_ones() as usize }
     }
 
     /// How many of them a face has, if those are no fewer than `least`.
