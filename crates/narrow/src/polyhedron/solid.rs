@@ -220,6 +220,17 @@ impl<'a> Solid<'a> {
         highest(self.vertex_octets, direction) - self.lane_doubt(direction)
     }
 
+    /// Whether a face may look along a unit direction up to [`ALIGNED_FACES`]; where none does, this mostly says so. Cost:
+    /// linear in the faces, eight at a time.
+    #[inline]
+    pub(super) fn may_look_along(&self, direction: DVec3) -> bool {
+        // Above what lanes may be off by, and normals.
+        const LEAST: f32 = ALIGNED_FACES as f32 - 1e-6;
+        let lanes = self.back(direction).as_vec3();
+        let along = |faces: &FaceOctet| dot8([&faces.x, &faces.y, &faces.z], lanes);
+        self.face_octets.iter().any(|faces| lanes_from(along(faces), LEAST) != 0)
+    }
+
     /// [`Solid::support`] by its definition.
     #[cfg(test)]
     pub(crate) fn support_one_by_one(&self, direction: DVec3) -> Support {
@@ -322,11 +333,17 @@ pub(super) fn bound_of_reach(octets: &[VertexOctet], extent: f32, direction: DVe
 #[inline(always)]
 pub(super) fn project(octet: &VertexOctet, direction: Vec3) -> [f32; 8] {
     count_step();
-    let mut reach = [0.0; 8];
-    for (i, reach) in reach.iter_mut().enumerate() {
-        *reach = direction.x * octet.x[i] + direction.y * octet.y[i] + direction.z * octet.z[i];
+    dot8([&octet.x, &octet.y, &octet.z], direction)
+}
+
+/// Eight dot products.
+#[inline(always)]
+fn dot8([x, y, z]: [&[f32; 8]; 3], direction: Vec3) -> [f32; 8] {
+    let mut dots = [0.0; 8];
+    for (i, dot) in dots.iter_mut().enumerate() {
+        *dot = direction.x * x[i] + direction.y * y[i] + direction.z * z[i];
     }
-    reach
+    dots
 }
 
 /// The greatest projection, and the vertex that it is of, or a place behind the last; of equals that of the lowest lane.

@@ -266,10 +266,10 @@ fn add_aligned_faces<'a>(
     depths: &Depths,
     points: &mut Points,
 ) -> bool {
-    if a.is_slender() || b.is_slender() {
+    // Of hulls most do not, and then no vertex need be looked for: frames of falling hulls take 0.97 of the time.
+    if a.is_slender() || b.is_slender() || !a.may_look_along(normal) || !b.may_look_along(-normal) {
         return false;
     }
-    // Of hulls most do not: mostly one face is enough to know.
     let face_a = opposed_face(a, -normal, depths.slack).face;
     let facing_a = a.normal(face_a);
     if facing_a.dot(normal) < ALIGNED_FACES {
