@@ -324,16 +324,22 @@ impl<'a> Pair3<'a> {
         if gap > limit {
             return Err(rounded_down(gap));
         }
+        if !self.is_compound() {
+            let parts = self.wholes();
+            return match parts.convex.probe(Asked { limit, hint: Hint::NONE, wanted }) {
+                Probe::Beyond(at_least, _) => Err(at_least),
+                Probe::Near(near) => Ok((parts, near)),
+            };
+        }
         let mut least = Least::within(limit);
-        let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
         let bases = self.bases();
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         for_parts(self.shape_a, &bases[0], |a| {
-            if least.passes_over(gap(&a, &whole_b)) {
+            if least.passes_over(self.gap(&a, &whole_b)) {
                 return false;
             }
             for_parts(self.shape_b, &bases[1], |b| {
-                if !least.passes_over(gap(&a, &b)) {
+                if !least.passes_over(self.gap(&a, &b)) {
                     let parts = self.parts(&bases, a, b);
                     let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted };
                     match parts.convex.probe(asked) {
@@ -354,11 +360,11 @@ impl<'a> Pair3<'a> {
 
     /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.
     fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
+        if !self.is_compound() {
+            return ask(&self.wholes());
+        }
         let bases = self.bases();
         let whole_b = Part::whole(self.shape_b, &bases[1]);
-        if !self.is_compound() {
-            return ask(&self.parts(&bases, Part::whole(self.shape_a, &bases[0]), whole_b));
-        }
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
         for_parts(self.shape_a, &bases[0], |a| {
             !is_far(&a, &whole_b)
@@ -404,6 +410,11 @@ impl<'a> Pair3<'a> {
     /// A frame of hulls in the air makes thousands of them.
     #[inline(always)]
     fn wholes(&self) -> Parts<'a> {
+        if let Shape3::Sphere(_) = self.shape_a {
+            let bases = self.bases();
+            let [a, b] = [Part::whole(self.shape_a, &bases[0]), Part::whole(self.shape_b, &bases[1])];
+            return self.parts(&bases, a, b);
+        }
         let basis = self.pose_a.basis();
         let site = |shape, body: &Pose3| Site3 { shape, body: *body, part: None };
         let convex = Convex::new(

@@ -352,7 +352,9 @@ fn furthest(octets: &[VertexOctet], direction: Vec3) -> (f32, usize) {
     let best = highest(octets, direction);
     let (mut lane, mut place) = (8, 0);
     for (octet, first) in octets.iter().zip((0..).step_by(8)) {
-        let lowest = lanes_from(project(octet, direction), best).trailing_zeros() as usize;
+        // Seen once already, and counted.
+        let reach = dot8([&octet.x, &octet.y, &octet.z], direction);
+        let lowest = lanes_from(reach, best).trailing_zeros() as usize;
         let is_lower = lowest < lane;
         lane = if is_lower { lowest } else { lane };
         place = if is_lower { first } else { place };
@@ -396,7 +398,8 @@ mod tests {
     #[test]
     fn every_lane_has_its_bit() {
         for bits in 0..256 {
-            let lanes = core::array::from_fn(|i| if bits >> i & 1 == 1 { 2.0 } else { [1.0, f32::NAN][i % 2] });
+            let lanes =
+                core::array::from_fn(|i| if bits >> i & 1 == 1 { 2.0 } else { [1.0, f32::NAN][i % 2] });
             assert_eq!(lanes_from(lanes, 2.0), bits);
         }
     }

@@ -75,7 +75,13 @@ impl Convex<'_> {
                 _ => {}
             }
         }
-        let reached = match portal::search(a, b, beyond, &self.precision) {
+        // Nobody need search for a common point of what is apart by far.
+        let apart = if asked.wanted == Wanted::Closest { self.direction_apart() } else { None };
+        let found = match apart {
+            Some(direction) => Found::Nothing(direction),
+            None => portal::search(a, b, beyond, &self.precision),
+        };
+        let reached = match found {
             Found::Beyond(direction, separation) => return self.beyond(separation, Hint::towards(direction)),
             Found::Overlap if asked.wanted == Wanted::Closest => return self.just_overlapping(),
             Found::Overlap => return self.overlap_by_axes((a, b), hinted),
@@ -306,10 +312,22 @@ impl Convex<'_> {
         Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
     }
 
+    /// From A's centre to B's.
+    fn between_centers(&self) -> DVec3 {
+        let center_b = self.offset + self.relative.turn(self.shape_b.center().as_dvec3());
+        center_b - self.shape_a.center().as_dvec3()
+    }
+
     /// From A's centre to B's: where a search may begin.
     fn towards_b(&self) -> DVec3 {
-        let center_b = self.offset + self.relative.turn(self.shape_b.center().as_dvec3());
-        (center_b - self.shape_a.center().as_dvec3()).try_normalize().unwrap_or(DVec3::X)
+        self.between_centers().try_normalize().unwrap_or(DVec3::X)
+    }
+
+    /// The same where the cores' bounding spheres are apart.
+    fn direction_apart(&self) -> Option<DVec3> {
+        let between = self.between_centers();
+        let apart = between.length();
+        (apart > self.precision.size + self.precision.projection()).then(|| between / apart)
     }
 
     /// The second tier and the third, and how the cores lie. `best` is the axis that the first tier found best.
