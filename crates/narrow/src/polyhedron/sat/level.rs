@@ -7,6 +7,7 @@
 use super::super::solid::Solid;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
 /// The most corners of a face that is asked for; of others, an edge.
 const MOST: usize = 8;
@@ -76,18 +77,20 @@ impl Level {
     /// The sides of the difference of two polygons are those of the one and of the other, each with the other's vertex that
     /// is furthest out there.
     pub(super) fn in_difference(&self, (solid, face): (&Solid, usize), outward: DVec3, other: &Solid) -> f64 {
-        let corners = solid.topology.face_vertices(face).map(|vertex| solid.point(vertex));
+        // Each is turned once, and asked for once a side of the other.
+        let corners: ArrayVec<DVec3, MAX_HULL_VERTICES> =
+            solid.topology.face_vertices(face).map(|vertex| solid.point(vertex)).collect();
         let own: ArrayVec<DVec3, MOST> = self.points(other).collect();
         let mut least = f64::INFINITY;
         // Seen from the face's side the feature's sides go the other way around.
-        let (on_face, on_own) = (sides(corners.clone(), outward), sides(own.iter().copied(), -outward));
+        let (on_face, on_own) = (sides(corners.iter().copied(), outward), sides(own.iter().copied(), -outward));
         for (from, inwards) in on_face {
             let inside = own.iter().map(|point| inwards.dot(*point - from)).fold(f64::NEG_INFINITY, f64::max);
             least = least.min(share_of(inside, inwards));
         }
         for (from, inwards) in on_own {
             let inside =
-                corners.clone().map(|point| inwards.dot(point - from)).fold(f64::NEG_INFINITY, f64::max);
+                corners.iter().map(|point| inwards.dot(*point - from)).fold(f64::NEG_INFINITY, f64::max);
             least = least.min(share_of(inside, inwards));
         }
         if least > 0.0 && least.is_finite() { least.sqrt() } else { f64::NEG_INFINITY }
@@ -107,8 +110,14 @@ impl Level {
             return None;
         }
         let mut left: ArrayVec<DVec3, MOST_CUT> = self.points(other).collect();
+        let mut whole = ArrayVec::new_const();
         for (from, inwards) in sides(corners.map(|vertex| solid.point(vertex)), outward) {
-            let whole = core::mem::take(&mut left);
+            // Most sides cut nothing away.
+            if left.iter().all(|&point| inwards.dot(point - from) >= 0.0) {
+                continue;
+            }
+            whole.clone_from(&left);
+            left.clear();
             let mut before = *whole.last()?;
             let mut depth = inwards.dot(before - from);
             for &point in &whole {
