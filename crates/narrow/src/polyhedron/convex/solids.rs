@@ -99,13 +99,14 @@ impl Convex<'_> {
             }
             Reached::Between(witness) if self.is_plain(&witness) => {
                 let (verdict, cores) = self.conclude(Reached::Between(witness));
-                let axes = match &cores {
-                    Cores::Within(_) => self.all_axes(a, b, f64::NEG_INFINITY),
-                    // Where points are wanted, the axes say which faces look at each other.
-                    Cores::Between(witness) if asked.wanted == Wanted::Points => {
-                        self.face_axes(a, b, witness.at_least)
+                let axes = match cores {
+                    // Nobody asks which faces look at each other.
+                    Cores::Between(witness) if asked.wanted != Wanted::Points => {
+                        let hint = Hint::towards(witness.normal);
+                        return self.gap_of_cores(Axes::NONE, verdict, witness, hint);
                     }
-                    Cores::Between(_) => Axes::NONE,
+                    Cores::Within(_) => self.all_axes(a, b, f64::NEG_INFINITY),
+                    Cores::Between(ref witness) => self.face_axes(a, b, witness.at_least),
                 };
                 self.probe_close((a, b), axes, (verdict, cores), asked.wanted)
             }

@@ -83,7 +83,8 @@ impl Level {
         let own: ArrayVec<DVec3, MOST> = self.points(other).collect();
         let mut least = f64::INFINITY;
         // Seen from the face's side the feature's sides go the other way around.
-        let (on_face, on_own) = (sides(corners.iter().copied(), outward), sides(own.iter().copied(), -outward));
+        let (on_face, on_own) =
+            (sides(corners.iter().copied(), outward), sides(own.iter().copied(), -outward));
         for (from, inwards) in on_face {
             let inside = own.iter().map(|point| inwards.dot(*point - from)).fold(f64::NEG_INFINITY, f64::max);
             least = least.min(share_of(inside, inwards));
