@@ -38,6 +38,7 @@ enum Cores {
 }
 
 const OVERLAPPING: Verdict = Verdict { overlapping: true, tier: Tier::Bound };
+const DOUBLE_OVERLAP: Verdict = Verdict { overlapping: true, tier: Tier::Double };
 
 impl Convex<'_> {
     pub(super) fn probe_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
@@ -98,17 +99,18 @@ impl Convex<'_> {
                 self.beyond(witness.at_least, Hint::towards(witness.normal))
             }
             Reached::Between(witness) if self.is_plain(&witness) => {
-                let (verdict, cores) = self.conclude(Reached::Between(witness));
-                let axes = match cores {
-                    // Nobody asks which faces look at each other.
-                    Cores::Between(witness) if asked.wanted != Wanted::Points => {
-                        let hint = Hint::towards(witness.normal);
-                        return self.gap_of_cores(Axes::NONE, verdict, witness, hint);
-                    }
-                    Cores::Within(_) => self.all_axes(a, b, f64::NEG_INFINITY),
-                    Cores::Between(ref witness) => self.face_axes(a, b, witness.at_least),
-                };
-                self.probe_close((a, b), axes, (verdict, cores), asked.wanted)
+                let (verdict, is_gap) = self.conclude_gap(&witness);
+                if !is_gap {
+                    let axes = self.all_axes(a, b, f64::NEG_INFINITY);
+                    return self.probe_close((a, b), axes, (verdict, Cores::Within(0.0)), asked.wanted);
+                }
+                if asked.wanted != Wanted::Points {
+                    let hint = Hint::towards(witness.normal);
+                    return self.gap_of_cores(Axes::NONE, verdict, witness, hint);
+                }
+                // The axes say which faces look at each other.
+                let axes = self.face_axes(a, b, witness.at_least);
+                self.probe_close((a, b), axes, (verdict, Cores::Between(witness)), asked.wanted)
             }
             reached => {
                 let axes = self.all_axes(a, b, f64::NEG_INFINITY);
@@ -219,12 +221,10 @@ impl Convex<'_> {
 
     /// A gap that a hint has told, which stays as it is: the next answer is told by the same.
     fn told_gap(&self, (a, b): (&Solid, &Solid), axes: Axes, witness: Witness, hint: Hint) -> Probe {
-        match self.conclude(Reached::Between(witness)) {
-            (verdict, Cores::Between(witness)) => self.gap_of_cores(axes, verdict, witness, hint),
+        match self.conclude_gap(&witness) {
+            (verdict, true) => self.gap_of_cores(axes, verdict, witness, hint),
             // Not reached: a gap of the cores that is told is wider than rounding.
-            (verdict, Cores::Within(gap)) => {
-                self.overlap_of_cores(self.all_axes(a, b, f64::NEG_INFINITY), verdict, gap)
-            }
+            (verdict, false) => self.overlap_of_cores(self.all_axes(a, b, f64::NEG_INFINITY), verdict, 0.0),
         }
     }
 
@@ -362,26 +362,32 @@ impl Convex<'_> {
 
     /// What the distance iteration has proved, and the third tier where it has proved nothing.
     fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
-        let doubt = self.precision.projection();
-        let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
-        let witness = match reached {
-            Reached::Origin(Close { is_proved: true, .. }) => return (double(true), Cores::Within(0.0)),
+        match reached {
+            Reached::Origin(Close { is_proved: true, .. }) => (DOUBLE_OVERLAP, Cores::Within(0.0)),
             Reached::Origin(close) => {
                 let verdict = self.exactly(&close.corners);
                 let do_overlap = self.radii == 0.0 && verdict.overlapping;
-                return (verdict, Cores::Within(if do_overlap { 0.0 } else { close.within }));
+                (verdict, Cores::Within(if do_overlap { 0.0 } else { close.within }))
             }
-            Reached::Between(witness) => witness,
-        };
+            Reached::Between(witness) => match self.conclude_gap(&witness) {
+                (verdict, true) => (verdict, Cores::Between(witness)),
+                (verdict, false) => (verdict, Cores::Within(0.0)),
+            },
+        }
+    }
+
+    /// The same of bounds on a distance, and whether there is a gap between the cores for all that is known. By reference:
+    /// witnesses are large, and most are handed on.
+    fn conclude_gap(&self, witness: &Witness) -> (Verdict, bool) {
+        let doubt = self.precision.projection();
         if witness.at_least - self.radii > doubt {
-            return (double(false), Cores::Between(witness));
+            return (Verdict { overlapping: false, tier: Tier::Double }, true);
         }
         if self.radii > 0.0 && witness.distance - self.radii < -2.0 * doubt {
-            return (double(true), Cores::Between(witness));
+            return (DOUBLE_OVERLAP, true);
         }
         let verdict = self.exactly(&witness.corners);
-        let do_overlap = self.radii == 0.0 && verdict.overlapping;
-        (verdict, if do_overlap { Cores::Within(0.0) } else { Cores::Between(witness) })
+        (verdict, !(self.radii == 0.0 && verdict.overlapping))
     }
 
     /// The third tier, from the corners where f64 stopped.
