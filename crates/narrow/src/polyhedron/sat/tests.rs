@@ -92,7 +92,7 @@ pub(super) fn upright(
 }
 
 /// A pair in A's axes.
-pub(super) fn convex<'a>(
+pub(crate) fn convex<'a>(
     shape_a: &'a Shape3,
     pose_a: Pose3,
     shape_b: &'a Shape3,
