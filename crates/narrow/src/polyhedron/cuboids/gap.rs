@@ -63,7 +63,7 @@ impl Touching<'_> {
         if least <= best.of_faces() + 2.0 * placed.preference {
             return None;
         }
-        let edges = placed.of_edges(pair);
+        let edges = placed.of_edges_along(pair, normal);
         let AxisOf::Edges(edge_a, edge_b) = edges else { return None };
         if least > self.margin + placed.precision.projection() {
             return Some(Contact::Apart(hint_to(edges), 0.0));
