@@ -144,11 +144,11 @@ impl Solids {
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
     /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
     pub(super) fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
-        if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
-            to.push(self.manifold());
-            return true;
-        }
-        if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
+        if poses[0].same_rotation(&self.poses[0]) & poses[1].same_rotation(&self.poses[1]) {
+            if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
+                to.push(self.manifold());
+                return true;
+            }
             return self.shift(between(poses), to);
         }
         let moved = self.turned(poses);
