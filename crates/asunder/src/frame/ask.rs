@@ -165,8 +165,15 @@ impl<S: Space> Asker<'_, S> {
     }
 }
 
-/// Whether what was learnt of a pair is about another shape than the one a body has now.
+/// Whether what was learnt of a pair is about another shape than the one a body has now. Asked of every pair, and mostly there is
+/// no such body: then it is no call.
+#[inline(always)]
 pub(super) fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
-    !reshaped.is_empty()
-        && (reshaped.binary_search(&pair.a).is_ok() || reshaped.binary_search(&pair.b).is_ok())
+    !reshaped.is_empty() && is_either_among(reshaped, pair)
+}
+
+#[cold]
+#[inline(never)]
+fn is_either_among(slots: &[u32], pair: PairId) -> bool {
+    slots.binary_search(&pair.a).is_ok() || slots.binary_search(&pair.b).is_ok()
 }
