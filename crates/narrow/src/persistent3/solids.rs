@@ -180,7 +180,7 @@ impl Solids {
         to.separation = signed(f64::from(self.separation) + rise, self.terms.overlapping);
         to.error = error;
         let (normal, is_from_b) = (self.normal.as_dvec3(), self.terms.is_from_b);
-        for point in &self.points {
+        to.points.fill(&self.points, |point| {
             let held = if self.is_by_a == is_from_b {
                 point.anchor.as_dvec3()
             } else {
@@ -188,8 +188,8 @@ impl Solids {
             };
             let height = f64::from(point.separation) + rise;
             let now = Held { separation: height as f32, ..*point };
-            to.points.push(now.between(ends(held, is_from_b, offset, normal * height)));
-        }
+            now.between(ends(held, is_from_b, offset, normal * height))
+        });
         true
     }
 
