@@ -98,7 +98,9 @@ mod tests {
         odometers[1].go(0.25);
         assert!(!Odometer::are_before(odometers, until), "what touches is not before");
         odometers[1] = Odometer::CHANGED;
-        assert!(!Odometer::are_before(odometers, f64::MAX) && !Odometer::are_before(odometers, f64::INFINITY));
+        assert!(
+            !Odometer::are_before(odometers, f64::MAX) && !Odometer::are_before(odometers, f64::INFINITY)
+        );
     }
 
     #[test]

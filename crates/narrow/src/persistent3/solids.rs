@@ -166,6 +166,9 @@ impl Solids {
 
     /// The same where neither body turned: all points rise alike, and stay where they are on one body. That is known before
     /// anything is written: a quarter fewer instructions than by the general way, which moves each point by itself.
+    ///
+    /// Tried: a point in four lanes, with its separation beside its anchor as they lie in memory: a twelfth more instructions
+    /// (2026-11-24).
     #[inline(always)]
     fn shift(&self, offset: DVec3, to: &mut Vec<Manifold3>) -> bool {
         let step = offset - between(self.poses.each_ref());

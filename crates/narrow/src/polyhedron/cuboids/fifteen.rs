@@ -93,7 +93,9 @@ impl Fifteen {
         for n in 0..9 {
             let (scaled, squared) = self.edge_pair(n);
             let sure = scaled - doubt;
-            part |= (sure > 0.0) & (sure * sure > squared_limit * squared) & (squared > PARALLEL_EDGES * PARALLEL_EDGES);
+            part |= (sure > 0.0)
+                & (sure * sure > squared_limit * squared)
+                & (squared > PARALLEL_EDGES * PARALLEL_EDGES);
         }
         part
     }
