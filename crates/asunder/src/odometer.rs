@@ -75,7 +75,10 @@ impl Odometer {
     /// Whether they have not gone as far together.
     #[inline]
     pub(crate) fn are_before([a, b]: [Self; 2], until: f64) -> bool {
-        (a.travel + b.travel).next_up() < until
+        // The next number up, of one that is not negative: past infinity there is none, which is before nothing. `next_up`
+        // asks for more, and this is asked of each candidate.
+        let ways = a.travel + b.travel;
+        f64::from_bits(ways.to_bits().wrapping_add(1)) < until
     }
 }
 
@@ -95,7 +98,9 @@ mod tests {
         odometers[1].go(0.25);
         assert!(!Odometer::are_before(odometers, until), "what touches is not before");
         odometers[1] = Odometer::CHANGED;
-        assert!(!Odometer::are_before(odometers, f64::MAX));
+        assert!(
+            !Odometer::are_before(odometers, f64::MAX) && !Odometer::are_before(odometers, f64::INFINITY)
+        );
     }
 
     #[test]

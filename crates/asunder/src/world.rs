@@ -215,6 +215,8 @@ impl<S: Space> World<S> {
         self.show_record(number, self.records.get(number))
     }
 
+    // A game reads all of them each frame.
+    #[inline]
     fn show_record<'a>(&'a self, number: usize, record: &Record<S::Key>) -> Contact<'a, S::Key, S::Manifold> {
         let Record { keys: (a, b), sensor, overlapping, is_new, speculative, .. } = *record;
         let manifolds = match &self.edited {

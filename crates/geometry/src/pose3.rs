@@ -293,11 +293,10 @@ impl Pose3 {
     /// ```
     #[inline]
     pub fn same_rotation(&self, other: &Self) -> bool {
-        let ([x, y, z, w], [a, b, c, d]) = (self.rotation, other.rotation);
-        x.to_bits() == a.to_bits()
-            && y.to_bits() == b.to_bits()
-            && z.to_bits() == c.to_bits()
-            && w.to_bits() == d.to_bits()
+        // Without a branch a component.
+        let ([x, y, z, w], [a, b, c, d]) =
+            (self.rotation.map(f32::to_bits), other.rotation.map(f32::to_bits));
+        (x ^ a) | (y ^ b) | (z ^ c) | (w ^ d) == 0
     }
 }
 

@@ -82,6 +82,15 @@ impl<P: Copy, const N: usize> ContactPoints<P, N> {
         has_room
     }
 
+    /// What is made of each point of another list, in place of what there was: there is room for all, and nobody asks.
+    #[inline(always)]
+    pub(crate) fn fill<Q>(&mut self, from: &ContactPoints<Q, N>, make: impl Fn(&Q) -> P) {
+        for (place, point) in self.list.iter_mut().zip(&**from) {
+            *place = make(point);
+        }
+        self.count = from.count;
+    }
+
     /// Forgets all.
     #[inline]
     pub fn clear(&mut self) {

@@ -105,9 +105,14 @@ pub(crate) fn at_least(separation: f64, precision: &Precision) -> f32 {
 }
 
 /// The greatest f32 that is not above a bound.
+///
+/// Whether what is nearest is above is a coin's toss: bits that are taken off, which count away from zero, and no branch.
+#[inline]
 pub(crate) fn rounded_down(bound: f64) -> f32 {
-    let rounded = bound as f32;
-    if f64::from(rounded) > bound { rounded.next_down() } else { rounded }
+    let nearest = bound as f32;
+    let bits = nearest.to_bits();
+    let away = 1 | (bits.cast_signed() >> 31);
+    f32::from_bits(bits.wrapping_add_signed(-(away * i32::from(f64::from(nearest) > bound))))
 }
 
 #[cfg(test)]
@@ -120,6 +125,20 @@ mod tests {
         assert!(signed(-1e-60, false) > 0.0);
         assert!(signed(1e-60, false) > 0.0, "underflow to zero would read as touching");
         assert_eq!(signed(-0.5, true), -0.5);
+    }
+
+    #[test]
+    fn what_is_rounded_down_is_the_next_number_of_that_side() {
+        let mut bounds: Vec<f64> = vec![0.0, f64::INFINITY, f64::MAX, f64::MIN_POSITIVE, 1e-46, 1e39];
+        bounds.extend([f32::MAX, f32::MIN_POSITIVE, 1.0, 0.1, f32::from_bits(1)].map(f64::from));
+        bounds.extend((0..2000).map(|i| f64::from_bits(0x3600_0000_0000_0000 + i * 0x0009_1234_5678_9ABC)));
+        let near = bounds.iter().flat_map(|&bound| [bound.next_down(), bound, bound.next_up()]);
+        for bound in near.flat_map(|bound| [bound, -bound]) {
+            let nearest = bound as f32;
+            let down = if f64::from(nearest) > bound { nearest.next_down() } else { nearest };
+            assert_eq!(rounded_down(bound).to_bits(), down.to_bits(), "{bound}");
+        }
+        assert!(rounded_down(f64::NAN).is_nan());
     }
 
     #[test]

@@ -87,15 +87,21 @@ impl<S: Space> Asker<'_, S> {
     /// Which pairs are carried on, and what is known of the others. Pairs are sorted, and so are last update's: one walk.
     fn choose(&self, chunk: &mut Chunk<'_, S>) {
         let Chunk { pairs, last_candidates, candidates, settled, .. } = chunk;
-        let mut last = last_candidates.iter().peekable();
+        let mut last = *last_candidates;
         for (&pair, candidate) in pairs.iter().zip(candidates.iter_mut()) {
-            while let Some(gone) = last.next_if(|known| known.pair < pair) {
-                settled.give_up(gone);
+            let mut before = None;
+            while let Some((known, later)) = last.split_first().filter(|(known, _)| known.pair <= pair) {
+                last = later;
+                if known.pair == pair {
+                    before = Some(known);
+                    break;
+                }
+                settled.give_up(known);
             }
             let (a, b) = (pair.a as usize, pair.b as usize);
             let keys = (self.keys[a], self.keys[b]);
             let (mut hint, mut persistent, mut contact) = (Hint::NONE, NOWHERE, ContactNumber::NONE);
-            if let Some(known) = last.next_if(|known| known.pair == pair) {
+            if let Some(known) = before {
                 // A reused slot is a new body.
                 let is_same = known.keys == keys;
                 let are_apart = || Odometer::are_before([self.odometers[a], self.odometers[b]], known.until);
@@ -116,7 +122,7 @@ impl<S: Space> Asker<'_, S> {
             *candidate = Candidate { pair, keys, hint, persistent, contact, until: f64::NEG_INFINITY };
             settled.ways.push(Way::Open);
         }
-        last.for_each(|gone| settled.give_up(gone));
+        last.iter().for_each(|gone| settled.give_up(gone));
     }
 
     /// Moves manifolds along, or asks the narrow phase.
@@ -159,8 +165,15 @@ impl<S: Space> Asker<'_, S> {
     }
 }
 
-/// Whether what was learnt of a pair is about another shape than the one a body has now.
+/// Whether what was learnt of a pair is about another shape than the one a body has now. Asked of every pair, and mostly there is
+/// no such body: then it is no call.
+#[inline(always)]
 pub(super) fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
-    !reshaped.is_empty()
-        && (reshaped.binary_search(&pair.a).is_ok() || reshaped.binary_search(&pair.b).is_ok())
+    !reshaped.is_empty() && is_either_among(reshaped, pair)
+}
+
+#[cold]
+#[inline(never)]
+fn is_either_among(slots: &[u32], pair: PairId) -> bool {
+    slots.binary_search(&pair.a).is_ok() || slots.binary_search(&pair.b).is_ok()
 }

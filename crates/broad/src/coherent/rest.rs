@@ -214,7 +214,7 @@ impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
         starts.clear();
         starts.extend((0..).zip(&*asked).map(|(which, (.., stretch))| PairId { a: stretch.start, b: which }));
         let most = columns.entries().len().max(starts.len());
-        order.sort(starts, most + 1);
+        order.sort_by_first(starts, most + 1);
         let mut goes_on = true;
         for start in &*starts {
             let (mover, codes, stretch) = asked[start.b as usize];

@@ -21,20 +21,33 @@ const DIGIT: u32 = 12;
 /// Most bits of a digit where two are enough, and pairs as many as counters.
 const LONG_DIGIT: u32 = 14;
 
+/// What a pair costs in a pass, in counters that are put together.
+const A_PAIR: usize = 5;
+
 /// Fewer pairs than that are sorted by comparing.
 const FEW: usize = 64;
 
 impl Order {
     /// Puts `pairs` in order. Numbers are below `count`.
     pub(crate) fn sort(&mut self, pairs: &mut [PairId], count: usize) {
+        self.sort_from(0, pairs, count);
+    }
+
+    /// The same of pairs whose second numbers ascend: by the first alone, which leaves equals as they come, half the digits are
+    /// enough.
+    pub(crate) fn sort_by_first(&mut self, pairs: &mut [PairId], count: usize) {
+        self.sort_from(bits_below(count), pairs, count);
+    }
+
+    /// By the bits of both numbers from this one on.
+    fn sort_from(&mut self, from: u32, pairs: &mut [PairId], count: usize) {
         if pairs.len() < FEW {
             pairs.sort_unstable();
             return;
         }
-        let bits = usize::BITS - count.leading_zeros();
-        let do_two_suffice = bits <= LONG_DIGIT && pairs.len() >= 1 << bits;
-        let passes = if do_two_suffice { 2 } else { (2 * bits).div_ceil(DIGIT) };
-        let digit = (2 * bits).div_ceil(passes);
+        let bits = bits_below(count);
+        let passes = passes(2 * bits - from, pairs.len());
+        let digit = (2 * bits - from).div_ceil(passes);
         let size = 1 << digit;
         let mask = size as u64 - 1;
         let [keys, others] = &mut self.keys;
@@ -45,7 +58,7 @@ impl Order {
         for (key, pair) in keys.iter_mut().zip(pairs.iter()) {
             *key = u64::from(pair.a) << bits | u64::from(pair.b);
             for (pass, counts) in (0..).zip(self.counts.chunks_exact_mut(size)) {
-                counts[(*key >> (pass * digit) & mask) as usize] += 1;
+                counts[(*key >> (from + pass * digit) & mask) as usize] += 1;
             }
         }
         for (pass, counts) in (0..).zip(self.counts.chunks_exact_mut(size)) {
@@ -53,7 +66,7 @@ impl Order {
             for count in counts.iter_mut() {
                 sum += core::mem::replace(count, sum);
             }
-            let place = |key: u64| (key >> (pass * digit) & mask) as usize;
+            let place = |key: u64| (key >> (from + pass * digit) & mask) as usize;
             if pass + 1 < passes {
                 for &key in keys.iter() {
                     let to = &mut counts[place(key)];
@@ -75,6 +88,23 @@ impl Order {
     pub(crate) fn bytes(&self) -> usize {
         self.keys.iter().map(|keys| keys.capacity() * 8).sum::<usize>() + self.counts.capacity() * 4
     }
+}
+
+/// Bits of a number up to this one.
+fn bits_below(count: usize) -> u32 {
+    usize::BITS - count.leading_zeros()
+}
+
+/// In how many digits so many bits of a number of pairs are sorted.
+fn passes(bits: u32, pairs: usize) -> u32 {
+    let do_two_suffice = bits <= 2 * LONG_DIGIT && pairs >= 1 << bits.div_ceil(2);
+    let mut passes = if do_two_suffice { 2 } else { bits.div_ceil(DIGIT) };
+    let cost = |passes: u32| passes as usize * ((1 << bits.div_ceil(passes)) + A_PAIR * pairs);
+    // Few pairs cost less than all those counters.
+    while passes < bits && cost(passes + 1) < cost(passes) {
+        passes += 1;
+    }
+    passes
 }
 
 #[cfg(test)]
@@ -99,6 +129,14 @@ mod tests {
                 sorted.sort_unstable();
                 order.sort(&mut pairs, count as usize);
                 assert_eq!(pairs, sorted, "{count} boxes");
+                for (pair, second) in pairs.iter_mut().zip(0..count as u32) {
+                    *pair = PairId { a: random(count), b: second };
+                }
+                pairs.truncate(count as usize);
+                let mut sorted = pairs.clone();
+                sorted.sort_unstable();
+                order.sort_by_first(&mut pairs, count as usize);
+                assert_eq!(pairs, sorted, "{count} boxes, by the first");
             }
         }
     }

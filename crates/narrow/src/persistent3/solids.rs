@@ -144,11 +144,11 @@ impl Solids {
     /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
     /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
     pub(super) fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
-        if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
-            to.push(self.manifold());
-            return true;
-        }
-        if (0..2).all(|i| poses[i].same_rotation(&self.poses[i])) {
+        if poses[0].same_rotation(&self.poses[0]) & poses[1].same_rotation(&self.poses[1]) {
+            if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
+                to.push(self.manifold());
+                return true;
+            }
             return self.shift(between(poses), to);
         }
         let moved = self.turned(poses);
@@ -166,6 +166,9 @@ impl Solids {
 
     /// The same where neither body turned: all points rise alike, and stay where they are on one body. That is known before
     /// anything is written: a quarter fewer instructions than by the general way, which moves each point by itself.
+    ///
+    /// Tried: a point in four lanes, with its separation beside its anchor as they lie in memory: a twelfth more instructions
+    /// (2026-11-24).
     #[inline(always)]
     fn shift(&self, offset: DVec3, to: &mut Vec<Manifold3>) -> bool {
         let step = offset - between(self.poses.each_ref());
@@ -180,7 +183,7 @@ impl Solids {
         to.separation = signed(f64::from(self.separation) + rise, self.terms.overlapping);
         to.error = error;
         let (normal, is_from_b) = (self.normal.as_dvec3(), self.terms.is_from_b);
-        for point in &self.points {
+        to.points.fill(&self.points, |point| {
             let held = if self.is_by_a == is_from_b {
                 point.anchor.as_dvec3()
             } else {
@@ -188,8 +191,8 @@ impl Solids {
             };
             let height = f64::from(point.separation) + rise;
             let now = Held { separation: height as f32, ..*point };
-            to.points.push(now.between(ends(held, is_from_b, offset, normal * height)));
-        }
+            now.between(ends(held, is_from_b, offset, normal * height))
+        });
         true
     }
 

@@ -3,10 +3,11 @@
 
 use super::super::sat::AxisOf;
 use super::names::{self, Names};
-use super::patch::{Patch, Reference, SLOTS, axes_of, sign_of};
+use super::patch::{Patch, Reference, SLOTS, Wanted, axes_of, sign_of};
 use super::placed::{Placed, Posed};
 use super::reduce::four_of;
 use super::settled::Best;
+use super::wide;
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, FeatureId};
 use crate::lanes::Lanes;
@@ -116,7 +117,7 @@ impl Touching<'_> {
         let (slack, deep) = (self.placed.preference, self.deep());
         let within = if deep > self.margin { deep } else { self.margin };
         let (reference, faces) = self.placed.faces(is_b, face, slack)?;
-        ask(&faces.patch(reference, within, slack))
+        ask(&wide::patch(&faces, &Wanted { reference, within, slack }))
     }
 
     /// Points of the faces beside two edges, if they nearly look at each other; else the point where the edges cross.
@@ -145,20 +146,26 @@ impl Touching<'_> {
         let axis = if size.x >= ALIGNED_FACES { 0 } else { 2 - usize::from(size.y >= ALIGNED_FACES) };
         let face = 2 * axis + usize::from(normal[axis] > 0.0);
         let (reference, faces) = self.placed.faces(false, face, slack)?;
-        let patch = faces.leaning(&reference, normal).patch(reference, within, slack);
-        let along = self.placed.basis.turn(normal);
-        self.fill_along(&patch, Over { out: along, ..Over::new(self, &reference) }, manifold)
+        let faces = faces.leaning(&reference, normal);
+        let patch = wide::patch(&faces, &Wanted { reference, within, slack });
+        wide::fill(self, &patch, Some(self.placed.basis.turn(normal)), manifold)
     }
 
     /// At most four corners of a patch as contacts; nothing where none is as deep as the axis says.
     #[inline(always)]
     pub(super) fn fill_over(&self, patch: &Patch, manifold: &mut Manifold3) -> Option<()> {
-        self.fill_along(patch, Over::new(self, &patch.reference), manifold)
+        wide::fill(self, patch, None, manifold)
     }
 
-    /// The same along whatever axis the heights of the patch are.
+    /// The same along whatever axis the heights of the patch are: the reference face's own, or one that leans. To be called through
+    /// `super::wide`, which compiles it.
     #[inline(always)]
-    fn fill_along(&self, patch: &Patch, over: Over, manifold: &mut Manifold3) -> Option<()> {
+    pub(super) fn fill_along(
+        &self,
+        patch: &Patch,
+        leaning: Option<DVec3>,
+        manifold: &mut Manifold3,
+    ) -> Option<()> {
         let count = patch.held.count_ones() as usize;
         if !patch.is_clear || count > 8 {
             return None;
@@ -182,7 +189,9 @@ impl Touching<'_> {
             *place = patch.names(slot).0 << 4 | slot as u32;
         }
         sort(&mut order);
-        over.write(patch, &order[..count], manifold);
+        let over = Over::new(self, &patch.reference);
+        let out = leaning.unwrap_or(over.out);
+        Over { out, ..over }.write(patch, &order[..count], manifold);
         Some(())
     }
 

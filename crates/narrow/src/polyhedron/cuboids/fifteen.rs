@@ -85,6 +85,21 @@ impl Fifteen {
         best
     }
 
+    /// Whether an edge pair parts the cores by more than `limit` metres, which is not negative, and more than its closed form may be
+    /// off by.
+    #[inline(always)]
+    pub(super) fn do_edges_part(&self, limit: f64, doubt: f64) -> bool {
+        let (squared_limit, mut part) = (limit * limit, false);
+        for n in 0..9 {
+            let (scaled, squared) = self.edge_pair(n);
+            let sure = scaled - doubt;
+            part |= (sure > 0.0)
+                & (sure * sure > squared_limit * squared)
+                & (squared > PARALLEL_EDGES * PARALLEL_EDGES);
+        }
+        part
+    }
+
     /// The greatest of all, none of them normalised.
     #[inline(always)]
     pub(super) fn top(&self) -> f64 {

@@ -51,6 +51,15 @@ pub(super) struct Reference {
     pub(super) incident: usize,
 }
 
+/// Which patch of two faces is asked for.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    pub(super) reference: Reference,
+    /// Corners no higher than this, in metres.
+    pub(super) within: f64,
+    pub(super) slack: f64,
+}
+
 /// Both faces in the reference face's plane: coordinates u, v, height.
 pub(super) struct Faces {
     half: [f64; 2],
@@ -179,9 +188,9 @@ impl Faces {
         Self { half: self.half, center: seen(self.center), p: seen(self.p), q: seen(self.q) }
     }
 
-    /// The common patch: of its corners, those no higher than `within`.
-    #[inline(never)]
-    pub(super) fn patch(&self, reference: Reference, within: f64, slack: f64) -> Patch {
+    /// The common patch. To be called through `super::wide`, which compiles it.
+    #[inline(always)]
+    pub(super) fn patch(&self, &Wanted { reference, within, slack }: &Wanted) -> Patch {
         let around = |c: usize| {
             let (f, p, q) = (self.center[c], self.p[c], self.q[c]);
             let (low, high) = (f - p, f + p);

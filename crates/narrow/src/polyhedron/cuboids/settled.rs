@@ -265,7 +265,7 @@ impl Placed {
     }
 
     /// The edges that support an axis.
-    fn of_edges_along(&self, pair: usize, normal: DVec3) -> AxisOf {
+    pub(super) fn of_edges_along(&self, pair: usize, normal: DVec3) -> AxisOf {
         let edge_a = names::edge_through(corner_along(normal), pair / 3);
         let edge_b = names::edge_through(corner_along(self.relative.turn_back(-normal)), pair % 3);
         AxisOf::Edges(edge_a, edge_b)
