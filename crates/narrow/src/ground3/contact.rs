@@ -20,6 +20,7 @@
 //!   points go to the group of their normal                                                            (groups)
 //!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
 //!   what is nearer, in a gap along what ground refused                                              (unsaid)
+//!   what many low bends hide of the least of all                                                 (overlooked)
 //!   groups are told as manifolds, their errors with what low bends may hide                 (answer, protrusion)
 //! ```
 //! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature among *all* ground
@@ -77,6 +78,7 @@ mod gap;
 mod groups;
 mod meeting;
 mod outstanding;
+mod overlooked;
 mod plane;
 mod prism;
 mod protrusion;
@@ -91,7 +93,7 @@ use crate::room::Room;
 use against::Against;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Aabb3, NearTriangle, Pose3, Shape3};
+use asunder_geometry::{Aabb3, NearTriangle, Pose3, Prominent, Shape3};
 use axes::Axes;
 use ball::nearest_to;
 use core::cell::Cell;
@@ -180,8 +182,6 @@ struct Plane {
     extent: Extent,
     /// What heights may be off by, in metres.
     doubt: f64,
-    /// Whether its level was noted.
-    is_noted: bool,
 }
 
 /// A part among the triangles.
@@ -237,6 +237,7 @@ impl<'a> Asking<'a> {
         }
         seen.add_refused(&mut known);
         seen.conclude(&mut known, is_settled);
+        seen.bound_least(&mut known, manifolds.is_wanted());
         self.answer(part, &mut known, is_settled, manifolds)
     }
 }
@@ -252,7 +253,7 @@ impl Known {
             refused: ArrayVec::new(),
             unsaid: ArrayVec::new_const(),
             incident: None,
-            levels: ArrayVec::new_const(),
+            levels: Levels::NONE,
             is_open: false,
         }
     }
@@ -268,16 +269,14 @@ impl Seen<'_> {
         if !self.is_within(near, plane) {
             return;
         }
-        let Some(Plane { facet, extent, doubt, is_noted, .. }) = plane else { return };
+        let Some(Plane { facet, extent, doubt, .. }) = plane else { return };
         let (separation, doubt) = (extent.low - standing.radius, *doubt);
         let prism = Prism { ground, standing, facet, extent, reach: self.asking.reach, doubt, gate: None };
         if self.needs_kernels(&prism, near.prominent) {
-            return self.look_closer(&prism, known);
+            return self.look_closer(&prism, near.prominent, known);
         }
         let has_points = self.add_where_met(&prism, separation, known);
-        if !core::mem::replace(is_noted, true) {
-            known.note_level(&prism);
-        }
+        known.note_level(&prism, near.prominent);
         if known.overlapping || separation > doubt {
             return;
         }
@@ -288,7 +287,7 @@ impl Seen<'_> {
     }
 
     /// Looks at a triangle whose own normal may not be the answer.
-    fn look_closer(&self, prism: &Prism, known: &mut Known) {
+    fn look_closer(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
         let Prism { ground, standing, facet, extent, doubt, .. } = *prism;
         let number = facet.number;
         let separation = extent.low - standing.radius;
@@ -299,7 +298,7 @@ impl Seen<'_> {
         if standing.is_apart((facet, axes), beyond) {
             return;
         }
-        known.note_level(prism);
+        known.note_level(prism, prominent);
         if self.is_explained(facet, known) {
             return self.doubt_of(number, (true, separation), known);
         }
@@ -368,7 +367,7 @@ impl Seen<'_> {
             facet.turn_over();
             extent = extent.turned_over();
         }
-        *plane = Some(Plane { patch, facet, extent, doubt, is_noted: false });
+        *plane = Some(Plane { patch, facet, extent, doubt });
         true
     }
 

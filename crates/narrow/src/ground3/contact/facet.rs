@@ -391,20 +391,7 @@ impl Facet {
         let front = if self.is_front { self.normal } else { -self.normal };
         is_same(front, cross)
     }
-
-    /// Whether ground goes on behind any half-edge, and bends by more than rounding, though too low to give a normal.
-    pub(super) fn bends_low(&self, ground: Ground) -> bool {
-        (0..3).any(|edge| {
-            let Some((other, _)) = ground.neighbor(self.number, edge) else { return false };
-            let beyond = front_of(ground.corners(other));
-            let bend = beyond.cross(self.normal).length_squared();
-            bend > LEAST_BEND * LEAST_BEND * beyond.length_squared() && self.goes_on(ground, edge)
-        })
-    }
 }
-
-/// Sine below which a bend is the rounding of the normals beside it.
-const LEAST_BEND: f64 = 1e-14;
 
 /// Corners in f64. Not by `map`: a kernel's arrays stay in registers only without its calls.
 #[inline(always)]

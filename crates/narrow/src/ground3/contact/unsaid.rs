@@ -105,8 +105,13 @@ impl Seen<'_> {
         let least = known.groups.least();
         known.tell_unsaid(slack);
         for unsaid in core::mem::take(&mut known.unsaid) {
+            let along = known.groups.least_along(unsaid.normal);
+            if unsaid.is_own && (along - slack..along).contains(&unsaid.separation) {
+                // The same place up to the slack: the points stay.
+                known.groups.tell(unsaid.normal, [unsaid.separation, unsaid.doubt]);
+            }
             let is_nearer = if unsaid.is_own {
-                unsaid.separation < known.groups.least_along(unsaid.normal) - slack
+                unsaid.separation < along - slack
             } else {
                 !known.overlapping && unsaid.separation < least - slack
             };
@@ -116,7 +121,7 @@ impl Seen<'_> {
         }
     }
 
-    fn add_unsaid(&self, unsaid: &Unsaid, known: &mut Known) {
+    pub(super) fn add_unsaid(&self, unsaid: &Unsaid, known: &mut Known) {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let Unsaid { number, separation, doubt, ends: [on_body, on_ground], normal, .. } = *unsaid;
         let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
