@@ -66,8 +66,11 @@ impl Level {
 }
 
 impl Levels {
-    pub(super) const NONE: Self =
-        Self { levels: ArrayVec::new_const(), is_crowded: false, lowest: f64::INFINITY };
+    /// Not a constant: that would be copied, blanks and all.
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self { levels: ArrayVec::new_const(), is_crowded: false, lowest: f64::INFINITY }
+    }
 
     /// The least bound above `floor`, where that is no less than is enough. Nothing where more must be known.
     pub(super) fn least_above(&self, floor: f64, enough: f64) -> Option<f64> {

@@ -101,6 +101,9 @@ impl Seen<'_> {
         if !known.overlapping {
             self.look_behind(known);
         }
+        if known.unsaid.is_empty() {
+            return;
+        }
         let slack = self.standing.slack;
         let least = known.groups.least();
         known.tell_unsaid(slack);
@@ -138,7 +141,7 @@ impl Seen<'_> {
     /// Asks the kernels about triangles that were taken for deep and are not: the part is on the other side of them.
     fn look_behind(&self, known: &mut Known) {
         let (ground, standing) = (self.asking.on.ground, self.standing);
-        if ground.is_one_sided() {
+        if ground.is_one_sided() || known.unclear.is_empty() {
             return;
         }
         for (.., separation, number) in core::mem::take(&mut known.unclear) {
