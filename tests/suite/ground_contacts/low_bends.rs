@@ -33,7 +33,10 @@ fn height(random: &mut Random, kind: usize, [x, z]: [f64; 2], [along_x, along_z]
     match kind {
         0 => dome,
         1 => -0.5 * x.abs() + 0.2 * along_z * z,
-        2 => -0.5 * (x * along_x + z * (1.0 - along_z)).powi(2),
+        2 => {
+            let across = x * along_x + z * (1.0 - along_z);
+            -0.5 * across * across
+        }
         3 => 0.5 * (x * x * along_x - z * z * along_z),
         4 => -dome,
         5 => 0.4 * random.signed(),

@@ -12,8 +12,8 @@
 //! so a crate stands on the top of a dome that falls away under its corners. What is left goes into the error, of a body
 //! 1e-6 at most, or as much as was not asked.
 //!
-//! A body on a dome of bends below 5e-5 pays for ground twice; on a plane, turned or not, nobody comes here, nor where bends are
-//! such as one sees.
+//! A body on a dome of bends below 1e-4 pays for ground twice or more. On a plane nobody comes here, nor where bends are such as one
+//! sees; on a plane that was turned as a whole, capsules and wide bodies may.
 
 use super::facet::Facet;
 use super::prism::Prism;
