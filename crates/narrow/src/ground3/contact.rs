@@ -60,8 +60,8 @@
 //!     where they are, a face's sides made once a triangle, sides of ground told without roots where all agree: 62.0 k
 //!     to 51.6 k for cuboids, which are asked more by now than at 10, 41.6 k to 39.7 k for hulls (2026-11-23);
 //! 12. with the mesh it is known which triangles bend low; planes out of reach by the box around the part, sides told by edges
-//!     that bend away, what was refused kept as it was: 38.5 k to 33.2 k for cuboids, 44.7 k to 41.1 k for hulls (AMD EPYC, Zen
-//!     5, 2 virtual cores, 2026-11-24). A ball pays 1 % for what it does not use.
+//!     that bend away, what was refused kept as it was: 33.0 k to 28.4 k for cuboids, 38.3 k to 35.3 k for hulls, in the first
+//!     seven frames (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-24). A ball pays 1 % for what it does not use.
 //!
 //! The kernels take some 20 k instructions still each time that they make points, 12 k where ground refuses the closest: for
 //! three rolling cuboids in eight, and five hulls in nine. A world asks only about bodies that cannot be moved along.
