@@ -51,7 +51,8 @@ pub enum Ground<'a> {
 }
 
 /// Which edges and corners of a triangle may give a contact another normal than the triangle's: where the ground bends
-/// away from the body there, or ends. Conservative: a bit that is set may be needless.
+/// away from the body there, or ends. And whether an edge bends so low that what is nearest along it counts as the triangle's
+/// own normal. Conservative: a bit that is set may be needless.
 ///
 /// ```
 /// use asunder_geometry::Prominent;
@@ -60,6 +61,7 @@ pub enum Ground<'a> {
 /// let none = Prominent::NONE.with_edge(1, true);
 /// assert!(none.edge(1, true) && !none.edge(1, false) && !none.corner(1, true) && !none.any(false));
 /// assert!(none.with_corner(1, false).corner(1, false));
+/// assert!(none.with_low_bend().bends_low() && !all.bends_low() && !Prominent::NONE.with_low_bend().any(true));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Prominent(u16);
@@ -67,8 +69,10 @@ pub struct Prominent(u16);
 impl Prominent {
     /// No edge and no corner.
     pub const NONE: Self = Self(0);
-    /// Every edge and corner, seen from either side.
+    /// Every edge and corner, seen from either side, all of them sharp.
     pub const ALL: Self = Self(0xFFF);
+
+    const LOW_BEND: u16 = 1 << 12;
 
     pub(crate) const fn bits(self) -> u16 {
         self.0
@@ -96,6 +100,19 @@ impl Prominent {
     #[must_use]
     pub const fn with_corner(self, corner: usize, is_front: bool) -> Self {
         Self(self.0 | Self::corner_bit(corner, is_front))
+    }
+
+    /// The same, and that an edge bends low.
+    #[must_use]
+    pub const fn with_low_bend(self) -> Self {
+        Self(self.0 | Self::LOW_BEND)
+    }
+
+    /// Whether an edge bends by more than rounding, and by no more than two normals that count as one may differ from what is
+    /// between them.
+    #[inline]
+    pub const fn bends_low(self) -> bool {
+        self.0 & Self::LOW_BEND != 0
     }
 
     /// Whether an edge may matter to a body in front, or behind.

@@ -1,13 +1,14 @@
 //! What is worked out of a height field when it is made.
 //!
-//! A mark is a byte a vertex. From the lowest bit, two each, seen from the front and from the back: the edge along x
-//! that starts at the vertex, the one along z, the diagonal of the cell that starts there, and the vertex itself.
+//! A mark is two bytes a vertex. From the lowest bit, two each, seen from the front and from the back: the edge along x
+//! that starts at the vertex, the one along z, the diagonal of the cell that starts there, and the vertex itself. Then one
+//! each of the three edges, where it bends low.
 
 use super::grid::{Cell, Grid};
 use super::walk::{BLOCK, cells_of};
 use super::{Data, HeightFieldError};
 use crate::ground::Prominent;
-use crate::ground::bend::{RIM, Sight, patches, sight};
+use crate::ground::bend::{RIM, Sight, is_low, patches, sight};
 use crate::ground::tree::{Sides, Tree};
 use crate::hull::normal::unit;
 use crate::outward::round_up;
@@ -45,7 +46,7 @@ pub(super) fn build(grid: Grid) -> Result<Data, HeightFieldError> {
 
 /// Which edges and corners of a triangle are marked.
 #[inline]
-pub(super) fn prominent(grid: &Grid, marks: &[u8], triangle: u32) -> Prominent {
+pub(super) fn prominent(grid: &Grid, marks: &[u16], triangle: u32) -> Prominent {
     let Some(Cell { column, row }) = grid.cell_of(triangle).filter(|&cell| !grid.is_hole(cell)) else {
         return Prominent::NONE;
     };
@@ -56,7 +57,11 @@ pub(super) fn prominent(grid: &Grid, marks: &[u8], triangle: u32) -> Prominent {
     } else {
         ([(near, DIAGONAL), (far, ALONG_X), (near + 1, ALONG_Z)], [near + 1, far, far + 1])
     };
+    let is_low = |(vertex, shift): (usize, usize)| marks[vertex] >> (LOW + shift / 2) & 1 == 1;
     let mut prominent = Prominent::NONE;
+    if edges.into_iter().any(is_low) {
+        prominent = prominent.with_low_bend();
+    }
     for (side, is_front) in [true, false].into_iter().enumerate() {
         for i in 0..3 {
             let (vertex, shift) = edges[i];
@@ -75,15 +80,16 @@ const ALONG_X: usize = 0;
 const ALONG_Z: usize = 2;
 const DIAGONAL: usize = 4;
 const VERTEX: usize = 6;
+const LOW: usize = 8;
 
-/// A byte a vertex.
+/// Two bytes a vertex.
 struct Marks<'a> {
     grid: &'a Grid,
-    marks: Vec<u8>,
+    marks: Vec<u16>,
 }
 
 impl<'a> Marks<'a> {
-    fn of(grid: &'a Grid) -> Vec<u8> {
+    fn of(grid: &'a Grid) -> Vec<u16> {
         let mut marks = Self { grid, marks: vec![0; grid.heights.len()] };
         let [columns, rows] = grid.cells;
         for row in 0..=rows {
@@ -105,12 +111,25 @@ impl<'a> Marks<'a> {
         let above = first(Cell { column, row: row.wrapping_sub(1) });
         let left = first(Cell { column: column.wrapping_sub(1), row });
         let second = |first: u32| first + 1;
-        let along_x = self.sight((here, 2), above.map(second));
-        let along_z = self.sight((here, 0), left.map(second));
-        let diagonal = self.sight((here, 1), here.map(second));
-        self.put([near, near + 1], near, ALONG_X, along_x);
-        self.put([near, far], near, ALONG_Z, along_z);
-        self.put([near + 1, far], near, DIAGONAL, diagonal);
+        let edges = [
+            (ALONG_X, 2, above, [near, near + 1]),
+            (ALONG_Z, 0, left, [near, far]),
+            (DIAGONAL, 1, here, [near + 1, far]),
+        ];
+        for (shift, edge, other, ends) in edges {
+            let other = other.map(second);
+            let sight = self.sight((here, edge), other);
+            self.put(ends, near, shift, sight);
+            if self.is_low(here, other) {
+                self.marks[near] |= 1 << (LOW + shift / 2);
+            }
+        }
+    }
+
+    /// Whether there is ground on both sides of an edge, and it bends low.
+    fn is_low(&self, one: Option<u32>, other: Option<u32>) -> bool {
+        one.zip(other)
+            .is_some_and(|(one, other)| is_low([one, other].map(|number| normal(self.grid, number))))
     }
 
     /// How an edge is seen between a triangle, of which it is a half-edge, and another; of an edge that is not there,
@@ -128,7 +147,7 @@ impl<'a> Marks<'a> {
     }
 
     fn put(&mut self, ends: [usize; 2], vertex: usize, shift: usize, [front, back]: Sight) {
-        let bits = u8::from(front) | u8::from(back) << 1;
+        let bits = u16::from(front) | u16::from(back) << 1;
         if bits != 0 {
             self.marks[vertex] |= bits << shift;
             ends.into_iter().for_each(|end| self.marks[end] |= bits << VERTEX);

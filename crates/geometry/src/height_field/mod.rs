@@ -58,7 +58,7 @@ pub struct HeightField {
 struct Data {
     grid: Grid,
     /// Two bits for each edge that a vertex or its cell has, and two for the vertex: see [`build`].
-    marks: Vec<u8>,
+    marks: Vec<u16>,
     /// The least number of each triangle's plane.
     patches: Vec<u32>,
     /// Boxes around some cells each.
@@ -217,7 +217,8 @@ impl HeightField {
     pub fn bytes(&self) -> usize {
         let data = &*self.data;
         let patches = data.patches.capacity() * size_of::<u32>();
-        size_of::<Data>() + data.grid.bytes() + data.marks.capacity() + patches + data.blocks.bytes()
+        let marks = size_of::<u16>() * data.marks.capacity();
+        size_of::<Data>() + data.grid.bytes() + marks + patches + data.blocks.bytes()
     }
 
     /// The centre that the bounding radius is about: the middle of its box.

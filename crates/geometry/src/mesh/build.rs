@@ -3,7 +3,7 @@
 use super::edges::{Edges, NO_TWIN};
 use super::{Data, DroppedTriangles, MeshError};
 use crate::ground::Prominent;
-use crate::ground::bend::{RIM, Sight, patches, sight};
+use crate::ground::bend::{RIM, Sight, is_low, patches, sight};
 use crate::ground::tree::{Sides, Tree};
 use crate::hull::normal::unit;
 use crate::outward::round_up;
@@ -145,6 +145,10 @@ impl Sights<'_> {
                     let sight = self.sight(triangle, edge, other);
                     marks[triangle] = with_edge(marks[triangle], edge, sight);
                     marks[other] = with_edge(marks[other], other_edge, sight);
+                    if is_low([self.normals[triangle], self.normals[other]]) {
+                        marks[triangle] = marks[triangle].with_low_bend();
+                        marks[other] = marks[other].with_low_bend();
+                    }
                 }
             }
         }

@@ -67,9 +67,16 @@ impl<'a> Plain<'a> {
         (b - a).normalize().cross((c - a).normalize()).normalize()
     }
 
-    /// Whether an edge may matter in front, and behind: by the way from the edge to the corner beyond it.
+    /// Whether an edge may matter in front, and behind.
     fn sight(&self, number: u32, edge: usize) -> [bool; 2] {
-        let Some((other, twin)) = self.neighbor(number, edge) else { return [true; 2] };
+        let Some((sine, is_folded)) = self.bend(number, edge) else { return [true; 2] };
+        let least = if is_folded { -FLAT } else { FLAT };
+        [sine > least, -sine > least]
+    }
+
+    /// The sine of the bend along an edge, and whether it is folded back: by the way from the edge to the corner beyond it.
+    fn bend(&self, number: u32, edge: usize) -> Option<(f64, bool)> {
+        let (other, twin) = self.neighbor(number, edge)?;
         let corners = self.corners(number).map(|corner| corner.as_dvec3());
         let beyond = self.corners(other)[(twin + 2) % 3].as_dvec3();
         let (from, to) = (corners[edge], corners[(edge + 1) % 3]);
@@ -79,9 +86,7 @@ impl<'a> Plain<'a> {
             (arm - along * arm.dot(along)).normalize()
         };
         let sine = -away(beyond).dot(self.normal(number));
-        let is_folded = away(beyond).dot(away(corners[(edge + 2) % 3])) > 0.0;
-        let least = if is_folded { -FLAT } else { FLAT };
-        [sine > least, -sine > least]
+        Some((sine, away(beyond).dot(away(corners[(edge + 2) % 3])) > 0.0))
     }
 
     pub(super) fn prominent(&self, number: u32) -> Prominent {
@@ -90,6 +95,11 @@ impl<'a> Plain<'a> {
             return prominent;
         }
         for edge in 0..3 {
+            let is_low =
+                |&(sine, is_folded): &(f64, bool)| !is_folded && (1e-14..=2e-4).contains(&sine.abs());
+            if self.bend(number, edge).filter(is_low).is_some() {
+                prominent = prominent.with_low_bend();
+            }
             let corner = self.corners(number)[edge];
             let at_corner = self.half_edges.iter().filter(|(_, _, ends)| ends.contains(&corner));
             let at_corner: Vec<_> = at_corner.map(|&(other, edge, _)| self.sight(other, edge)).collect();

@@ -24,10 +24,9 @@ impl Asking<'_> {
         }
         if manifolds.is_wanted() {
             let least = known.groups.least();
-            let radius = f64::from(part.shape.outer_radius());
             let order = known.groups.finish();
             for group in order.into_iter().filter_map(|place| known.groups.at(place)) {
-                let hidden = known.hidden(group.base.normal, group.told[0], radius);
+                let hidden = known.hidden((group, least), part.shape.outer_radius().into());
                 let how = (overlapping, is_settled, least);
                 self.add_manifold(part.index, (group, hidden), how, manifolds);
             }

@@ -25,6 +25,8 @@ pub(super) struct Facet {
     pub(super) is_front: bool,
     /// Sine of the angle by which the normal may be off.
     pub(super) tilt: f64,
+    /// The triangle that the plane was made of.
+    plane_of: u32,
 }
 
 /// A side of a triangle, as it is asked which points lie over the triangle.
@@ -103,7 +105,8 @@ impl Facet {
         if tilt.is_nan() || tilt >= SAME_NORMAL {
             return None;
         }
-        Some(Self { number, corners, normal: cross / area, origin: corners[other], is_front: true, tilt })
+        let (normal, origin) = (cross / area, corners[other]);
+        Some(Self { number, corners, normal, origin, is_front: true, tilt, plane_of: number })
     }
 
     /// The same as seen from the other side.
@@ -139,7 +142,15 @@ impl Facet {
         if ground.is_one_sided() {
             return is_above;
         }
-        self.is_before(ground, point, nearest_to(self, point))
+        let (feature, at) = nearest_to(self, point);
+        if let Furthest::Edge(edge) = feature {
+            // Where ground bends away behind an edge, what is beside it on this side of the plane is so of both planes.
+            let (prominent, is_seen) = (ground.prominent(self.number), self.is_front == is_above);
+            if prominent.edge(edge, is_seen) && !prominent.edge(edge, !is_seen) {
+                return is_above;
+            }
+        }
+        self.is_before(ground, point, (feature, at))
     }
 
     /// The same of two-sided ground, where it is known what of the triangle is nearest to the point.
@@ -165,6 +176,11 @@ impl Facet {
         let is_clear =
             lean * lean > SAME_NORMAL * SAME_NORMAL * around.length_squared() * away.length_squared();
         if is_clear { lean > 0.0 } else { is_above }
+    }
+
+    /// Whether its plane was made of itself, and not of another triangle of the same patch.
+    pub(super) fn has_own_plane(&self) -> bool {
+        self.plane_of == self.number
     }
 
     fn front(&self) -> DVec3 {
@@ -387,24 +403,14 @@ impl Facet {
         if ground.patch(other) == ground.patch(self.number) {
             return true;
         }
+        if !ground.prominent(self.number).bends_low() {
+            return false;
+        }
         let cross = front_of(ground.corners(other));
         let front = if self.is_front { self.normal } else { -self.normal };
         is_same(front, cross)
     }
-
-    /// Whether ground goes on behind any half-edge, and bends by more than rounding, though too low to give a normal.
-    pub(super) fn bends_low(&self, ground: Ground) -> bool {
-        (0..3).any(|edge| {
-            let Some((other, _)) = ground.neighbor(self.number, edge) else { return false };
-            let beyond = front_of(ground.corners(other));
-            let bend = beyond.cross(self.normal).length_squared();
-            bend > LEAST_BEND * LEAST_BEND * beyond.length_squared() && self.goes_on(ground, edge)
-        })
-    }
 }
-
-/// Sine below which a bend is the rounding of the normals beside it.
-const LEAST_BEND: f64 = 1e-14;
 
 /// Corners in f64. Not by `map`: a kernel's arrays stay in registers only without its calls.
 #[inline(always)]

@@ -55,6 +55,8 @@ pub(super) struct Group {
     pub(super) pins: ArrayVec<Pin, MOST_POINTS>,
     /// Once it is reduced, the least separation of all that it had, or that was told of it, and by how much that may be off.
     pub(super) told: [f64; 2],
+    /// By how much that may exceed the truth beside it, as far as was noted, in metres.
+    pub(super) hidden: f64,
 }
 
 /// All normals of a part.
@@ -103,6 +105,21 @@ impl Groups {
         self.groups.iter().map(Group::found).fold(f64::INFINITY, f64::min)
     }
 
+    /// The normal along which it was found, and its deepest point on the body.
+    pub(super) fn nearest(&self) -> Option<(DVec3, DVec3)> {
+        let nearest = self.groups.iter().min_by(|one, other| one.found().total_cmp(&other.found()))?;
+        let deepest = nearest.deepest()?;
+        Some((nearest.base.normal, nearest.pins[deepest].on_body))
+    }
+
+    /// Takes note that ground of a normal may be as near as a bound says: of what is told along the same, by a normal that leans
+    /// so far against it, and is of the same ground if it is within the window.
+    pub(super) fn hide(&mut self, normal: DVec3, bound: f64, most: impl Fn(DVec3, f64) -> f64) {
+        for group in self.groups.iter_mut().filter(|group| is_same(group.base.normal, normal)) {
+            group.hidden = group.hidden.max(most(group.base.normal, group.found() - bound));
+        }
+    }
+
     /// The same along a normal.
     pub(super) fn least_along(&self, normal: DVec3) -> f64 {
         let group = self.groups.iter().find(|group| is_same(group.base.normal, normal));
@@ -130,7 +147,7 @@ impl Groups {
             return;
         }
         // Made empty and filled where it stays: it is large.
-        self.groups.push(Group { base: *base, pins: ArrayVec::new_const(), told: NOTHING_TOLD });
+        self.groups.push(Group { base: *base, pins: ArrayVec::new_const(), told: NOTHING_TOLD, hidden: 0.0 });
         if let Some(group) = self.groups.last_mut() {
             group.pins.push(pin);
         }
@@ -191,10 +208,11 @@ impl Groups {
                 place += 1;
                 continue;
             };
-            let Group { base, pins, told } = self.groups.remove(place + 1 + same);
+            let Group { base, pins, told, hidden } = self.groups.remove(place + 1 + same);
             let group = &mut self.groups[place];
             group.base.join(&base);
             group.tell(told);
+            group.hidden = group.hidden.max(hidden);
             pins.into_iter().for_each(|pin| group.add(pin, sizes));
             // Its own may have moved near one that is before it.
             place = 0;

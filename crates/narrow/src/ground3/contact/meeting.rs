@@ -88,6 +88,24 @@ impl<'a> Meeting<'a> {
         unsaid_of(of.1, place, &near)
     }
 
+    /// Where the part is nearest to a triangle, if it is within the margin; where they overlap, where it is deepest. And the
+    /// direction from there to the part, as the kernels have it.
+    pub(super) fn nearest(
+        &self,
+        of: (Ground, &Facet),
+        place: &Place,
+        asking: &Asking,
+    ) -> Option<(DVec3, Unsaid)> {
+        let mut touch = Touch::NONE;
+        let near = self.near(of, asking, |_| true, &mut touch)?;
+        let towards = -place.axes.turn(near.normal);
+        let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
+        let [on_a, on_b] = near.closest.or(deepest.map(|point| [point.on_a, point.on_b]))?;
+        let told = [near.separation.into(), near.error.into()];
+        let ends = [place.point(on_a), place.point(on_b)];
+        Some((towards, Unsaid::along(of.1, towards, told, ends)))
+    }
+
     /// What the kernels say, if the two are within the margin; with points, where they are wanted.
     ///
     /// Of what a gap parts the closest points are asked first, since most often ground refuses them: axes, and what to begin

@@ -133,7 +133,7 @@ impl Prism<'_> {
             cuts.extend(self.cuts(face));
         }
         let aside = outwards - facet.normal * facing;
-        let is_tilted = aside.length() * standing.radius > standing.slack;
+        let is_tilted = standing.radius > 0.0 && aside.length() * standing.radius > standing.slack;
         let mut is_any = false;
         for edge in (0..3).filter(|&edge| ends[edge]) {
             if is_tilted && !standing.solid.is_slender() {
@@ -251,7 +251,7 @@ impl Prism<'_> {
 
     fn add_corners(&self, incident: &Incident, base: &Base, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
-        let rims = [0, 1, 2].map(|edge| facet.rim(edge, standing.slack));
+        let rims = [facet.rim(0, standing.slack), facet.rim(1, standing.slack), facet.rim(2, standing.slack)];
         let (mut is_any, mut has_lowest) = (false, false);
         let deep = self.extent.low + standing.slack;
         let mut add = |vertex: usize| {
@@ -269,12 +269,13 @@ impl Prism<'_> {
             };
             // Over a bend too low to give a normal what is nearest may be beside both its triangles, the further up the more.
             let up = up.max(0.0);
-            let is_over = |(edge, rim): (usize, &Rim)| {
+            let is_over = |edge: usize| {
+                let rim: &Rim = &rims[edge];
                 rim.holds(at) || rim.holds_by(at, FLAT * up) && facet.goes_on(self.ground, edge)
             };
-            if separation <= self.reach && rims.iter().enumerate().all(is_over) {
+            if separation <= self.reach && is_over(0) && is_over(1) && is_over(2) {
                 let mut pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
-                if rims.iter().any(|rim| rim.is_beyond(at)) {
+                if rims[0].is_beyond(at) || rims[1].is_beyond(at) || rims[2].is_beyond(at) {
                     pin.doubt += self.overhang(&pin, up);
                 }
                 is_any |= self.add_pin(pin, base, groups);
@@ -371,8 +372,11 @@ impl Prism<'_> {
             if change < 0.0 && share < leaves.0 {
                 leaves = (share, Some(half_edge));
             }
+            if enters.0 > leaves.0 {
+                return None;
+            }
         }
-        (enters.0 <= leaves.0).then_some([enters, leaves])
+        Some([enters, leaves])
     }
 
     /// The same under a segment: where it passes over the side, if it does. The same end twice, since it is one point.

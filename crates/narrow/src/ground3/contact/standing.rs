@@ -32,7 +32,10 @@ pub(super) struct Standing<'s> {
     pub(super) solid: &'s Solid<'s>,
     /// The box around the core in the part's own axes.
     around: [DVec3; 2],
-    /// The same in the ground's axes.
+    /// Its middle in the ground's axes, and its half extents.
+    pub(super) middle: DVec3,
+    half: DVec3,
+    /// The box around the core in the ground's axes.
     pub(super) turned: [DVec3; 2],
     /// The vertices, eight by eight; what fills up the last eight is the first.
     octets: &'s Octets,
@@ -112,6 +115,7 @@ impl<'s> Standing<'s> {
             let _ = octets.try_push(octet);
         }
         let (own, turned) = (corners_of(&own), corners_of(&turned));
+        let around = [Vec3::from_array(own[0]).as_dvec3(), Vec3::from_array(own[1]).as_dvec3()];
         let center = part.shape.center().as_dvec3();
         // A half-space has none, nor vertices that it would matter to.
         let outer_radius = match solid.vertices.len() {
@@ -123,7 +127,9 @@ impl<'s> Standing<'s> {
             part,
             place,
             solid,
-            around: [Vec3::from_array(own[0]).as_dvec3(), Vec3::from_array(own[1]).as_dvec3()],
+            around,
+            middle: place.point((around[0] + around[1]) * 0.5),
+            half: (around[1] - around[0]) * 0.5,
             turned: [DVec3::from_array(turned[0]), DVec3::from_array(turned[1])],
             octets,
             center: place.point(center),
@@ -171,11 +177,22 @@ impl<'s> Standing<'s> {
         }
         // Tried: two more steps, each from the vertex furthest against the last direction. No call of the kernels less for
         // cuboids or hulls of 32, and 5 % more instructions a frame of hulls (2026-11-22).
-        let near = nearest_to(facet, self.center - facet.normal * facet.height(self.center)).1;
-        let Some(towards) = (self.center - near).try_normalize() else { return false };
+        self.is_apart_towards(self.center, facet, beyond)
+    }
+
+    /// The same by the axis from the triangle's nearest point to a point of the core.
+    pub(super) fn is_apart_towards(&self, point: DVec3, facet: &Facet, beyond: f64) -> bool {
+        let near = nearest_to(facet, point - facet.normal * facet.height(point)).1;
+        let Some(towards) = (point - near).try_normalize() else { return false };
         let top = |corner: usize| towards.dot(facet.corners[corner] - near);
         let low = self.extent(towards, near).low - top(0).max(top(1)).max(top(2));
-        low > beyond_core
+        low > beyond + self.radius
+    }
+
+    /// No less than how far the core reaches from `middle` along a unit normal, by the box around it; rounding apart.
+    #[inline]
+    pub(super) fn reach_along(&self, normal: DVec3) -> f64 {
+        self.half.dot(self.place.axes.turn_back(normal).abs())
     }
 
     /// Whether the box around the core holds a point that far inside, in metres.

@@ -101,12 +101,20 @@ impl Seen<'_> {
         if !known.overlapping {
             self.look_behind(known);
         }
+        if known.unsaid.is_empty() {
+            return;
+        }
         let slack = self.standing.slack;
         let least = known.groups.least();
         known.tell_unsaid(slack);
         for unsaid in core::mem::take(&mut known.unsaid) {
+            let along = known.groups.least_along(unsaid.normal);
+            if unsaid.is_own && (along - slack..along).contains(&unsaid.separation) {
+                // The same place up to the slack: the points stay.
+                known.groups.tell(unsaid.normal, [unsaid.separation, unsaid.doubt]);
+            }
             let is_nearer = if unsaid.is_own {
-                unsaid.separation < known.groups.least_along(unsaid.normal) - slack
+                unsaid.separation < along - slack
             } else {
                 !known.overlapping && unsaid.separation < least - slack
             };
@@ -116,7 +124,7 @@ impl Seen<'_> {
         }
     }
 
-    fn add_unsaid(&self, unsaid: &Unsaid, known: &mut Known) {
+    pub(super) fn add_unsaid(&self, unsaid: &Unsaid, known: &mut Known) {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let Unsaid { number, separation, doubt, ends: [on_body, on_ground], normal, .. } = *unsaid;
         let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
@@ -133,7 +141,7 @@ impl Seen<'_> {
     /// Asks the kernels about triangles that were taken for deep and are not: the part is on the other side of them.
     fn look_behind(&self, known: &mut Known) {
         let (ground, standing) = (self.asking.on.ground, self.standing);
-        if ground.is_one_sided() {
+        if ground.is_one_sided() || known.unclear.is_empty() {
             return;
         }
         for (.., separation, number) in core::mem::take(&mut known.unclear) {
