@@ -51,7 +51,7 @@ mod tests {
     fn shape(random: &mut Random, case: u64) -> Shape3 {
         let size = [1e-4, 1.0, 1e4][case as usize / 2 % 3];
         let half = (random.vector().abs() + Vec3::splat(0.1)) * size;
-        let radius = if case % 5 == 0 { 0.3 * size } else { 0.0 };
+        let radius = if case.is_multiple_of(5) { 0.3 * size } else { 0.0 };
         match (case.is_multiple_of(2), random.hull(case / 2)) {
             (true, _) => match Cuboid::from_half_extents(half).unwrap() {
                 cuboid if radius > 0.0 => cuboid.rounded(radius).unwrap().into(),
