@@ -353,7 +353,8 @@ pub struct Manifold3 {
     /// Separation of the two parts, in metres. The least of the points' own is within `error` of it, plus 2e-6 of the
     /// smaller bounding radius: what a steady choice of the reference may cost. Of four points, which may stand for more, and of
     /// fewer on ground made of triangles, where several triangles' may be one, it is up to 2^-15 of the smaller bounding diameter
-    /// above that: what a steady choice may cost.
+    /// above that: what a steady choice may cost. Where ground bends little by little, by less than gives normals, what stands up
+    /// between the points is in the separation and in none of them: up to 2^-11 of the smaller bounding radius.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
