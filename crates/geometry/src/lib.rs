@@ -61,6 +61,7 @@ pub use mesh::{DroppedTriangles, MeshError, TriMesh};
 pub use motion2::Motion2;
 pub use motion3::{Motion3, Turn3};
 pub use octets::{EdgeArc, EdgeOctet, FaceOctet, VertexOctet};
+pub use outward::round_down;
 pub use polygon::{Polygon, PolygonError};
 pub use pose2::{Pose2, Rotation2};
 pub use pose3::{Basis3, Pose3, PoseError};

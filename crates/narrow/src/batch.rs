@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Manifold2, Manifold3};
 use crate::feature::Hint;
-use crate::precision::rounded_down;
+use crate::precision::round_down;
 
 /// Answers to a batch of jobs, and the manifolds they refer to. Keep one between frames: it is scratch memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +25,7 @@ pub(crate) type Met = Result<bool, f32>;
 /// By how much what is at least so far apart is further than the reach of a contact, in metres.
 #[inline]
 pub(crate) fn beyond(at_least: f64, reach: f64) -> f32 {
-    rounded_down(at_least - reach).max(0.0)
+    round_down(at_least - reach).max(0.0)
 }
 
 impl<M> Default for Batch<M> {

@@ -1,6 +1,6 @@
 //! The least of several separations: what two bodies made of parts are apart.
 
-use crate::precision::rounded_down;
+use crate::precision::round_down;
 
 /// Pairs of parts, asked one after the other, of which the nearest counts. The dimension does not matter here.
 pub(crate) struct Least<P> {
@@ -40,7 +40,7 @@ impl<P> Least<P> {
     pub(crate) fn passes_below(&mut self, at_least: f64, at_most: f64) -> bool {
         let is_out_of_reach = at_least > self.reach.min(at_most);
         if is_out_of_reach {
-            self.give_up(rounded_down(at_least));
+            self.give_up(round_down(at_least));
         }
         is_out_of_reach
     }

@@ -14,7 +14,7 @@ use crate::least::Least;
 use crate::polyhedron::convex::{Asked, IDENTITY, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::placed::Posed;
-use crate::precision::rounded_down;
+use crate::precision::round_down;
 use crate::room::{Deepest, Room, in_place};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Pose3, Shape3};
@@ -311,7 +311,7 @@ impl<'a> Pair3<'a> {
     ) -> Result<R, f32> {
         let gap = self.gap_of_spheres();
         if gap > limit {
-            return Err(rounded_down(gap));
+            return Err(round_down(gap));
         }
         if !self.is_compound() {
             let parts = self.wholes();

@@ -14,6 +14,8 @@
 //! 5. the gap between the two certified bounds, where a distance was iterated;
 //! 6. rounding the answer to f32: half an ulp.
 
+pub(crate) use asunder_geometry::round_down;
+
 /// Everything about a pair that its error depends on, in metres.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Precision {
@@ -101,18 +103,7 @@ pub(crate) fn signed(separation: f64, overlapping: bool) -> f32 {
 
 /// A certified lower bound in f32.
 pub(crate) fn at_least(separation: f64, precision: &Precision) -> f32 {
-    rounded_down(separation - precision.projection())
-}
-
-/// The greatest f32 that is not above a bound.
-///
-/// Whether what is nearest is above is a coin's toss: bits that are taken off, which count away from zero, and no branch.
-#[inline]
-pub(crate) fn rounded_down(bound: f64) -> f32 {
-    let nearest = bound as f32;
-    let bits = nearest.to_bits();
-    let away = 1 | (bits.cast_signed() >> 31);
-    f32::from_bits(bits.wrapping_add_signed(-(away * i32::from(f64::from(nearest) > bound))))
+    round_down(separation - precision.projection())
 }
 
 #[cfg(test)]
@@ -125,20 +116,6 @@ mod tests {
         assert!(signed(-1e-60, false) > 0.0);
         assert!(signed(1e-60, false) > 0.0, "underflow to zero would read as touching");
         assert_eq!(signed(-0.5, true), -0.5);
-    }
-
-    #[test]
-    fn what_is_rounded_down_is_the_next_number_of_that_side() {
-        let mut bounds: Vec<f64> = vec![0.0, f64::INFINITY, f64::MAX, f64::MIN_POSITIVE, 1e-46, 1e39];
-        bounds.extend([f32::MAX, f32::MIN_POSITIVE, 1.0, 0.1, f32::from_bits(1)].map(f64::from));
-        bounds.extend((0..2000).map(|i| f64::from_bits(0x3600_0000_0000_0000 + i * 0x0009_1234_5678_9ABC)));
-        let near = bounds.iter().flat_map(|&bound| [bound.next_down(), bound, bound.next_up()]);
-        for bound in near.flat_map(|bound| [bound, -bound]) {
-            let nearest = bound as f32;
-            let down = if f64::from(nearest) > bound { nearest.next_down() } else { nearest };
-            assert_eq!(rounded_down(bound).to_bits(), down.to_bits(), "{bound}");
-        }
-        assert!(rounded_down(f64::NAN).is_nan());
     }
 
     #[test]

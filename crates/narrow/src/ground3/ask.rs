@@ -27,7 +27,7 @@ use crate::feature::Hint;
 use crate::least::Least;
 use crate::pair3::{Pair3, Part, Parts, for_parts};
 use crate::polyhedron::convex::{Asked, Near, Probe, Wanted};
-use crate::precision::rounded_down;
+use crate::precision::round_down;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
@@ -153,11 +153,11 @@ impl Pair3<'_> {
     fn nearest_on(&self, on: &OnGround, limit: f64, wanted: Wanted) -> Result<(Told, f32), f32> {
         let gap = self.gap_of_spheres();
         if gap > limit {
-            return Err(rounded_down(gap));
+            return Err(round_down(gap));
         }
         let mut least = Least::within(limit);
         // What no box within reach holds.
-        least.give_up(rounded_down(limit));
+        least.give_up(round_down(limit));
         let bases = on.in_order([on.body_basis, on.basis]);
         let mut look = |part: &Part| self.look_around(on, &bases, (part, wanted), &mut least);
         if let Some(body) = Ground::of(on.body) {

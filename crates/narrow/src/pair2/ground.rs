@@ -15,7 +15,7 @@ use crate::feature::Hint;
 use crate::ground2::Zone;
 use crate::least::Least;
 use crate::polygon::measure::{Asked, Near, Probe};
-use crate::precision::rounded_down;
+use crate::precision::round_down;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Chain, Shape2};
 use core::ops::ControlFlow;
@@ -92,7 +92,7 @@ impl Pair2<'_> {
             _ => {}
         }
         // What no box was opened for is beyond the limit.
-        least.give_up(rounded_down(limit));
+        least.give_up(round_down(limit));
         let ((place, mut near), error) = least.finish()?;
         near.error = error;
         Ok((place, near))

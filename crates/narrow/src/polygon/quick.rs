@@ -15,7 +15,7 @@ use super::measure::{Asked, Measure, Probe};
 use super::outline::{FEW_VERTICES, Turn};
 use super::rects::{self, Corners, Rects};
 use super::sat::{Named, hint_of, named};
-use crate::precision::{IN_PLANE, Precision, rounded_down};
+use crate::precision::{IN_PLANE, Precision, round_down};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Rect, Shape2, glam::Vec2};
 
@@ -139,7 +139,7 @@ fn of_rects([a, b]: [&Rect; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked
 fn of_others(shapes: [&Shape2; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked) -> Option<Probe> {
     let bodies = Bodies { shapes, turns, between };
     if let Some(gap) = bodies.beyond(asked.limit) {
-        return Some(Probe::Beyond(rounded_down(gap), asked.hint));
+        return Some(Probe::Beyond(round_down(gap), asked.hint));
     }
     let (core_a, core_b) = (shapes[0].core(), shapes[1].core());
     let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];

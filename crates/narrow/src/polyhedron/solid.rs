@@ -174,6 +174,18 @@ impl<'a> Solid<'a> {
         let lanes = direction.as_vec3();
         let least = self.least_lane(lanes);
         let mut best = Support { vertex: 0, reach: f64::NEG_INFINITY };
+        self.for_vertices_from(lanes, least, |vertex, point| {
+            let reach = direction.dot(point.as_dvec3());
+            if reach > best.reach {
+                best = Support { vertex, reach };
+            }
+        });
+        best
+    }
+
+    /// Visits the vertices whose lanes come to `least`, ascending.
+    #[inline(always)]
+    pub(super) fn for_vertices_from(&self, lanes: Vec3, least: f32, mut visit: impl FnMut(usize, Vec3)) {
         for (chunk, octets) in self.vertex_octets.chunks(4).enumerate() {
             let mut near = 0;
             for (place, octet) in octets.iter().enumerate() {
@@ -184,14 +196,10 @@ impl<'a> Solid<'a> {
                 let vertex = 32 * chunk + near.trailing_zeros() as usize;
                 near &= near - 1;
                 // Places past the last vertex are not vertices.
-                let Some(point) = self.vertices.get(vertex) else { break };
-                let reach = direction.dot(point.as_dvec3());
-                if reach > best.reach {
-                    best = Support { vertex, reach };
-                }
+                let Some(&point) = self.vertices.get(vertex) else { break };
+                visit(vertex, point);
             }
         }
-        best
     }
 
     /// A vertex that is the furthest along a direction of any length up to a rounding of f32; a bound on how far
@@ -201,30 +209,24 @@ impl<'a> Solid<'a> {
     pub(crate) fn rough_support(&self, direction: DVec3) -> (Support, f64) {
         let lanes = self.back(direction).as_vec3();
         let (best, vertex) = furthest(self.vertex_octets, lanes);
-        let doubt = self.lane_doubt(lanes);
+        let doubt = lane_doubt(self.extent, lanes);
         let reach = f64::from(best + doubt) + direction.dot(self.position);
         // What fills up the last eight is the first vertex.
         let vertex = if vertex < self.vertices.len() { vertex } else { 0 };
         (Support { vertex, reach }, 2.0 * f64::from(doubt))
     }
 
-    /// How far the lanes of two vertices may be off together, in the shape's own axes.
-    #[inline(always)]
-    fn lane_doubt(&self, direction: Vec3) -> f32 {
-        lane_doubt(self.extent, direction)
-    }
-
     /// What a vertex' lane comes to at least if the vertex may be the furthest, in the shape's own axes.
     #[inline(always)]
     pub(super) fn least_lane(&self, direction: Vec3) -> f32 {
-        highest(self.vertex_octets, direction) - self.lane_doubt(direction)
+        highest(self.vertex_octets, direction) - lane_doubt(self.extent, direction)
     }
 
     /// Whether a face may look along a unit direction up to [`ALIGNED_FACES`]; where none does, this mostly says so. Cost:
     /// linear in the faces, eight at a time.
     #[inline]
     pub(super) fn may_look_along(&self, direction: DVec3) -> bool {
-        // Above what lanes may be off by, and normals.
+        // Less by more than lanes may be off by, and normals.
         const LEAST: f32 = ALIGNED_FACES as f32 - 1e-6;
         let lanes = self.back(direction).as_vec3();
         let along = |faces: &FaceOctet| dot8([&faces.x, &faces.y, &faces.z], lanes);
@@ -331,7 +333,7 @@ pub(super) fn bound_of_reach(octets: &[VertexOctet], extent: f32, direction: DVe
 
 /// Projections of eight vertices.
 #[inline(always)]
-pub(super) fn project(octet: &VertexOctet, direction: Vec3) -> [f32; 8] {
+fn project(octet: &VertexOctet, direction: Vec3) -> [f32; 8] {
     count_step();
     dot8([&octet.x, &octet.y, &octet.z], direction)
 }
@@ -387,7 +389,7 @@ fn greatest(lanes: [f32; 8]) -> f32 {
 /// Processors have an instruction for it that plain loops do not come to: they make eight shifts, or turn four octets into
 /// columns first. [`Solid::support`] takes two thirds of the time with it, a frame of falling hulls 0.91.
 #[inline(always)]
-pub(super) fn lanes_from(lanes: [f32; 8], least: f32) -> u32 {
+fn lanes_from(lanes: [f32; 8], least: f32) -> u32 {
     f32x8::new(lanes).simd_ge(f32x8::splat(least)).to_bitmask()
 }
 

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! contact points   what last frame's hint tells of a gap, or will tell in the next: the distance            (sat::across)
+//! hull or cuboid   whether last frame's direction parts it from another still, by bounds in f32           (parted)
 //! two cuboids      all fifteen axes; in a gap, or where those cannot tell, the distance
 //! anything else    last frame's axis, or one beside it                                                   (sat::walk)
 //!                  a search for a direction that parts them, or for a common point                     (portal)
@@ -43,6 +44,7 @@ const DOUBLE_OVERLAP: Verdict = Verdict { overlapping: true, tier: Tier::Double 
 impl Convex<'_> {
     pub(super) fn probe_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
         let beyond = asked.limit + self.radii + self.precision.projection();
+        // Of hulls and cuboids what bounds in f32 left open; of all others, first of all.
         if let Some(direction) = asked.hint.direction() {
             let separation = -b.support(-direction).reach - a.support(direction).reach;
             if separation > beyond {

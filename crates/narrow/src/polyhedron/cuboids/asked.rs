@@ -9,7 +9,7 @@ use super::settled::{Best, Settled};
 use crate::answer::{Manifold3, Measured3, Separation3};
 use crate::batch::beyond;
 use crate::feature::Hint;
-use crate::precision::{Precision, at_least, rounded_down, signed};
+use crate::precision::{Precision, at_least, round_down, signed};
 use asunder_geometry::glam::DVec3;
 
 /// What two cuboids say of their contact.
@@ -47,7 +47,7 @@ impl Posed<'_> {
     #[inline]
     pub(crate) fn separation(&self, limit: f64) -> Option<Separation3> {
         if self.are_far(limit) {
-            return Some(Separation3::AtLeast(rounded_down(self.gap_of_spheres().max(limit))));
+            return Some(Separation3::AtLeast(round_down(self.gap_of_spheres().max(limit))));
         }
         separation_of(&self.placed(), limit)
     }

@@ -12,58 +12,86 @@ use super::patch::{Faces, Patch, Wanted};
 use crate::answer::Manifold3;
 use asunder_geometry::glam::DVec3;
 
-/// Whether there is AVX2. With the feature `portable` there never is: the twins do it all.
-#[cfg(target_arch = "x86_64")]
+/// What is worth compiling twice.
+trait Kernel {
+    type Output;
+    /// Does the work. To be inlined always, or it is compiled once only.
+    fn run(self) -> Self::Output;
+}
+
+/// Runs a kernel as wide as the processor can; with the feature `portable`, by the twin.
 #[inline(always)]
-fn has_avx2() -> bool {
-    !cfg!(feature = "portable") && std::arch::is_x86_feature_detected!("avx2")
+fn widest<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    if !cfg!(feature = "portable") && std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: the processor has been asked, and has AVX2. There is no other condition.
+        return unsafe { with_avx2(kernel) };
+    }
+    anywhere(kernel)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+#[inline(never)]
+fn with_avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
+
+/// The portable twin.
+#[inline(never)]
+fn anywhere<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
+
+struct Look<'a, const GRADED: bool>(&'a Asked8, &'a mut Seen8);
+
+impl<const GRADED: bool> Kernel for Look<'_, GRADED> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.0.look::<GRADED>(self.1);
+    }
 }
 
 /// Looks at eight pairs.
 #[inline]
 pub(super) fn look<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
-    #[cfg(target_arch = "x86_64")]
-    if has_avx2() {
-        // SAFETY: the processor has been asked, and has AVX2. There is no other condition.
-        return unsafe { look_with_avx2::<GRADED>(asked, seen) };
-    }
-    look_anywhere::<GRADED>(asked, seen);
+    widest(Look::<GRADED>(asked, seen));
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn look_with_avx2<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
-    asked.look::<GRADED>(seen);
-}
-
-/// The portable twin.
-#[inline(never)]
+/// [`look`] by the portable twin.
+#[cfg(test)]
 pub(super) fn look_anywhere<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
-    asked.look::<GRADED>(seen);
+    anywhere(Look::<GRADED>(asked, seen));
+}
+
+struct Cut<'a>(&'a Faces, &'a Wanted);
+
+impl Kernel for Cut<'_> {
+    type Output = Patch;
+
+    #[inline(always)]
+    fn run(self) -> Patch {
+        self.0.patch(self.1)
+    }
 }
 
 /// What two faces share: see [`Faces::patch`].
 #[inline(always)]
 pub(super) fn patch(faces: &Faces, wanted: &Wanted) -> Patch {
-    #[cfg(target_arch = "x86_64")]
-    if has_avx2() {
-        // SAFETY: as above.
-        return unsafe { patch_with_avx2(faces, wanted) };
+    widest(Cut(faces, wanted))
+}
+
+struct Fill<'a, 't>(&'a Touching<'t>, &'a Patch, Option<DVec3>, &'a mut Manifold3);
+
+impl Kernel for Fill<'_, '_> {
+    type Output = Option<()>;
+
+    #[inline(always)]
+    fn run(self) -> Option<()> {
+        self.0.fill_along(self.1, self.2, self.3)
     }
-    patch_anywhere(faces, wanted)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-#[inline(never)]
-fn patch_with_avx2(faces: &Faces, wanted: &Wanted) -> Patch {
-    faces.patch(wanted)
-}
-
-/// The portable twin.
-#[inline(never)]
-fn patch_anywhere(faces: &Faces, wanted: &Wanted) -> Patch {
-    faces.patch(wanted)
 }
 
 /// Contacts of a patch, along an axis that leans or along the face's own: see [`Touching::fill_along`].
@@ -74,35 +102,7 @@ pub(super) fn fill(
     leaning: Option<DVec3>,
     manifold: &mut Manifold3,
 ) -> Option<()> {
-    #[cfg(target_arch = "x86_64")]
-    if has_avx2() {
-        // SAFETY: as above.
-        return unsafe { fill_with_avx2(touching, patch, leaning, manifold) };
-    }
-    fill_anywhere(touching, patch, leaning, manifold)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-#[inline(never)]
-fn fill_with_avx2(
-    touching: &Touching,
-    patch: &Patch,
-    leaning: Option<DVec3>,
-    manifold: &mut Manifold3,
-) -> Option<()> {
-    touching.fill_along(patch, leaning, manifold)
-}
-
-/// The portable twin.
-#[inline(never)]
-fn fill_anywhere(
-    touching: &Touching,
-    patch: &Patch,
-    leaning: Option<DVec3>,
-    manifold: &mut Manifold3,
-) -> Option<()> {
-    touching.fill_along(patch, leaning, manifold)
+    widest(Fill(touching, patch, leaning, manifold))
 }
 
 #[cfg(test)]
@@ -146,12 +146,12 @@ mod tests {
                 let Some((reference, faces)) = placed.faces(is_b, face, slack) else { continue };
                 let wanted = Wanted { reference, within: margin, slack };
                 let found = patch(&faces, &wanted);
-                assert_eq!(bits(&found), bits(&patch_anywhere(&faces, &wanted)));
+                assert_eq!(bits(&found), bits(&anywhere(Cut(&faces, &wanted))));
                 patches += 1;
                 for leaning in [None, Some(DVec3::new(0.6, 0.0, 0.8))] {
                     let mut manifolds = [Manifold3::BLANK; 2];
                     let is_told = fill(&touching, &found, leaning, &mut manifolds[0]).is_some();
-                    let is_too = fill_anywhere(&touching, &found, leaning, &mut manifolds[1]).is_some();
+                    let is_too = anywhere(Fill(&touching, &found, leaning, &mut manifolds[1])).is_some();
                     // Debug output of a float is different where its bits are.
                     let [one, other] = manifolds.map(|manifold| format!("{manifold:?}"));
                     assert_eq!((is_told, one), (is_too, other));
