@@ -9,8 +9,8 @@
 //!     nearer than all that is told, and so along its own normal but for a few low bends: it is told
 //! ```
 //! Told as what a group's points have between them, where that has the same normal and the same ground; else as a point of its own:
-//! so a crate stands on the top of a dome that falls away under its corners. What is left goes into the error, of a body
-//! 1e-6 at most, or as much as was not asked.
+//! so a crate stands on the top of a dome that falls away under its corners. What is left goes into the error: a millionth of a body
+//! at most, or where more were left open than are asked about, what their bounds leave; of an overlap a thousandth of the radius at most.
 //!
 //! A body on a dome of bends below 1e-4 pays for ground twice or more. On a plane nobody comes here, nor where bends are such as one
 //! sees; on a plane that was turned as a whole, capsules and wide bodies may.
