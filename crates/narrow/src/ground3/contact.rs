@@ -307,7 +307,7 @@ impl Seen<'_> {
         match prism.add_against(&self.incident_to(facet.normal, known), &mut known.groups) {
             Against::Apart => return,
             Against::Refused => {
-                self.refuse(prism, known);
+                self.refuse(prism, None, known);
                 return self.doubt_of(number, (false, separation), known);
             }
             Against::Added(_, true) => return known.settle(number),
@@ -318,14 +318,14 @@ impl Seen<'_> {
         if let Some(axes) = axes {
             if axes.do_overlap(doubt) && prism.refuses(axes) {
                 known.settle(number);
-                return self.refuse(prism, known);
+                return self.refuse(prism, prism.told_by(axes), known);
             }
             if axes.best > doubt
                 && let Some(unsaid) = prism.refused_gap(axes)
             {
                 if unsaid.separation <= self.asking.margin.into() {
                     known.leave_unsaid(ground, unsaid);
-                    self.refuse(prism, known);
+                    self.refuse(prism, None, known);
                 }
                 return;
             }
@@ -334,14 +334,14 @@ impl Seen<'_> {
         match met {
             Met::Apart | Met::Told(false) => {}
             Met::Told(true) => known.settle(number),
-            Met::Refused { overlapping, gap } => {
+            Met::Refused { overlapping, gap, told } => {
                 if overlapping {
                     known.settle(number);
                 }
                 if let Some(unsaid) = gap {
                     known.leave_unsaid(ground, unsaid);
                 }
-                self.refuse(prism, known);
+                self.refuse(prism, told, known);
             }
         }
     }

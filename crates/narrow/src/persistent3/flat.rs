@@ -4,11 +4,16 @@ use crate::answer::Manifold3;
 use crate::ground3::{OnGround, box_around, front_of, widened};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::SAME_NORMAL;
 use asunder_geometry::{Ground, NearTriangle};
 use core::ops::ControlFlow;
 
 /// Most triangles that are looked at: bodies with more around them are not kept for long.
 const MOST: usize = 48;
+
+/// Sine of the greatest angle to a manifold's normal at which triangles may be part of what it stands for: beyond, they have
+/// one of their own.
+const MOST_BETWEEN: f64 = 8.0 * SAME_NORMAL;
 
 /// Triangles near some points, in the ground's axes.
 pub(super) struct NearPoints<'a> {
@@ -75,6 +80,23 @@ impl<'a> NearPoints<'a> {
             }
         }
         (is_on && !self.is_cut).then_some(bend)
+    }
+
+    /// How far ground may bend between points of one manifold: the sine of the greatest angle to its unit normal of triangles
+    /// that have a bend too low to give a normal of its own. Zero where ground is a plane to the last bit.
+    pub(super) fn bend_between(&self, normal: DVec3) -> f64 {
+        if self.is_cut {
+            return MOST_BETWEEN;
+        }
+        let mut bend = 0.0_f64;
+        for triangle in self.triangles.iter().filter(|triangle| triangle.prominent.bends_low()) {
+            let cross = front_of(triangle.corners);
+            let sine = cross.cross(normal).length() / cross.length();
+            if sine <= MOST_BETWEEN {
+                bend = bend.max(sine);
+            }
+        }
+        bend
     }
 
     /// How far ground bends at an edge, by its number.

@@ -7,7 +7,6 @@ use crate::feature::Feature;
 use crate::ground3::OnGround;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::tolerance::SAME_NORMAL;
 
 /// How a point rises by how the body's matter there moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +26,9 @@ pub(super) const UNKNOWN: f64 = 2.0;
 
 /// Cosine of the angle between a normal and what a point is measured from, above which it is.
 const LEAST_COSINE: f64 = 0.125;
+
+/// What rounding a unit vector to f32 may turn it by.
+const ROUNDED: f64 = f32::EPSILON as f64;
 
 impl Grip {
     pub(super) const NONE: Self = Self { gradient: Vec3::ZERO, lean: 0.0, is_of_ground: false };
@@ -88,9 +90,9 @@ impl Grip {
     fn along(direction: DVec3, normal: DVec3, is_of_ground: bool) -> Option<Self> {
         let cosine = direction.dot(normal);
         let gradient = direction / Some(cosine).filter(|cosine| cosine.abs() >= LEAST_COSINE)?;
-        // Triangles of one patch are in one plane up to their rounding.
+        // The manifold's normal is rounded to f32.
         let lean = (gradient - normal).length();
-        let lean = if lean <= SAME_NORMAL { 0.0 } else { (lean as f32).next_up() };
+        let lean = if lean <= ROUNDED { 0.0 } else { (lean as f32).next_up() };
         Some(Self { gradient: gradient.as_vec3(), lean, is_of_ground })
     }
 

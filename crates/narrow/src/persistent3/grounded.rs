@@ -19,7 +19,8 @@
 //! only then. And no further than the margin: all that the body can come to overlap has been within the margin, and so has
 //! been told; with a smaller margin, up to 2^-15 as for solids. Where a point may leave its features on the way, that costs a
 //! share of the drift: by how steeply ground bends at the next, and twice the drift only where nobody knows; no further than
-//! that is 2^-14 of the radius. A ball has no features to leave, and pays for the way around itself.
+//! that is 2^-14 of the radius. Ground between points rises otherwise than they do: twice the greatest of the low bends around
+//! them. A ball has no features to leave, and pays for the way around itself.
 //!
 //! parry3d keeps a manifold a triangle until a point of it slips by a millimetre.
 
@@ -139,6 +140,9 @@ impl Grounded {
         let mut cost = 0.0_f64;
         memory.clear();
         for manifold in found {
+            // What is hidden between points may rise otherwise than they do, by as much as either normal leans.
+            let between = 2.0 * near.bend_between(on.basis.turn_back(on.towards(manifold)));
+            cost = cost.max(between);
             let mut grips = [Grip::NONE; 4];
             for (grip, point) in grips.iter_mut().zip(&manifold.points) {
                 let beside;

@@ -76,6 +76,7 @@ impl Prism<'_> {
             if separation <= self.reach {
                 let (of_body, of_ground) = self.names(incident.face, furthest, (share, by));
                 let on_body = on_ground - outwards * separation;
+                let doubt = doubt + by.map_or(0.0, |by| self.under_round(by, outwards, along));
                 groups.add(&base, Pin { on_body, on_ground, separation, doubt, of_body, of_ground });
             }
         }
@@ -94,6 +95,18 @@ impl Prism<'_> {
         let height = separation + standing.radius;
         (height >= 0.0 && separation < -self.doubt && inside > self.doubt)
             || standing.is_in_box(point, self.doubt)
+    }
+
+    /// How much further than a face's plane the round of one of its edges reaches to what passes from under it there: a line that
+    /// counts as level may lean against the face. In metres; less than it leans by in all.
+    fn under_round(&self, half_edge: usize, outwards: DVec3, along: DVec3) -> f64 {
+        let standing = self.standing;
+        let (start, stop) = standing.solid.topology.ends(half_edge);
+        let side = standing.point(stop) - standing.point(start);
+        let (rise, across) = (outwards.dot(along), outwards.cross(side).dot(along) / side.length());
+        let slope = rise / across;
+        let over = standing.radius * ((1.0 + slope * slope).sqrt() - 1.0);
+        if over < rise.abs() { over } else { rise.abs() }
     }
 
     fn names(

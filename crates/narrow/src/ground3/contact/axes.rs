@@ -60,6 +60,15 @@ impl Prism<'_> {
         let mut rivals = axes.all[..axes.count].iter().filter(|axis| axis.0 >= axes.best - slack);
         rivals.all(|axis| !facet.lets_through(self.ground, standing.place.axes.turn(axis.1)))
     }
+
+    /// How deep a cuboid is in a triangle to which the axis along which it is the least deep is level, and how far that may be
+    /// off, in metres.
+    pub(super) fn told_by(&self, axes: &Axes) -> Option<[f64; 2]> {
+        let (standing, facet) = (self.standing, self.facet);
+        let mut all = axes.all[..axes.count].iter().filter(|axis| axis.0 == axes.best);
+        let is_level = all.any(|axis| facet.is_level_to(standing.place.axes.turn(axis.1)));
+        is_level.then_some([axes.best - standing.radius, self.doubt + axes.left_out])
+    }
 }
 
 impl Axes {

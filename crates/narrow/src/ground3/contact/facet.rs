@@ -326,6 +326,12 @@ impl Facet {
             && self.may_give(ground, furthest, towards)
     }
 
+    /// Whether all of a triangle counts as level in a unit direction that is not its own normal: a needle's sides do, as seen
+    /// across it, and no feature of it has that direction to give.
+    pub(super) fn is_level_to(&self, towards: DVec3) -> bool {
+        self.furthest(towards) == Furthest::Face && !is_same(self.normal, towards)
+    }
+
     /// Whether ground around a feature lets it give this unit direction, from the ground to the body.
     pub(super) fn may_give(&self, ground: Ground, furthest: Furthest, towards: DVec3) -> bool {
         match furthest {

@@ -31,8 +31,9 @@ pub(super) enum Met {
     Apart,
     /// They are not, and points were made of it; whether they share a point.
     Told(bool),
-    /// They are not, and ground refused the direction; whether they share a point, and where they are nearest if they do not.
-    Refused { overlapping: bool, gap: Option<Unsaid> },
+    /// They are not, and ground refused the direction: whether they share a point, where they are nearest if they do not, and how
+    /// deep they are, up to an error, of a triangle to which that direction is level.
+    Refused { overlapping: bool, gap: Option<Unsaid>, told: Option<[f64; 2]> },
 }
 
 impl<'a> Meeting<'a> {
@@ -78,7 +79,9 @@ impl<'a> Meeting<'a> {
         if self.add_touch((ground, facet), place, (&touch, told), groups) {
             return Met::Told(near.verdict.overlapping);
         }
-        Met::Refused { overlapping: near.verdict.overlapping, gap: unsaid_of(facet, place, &near) }
+        let overlapping = near.verdict.overlapping;
+        let is_told = overlapping && facet.is_level_to(-place.axes.turn(near.normal));
+        Met::Refused { overlapping, gap: unsaid_of(facet, place, &near), told: is_told.then_some(told) }
     }
 
     /// Where the part is nearest to a triangle, if it is within the margin and overlaps it in no point.

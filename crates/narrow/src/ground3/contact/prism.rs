@@ -134,6 +134,8 @@ impl Prism<'_> {
         }
         let aside = outwards - facet.normal * facing;
         let is_tilted = standing.radius > 0.0 && aside.length() * standing.radius > standing.slack;
+        // What the round of an edge reaches further than the face's plane where a side passes from under it; more is told.
+        let rounded = if is_tilted { 0.0 } else { standing.radius * (1.0 / -facing - 1.0) };
         let mut is_any = false;
         for edge in (0..3).filter(|&edge| ends[edge]) {
             if is_tilted && !standing.solid.is_slender() {
@@ -145,7 +147,7 @@ impl Prism<'_> {
                 _ => self.span(self.cuts(face), outwards, edge),
             };
             if let Some(span) = span {
-                is_any |= self.add_side((face, edge), (span, outwards, over), base, groups);
+                is_any |= self.add_side((face, edge), (span, outwards, over, rounded), base, groups);
             }
         }
         is_any
@@ -299,11 +301,11 @@ impl Prism<'_> {
     }
 
     /// Adds the ends of the span that the part's face covers of a side of the triangle, as seen along the normal; `over` is a
-    /// point of the surface beyond the face.
+    /// point of the surface beyond the face, and rounds reach so many metres further.
     fn add_side(
         &self,
         (face, edge): (usize, usize),
-        (span, outwards, over): (Span, DVec3, DVec3),
+        (span, outwards, over, rounded): (Span, DVec3, DVec3, f64),
         base: &Base,
         groups: &mut Groups,
     ) -> bool {
@@ -329,7 +331,7 @@ impl Prism<'_> {
                 }
             };
             let on_body = on_ground + facet.normal * separation;
-            let doubt = (self.doubt + standing.planarity) / -facing;
+            let doubt = (self.doubt + standing.planarity) / -facing + rounded;
             is_any |=
                 self.add_pin(Pin { on_body, on_ground, separation, doubt, of_body, of_ground }, base, groups);
         }

@@ -13,6 +13,8 @@ use asunder_geometry::glam::DVec3;
 pub(super) struct Refused {
     facet: Facet,
     extent: Extent,
+    /// How deep the part is in it, and how far that may be off, where its axis is level to all of the triangle.
+    told: Option<[f64; 2]>,
 }
 
 /// Most triangles that wait until all others have been seen.
@@ -22,7 +24,7 @@ pub(super) type AllRefused = ArrayVec<Refused, MOST_REFUSED>;
 
 impl Seen<'_> {
     /// Keeps a triangle whose axis was refused until all others have been heard.
-    pub(super) fn refuse(&self, prism: &Prism, known: &mut Known) {
+    pub(super) fn refuse(&self, prism: &Prism, told: Option<[f64; 2]>, known: &mut Known) {
         if known.refused.is_full() {
             self.add_by_normal(prism, known);
             return;
@@ -33,7 +35,7 @@ impl Seen<'_> {
         {
             (facet, extent) = (own, self.standing.extent(own.normal, own.origin()));
         }
-        let _ = known.refused.try_push(Refused { facet, extent });
+        let _ = known.refused.try_push(Refused { facet, extent, told });
     }
 
     /// Adds points of triangles whose axis was refused, by their own normals.
@@ -46,7 +48,7 @@ impl Seen<'_> {
             known.groups.iter().map(|group| (group.base.normal, group.least())).collect();
         // One by one: all of them are large.
         for place in 0..known.refused.len() {
-            let Refused { facet, extent } = known.refused[place];
+            let Refused { facet, extent, told } = known.refused[place];
             let separation = extent.low - standing.radius;
             let is_freed = heard.iter().any(|&(normal, least)| {
                 separation < least - standing.slack && !is_same(facet.normal, normal) && {
@@ -62,6 +64,9 @@ impl Seen<'_> {
                 let prism =
                     Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
                 self.add_by_normal(&prism, known);
+                if let Some(told) = told {
+                    known.groups.tell(facet.normal, told);
+                }
             }
         }
     }
