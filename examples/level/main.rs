@@ -6,7 +6,7 @@ mod obj;
 
 use asunder::glam::DVec3;
 use asunder::{Collider3, MeshError, Pose3, Shape3, TriMesh, Volume};
-use asunder_examples::game::Game;
+use asunder_examples::game::{Game, share_work};
 use asunder_examples::stepper::MARGIN;
 use asunder_examples::{picture, report, things};
 use asunder_scenes::random::Random;
@@ -48,6 +48,7 @@ struct Options {
 fn main() -> ExitCode {
     // Wrong options end here, with a message and exit code 2.
     let options = Options::parse();
+    share_work();
     match play(&options) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -7,7 +7,7 @@
 
 mod heap;
 
-use asunder_examples::game::Game;
+use asunder_examples::game::{Game, share_work};
 use asunder_examples::opened::{AnyGame, SEED, scene};
 use asunder_examples::playable::{InSpace, Playable};
 use asunder_examples::recording::{Head, read_head};
@@ -61,6 +61,7 @@ struct Options {
 fn main() -> ExitCode {
     // Wrong options end here, with a message and exit code 2.
     let options = Options::parse();
+    share_work();
     let outcome = match &options.replay {
         _ if options.list => {
             list();

@@ -9,6 +9,18 @@ use asunder::glam::{DQuat, DVec3};
 use asunder::{AnyWorld, Collider, Event};
 use flights::Flights;
 
+/// Makes this thread one of those that share the work of updates, as the guide's page on game loops says; where there is a pool
+/// already, that is as good.
+///
+/// ```
+/// asunder_examples::game::share_work();
+/// asunder_examples::game::share_work();
+/// assert!(rayon::current_thread_index() == Some(0), "this thread is one of the pool");
+/// ```
+pub fn share_work() {
+    let _ = rayon::ThreadPoolBuilder::new().use_current_thread().build_global();
+}
+
 /// A body this far from where it started, in metres, has left the level.
 const LEFT: f64 = 1000.0;
 

@@ -3,7 +3,7 @@
 use super::figures::Figures;
 use super::ours::{Engine, Variant};
 use super::{Case, Stage, frames, name, nanoseconds, object};
-use crate::blocks::{Block, blocks};
+use crate::blocks::{Block, blocks, spread};
 use crate::clock::Effort;
 use crate::row::Row;
 use asunder_broad::PairId;
@@ -92,6 +92,7 @@ impl Side {
 
     /// The clock runs within the pool: what it takes to enter one is not ours.
     fn play(&mut self, block: &Block) {
+        spread(&self.pool);
         self.found.clear();
         for frame in block.frames.clone() {
             self.stage.step();

@@ -6,7 +6,7 @@ use super::play::{Play, Replay};
 use super::stages::Stages;
 use super::tally::Tally;
 use super::{Case, Opened, lean_of, name, peer_frame};
-use crate::blocks::blocks;
+use crate::blocks::{blocks, spread};
 use crate::clock::{Effort, Samples};
 use crate::lean::{Lean, Walked};
 use crate::row::Row;
@@ -90,6 +90,9 @@ pub(super) fn run<R: Replay>(mut replay: R, threads: usize, effort: &Effort) -> 
         let mut found: [Vec<Walked>; 2] = [Vec::new(), Vec::new()];
         // In turns as to which is first, too.
         for who in [0, 1, 2].map(|turn| (block.number + turn) % 3) {
+            if let Some(pool) = pools.get(who) {
+                spread(pool);
+            }
             for frame in block.frames.clone() {
                 let poses = replay.poses_at(frame as u32);
                 let is_counted = block.counts(frame);

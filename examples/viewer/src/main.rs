@@ -19,6 +19,7 @@ mod window;
 
 use crate::toggles::{Layer, Toggles};
 use crate::window::{Shot, Window, check};
+use asunder_examples::game::share_work;
 use asunder_scenes::stages::Stage;
 use clap::Parser;
 use macroquad::conf::Conf;
@@ -60,6 +61,7 @@ fn main() -> ExitCode {
         }
         return ExitCode::SUCCESS;
     }
+    share_work();
     let size = options.bodies.map(|bodies| bodies as usize);
     let window = match Window::open(&options.scene, size, Toggles::flipped(&options.flip)) {
         Ok(window) => window,
