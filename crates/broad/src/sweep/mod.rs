@@ -92,7 +92,7 @@ use settle::Question;
 /// However the boxes lie, the cost is in O(n log^3 n + pairs), a pair once for every column that both its boxes share.
 ///
 /// It holds no history: the list depends on the boxes and the filter alone, and is the same at any thread count and
-/// vector width. In [`Sweep::pairs`], from 30,000 boxes on, the threads of the current rayon pool share the work
+/// vector width. In [`Sweep::pairs`], from 5,000 boxes on, the threads of the current rayon pool share the work
 /// (feature `parallel`).
 ///
 /// ```

@@ -27,8 +27,12 @@ use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
-/// With fewer boxes a second thread costs about what it saves.
-pub(super) const MANY_BOXES: usize = 30_000;
+/// With fewer boxes a second thread costs about what it saves. Of 10,000 it saves an eighth to a third, of a whole frame with 8,000 a
+/// twenty-fifth (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-25; see `blocks` among the benchmarks for how two threads are measured).
+pub(super) const MANY_BOXES: usize = 5_000;
+
+/// Fewest boxes for each thread that takes part, about.
+const BOXES_EACH: usize = 2_500;
 
 /// Groups a thread, so that a crowded one does not hold up the rest.
 const GROUPS: usize = 4;
@@ -93,7 +97,7 @@ impl Team {
         self.grid = None;
     }
 
-    /// All pairs, sorted, by `threads` threads of the current pool.
+    /// All pairs, sorted, by as many threads of the current pool as are worth it.
     pub(super) fn pairs<B: Bounds>(
         &mut self,
         boxes: &[B],
@@ -101,7 +105,7 @@ impl Team {
         limit: usize,
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
-        let threads = rayon::current_num_threads();
+        let threads = rayon::current_num_threads().min(boxes.len() / BOXES_EACH).max(1);
         self.parts.resize_with(threads, Columns::default);
         self.groups.resize_with(threads * GROUPS, Group::default);
         let grid = sort(&mut self.parts, boxes);
