@@ -89,7 +89,7 @@ impl Parts<'_> {
         margin: f32,
         manifolds: &mut impl Room,
     ) -> (Hint, Result<Found, f32>) {
-        let mut touch = Touch::NONE;
+        let mut touch = Touch::none();
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
         let accept = |near: &Near| asked.wanted == Wanted::Points && is_near(near);
         match self.convex.contact(asked, accept, &mut touch) {

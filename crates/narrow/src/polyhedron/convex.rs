@@ -262,7 +262,7 @@ impl<'a> Convex<'a> {
     /// [`Convex::contact`] by the kernels of solids, whatever the shapes.
     #[cfg(test)]
     pub(crate) fn contact_of_solids(&self, asked: Asked) -> (Probe, Touch) {
-        let mut touch = Touch::NONE;
+        let mut touch = Touch::none();
         let probe = self.with_solids(|a, b| {
             let probe = self.probe_solids(a, b, asked);
             if let Probe::Near(near) = &probe {

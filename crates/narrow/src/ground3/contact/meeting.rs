@@ -68,7 +68,7 @@ impl<'a> Meeting<'a> {
         groups: &mut Groups,
     ) -> Met {
         let place = &standing.place;
-        let mut touch = Touch::NONE;
+        let mut touch = Touch::none();
         // No points are made along what ground refuses, as it does most often.
         let is_let_through =
             |near: &Near| asking.is_plain || facet.lets_through(ground, -place.axes.turn(near.normal));
@@ -86,7 +86,7 @@ impl<'a> Meeting<'a> {
 
     /// Where the part is nearest to a triangle, if it is within the margin and overlaps it in no point.
     pub(super) fn gap(&self, of: (Ground, &Facet), place: &Place, asking: &Asking) -> Option<Unsaid> {
-        let mut touch = Touch::NONE;
+        let mut touch = Touch::none();
         let near = self.near(of, asking, |_| false, &mut touch)?;
         unsaid_of(of.1, place, &near)
     }
@@ -99,7 +99,7 @@ impl<'a> Meeting<'a> {
         place: &Place,
         asking: &Asking,
     ) -> Option<(DVec3, Unsaid)> {
-        let mut touch = Touch::NONE;
+        let mut touch = Touch::none();
         let near = self.near(of, asking, |_| true, &mut touch)?;
         let towards = -place.axes.turn(near.normal);
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));

@@ -84,8 +84,11 @@ pub(crate) struct Touch {
 }
 
 impl Touch {
-    /// Not yet a manifold: it has no points.
-    pub(crate) const NONE: Self = Self { normal: DVec3::ZERO, points: ArrayVec::new_const(), of: None };
+    /// Not yet a manifold: it has no points. Not a constant: that would be copied, blanks and all.
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        Self { normal: DVec3::ZERO, points: ArrayVec::new_const(), of: None }
+    }
 }
 
 /// What contact points are made of.
@@ -112,7 +115,7 @@ pub(crate) struct Ask<'a> {
 /// its face. Then the best axis is asked in its place; in a gap, faces that nearly look at each other across it, and at
 /// last the witness points.
 pub(crate) fn touch(a: &Solid, b: &Solid, ask: &Ask) -> Touch {
-    let mut touch = Touch::NONE;
+    let mut touch = Touch::none();
     touch_into(a, b, ask, &mut touch);
     touch
 }
