@@ -1,5 +1,6 @@
 //! The triangles around the contact points of a body, and how far ground bends there.
 
+use super::grip::{Seam, UNKNOWN};
 use crate::answer::Manifold3;
 use crate::ground3::{OnGround, box_around, front_of, widened};
 use arrayvec::ArrayVec;
@@ -47,39 +48,49 @@ impl<'a> NearPoints<'a> {
         near
     }
 
-    /// How far ground bends within so many metres of a point on it: the sine of the greatest angle to the unit normal of the
-    /// patch there. Nothing where it ends, folds back, or nobody knows.
-    pub(super) fn bend_around(&self, foot: DVec3, (normal, patch): (DVec3, u32), reach: f64) -> Option<f64> {
-        let (mut bend, mut is_on) = (0.0_f64, false);
+    /// Where a point on ground may come to another patch than its own, whose unit normal is known, within so many metres: what it costs
+    /// is the sine of the greatest angle to that normal. Where ground ends or folds back, nobody knows.
+    pub(super) fn seam_around(&self, foot: DVec3, (normal, patch): (DVec3, u32), reach: f64) -> Seam {
+        let unknown = Seam { free: 0.0, cost: UNKNOWN };
         // Seen from behind, all that goes on from it is.
-        let own = self.triangles.iter().find(|triangle| triangle.patch == patch)?;
+        let Some(own) = self.triangles.iter().find(|triangle| triangle.patch == patch) else {
+            return unknown;
+        };
         let front = if front_of(own.corners).dot(normal) < 0.0 { -normal } else { normal };
+        let (mut seam, mut is_on) = (Seam::NONE, false);
+        let mut add = |free: f64, cost: f64| {
+            if cost > 0.0 {
+                seam = Seam { free: seam.free.min(free), cost: seam.cost.max(cost) };
+            }
+        };
         for triangle in &self.triangles {
             let [a, b, c] = widened(triangle.corners);
             let cross = (b - a).cross(c - a);
-            let square = reach * reach * cross.length_squared();
-            let is_beside = |from: DVec3, to: DVec3| {
+            let area = cross.length();
+            // By how much it is above the plane, or beside a side of the triangle: no nearer is the triangle.
+            let beside = |from: DVec3, to: DVec3| {
                 let side = to - from;
-                let out = side.cross(cross).dot(foot - from);
-                out > 0.0 && out * out > square * side.length_squared()
+                side.cross(cross).dot(foot - from) / (side.length() * area)
             };
-            let height = cross.dot(foot - a);
-            if height * height > square || is_beside(a, b) || is_beside(b, c) || is_beside(c, a) {
+            let height = cross.dot(foot - a).abs() / area;
+            let away = height.max(beside(a, b)).max(beside(b, c)).max(beside(c, a));
+            // What is not a number is not beyond.
+            if away > reach {
                 continue;
             }
             is_on = true;
             if triangle.patch != patch {
-                bend = bend.max(bend_of(cross, front)?);
+                add(away.max(0.0), bend_of(cross, front).unwrap_or(UNKNOWN));
             }
             for (edge, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-                let (along, across) = (to - from, foot - from);
-                let is_near = along.cross(across).length_squared() <= reach * reach * along.length_squared();
-                if is_near && self.ground.neighbor(triangle.number, edge).is_none() {
-                    return None;
+                let along = to - from;
+                let aside = along.cross(foot - from).length() / along.length();
+                if aside <= reach && self.ground.neighbor(triangle.number, edge).is_none() {
+                    add(aside, UNKNOWN);
                 }
             }
         }
-        (is_on && !self.is_cut).then_some(bend)
+        if is_on && !self.is_cut { seam } else { unknown }
     }
 
     /// How far ground may bend between points of one manifold: the sine of the greatest angle to its unit normal of triangles

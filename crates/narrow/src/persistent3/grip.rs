@@ -20,6 +20,24 @@ pub(super) struct Grip {
     is_of_ground: bool,
 }
 
+/// Where a point may leave what holds it: how far the body may go before, in metres, and what it costs beyond, as a share of the
+/// whole way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seam {
+    pub(super) free: f64,
+    pub(super) cost: f64,
+}
+
+impl Seam {
+    /// Nowhere.
+    pub(super) const NONE: Self = Self { free: f64::INFINITY, cost: 0.0 };
+
+    /// How far the body may go if that may cost so many metres.
+    pub(super) fn reach(&self, most: f64) -> f64 {
+        self.free.max(most / self.cost)
+    }
+}
+
 /// What it costs where nobody knows what comes next: by the way, the truth may have gone, and by as much what is told, the other
 /// way.
 pub(super) const UNKNOWN: f64 = 2.0;
@@ -33,36 +51,35 @@ const ROUNDED: f64 = f32::EPSILON as f64;
 impl Grip {
     pub(super) const NONE: Self = Self { gradient: Vec3::ZERO, lean: 0.0, is_of_ground: false };
 
-    /// What holds a point, and what it costs, as a share of the way, if it leaves its features within the reach; nothing where
-    /// nobody knows what holds it.
+    /// What holds a point, and where it may leave that; nothing where nobody knows what holds it.
     pub(super) fn of(
         on: &OnGround,
         manifold: &Manifold3,
         point: &ContactPoint3,
         (near, reach): (&NearPoints, f32),
-    ) -> Option<(Self, f64)> {
+    ) -> Option<(Self, Seam)> {
         let (normal, reach) = (on.towards(manifold), f64::from(reach));
         if matches!(on.body, Shape3::Sphere(_)) {
             // Whatever ground is under it next, its normal turns from this one by no more than the way over how far
             // the centre is from it: the way around the ball, which moving along charges for.
-            return Some((Self::along(normal, normal, false)?, 0.0));
+            return Some((Self::along(normal, normal, false)?, Seam::NONE));
         }
         let [of_body, of_ground] = on.in_order([point.feature.a(), point.feature.b()]);
         let [on_body, foot] = on.ends(manifold, point);
         let (local, foot) = (on.body_basis.turn_back(on_body), on.basis.turn_back(foot));
         let normal_there = on.basis.turn_back(normal);
-        match (of_body, of_ground) {
+        let (grip, seam) = match (of_body, of_ground) {
             (Feature::Vertex(_), Feature::Face(patch)) => {
                 // Kernels may tell of it along another normal than the triangle's own.
                 let [a, b, c] = near.under(foot, normal_there, Some(patch))?;
                 let own = (b - a).cross(c - a).try_normalize()?;
-                let cost = near.bend_around(foot, (own, patch), reach).unwrap_or(UNKNOWN);
-                Some((Self::along(on.basis.turn(own), normal, false)?, cost))
+                let seam = near.seam_around(foot, (own, patch), reach);
+                (Self::along(on.basis.turn(own), normal, false)?, seam)
             }
             (Feature::Face(face), Feature::Vertex(_)) => {
                 let out = on.body_basis.turn(face_normal(on.body, face as usize)?);
-                let is_over = inside(on.body, face as usize, local) >= reach;
-                Some((Self::along(out, normal, true)?, if is_over { 0.0 } else { UNKNOWN }))
+                let free = inside(on.body, face as usize, local);
+                (Self::along(out, normal, true)?, Seam { free, cost: UNKNOWN })
             }
             (Feature::Edge(own), Feature::Edge(theirs)) => {
                 let own = Edge::of(on.body, own)?;
@@ -73,17 +90,19 @@ impl Grip {
                 // How far either end is at least: it slides along by no more than the drift over the sine.
                 let ends =
                     place.min(own.length - place).min((foot - from).length()).min((foot - stop).length());
-                let cost = match on.body {
-                    _ if ends * sine >= 2.0 * reach => 0.0,
+                let around = match on.body {
                     Shape3::Cuboid(_) => around_corner(on.body_basis.turn_back(normal), sine)
-                        .zip(near.bend_at(theirs, normal_there))
-                        .map_or(UNKNOWN, |(corner, bend)| corner + bend),
-                    _ => UNKNOWN,
+                        .zip(near.bend_at(theirs, normal_there)),
+                    _ => None,
                 };
-                Some((Self::along(across, normal, false)?, cost))
+                let cost = around.map_or(UNKNOWN, |(corner, bend)| corner + bend);
+                (Self::along(across, normal, false)?, Seam { free: 0.5 * ends * sine, cost })
             }
-            _ => None,
-        }
+            _ => return None,
+        };
+        // Along a normal that leans, a point goes further than the body does.
+        let free = seam.free / f64::from(grip.steep());
+        Some((grip, if free >= reach { Seam::NONE } else { Seam { free: free.max(0.0), ..seam } }))
     }
 
     /// Of what is measured along a normal from what this direction is square to.

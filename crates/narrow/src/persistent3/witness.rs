@@ -83,7 +83,7 @@ impl Witness {
             for j in i..deepest.points.len() {
                 let ((one, of_one), (other, of_other)) = (point_of(i), point_of(j));
                 let is_on_ground = match (of_one, of_other) {
-                    (Feature::Edge(edge), Feature::Edge(same)) => edge == same && i != j,
+                    (Feature::Edge(edge), Feature::Edge(same)) => edge == same,
                     (Feature::Vertex(_), _) => i == j,
                     _ => false,
                 };
