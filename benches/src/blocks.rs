@@ -7,7 +7,8 @@
 //!
 //! Threads that slept while others took their turn are woken on one processor, and moved apart by the system after some tens of
 //! milliseconds: of two threads the first 2 to 11 frames of a block took as long as one thread's (AMD EPYC, Zen 5, 2 virtual cores, Linux
-//! 6.18, 2026-11-25). In a game that frames keep busy that does not happen, so they are [`spread`] before each block.
+//! 6.18, 2026-11-25); the figures above hold that, too. Where one frame follows the other at once it does not happen, so threads are
+//! [`spread`] before each block. What a game can do about it stands in the guide's page on game loops.
 
 use core::ops::Range;
 use rayon::ThreadPool;

@@ -10,7 +10,7 @@ use asunder::{AnyWorld, Collider, Event};
 use flights::Flights;
 
 /// Makes this thread one of those that share the work of updates, as the guide's page on game loops says; where there is a pool
-/// already, that is as good.
+/// already, nothing changes.
 ///
 /// ```
 /// asunder_examples::game::share_work();

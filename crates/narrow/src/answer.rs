@@ -354,7 +354,8 @@ pub struct Manifold3 {
     /// smaller bounding radius: what a steady choice of the reference may cost. Of four points, which may stand for more, and of
     /// fewer on ground made of triangles, where several triangles' may be one, it is up to 2^-15 of the smaller bounding diameter
     /// above that: what a steady choice may cost. Where ground bends little by little, by less than gives normals, what stands up
-    /// between the points is in the separation and in none of them: up to 2^-11 of the smaller bounding radius.
+    /// between the points is in the separation and in none of them: up to 2^-11 of the smaller bounding radius. So is how deep a
+    /// needle of ground is, where ground refuses the direction of that: its points are along its own normal.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,

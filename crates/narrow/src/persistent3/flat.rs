@@ -67,20 +67,21 @@ impl<'a> NearPoints<'a> {
             let [a, b, c] = widened(triangle.corners);
             let cross = (b - a).cross(c - a);
             let area = cross.length();
-            // By how much it is above the plane, or beside a side of the triangle: no nearer is the triangle.
+            // How far above the plane it is, and beside a side of the triangle: no nearer than both is the triangle.
             let beside = |from: DVec3, to: DVec3| {
                 let side = to - from;
                 side.cross(cross).dot(foot - from) / (side.length() * area)
             };
             let height = cross.dot(foot - a).abs() / area;
-            let away = height.max(beside(a, b)).max(beside(b, c)).max(beside(c, a));
+            let aside = beside(a, b).max(beside(b, c)).max(beside(c, a)).max(0.0);
+            let away = (height * height + aside * aside).sqrt();
             // What is not a number is not beyond.
             if away > reach {
                 continue;
             }
             is_on = true;
             if triangle.patch != patch {
-                add(away.max(0.0), bend_of(cross, front).unwrap_or(UNKNOWN));
+                add(away, bend_of(cross, front).unwrap_or(UNKNOWN));
             }
             for (edge, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
                 let along = to - from;
@@ -99,15 +100,12 @@ impl<'a> NearPoints<'a> {
         if self.is_cut {
             return MOST_BETWEEN;
         }
-        let mut bend = 0.0_f64;
-        for triangle in self.triangles.iter().filter(|triangle| triangle.prominent.bends_low()) {
+        let low = self.triangles.iter().filter(|triangle| triangle.prominent.bends_low());
+        let bends = low.filter_map(|triangle| {
             let cross = front_of(triangle.corners);
-            let sine = cross.cross(normal).length() / cross.length();
-            if sine <= MOST_BETWEEN {
-                bend = bend.max(sine);
-            }
-        }
-        bend
+            bend_of(cross, normal).or(bend_of(-cross, normal))
+        });
+        bends.filter(|&bend| bend <= MOST_BETWEEN).fold(0.0, f64::max)
     }
 
     /// How far ground bends at an edge, by its number.

@@ -69,7 +69,7 @@ impl Witness {
         Some(Self::InBall { point, radius })
     }
 
-    /// A corner of ground, or a point on an edge of it between two, in a cuboid.
+    /// A corner of ground, or a point on an edge of it or between two there, in a cuboid.
     fn inside(on: &OnGround, deepest: &Manifold3) -> Option<Self> {
         let Shape3::Cuboid(cuboid) = on.body else { return None };
         let point_of = |i: usize| {

@@ -98,7 +98,7 @@ impl Prism<'_> {
     }
 
     /// How much further than a face's plane the round of one of its edges reaches to what passes from under it there: a line that
-    /// counts as level may lean against the face. In metres; less than it leans by in all.
+    /// counts as level may lean against the face. In metres; no more than it leans by in all.
     fn under_round(&self, half_edge: usize, outwards: DVec3, along: DVec3) -> f64 {
         let standing = self.standing;
         let (start, stop) = standing.solid.topology.ends(half_edge);

@@ -26,7 +26,7 @@ impl Seen<'_> {
     /// Keeps a triangle whose axis was refused until all others have been heard.
     pub(super) fn refuse(&self, prism: &Prism, told: Option<[f64; 2]>, known: &mut Known) {
         if known.refused.is_full() {
-            self.add_by_normal(prism, known);
+            self.add_in_place(prism, told, known);
             return;
         }
         let (mut facet, mut extent) = (*prism.facet, *prism.extent);
@@ -63,11 +63,16 @@ impl Seen<'_> {
                 let doubt = self.doubt_over(&facet);
                 let prism =
                     Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
-                self.add_by_normal(&prism, known);
-                if let Some(told) = told {
-                    known.groups.tell(facet.normal, told);
-                }
+                self.add_in_place(&prism, told, known);
             }
+        }
+    }
+
+    /// Adds points by a triangle's own normal, in place of those along what was refused.
+    fn add_in_place(&self, prism: &Prism, told: Option<[f64; 2]>, known: &mut Known) {
+        self.add_by_normal(prism, known);
+        if let Some(told) = told {
+            known.groups.tell(prism.facet.normal, told);
         }
     }
 }
