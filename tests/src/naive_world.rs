@@ -60,6 +60,8 @@ pub struct NaiveWorld<S: Judged> {
     /// How often anybody stood anywhere.
     stands: u64,
     bits: Option<Bits<S>>,
+    /// Whether the last update had too many pairs, and was given up.
+    is_given_up: bool,
     /// What was judged until now.
     pub tally: Tally,
 }
@@ -79,6 +81,8 @@ pub struct Tally {
     pub impacts: usize,
     /// Events.
     pub events: usize,
+    /// Updates with too many pairs.
+    pub given_up: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -112,6 +116,7 @@ impl<S: Judged> Default for NaiveWorld<S> {
             reshaped: BTreeSet::new(),
             stands: 0,
             bits: None,
+            is_given_up: false,
             tally: Tally::default(),
         }
     }
@@ -211,6 +216,30 @@ impl<S: Judged> NaiveWorld<S> {
         self.update_with(world, |_, _| true, |_, _| usize::MAX);
     }
 
+    /// The same where so many pairs are allowed: of too many nothing comes, and what was stays.
+    pub fn update_within(&mut self, world: &World<S>, most: usize) {
+        let (mut sure, mut unsure) = (0, 0);
+        let ahead = Ahead::of(&self.bodies);
+        for slots in self.pairs_that_may_meet() {
+            match ahead.boxes_overlap(slots, [slots.0, slots.1].map(|slot| &self.bodies[&slot])) {
+                Some(overlap) => sure += usize::from(overlap),
+                None => unsure += 1,
+            }
+        }
+        let is_given_up = world.stats().overflow;
+        assert!(if is_given_up { sure + unsure > most } else { sure <= most }, "{sure} of {most} pairs");
+        if !is_given_up {
+            self.update(world);
+            return;
+        }
+        assert!(S::impacts(world).is_empty(), "impacts of an update that was given up");
+        self.is_given_up = true;
+        self.tally.given_up += 1;
+        self.events.clear();
+        self.records.values_mut().for_each(|record| record.is_new = false);
+        self.bodies.values_mut().for_each(|tenant| tenant.motion = None);
+    }
+
     /// The same of the pairs that are admitted, of whose manifolds so many are kept.
     pub fn update_with(
         &mut self,
@@ -218,6 +247,7 @@ impl<S: Judged> NaiveWorld<S> {
         admit: impl Fn(&Collider<S>, &Collider<S>) -> bool,
         keep: impl Fn(&Collider<S>, &Collider<S>) -> usize,
     ) {
+        self.is_given_up = false;
         let (mut records, mut candidates) = (BTreeMap::new(), Vec::new());
         let told: BTreeSet<Slots> =
             S::candidates(world).iter().map(|(a, b)| (slot_of(*a), slot_of(*b))).collect();

@@ -27,6 +27,7 @@ fn jumps<S: Stage>(operations: &[Operation]) {
     if operations.len() >= 10_000 {
         let (updates, tally) = (twins.updates, twins.tally());
         assert!(updates > 1500 && tally.events > 3000, "{updates} updates, {tally:?}");
+        assert!(tally.given_up > 100, "{tally:?}");
     }
 }
 
@@ -37,6 +38,7 @@ fn everything<S: Stage>(operations: &[Operation]) {
         let (updates, tally) = (twins.updates, twins.tally());
         let told = [tally.events / 30, tally.on_ground / 30, tally.to_come / 5, tally.impacts];
         assert!(updates > 1500 && told.iter().all(|&count| count > 100), "{updates} updates, {tally:?}");
+        assert!(tally.given_up > 50, "{tally:?}");
         assert!(twins.followers > 40, "clones and restored worlds: {}", twins.followers);
         // The world is taken at its word in next to no pair: on a grid some are just a margin apart, or edgewise.
         assert!(tally.unsure * 500 < tally.pairs, "{tally:?}");

@@ -60,6 +60,10 @@ pub(super) enum Operation {
     UpdateWith {
         seed: u64,
     },
+    /// Updates where so many pairs are allowed.
+    UpdateWithin {
+        most: usize,
+    },
 }
 
 type Weighted = (u32, BoxedStrategy<Operation>);
@@ -83,6 +87,7 @@ fn of_jumps() -> Vec<Weighted> {
         of_body(30, |body, seed| Operation::Change { body, seed }),
         (30, Just(Operation::Update).boxed()),
         of_seed(10, |seed| Operation::UpdateWith { seed }),
+        (8, (0..120_usize).prop_map(|most| Operation::UpdateWithin { most }).boxed()),
     ]
 }
 

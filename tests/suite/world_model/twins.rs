@@ -126,6 +126,13 @@ impl<S: Stage> Twins<S> {
                     check_fresh(&self.world);
                 }
             }
+            Operation::UpdateWithin { most } => {
+                self.tell(|world| world.set_max_pairs(most));
+                self.tell(World::update);
+                self.tell(|world| world.set_max_pairs(1 << 24));
+                self.model.update_within(&self.world, most);
+                self.check();
+            }
             Operation::UpdateWith { seed } => self.update_with(seed),
             Operation::Move { .. }
             | Operation::MoveMany { .. }
