@@ -22,9 +22,12 @@ use crate::world::{StaleKey, World};
 ///     world.update();
 ///     assert_eq!((world.contacts().len(), world.candidates().len(), world.impacts().len()), (1, 1, 0));
 ///     assert!(world.contact(b, a).is_some_and(|contact| (contact.a, contact.b) == (a, b)));
+///     assert!(world.is_touching(a, b) && world.touching(a).eq([b]) && world.candidates_of(b).eq([(a, b)]));
+///     assert_eq!(world.contacts_of(a).next(), world.contact(a, b));
 ///     world.sleep(b)?;
 ///     assert!(world.get(b).is_some_and(Collider::is_asleep));
-///     assert!(world.iter().count() == 2 && world.remove(a).is_some());
+///     world.wake(b)?;
+///     assert!(world.iter().count() == 2 && world.remove(a).is_some() && !world.contains(a));
 ///     assert_eq!(world.set_pose(a, S::Pose::default()), Err(StaleKey));
 ///     Ok(world.events().len())
 /// }
@@ -41,6 +44,9 @@ pub trait AnyWorld<S: Space> {
 
     /// The body of a key: [`World3::get`](crate::World3::get).
     fn get(&self, key: S::Key) -> Option<&Collider<S>>;
+
+    /// Whether the key's body is in the world: [`World3::contains`](crate::World3::contains).
+    fn contains(&self, key: S::Key) -> bool;
 
     /// All bodies, in order of their slots: [`World3::iter`](crate::World3::iter).
     fn iter(&self) -> impl ExactSizeIterator<Item = (S::Key, &Collider<S>)>;
@@ -63,14 +69,32 @@ pub trait AnyWorld<S: Space> {
     /// A stale key.
     fn sleep(&mut self, key: S::Key) -> Result<(), StaleKey>;
 
+    /// Notes that a body is not at rest any more: [`World3::wake`](crate::World3::wake).
+    ///
+    /// # Errors
+    /// A stale key.
+    fn wake(&mut self, key: S::Key) -> Result<(), StaleKey>;
+
     /// Pairs whose boxes overlapped: [`World3::candidates`](crate::World3::candidates).
     fn candidates(&self) -> impl ExactSizeIterator<Item = (S::Key, S::Key)> + Clone;
+
+    /// Those of one body: [`World3::candidates_of`](crate::World3::candidates_of).
+    fn candidates_of(&self, key: S::Key) -> impl Iterator<Item = (S::Key, S::Key)> + Clone;
 
     /// Pairs within their margins of each other: [`World3::contacts`](crate::World3::contacts).
     fn contacts(&self) -> impl ExactSizeIterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone;
 
+    /// Those of one body: [`World3::contacts_of`](crate::World3::contacts_of).
+    fn contacts_of(&self, key: S::Key) -> impl Iterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone;
+
     /// The contact of two bodies: [`World3::contact`](crate::World3::contact).
     fn contact(&self, one: S::Key, other: S::Key) -> Option<Contact<'_, S::Key, S::Manifold>>;
+
+    /// Whether the two bodies touch: [`World3::is_touching`](crate::World3::is_touching).
+    fn is_touching(&self, one: S::Key, other: S::Key) -> bool;
+
+    /// The bodies that touch this one: [`World3::touching`](crate::World3::touching).
+    fn touching(&self, key: S::Key) -> impl Iterator<Item = S::Key> + Clone;
 
     /// What began and what ended: [`World3::events`](crate::World3::events).
     fn events(&self) -> &[Event<S::Key>];
@@ -92,6 +116,10 @@ impl<S: Space> AnyWorld<S> for World<S> {
         self.bodies.get(key)
     }
 
+    fn contains(&self, key: S::Key) -> bool {
+        self.bodies.contains_key(key)
+    }
+
     fn iter(&self) -> impl ExactSizeIterator<Item = (S::Key, &Collider<S>)> {
         self.bodies.iter()
     }
@@ -108,16 +136,36 @@ impl<S: Space> AnyWorld<S> for World<S> {
         self.set_asleep(key, true)
     }
 
+    fn wake(&mut self, key: S::Key) -> Result<(), StaleKey> {
+        self.set_asleep(key, false)
+    }
+
     fn candidates(&self) -> impl ExactSizeIterator<Item = (S::Key, S::Key)> + Clone {
         self.candidates.iter().map(|candidate| candidate.keys)
+    }
+
+    fn candidates_of(&self, key: S::Key) -> impl Iterator<Item = (S::Key, S::Key)> + Clone {
+        self.pairs_of(key)
     }
 
     fn contacts(&self) -> impl ExactSizeIterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone {
         self.show_contacts()
     }
 
+    fn contacts_of(&self, key: S::Key) -> impl Iterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone {
+        self.records_of(key).map(|index| self.show(index))
+    }
+
     fn contact(&self, one: S::Key, other: S::Key) -> Option<Contact<'_, S::Key, S::Manifold>> {
         self.record_of(one, other).map(|index| self.show(index))
+    }
+
+    fn is_touching(&self, one: S::Key, other: S::Key) -> bool {
+        self.has_begun(one, other)
+    }
+
+    fn touching(&self, key: S::Key) -> impl Iterator<Item = S::Key> + Clone {
+        self.touched_by(key)
     }
 
     fn events(&self) -> &[Event<S::Key>] {
