@@ -156,7 +156,7 @@ fn roof(slope: f64) -> Shape3 {
     let across = [-4.0, 0.0, 4.0_f64];
     let vertices = across.map(|x| [-4.0, 4.0].map(|z| DVec3::new(x, -slope * x.abs(), z).as_vec3()));
     let triangles = [[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]];
-    TriMesh::new(vertices.as_flattened(), &triangles).unwrap().into()
+    TriMesh::new(vertices.as_flattened(), triangles).unwrap().into()
 }
 
 fn down_and_out_of(slope: f64) -> [DVec3; 2] {

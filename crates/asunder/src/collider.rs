@@ -205,23 +205,25 @@ impl<S: Space> Collider<S> {
         }
     }
 
-    /// Marks a body of the level: two fixed bodies never pair. It may still be moved by `set_pose`. Ground
-    /// ([`Chain`](crate::Chain)) is fixed without being told.
+    /// Marks a body of the level: two fixed bodies never pair. It may still be moved by `set_pose`. Ground, which
+    /// is a [`TriMesh`](crate::TriMesh), a [`HeightField`](crate::HeightField) or a [`Chain`](crate::Chain), is fixed without being
+    /// told.
     #[must_use]
     pub fn fixed(mut self) -> Self {
         self.fixed = true;
         self
     }
 
-    /// Marks a body that only senses: its contacts have no manifolds.
+    /// Marks a body that only senses: its contacts have no manifolds. It meets what others meet, other sensors among it; and, if
+    /// it is fixed, nothing that is fixed, as a lift may be: leave a sensor unfixed that is to see those.
     #[must_use]
     pub fn sensor(mut self) -> Self {
         self.sensor = true;
         self
     }
 
-    /// Marks a body that must not pass through anything: an update says what it runs into first during its motion,
-    /// if it is given one ([`World3::set_motion`](crate::World3::set_motion),
+    /// Marks a body that must not pass through anything that it does not touch at the start: an update says what it runs into
+    /// first during its motion, if it is given one ([`World3::set_motion`](crate::World3::set_motion),
     /// [`World3::impacts`](crate::World3::impacts)).
     #[must_use]
     pub fn bullet(mut self) -> Self {

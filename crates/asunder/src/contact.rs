@@ -40,6 +40,29 @@ pub struct Contact<'a, K, M> {
     pub manifolds: &'a [M],
 }
 
+impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
+    /// Whom this body is in contact with; nothing if the contact is not its.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, World2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let [a, b, c] = [(); 3].map(|()| world.insert(ball.clone()));
+    /// world.remove(c);
+    /// world.update();
+    /// let contact = world.contacts_of(b).next().ok_or("they touch")?;
+    /// assert_eq!((contact.other(b), contact.other(a), contact.other(c)), (Some(a), Some(b), None));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn other(&self, body: K) -> Option<K> {
+        match (self.a, self.b) {
+            (a, b) if a == body => Some(b),
+            (a, b) if b == body => Some(a),
+            _ => None,
+        }
+    }
+}
+
 // Not derived: a contact only looks at its manifolds, which are no copies themselves.
 impl<K: Copy, M> Clone for Contact<'_, K, M> {
     fn clone(&self) -> Self {

@@ -38,6 +38,8 @@ pub struct Meeting<'a, S: Space> {
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
+    /// Whether they are beyond their margins, and only a motion may bring them together.
+    pub speculative: bool,
     /// How they touch: manifolds and points may be changed, taken out and put in. Whether the two touch, and so the
     /// events, stays as it is.
     pub manifolds: &'a mut Vec<S::Manifold>,
@@ -99,14 +101,15 @@ impl<'a, S: Space> Hooks<'a, S> {
     }
 
     /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on
-    /// agree. A pair that is refused is no candidate; a contact that it had ends.
+    /// agree. A pair that is refused is no candidate, and no bullet of it runs into the other; a contact that it had ends.
     #[must_use]
     pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
         self.pair = Some(may_meet);
         self
     }
 
-    /// Hands over every contact that has manifolds, to be edited.
+    /// Hands over every contact that has manifolds, to be edited, speculative ones too. What bullets run into is no contact, and
+    /// goes past it: what is to stop no bullet is refused by [`pair`](Self::pair).
     #[must_use]
     pub fn contact(mut self, edit: &'a (dyn Fn(Meeting<'_, S>) + Sync)) -> Self {
         self.contact = Some(edit);
@@ -186,7 +189,7 @@ pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>
     edited.manifolds.clear();
     edited.ends.clear();
     for (number, record) in records.iter() {
-        let Record { keys, manifolds: place, overlapping, is_new, .. } = record;
+        let Record { keys, manifolds: place, overlapping, is_new, speculative, .. } = record;
         // Numbers that no record has, have none.
         edited.ends.resize(number, edited.manifolds.len() as u32);
         let found = manifolds_at(place, answered);
@@ -198,6 +201,7 @@ pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>
                 b: Side { key: keys.1, body: b },
                 overlapping: *overlapping,
                 is_new: *is_new,
+                speculative: *speculative,
                 manifolds: &mut scratch.editing,
             });
             edited.manifolds.append(&mut scratch.editing);

@@ -126,12 +126,14 @@ impl World<Volume> {
     }
 
     /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the
-    /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them.
+    /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them: of a level in one
+    /// piece nothing is, while the bullet touches any of it (its walls are then speculative contacts).
     pub fn impacts(&self) -> &[Hit3] {
         &self.impacts
     }
 
-    /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update.
+    /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update. What becomes ground is
+    /// fixed, and stays so with other shapes: [`replace`](Self::replace) makes it free again.
     ///
     /// # Errors
     /// A stale key.

@@ -2,7 +2,7 @@
 
 use super::{at, chain, noise, sliders, towards, turned};
 use asunder::glam::{DVec2, Vec2};
-use asunder::{Capsule2, Chain, Circle, Feature, Manifold2, Pair2, Polygon, Pose2, Rect, Shape2};
+use asunder::{Capsule2, Chain, Circle, Feature, Manifold2, Pair2, Polygon, Pose2, Rect, Rotation2, Shape2};
 use core::ops::ControlFlow;
 
 fn circle(radius: f32) -> Shape2 {
@@ -329,4 +329,58 @@ fn where_a_piece_ends_the_anchor_of_a_tilted_body_lies_on_its_surface() {
         }
     }
     assert!(tilted_at_ends > 300, "{tilted_at_ends}");
+}
+
+/// Symptom: a capsule 40 cm deep in a chain was told, with a margin of 4 cm and not without, to be a little above the next
+/// segment. Cause: what is deep along no side of the ground counts where nothing else does, and what a margin brings in did.
+#[test]
+fn a_margin_takes_no_contact_away() {
+    let jags = [
+        (0.0, 0.0),
+        (1.3227451, -0.17740767),
+        (1.3227451, 0.0697917),
+        (2.026968, 0.8127224),
+        (3.3764124, 0.84648407),
+        (3.904508, 1.4185835),
+        (5.330036, 0.51095694),
+        (5.8038545, 0.6139729),
+        (5.8038545, 1.6062719),
+    ];
+    let capsule: Shape2 = Capsule2::from_half_height(0.5, 0.3).unwrap().into();
+    let pose =
+        Pose2::new([3.7221606581479625, 0.895208957530591], Rotation2::from_angle(-1.718).unwrap()).unwrap();
+    let least = |chain: &Chain, body: &Shape2, pose: &Pose2, margin: f32| {
+        let found = manifolds(chain, body, pose, margin);
+        found.into_iter().map(|told| told.separation).reduce(f32::min)
+    };
+    let told = least(&chain(&jags), &capsule, &pose, 0.04).unwrap();
+    assert!(told < -0.39, "{told}");
+
+    let mut deep = 0;
+    for case in 0..4000 {
+        let number = |i: usize| noise(31 * case + i);
+        let mut x = 0.0;
+        let points: Vec<Vec2> = (0..9)
+            .map(|i| {
+                x += 1.5 * number(i) as f32;
+                Vec2::new(x, 2.4 * number(i + 9) as f32 - 1.2)
+            })
+            .collect();
+        let Ok(ground) = Chain::open(points) else { continue };
+        let bodies: [Shape2; 3] =
+            [capsule.clone(), square(0.4), Rect::from_half_extents(Vec2::new(1.0, 0.15)).unwrap().into()];
+        let pose = Pose2::new(
+            [f64::from(x) * number(20), 2.0 * number(21) - 1.0],
+            Rotation2::from_angle(6.0 * number(22) as f32).unwrap(),
+        )
+        .unwrap();
+        let body = &bodies[case % 3];
+        let Some(without) = least(&ground, body, &pose, 0.0) else { continue };
+        for margin in [0.01, 0.04, 0.2] {
+            let with = least(&ground, body, &pose, margin).unwrap();
+            assert!(with <= without + 1e-5, "case {case}: {without}, with a margin of {margin} {with}");
+        }
+        deep += usize::from(without < -0.01);
+    }
+    assert!(deep > 500, "{deep}");
 }

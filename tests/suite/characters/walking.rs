@@ -42,6 +42,32 @@ fn who_jumps_leaves_the_ground() {
     assert!((hero.feet() - DVec3::new(0.1, 0.15, 0.0)).length() < 1e-6);
 }
 
+/// Symptom: of a frame that rises by less than a skin, or no faster than the slope ahead, ground was told: a loop that lets gravity
+/// pull where there is none lost the jump. Cause: ground was looked for below, also after what leads up.
+#[test]
+fn who_jumps_slowly_or_uphill_leaves_the_ground_too() {
+    let world = floor();
+    for up in [1e-4, 1e-3, 5e-3] {
+        let mut hero = Hero::new(&world, capsule(), DVec3::ZERO);
+        for frame in 1..=20 {
+            assert!(hero.step([0.01, up, 0.0]).ground.is_none(), "{up} up");
+            assert!((hero.feet().y - f64::from(frame) * f64::from(up)).abs() < 1e-5, "{}", hero.feet());
+        }
+    }
+    for degrees in [20.0_f64, 40.0] {
+        let world = slope(degrees);
+        let mut hero = Hero::new(&world, capsule(), [-2.0, 0.0, 0.0]);
+        hero.walk.steepest = cosine(50.0_f64.to_radians()) as f32;
+        for _ in 0..60 {
+            hero.step([0.1, -0.1, 0.0]);
+        }
+        assert!(hero.feet().y > 0.5, "on the slope: {}", hero.feet());
+        let slide = hero.step([0.1, 0.02, 0.0]);
+        assert!(slide.ground.is_none(), "{degrees} degrees: {slide:?}");
+        assert!(hero.step([0.0, -0.3, 0.0]).ground.is_some(), "{degrees} degrees");
+    }
+}
+
 #[test]
 fn no_inner_edge_of_a_tiled_floor_catches() {
     // Tiles of width 0.7, which f32 does not hold: tops level, sides up to rounding.

@@ -180,7 +180,7 @@ impl<S: Walks> Mover<'_, S> {
         }
         slid.blocked = !slid.walls.is_empty() && left.length() > STANDSTILL * length;
         let reach = if was_on_ground { self.gait.snap } else { 0.0 };
-        slid.ground = self.land(reach).map(|hit| hit.note());
+        slid.ground = if is_rising { None } else { self.land(reach).map(|hit| hit.note()) };
     }
 
     /// What is left, turned along what was met.

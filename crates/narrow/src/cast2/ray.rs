@@ -204,6 +204,13 @@ impl Asked<'_> {
         holds2(&Site2 { shape: self.shape, body: *self.pose, part: self.part }, &point)
     }
 
+    /// By how much rotations stretch what they turn: their cosines and sines are rounded. Radii are not stretched, and so look
+    /// smaller from the shape's axes.
+    fn stretch(&self) -> f64 {
+        let turns = [Some(self.pose), self.part];
+        turns.into_iter().flatten().map(|pose| pose.turn(DVec2::X).length()).product()
+    }
+
     /// How the line meets the shape.
     fn way(&self, beam: &Beam) -> Way {
         if let Shape2::HalfPlane(half_plane) = self.shape {
@@ -217,7 +224,7 @@ impl Asked<'_> {
             normals: core.normals(),
             beam,
             side: DVec2::new(beam.unit.y, -beam.unit.x),
-            radius: f64::from(self.shape.radius()),
+            radius: f64::from(self.shape.radius()) / self.stretch(),
             rounding: beam.rounding(reach),
         };
         if is_searched(self.shape) { seen.search() } else { seen.one_by_one() }

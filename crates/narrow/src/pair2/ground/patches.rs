@@ -84,7 +84,7 @@ pub(super) struct Patches<'m> {
     manifolds: &'m mut Vec<Manifold2>,
     /// Where the part's begin.
     first: usize,
-    /// What counts only where nothing else touches, though they overlap.
+    /// What counts only where no point of all else is touched, though they overlap.
     spare: Option<Manifold2>,
     /// The chain's place among the two bodies.
     side: usize,
@@ -116,9 +116,14 @@ impl<'m> Patches<'m> {
     }
 
     /// Whether there is a contact. The exact answer decides the signs.
-    pub(super) fn finish(self, overlapping: bool) -> bool {
-        if overlapping && self.manifolds.len() == self.first {
-            self.manifolds.extend(self.spare);
+    pub(super) fn finish(mut self, overlapping: bool) -> bool {
+        // What a margin brings in takes nobody's place.
+        let is_touched = |own: &Manifold2| own.points.iter().any(|point| point.separation <= 0.0);
+        if overlapping
+            && !self.manifolds[self.first..].iter().any(is_touched)
+            && let Some(spare) = self.spare.take()
+        {
+            self.add(Patch(spare), 0.0);
         }
         let own = self.manifolds.get_mut(self.first..).unwrap_or_default();
         if !overlapping {
