@@ -384,3 +384,34 @@ fn a_margin_takes_no_contact_away() {
     }
     assert!(deep > 500, "{deep}");
 }
+
+/// Symptom: a plank on a one-sided peak of 60 degrees was told a metre deep, and nothing a hair above it; casts met the peak with
+/// normals that look the way they go. Cause: a corner's normal that looks away from one of its faces was taken for that face's back.
+#[test]
+fn a_peak_is_met_as_the_corner_that_it_is() {
+    let peak = [Vec2::ZERO, Vec2::new(-4.0, -7.0), Vec2::new(4.0, -7.0)];
+    let closed = Chain::closed(peak).unwrap();
+    let plank: Shape2 = Rect::from_half_extents(Vec2::new(5.0, 0.0625)).unwrap().into();
+    for degrees in (-55..=55).step_by(5) {
+        let along = towards(f64::from(degrees).to_radians());
+        let rotation = turned(along);
+        let unit = DVec2::new(f64::from(rotation.cos()), f64::from(rotation.sin())).normalize();
+        for shift in [-4.0, -1.0, 0.5, 4.0] {
+            for gap in [-1e-3, -1e-6, 1e-6, 1e-3] {
+                let at = unit * shift + unit.perp() * (0.0625 + gap);
+                let pose = Pose2::new(at, rotation).unwrap();
+                for ground in [closed.clone(), closed.clone().one_sided()] {
+                    let name = format!("{degrees} degrees, {shift}, {gap}, {}", ground.is_one_sided());
+                    let [told] = manifolds(&ground, &plank, &pose, 0.01)[..] else { panic!("{name}") };
+                    assert!((f64::from(told.separation) - gap).abs() < 1e-5, "{name}: {told:?}");
+                    assert!(told.normal.as_dvec2().dot(unit.perp()) > 1.0 - 1e-6, "{name}: {told:?}");
+                }
+            }
+            let from = Pose2::new(unit * shift + unit.perp() * 1.0625, rotation).unwrap();
+            let ground = Shape2::from(closed.clone().one_sided());
+            let down = (-2.0 * unit.perp()).as_vec2();
+            let hit = Pair2::new(&plank, &from, &ground, &Pose2::IDENTITY).cast(down).unwrap();
+            assert!((hit.fraction - 0.5).abs() < 1e-5 && hit.normal.dot(down) > 1.999, "{degrees}: {hit:?}");
+        }
+    }
+}

@@ -106,7 +106,10 @@ impl Surface {
         };
         // Away from the corner.
         let leaving = if end == 1 { next } else { -next };
-        if direction.dot(leaving) <= ALONG_GROUND && !(self.is_one_sided && height < -ALONG_GROUND) {
+        // Of a corner of less than a right angle a normal may look away from the face, which nobody is behind who meets it so.
+        let is_convex = leaving.dot(self.normal) < 0.0;
+        let is_seen = !self.is_one_sided || is_convex || height >= -ALONG_GROUND;
+        if direction.dot(leaving) <= ALONG_GROUND && is_seen {
             return Told::Corner;
         }
         let normal = if is_in_front { right_of(next) } else { -right_of(next) };
