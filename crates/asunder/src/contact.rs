@@ -55,11 +55,16 @@ impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn other(&self, body: K) -> Option<K> {
-        match (self.a, self.b) {
-            (a, b) if a == body => Some(b),
-            (a, b) if b == body => Some(a),
-            _ => None,
-        }
+        other_of((self.a, self.b), body)
+    }
+}
+
+/// The one of two that another is not; nothing where it is neither.
+pub(crate) fn other_of<K: PartialEq>((a, b): (K, K), body: K) -> Option<K> {
+    match (a, b) {
+        (a, b) if a == body => Some(b),
+        (a, b) if b == body => Some(a),
+        _ => None,
     }
 }
 

@@ -1,5 +1,6 @@
 //! What changed between two updates.
 
+use crate::contact::other_of;
 use crate::space::{BodyKey2, BodyKey3};
 
 /// A contact that began or ended. Each `Began` is followed, at some later update, by exactly one `Ended`.
@@ -82,11 +83,7 @@ impl<K: Copy + PartialEq> Event<K> {
 
     /// Whom this body met or left; nothing if the event is not about it.
     pub fn other(&self, body: K) -> Option<K> {
-        match self.bodies() {
-            (a, b) if a == body => Some(b),
-            (a, b) if b == body => Some(a),
-            _ => None,
-        }
+        other_of(self.bodies(), body)
     }
 
     /// What was attached to the two bodies, in their order.

@@ -69,7 +69,7 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out one body: who asks, say. A stale key leaves out nobody. Another call takes the place of the first: to leave
+    /// Leaves out one body: who asks, say. A stale key leaves out nobody. Another call takes the place of the one before: to leave
     /// out several, give them an owner, or ask by [`only`](Self::only).
     #[must_use]
     pub const fn without(mut self, body: S::Key) -> Self {
@@ -77,7 +77,7 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out all bodies of an owner, as the parts of who asks. Another call takes the place of the first.
+    /// Leaves out all bodies of an owner, as the parts of who asks. Another call takes the place of the one before.
     #[must_use]
     pub const fn without_owner(mut self, owner: u64) -> Self {
         self.without_owner = Some(owner);
@@ -92,7 +92,7 @@ impl<'a, S: Space> Filter<'a, S> {
     }
 
     /// Finds only bodies of which this says yes. It is asked last, of bodies whose boxes may be met, in no promised
-    /// order; it may ask the world in turn. Another call takes the place of the first.
+    /// order; it may ask the world in turn. Another call takes the place of the one before.
     #[must_use]
     pub const fn only(mut self, only: &'a (dyn Fn(S::Key, &Collider<S>) -> bool + Sync)) -> Self {
         self.only = Some(only);

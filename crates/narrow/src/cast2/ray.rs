@@ -204,8 +204,8 @@ impl Asked<'_> {
         holds2(&Site2 { shape: self.shape, body: *self.pose, part: self.part }, &point)
     }
 
-    /// By how much rotations stretch what they turn: their cosines and sines are rounded. Radii are not stretched, and so look
-    /// smaller from the shape's axes.
+    /// By how much rotations stretch what they turn: their cosines and sines are rounded. Radii are not, and so are
+    /// smaller by as much, as seen from the shape's axes.
     fn stretch(&self) -> f64 {
         let turns = [Some(self.pose), self.part];
         turns.into_iter().flatten().map(|pose| pose.turn(DVec2::X).length()).product()

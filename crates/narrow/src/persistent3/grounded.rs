@@ -77,7 +77,8 @@ pub(super) struct Memory {
     witness: Vec<Witness>,
 }
 
-/// Places where points may leave their features, of one body: four points a manifold, and what is between them.
+/// Places where points may leave their features, of one body: four points a manifold, and what is between them. Bodies with more are
+/// not kept.
 const MOST_SEAMS: usize = 80;
 
 /// Manifolds of most bodies: for so many there is room from the start.
