@@ -76,6 +76,11 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
         a: (&Collider<Self>, &Self::Motion),
         b: (&Collider<Self>, &Self::Motion),
     ) -> Option<(f64, bool, Self::Impact)>;
+    /// `Pair::next_impact`, and the share of the motion.
+    fn next_touch(
+        a: (&Collider<Self>, &Self::Motion),
+        b: (&Collider<Self>, &Self::Motion),
+    ) -> Option<(f64, Self::Impact)>;
     /// A motion by up to `reach` on each axis that turns, or does not.
     fn random_motion(random: &mut Random, reach: f64) -> Self::Motion;
     /// A motion along the first axis.
@@ -217,6 +222,14 @@ impl Engine for Volume {
     ) -> Option<(f64, bool, Self::Impact)> {
         let pair = Pair3::new(a.0.shape(), a.0.pose(), b.0.shape(), b.0.pose());
         pair.impact(a.1, b.1).map(|impact| (impact.fraction, impact.overlapping, impact))
+    }
+
+    fn next_touch(
+        a: (&Collider<Self>, &Self::Motion),
+        b: (&Collider<Self>, &Self::Motion),
+    ) -> Option<(f64, Self::Impact)> {
+        let pair = Pair3::new(a.0.shape(), a.0.pose(), b.0.shape(), b.0.pose());
+        pair.next_impact(a.1, b.1).map(|impact| (impact.fraction, impact))
     }
 
     fn random_motion(random: &mut Random, reach: f64) -> Self::Motion {
@@ -388,6 +401,14 @@ impl Engine for Plane {
     ) -> Option<(f64, bool, Self::Impact)> {
         let pair = Pair2::new(a.0.shape(), a.0.pose(), b.0.shape(), b.0.pose());
         pair.impact(a.1, b.1).map(|impact| (impact.fraction, impact.overlapping, impact))
+    }
+
+    fn next_touch(
+        a: (&Collider<Self>, &Self::Motion),
+        b: (&Collider<Self>, &Self::Motion),
+    ) -> Option<(f64, Self::Impact)> {
+        let pair = Pair2::new(a.0.shape(), a.0.pose(), b.0.shape(), b.0.pose());
+        pair.next_impact(a.1, b.1).map(|impact| (impact.fraction, impact))
     }
 
     fn random_motion(random: &mut Random, reach: f64) -> Self::Motion {

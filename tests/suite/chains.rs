@@ -5,10 +5,12 @@
 //! - [`sliding`]: no ghost collisions on straight lines that are cut, at any angle, distance and speed
 //! - [`surfaces`]: arcs, corners, hollows, loose ends, sides, thin walls
 //! - [`casts`]: rays and shapes that move, against all segments; normals; who walks
+//! - [`onwards`]: what bodies run into next that touch a chain already
 //! - [`worlds`]: events, snapshots, questions
 
 mod casts;
 mod exact;
+mod onwards;
 mod sliding;
 mod surfaces;
 mod worlds;

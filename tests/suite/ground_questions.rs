@@ -3,11 +3,13 @@
 //! - [`overlaps`]: overlaps, separations and distances; the exact judge; nasty triangles
 //! - [`rays`]: rays, through edges and vertices too
 //! - [`casts`]: what moves and turns; sides; normals over inner edges
+//! - [`onwards`]: what bodies run into next that touch ground already
 //! - [`worlds`]: worlds asked about ground, bullets, bad input
 //! - [`walks`]: characters on ground
 //! - [`peer`]: parry3d's word
 
 mod casts;
+mod onwards;
 mod overlaps;
 mod peer;
 mod rays;

@@ -91,7 +91,8 @@ pub struct Freed<O, P> {
     pub pose: O,
     /// How it was moved to be there, in metres. Zero where it was free already.
     pub moved: P,
-    /// Whether it overlaps no solid now; touching counts as overlapping. Exact.
+    /// Whether it overlaps no solid now; touching counts as overlapping. Exact; one-sided ground
+    /// that it is behind is nothing that it overlaps.
     pub is_free: bool,
 }
 

@@ -222,9 +222,9 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Marks a body that must not pass through anything that it does not touch at the start: an update says what it runs into
-    /// first during its motion, if it is given one ([`World3::set_motion`](crate::World3::set_motion),
-    /// [`World3::impacts`](crate::World3::impacts)).
+    /// Marks a body that must not pass through anything that it does not touch at the start, of ground
+    /// and compounds part by part: an update says what it runs into first during its motion, if it is given one
+    /// ([`World3::set_motion`](crate::World3::set_motion), [`World3::impacts`](crate::World3::impacts)).
     #[must_use]
     pub fn bullet(mut self) -> Self {
         self.bullet = true;

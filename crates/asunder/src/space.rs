@@ -129,7 +129,8 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     #[doc(hidden)]
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
-    /// When two bodies that are apart first touch in their motions, and the share of the motions that is done by then.
+    /// When two bodies first touch in their motions where they do not touch at the start, and the share of the motions
+    /// that is done by then. What is in a sensor, in any part of it, runs into no other part.
     #[doc(hidden)]
     fn impact(
         bodies: [&Collider<Self>; 2],
@@ -229,7 +230,12 @@ impl Space for Plane {
     fn impact([a, b]: [&Collider<Self>; 2], motions: [Option<Motion2>; 2]) -> Option<(f64, Impact2)> {
         let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion2::STILL));
         let pair = Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose);
-        pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping).map(|impact| (impact.fraction, impact))
+        let impact = if a.sensor || b.sensor {
+            pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping)
+        } else {
+            pair.next_impact(&of_a, &of_b)
+        };
+        impact.map(|impact| (impact.fraction, impact))
     }
 
     fn is_ground(shape: &Shape2) -> bool {
@@ -329,7 +335,12 @@ impl Space for Volume {
     fn impact([a, b]: [&Collider<Self>; 2], motions: [Option<Motion3>; 2]) -> Option<(f64, Impact3)> {
         let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion3::STILL));
         let pair = Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose);
-        pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping).map(|impact| (impact.fraction, impact))
+        let impact = if a.sensor || b.sensor {
+            pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping)
+        } else {
+            pair.next_impact(&of_a, &of_b)
+        };
+        impact.map(|impact| (impact.fraction, impact))
     }
 
     fn is_ground(shape: &Shape3) -> bool {

@@ -126,10 +126,29 @@ impl World<Plane> {
     }
 
     /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the
-    /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them: of a level in one
-    /// piece nothing is, while the bullet touches any of it (its walls are then speculative contacts).
+    /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them; of a level in one piece,
+    /// whose floor it touches, the walls are: see [`Pair2::next_impact`](crate::Pair2::next_impact).
     pub fn impacts(&self) -> &[Hit2] {
         &self.impacts
+    }
+
+    /// What one bullet ran into at the last update, by time; nothing for a stale key. Cost: the number of all impacts.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Motion2, Pose2, World2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(0.5)?);
+    /// let gate = world.insert(ball.clone().sensor().at(Pose2::at([3.0, 0.0])?));
+    /// let wall = world.insert(ball.clone().at(Pose2::at([6.0, 0.0])?));
+    /// let shot = world.insert(ball.bullet());
+    /// world.set_motion(shot, Motion2::shift([9.0, 0.0])?)?;
+    /// world.update();
+    /// assert!(world.impacts_of(shot).map(|hit| hit.other).eq([gate, wall]));
+    /// assert_eq!(world.impacts_of(wall).count(), 0, "it is no bullet");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn impacts_of(&self, bullet: BodyKey2) -> impl Iterator<Item = &Hit2> + Clone {
+        self.impacts.iter().filter(move |hit| hit.bullet == bullet)
     }
 
     /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update. What becomes ground is

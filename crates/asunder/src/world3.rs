@@ -126,10 +126,29 @@ impl World<Volume> {
     }
 
     /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the
-    /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them: of a level in one
-    /// piece nothing is, while the bullet touches any of it (its walls are then speculative contacts).
+    /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them; of a level in one piece,
+    /// whose floor it touches, the walls are: see [`Pair3::next_impact`](crate::Pair3::next_impact).
     pub fn impacts(&self) -> &[Hit3] {
         &self.impacts
+    }
+
+    /// What one bullet ran into at the last update, by time; nothing for a stale key. Cost: the number of all impacts.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Collider3, Motion3, Pose3, World3};
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(0.5)?);
+    /// let gate = world.insert(ball.clone().sensor().at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let wall = world.insert(ball.clone().at(Pose3::at([6.0, 0.0, 0.0])?));
+    /// let shot = world.insert(ball.bullet());
+    /// world.set_motion(shot, Motion3::shift([9.0, 0.0, 0.0])?)?;
+    /// world.update();
+    /// assert!(world.impacts_of(shot).map(|hit| hit.other).eq([gate, wall]));
+    /// assert_eq!(world.impacts_of(wall).count(), 0, "it is no bullet");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn impacts_of(&self, bullet: BodyKey3) -> impl Iterator<Item = &Hit3> + Clone {
+        self.impacts.iter().filter(move |hit| hit.bullet == bullet)
     }
 
     /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update. What becomes ground is

@@ -79,6 +79,17 @@ pub const IMPACT_GAP: f64 = 1e-6;
 /// stated error, and far below an f32 rounding of the size.
 pub const IMPACT_REST: f64 = 1e-9;
 
+/// Share of a body's thickness within which what it meets next counts as level with what it touches.
+///
+/// It is what a body may end deeper in ground that it passes over, and how far in front of it that may begin: see
+/// `next_impact` of a pair. A larger value lets bodies run deeper into ramps; a smaller one stops a ball that rolls at every
+/// bend of its floor.
+pub const NEXT_LEVEL: f64 = 1.0 / 64.0;
+
+/// Share of its outer radius that a body's thickness counts for at least where [`NEXT_LEVEL`] is a share of it: so that segments and
+/// thin plates do not stop at the rounding of a floor's corners.
+pub const NEXT_THICKNESS: f64 = 1e-4;
+
 /// Share of a cloud's size by which a point must stand out of the hull of those before it to count as a vertex that no
 /// merging of facets takes away: 64 times [`COPLANAR`].
 ///

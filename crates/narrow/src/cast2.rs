@@ -41,6 +41,7 @@
 //! What the poses in between round to is part of every bound: f64 positions, and rotations rounded to f32, 1.2e-7
 //! of the arm. That is the best `error` that an impact of turning shapes can have.
 
+mod beyond;
 mod course;
 mod ground;
 mod piece;
@@ -54,6 +55,7 @@ use crate::impact2::Impact2;
 use crate::pair2::Pair2;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Motion2, Pose2};
+use beyond::{Touched, with_touched};
 use course::{Course, Touching, meeting};
 use piece::{Piece, for_pieces};
 pub use ray::cast_ray2;
@@ -123,6 +125,45 @@ impl Pair2<'_> {
         self.first_touch(&Travel::of([&self.pose_a, &self.pose_b], [motion_a, motion_b]))
     }
 
+    /// [`impact`](Self::impact), of bodies that may touch already: what they run into next.
+    ///
+    /// Parts of chains and of compounds that touch at the start are no answer, and neither is what is level with
+    /// them: what a body is no more than a 64th of its thickness away from, and goes no further into, beyond what it goes into
+    /// what it touches anyway. What is touched, but not told in a manifold since its
+    /// neighbour tells of it, and gone into, is an impact at the start: its anchors are as good as half a thickness. So a ball on a level's floor, pressed to it by its weight, runs over the floor's
+    /// vertices, and into the level's walls, steps and ramps. Of bodies of one part each that touch, nothing. Never
+    /// `overlapping`. Cost: as the impact, which is asked first; for those that touch their manifolds too, and another search.
+    ///
+    /// ```
+    /// use asunder_geometry::{Chain, Circle, Motion2, Pose2, Shape2, glam::Vec2};
+    /// use asunder_narrow::Pair2;
+    /// let points = [[-9.0, 0.0], [0.0, 0.0], [5.0, 0.0], [5.0, 4.0]].map(Vec2::from);
+    /// let yard = Shape2::from(Chain::open(points)?);
+    /// let (ball, on_floor) = (Shape2::from(Circle::new(0.5)?), Pose2::at([-2.0, 0.5])?);
+    /// let (kick, still) = (Motion2::shift([20.0, -0.1])?, Motion2::STILL);
+    /// let pair = Pair2::new(&ball, &on_floor, &yard, &Pose2::IDENTITY);
+    /// assert!(pair.impact(&kick, &still).is_some_and(|impact| impact.overlapping), "with the floor");
+    /// let wall = pair.next_impact(&kick, &still).ok_or("the wall is in the way")?;
+    /// assert!(wall.normal == Vec2::X && (wall.fraction * 20.0 - 6.5).abs() < 1e-6);
+    /// assert_eq!(pair.next_impact(&Motion2::shift([6.0, -0.1])?, &still), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn next_impact(&self, motion_a: &Motion2, motion_b: &Motion2) -> Option<Impact2> {
+        let travel = Travel::of([&self.pose_a, &self.pose_b], [motion_a, motion_b]);
+        let first = self.first_touch(&travel)?;
+        if !first.overlapping {
+            return Some(first);
+        }
+        if travel.is_still() || !self.has_ground() && !self.is_compound() {
+            return None;
+        }
+        with_touched(self, &travel, |touched| {
+            let mut stretches = travel.stretches().iter();
+            let first = stretches.find_map(|stretch| self.first_touch_in(stretch, Some(touched)));
+            touched.across([motion_a, motion_b], first.as_ref()).or(first)
+        })
+    }
+
     fn first_touch(&self, travel: &Travel) -> Option<Impact2> {
         let wholes = [Piece::whole(self.shape_a), Piece::whole(self.shape_b)];
         let may_touch = |stretch: &Stretch| meeting(stretch, [&wholes[0], &wholes[1]], 1.0).is_some();
@@ -139,13 +180,13 @@ impl Pair2<'_> {
         if travel.is_still() {
             return None;
         }
-        travel.stretches().iter().find_map(|stretch| self.first_touch_in(stretch))
+        travel.stretches().iter().find_map(|stretch| self.first_touch_in(stretch, None))
     }
 
-    /// The first pair of parts that touch within a stretch.
-    fn first_touch_in(&self, stretch: &Stretch) -> Option<Impact2> {
+    /// The first pair of parts that touch within a stretch; beyond those that are touched, where they are given.
+    fn first_touch_in(&self, stretch: &Stretch, beyond: Option<&Touched>) -> Option<Impact2> {
         if self.has_ground() {
-            return self.first_touch_of_ground(stretch);
+            return self.first_touch_of_ground(stretch, beyond);
         }
         let whole_b = Piece::whole(self.shape_b);
         let mut first: Option<Impact2> = None;
@@ -160,6 +201,9 @@ impl Pair2<'_> {
                 let Some(touching) = touching.filter(|touching| first.is_none() || touching.at < end) else {
                     return;
                 };
+                if beyond.is_some_and(|touched| touched.passes_over([a, b], (touching.at, touching.axis))) {
+                    return;
+                }
                 end = touching.at;
                 first = Some(impact(stretch, &touching, [a, b]));
             });

@@ -333,7 +333,14 @@ impl<'a> Pair2<'a> {
         })
     }
 
-    fn is_compound(&self) -> bool {
+    /// Whether two convex parts, given with their places in their bodies, overlap, exactly.
+    pub(crate) fn do_pieces_overlap(&self, [a, b]: [(&Shape2, Option<&Pose2>); 2]) -> bool {
+        let [a, b] = [(a, &self.turn_a), (b, &self.turn_b)]
+            .map(|((shape, local), turn)| Part { local, ..Part::whole(shape, turn) });
+        self.parts(a, b).convex.verdict().overlapping
+    }
+
+    pub(crate) fn is_compound(&self) -> bool {
         matches!(self.shape_a, Shape2::Compound(_)) || matches!(self.shape_b, Shape2::Compound(_))
     }
 

@@ -4,7 +4,7 @@
 //! of each candidate pair with a bullet, and a motion: when do they first touch?      in parallel
 //! sort by bullet, then by time; cut each bullet's list after the first that is solid
 //! ```
-//! Pairs that overlap at the start are contacts already, and not asked.
+//! What overlaps at the start is a contact already; of bodies of several parts, the others are asked (`next_impact`).
 
 use crate::contact::Candidate;
 use crate::motion::Hit;

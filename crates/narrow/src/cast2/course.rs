@@ -108,7 +108,11 @@ pub(super) fn meeting(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Optio
 impl<'a> Course<'a> {
     /// Nothing where circles tell that they do not touch before `end`.
     pub(super) fn new(stretch: &'a Stretch, pieces: [&'a Piece<'a>; 2], end: f64) -> Option<Self> {
-        let times = meeting(stretch, pieces, end)?;
+        Some(Self::over(stretch, pieces, meeting(stretch, pieces, end)?))
+    }
+
+    /// Between two times.
+    pub(super) fn over(stretch: &'a Stretch, pieces: [&'a Piece<'a>; 2], times: [f64; 2]) -> Self {
         let finite = |length: f64| if length < f64::INFINITY { length } else { 0.0 };
         let radius = |piece: &Piece| f64::from(piece.shape.radius());
         let furthest = times.map(|time| stretch.offset_at(time).length()).into_iter().fold(0.0, f64::max);
@@ -135,7 +139,7 @@ impl<'a> Course<'a> {
         let (gap, rounding) = (CAST_GAP2 * size, precision.projection());
         let (aim, enough) = (slack + 0.5 * gap + 2.0 * rounding, slack + gap + 6.0 * rounding);
         let cores = pieces.map(|piece| piece.shape.core());
-        Some(Self { stretch, pieces, cores, times, radii, precision, slack, aim, enough, pace, bend })
+        Self { stretch, pieces, cores, times, radii, precision, slack, aim, enough, pace, bend }
     }
 
     /// Where they first touch, before the end.
@@ -333,7 +337,7 @@ impl<'a> Course<'a> {
     }
 
     /// A lower bound on the gap along an axis at a time; along a half-plane's own, where there is one.
-    fn gap(&self, axis: DVec2, now: f64) -> f64 {
+    pub(super) fn gap(&self, axis: DVec2, now: f64) -> f64 {
         let between = match self.line() {
             Some(line) => self.height(line, now).2,
             None => {

@@ -3,6 +3,7 @@
 //! Each segment is a shape like any other, so that a miss is as certain as of those. What the ground adds is which sides are
 //! seen, and which normals there are: see `ground2`.
 
+use super::beyond::Touched;
 use super::course::{Course, Touching, meeting};
 use super::piece::{Piece, for_pieces};
 use super::stretch::Stretch;
@@ -28,8 +29,12 @@ impl Pair2<'_> {
     }
 
     /// The first segment and part that touch within a stretch.
-    pub(super) fn first_touch_of_ground(&self, stretch: &Stretch) -> Option<Impact2> {
-        let mut first = First { stretch, end: 1.0, impact: None };
+    pub(super) fn first_touch_of_ground(
+        &self,
+        stretch: &Stretch,
+        beyond: Option<&Touched>,
+    ) -> Option<Impact2> {
+        let mut first = First { stretch, end: 1.0, impact: None, beyond };
         match (self.shape_a, self.shape_b) {
             (Shape2::Chain(a), Shape2::Chain(b)) => {
                 let whole_b = Piece::whole(self.shape_b);
@@ -49,6 +54,8 @@ struct First<'s> {
     /// When.
     end: f64,
     impact: Option<Impact2>,
+    /// What is touched at the start, where only what is met beyond it is wanted.
+    beyond: Option<&'s Touched<'s>>,
 }
 
 impl First<'_> {
@@ -86,6 +93,9 @@ impl First<'_> {
             let Some(((axis, run), touching)) = found else { return };
             // Of equals, the first counts.
             if first.impact.is_some() && touching.at >= first.end {
+                return;
+            }
+            if first.beyond.is_some_and(|touched| touched.passes_over(pieces, (touching.at, axis))) {
                 return;
             }
             first.end = touching.at;

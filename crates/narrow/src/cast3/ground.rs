@@ -11,6 +11,7 @@
 //! The side is that at the start of the motion: what comes from the front is stopped however fast it is.
 
 use super::advance::{End, Met};
+use super::beyond::{Lies, Touched as TouchedAtStart};
 use super::passage::Passage;
 use super::{impact_of, part_end};
 use crate::ground3::{Corners, OnGround, Touched};
@@ -39,16 +40,23 @@ struct Search<'s> {
     first: Option<First>,
     /// Whether they touch at the start.
     touches: bool,
+    /// What they touch at the start, where only what is met beyond it is wanted.
+    beyond: Option<&'s TouchedAtStart<'s>>,
 }
 
 impl Pair3<'_> {
-    pub(super) fn first_touch_on(&self, on: &OnGround, passage: &Passage) -> Option<Impact3> {
+    pub(super) fn first_touch_on(
+        &self,
+        on: &OnGround,
+        passage: &Passage,
+        beyond: Option<&TouchedAtStart>,
+    ) -> Option<Impact3> {
         if passage.is_still() {
             return self.overlaps_seen(on).then(|| self.touching_at_start());
         }
         let drift = if on.is_b { passage.drift } else { -passage.drift };
         let way = on.basis.turn_back(drift);
-        let mut search = Search { pair: self, on, passage, way, first: None, touches: false };
+        let mut search = Search { pair: self, on, passage, way, first: None, touches: false, beyond };
         let reach = if passage.is_straight() { drift.length() } else { f64::INFINITY };
         on.for_body_parts(reach, |part| {
             search.over(part);
@@ -118,9 +126,9 @@ impl Search<'_> {
             End::Met(met) => met,
             End::Unclear(met) => {
                 let parts = self.pair.parts(&self.passage.bases, parts[0], parts[1]);
-                self.touches = parts.convex.verdict().overlapping;
-                if self.touches {
-                    return -1.0;
+                if parts.convex.verdict().overlapping {
+                    self.touches = self.beyond.is_none();
+                    return if self.touches { -1.0 } else { until };
                 }
                 met
             }
@@ -128,7 +136,14 @@ impl Search<'_> {
         let (part, center) = (part.index, placed.center);
         let rank = (met.fraction, part, number);
         if self.first.as_ref().is_none_or(|known| rank < (known.met.fraction, known.part, known.triangle)) {
-            self.first = Some(First { met, part, triangle: number, center });
+            let first = First { met, part, triangle: number, center };
+            let is_level = self.beyond.is_some_and(|touched| {
+                let normal = told(on, self.passage, &first).normal.as_dvec3();
+                touched.lies(self.passage, parts, normal) == Lies::Level
+            });
+            if !is_level {
+                self.first = Some(first);
+            }
         }
         self.until()
     }

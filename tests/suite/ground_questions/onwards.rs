@@ -1,0 +1,216 @@
+//! What bodies run into next that touch ground already: walls, ramps and steps, and not the seams of their floor.
+
+use super::{mesh, sheet};
+use asunder::glam::{DVec3, Quat, Vec2, Vec3};
+use asunder::{
+    Capsule3, Collider3, Compound3, Cuboid, Ground, HeightField, Manifold3, Motion3, Pair3, Pose3, Ray3,
+    Shape3, Sphere, World3, cast_ray3,
+};
+use asunder_tests::cases::Random;
+
+/// Half the length of the floor, where the wall stands.
+const WALL: f64 = 6.0;
+
+/// A floor cut into triangles, and a wall at its end: of one mesh.
+fn yard(random: &mut Random) -> Shape3 {
+    let cuts = 1 + random.below(20) as u32;
+    let step = 2.0 * WALL as f32 / cuts as f32;
+    let (mut vertices, mut triangles) = sheet([cuts, cuts], [step, step], |_, _| 0.0, |_, _| false);
+    let (end, first) = (WALL as f32, vertices.len() as u32);
+    vertices.extend([[end, 0.0, -end], [end, 0.0, end], [end, 3.0, -end], [end, 3.0, end]].map(Vec3::from));
+    triangles.extend([[0, 1, 2], [2, 1, 3]].map(|corners| corners.map(|corner: u32| corner + first)));
+    mesh((vertices, triangles))
+}
+
+/// Bodies about their own position, and how far they reach down and sideways.
+fn bodies() -> Vec<(Shape3, f64, f64)> {
+    let balls = [Pose3::at([0.3, 0.0, 0.0]), Pose3::at([-0.3, 0.0, 0.0])]
+        .map(|pose| (pose.unwrap(), Shape3::from(Sphere::new(0.25).unwrap())));
+    vec![
+        (Sphere::new(0.5).unwrap().into(), 0.5, 0.5),
+        (Cuboid::from_half_extents(Vec3::new(0.4, 0.3, 0.2)).unwrap().into(), 0.3, 0.4),
+        (Capsule3::from_half_height(0.3, 0.2).unwrap().into(), 0.5, 0.2),
+        (Compound3::new(balls).unwrap().into(), 0.25, 0.55),
+    ]
+}
+
+#[test]
+fn what_touches_its_floor_runs_over_its_seams_and_into_its_wall() {
+    let mut met = 0;
+    for seed in 0..2000 {
+        let mut random = Random::new(seed);
+        let (shape, down, ahead) = bodies().swap_remove(random.below(4));
+        let yard = yard(&mut random);
+        let pressed = random.pick(&[0.0, 1e-9, 1e-6, 1e-3, 0.02]);
+        let start = DVec3::new(random.between(-4.0, 4.0), down - pressed, random.between(-2.0, 2.0));
+        let falls = random.pick(&[0.0, 1e-6, 2.7e-3, 0.1]);
+        let way = DVec3::new(random.between(0.5, 12.0), -falls, random.between(-2.0, 2.0));
+        let (pose, at) =
+            (Pose3::at(start).unwrap(), Pose3::new(random.vector() * 3.0, random.quaternion()).unwrap());
+        let posed = Pose3::new(at.transform(start), at.rotation()).unwrap();
+        let motion = |way: DVec3| Motion3::shift(way).unwrap();
+        // As it lies, to 1e-6; and turned with all its ground, where touching is a matter of rounding.
+        for (place, ground, motion) in
+            [(pose, Pose3::IDENTITY, motion(way)), (posed, at, motion(at.turn(way)))]
+        {
+            let pair = Pair3::new(&shape, &place, &yard, &ground);
+            let told = pair.next_impact(&motion, &Motion3::STILL);
+            let swapped = Pair3::new(&yard, &ground, &shape, &place).next_impact(&Motion3::STILL, &motion);
+            let are_equal = match (told, swapped) {
+                (Some(told), Some(swapped)) => (told.fraction - swapped.fraction).abs() < 1e-9,
+                (told, swapped) => told.is_none() && swapped.is_none(),
+            };
+            assert!(are_equal, "{seed}: {told:?} {swapped:?}");
+            if !pair.overlaps() {
+                continue;
+            }
+            let expected = (WALL - ahead - start.x) / way.x;
+            let Some(impact) = told else {
+                assert!(expected > 1.0 - 1e-5, "{seed}: through the wall at {expected}");
+                continue;
+            };
+            assert!((impact.fraction - expected).abs() < 1e-5, "{seed}: {impact:?}, wall at {expected}");
+            let normal = ground.turn_back(impact.normal.as_dvec3());
+            assert!((normal - DVec3::X).length() < 1e-6 && !impact.overlapping, "{seed}: {impact:?}");
+            met += 1;
+        }
+    }
+    assert!(met > 1000, "{met}");
+}
+
+#[test]
+fn no_body_that_touches_rough_ground_comes_through_it() {
+    // Bends of up to 45 degrees; the ball is pressed in by less than its radius, and goes to where it is stopped.
+    let (mut stopped, mut free) = (0, 0);
+    for seed in 0..8_000 {
+        let mut random = Random::new(seed);
+        let steep = random.pick(&[0.01, 0.1, 0.5]);
+        let heights: Vec<f32> = (0..13 * 13).map(|_| (random.between(0.0, 1.0) * steep) as f32).collect();
+        let step = random.pick(&[0.5, 1.0]);
+        let height = |x: f32, z: f32| {
+            let place = |v: f32| ((v / step + 6.0).round() as usize).min(12);
+            heights[place(z) * 13 + place(x)]
+        };
+        let ground: Shape3 = match seed % 2 {
+            0 => mesh(sheet([12, 12], [step, step], height, |_, _| false)),
+            _ => HeightField::new(13, 13, heights.clone(), Vec2::splat(step)).unwrap().into(),
+        };
+        // A field begins at its corner.
+        let corner = if seed % 2 == 0 { 0.0 } else { -6.0 * f64::from(step) };
+        let lies = Pose3::at([corner, 0.0, corner]).unwrap();
+        let radius = random.between(0.05, 0.6);
+        let ball = Shape3::from(Sphere::new(radius as f32).unwrap());
+        // Down until it touches, and a little further.
+        let high = Pose3::at([random.between(-2.0, 2.0), 2.0, random.between(-2.0, 2.0)]).unwrap();
+        let fall = Pair3::new(&ball, &high, &ground, &lies).cast(Vec3::NEG_Y * 4.0).unwrap();
+        let pressed = random.pick(&[1e-6, 1e-3, 0.1]) * radius;
+        let start = high.position() - DVec3::Y * (4.0 * fall.fraction + f64::from(fall.error) + pressed);
+        let here = Pose3::at(start).unwrap();
+        let pair = Pair3::new(&ball, &here, &ground, &lies);
+        let turn = random.direction();
+        let way = DVec3::new(turn.x, -0.02 * random.between(0.0, 1.0), turn.z) * random.between(0.1, 6.0);
+        let told = pair.next_impact(&Motion3::shift(way).unwrap(), &Motion3::STILL);
+        let fraction = told.map_or(1.0, |impact| impact.fraction);
+        if let Some(impact) = &told {
+            assert!(impact.normal.as_dvec3().dot(way) > 0.0 && !impact.overlapping, "{seed}: {impact:?}");
+            let there = Pose3::at(start + way * fraction).unwrap();
+            // It may be in what it touched; what it met is as near as is said. At once, that is some triangle of a plane.
+            let triangle = Ground::of(&ground).unwrap().triangle(impact.part_b);
+            let triangle = Shape3::Triangle(triangle.unwrap());
+            let met = Pair3::new(&ball, &there, &triangle, &lies).distance();
+            assert!(
+                met.is_none_or(|met| fraction == 0.0 || met.distance < 1e-4),
+                "{seed}: {met:?} {impact:?}"
+            );
+        }
+        // What it goes into the slope that it touches is that contact's matter, and comes on top of what it is pressed in.
+        let into = |manifold: Manifold3| manifold.normal.as_dvec3().dot(way).max(0.0) * fraction;
+        let sunk = pressed + radius / 32.0 + pair.manifolds(0.0).into_iter().map(into).fold(0.0, f64::max);
+        if sunk < 0.9 * radius {
+            let along = (way * fraction).as_vec3();
+            let ray = Ray3::new(start, along);
+            let hit = ray.ok().and_then(|ray| cast_ray3(&ground, &lies, &ray, 1.0));
+            assert!(hit.is_none(), "{seed}: its middle comes through at {hit:?} of {fraction}");
+            if told.is_some() { stopped += 1 } else { free += 1 }
+        }
+    }
+    assert!(stopped > 200 && free > 100, "{stopped} {free}");
+}
+
+#[test]
+fn a_bullet_that_rolls_in_a_yard_of_one_mesh_stays_there() {
+    // Four walls and a floor in one mesh; 40 m/s, so that every third frame would lead outside.
+    let (half, up) = (5.0_f32, 2.0_f32);
+    let (mut vertices, mut triangles) = sheet([9, 9], [10.0 / 9.0; 2], |_, _| 0.0, |_, _| false);
+    let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+    for i in 0..4 {
+        let first = vertices.len() as u32;
+        let [from, to] = [corners[i], corners[(i + 1) % 4]];
+        vertices.extend([from, to].iter().flat_map(|&[x, z]| [Vec3::new(x, 0.0, z), Vec3::new(x, up, z)]));
+        triangles.extend([[0, 1, 2], [2, 1, 3]].map(|of| of.map(|corner: u32| corner + first)));
+    }
+    let mut world = World3::new();
+    world.insert(Collider3::new(mesh((vertices, triangles))));
+    let ball = Collider3::new(Sphere::new(0.25).unwrap()).bullet();
+    let ball = world.insert(ball.at(Pose3::at([0.0, 0.2495, 0.0]).unwrap()));
+    let mut velocity = DVec3::new(0.5, 0.0, 0.43);
+    let mut bounces = 0;
+    for frame in 0..400 {
+        let start = *world.get(ball).unwrap().pose();
+        let motion = Motion3::new(velocity - DVec3::Y * 2.7e-3, Quat::from_xyzw(0.3, 0.1, 0.0, 0.9)).unwrap();
+        world.set_motion(ball, motion).unwrap();
+        world.update();
+        let fraction = world.impacts().first().map_or(1.0, |hit| hit.impact.fraction);
+        if let [hit] = world.impacts() {
+            let normal = hit.impact.normal.as_dvec3();
+            assert!(normal.y.abs() < 1e-3, "{frame}: stopped by its floor: {hit:?}");
+            velocity -= 2.0 * velocity.dot(normal).max(0.0) * normal;
+            bounces += 1;
+        }
+        let mut place = start.position() + motion.displacement() * fraction;
+        place.y = 0.2495;
+        // A hair off the wall that it bounced from, so that it does not touch that when it sets out.
+        let inside = 5.0 - 0.25 - 1e-4;
+        assert!(place.abs().max_element() < 5.0 - 0.25 + 1e-4, "{frame}: outside at {place}");
+        place = DVec3::new(place.x.clamp(-inside, inside), place.y, place.z.clamp(-inside, inside));
+        world.set_pose(ball, Pose3::new(place, start.rotation()).unwrap()).unwrap();
+    }
+    assert!(bounces > 30, "{bounces}");
+}
+
+#[test]
+fn steps_down_and_ramps_are_met_and_what_was_touched_is_not() {
+    let ball = Shape3::from(Sphere::new(0.5).unwrap());
+    let slab = |half: [f32; 3]| Shape3::from(Cuboid::from_half_extents(Vec3::from(half)).unwrap());
+    let at = |place: [f64; 3]| Pose3::at(place).unwrap();
+    let next = |level: &Shape3, from: [f64; 3], way: [f64; 3]| {
+        let here = at(from);
+        let pair = Pair3::new(&ball, &here, level, &Pose3::IDENTITY);
+        assert!(pair.overlaps());
+        pair.next_impact(&Motion3::shift(way).unwrap(), &Motion3::STILL)
+    };
+    // A ledge, and a floor two metres below.
+    let ledge = Compound3::new([
+        (at([-5.0, -0.5, 0.0]), slab([5.0, 0.5, 5.0])),
+        (at([0.0, -2.5, 0.0]), slab([50.0, 0.5, 5.0])),
+    ]);
+    let ledge = Shape3::from(ledge.unwrap());
+    let impact = next(&ledge, [-0.5, 0.5, 0.0], [4.0, -4.0, 0.0]).unwrap();
+    assert!((impact.fraction - 0.5).abs() < 1e-5 && impact.part_b == 1, "{impact:?}");
+    assert!((impact.normal - Vec3::NEG_Y).length() < 1e-5, "{impact:?}");
+    // Through what is touched, however fast: that is a contact.
+    assert_eq!(next(&ledge, [-2.0, 0.5, 0.0], [0.0, -0.4, 0.0]), None);
+    // A ramp of 30 degrees in one mesh with its floor.
+    let slope = |x: f32, _: f32| if x > 0.0 { x * 0.57735 } else { 0.0 };
+    let ramp = mesh(sheet([16, 4], [1.0, 1.0], slope, |_, _| false));
+    let impact = next(&ramp, [-4.0, 0.4999, 0.1], [6.0, -0.01, 0.0]).unwrap();
+    // Where the centre is half a metre in front of the ramp's plane.
+    let (sine, cosine) = (0.5, 0.75_f64.sqrt());
+    let expected = (4.0 * sine + 0.4999 * cosine - 0.5) / (6.0 * sine + 0.01 * cosine);
+    assert!((impact.fraction - expected).abs() < 1e-5, "{impact:?} {expected}");
+    assert!((impact.normal - Vec3::new(0.5, -0.866_025_4, 0.0)).length() < 1e-4, "{impact:?}");
+    assert_eq!(next(&ramp, [-4.0, 0.4999, 0.1], [3.5, -0.01, 0.0]), None);
+    // Two bodies of one part each.
+    let floor = slab([9.0, 1.0, 9.0]);
+    assert_eq!(next(&floor, [0.0, 1.5, 0.0], [3.0, -0.1, 0.0]), None);
+}
