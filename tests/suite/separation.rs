@@ -1,5 +1,6 @@
 //! Separations and distances against the judges: an exhaustive separating axis test and an exhaustive distance.
 
+use asunder::{Pair2, Pose2, Separation2};
 use asunder_tests::answers::{Asked, Asked2, Asked3, Measured};
 use asunder_tests::cases::Random;
 
@@ -107,4 +108,50 @@ fn solids_that_almost_touch() {
 fn polygons_that_almost_touch() {
     let mut random = Random::new(103);
     tally((0..6000).map(|i| check(&Asked2::new(random.near_case2(GAPS[i % GAPS.len()])))), 2000);
+}
+
+#[test]
+fn a_gap_of_one_bit_in_the_plane_has_an_error_of_use() {
+    // Moved along a line until no f64 lies between where they touch and where they do not.
+    let mut apart = 0;
+    for seed in 0..40_000 {
+        let mut random = Random::new(seed);
+        let mut case = if seed % 4 == 0 { random.near_case2(0.0) } else { random.case2() };
+        if seed % 4 == 1 {
+            (case.shape_b, case.pose_b) =
+                (case.shape_a.clone(), Pose2::new(case.pose_b.position(), case.pose_a.rotation()).unwrap());
+        }
+        let from = case.pose_a.position();
+        let away = random.direction2() * case.size();
+        let place = |share: f64| Pose2::new(from + away * share, case.pose_b.rotation()).unwrap();
+        let overlaps = |pose: &Pose2| Pair2::new(&case.shape_a, &case.pose_a, &case.shape_b, pose).overlaps();
+        let (mut near, mut far) = (0.0, 1.5);
+        if !overlaps(&place(near)) || overlaps(&place(far)) {
+            continue;
+        }
+        loop {
+            let middle = 0.5 * (near + far);
+            if middle <= near || middle >= far {
+                break;
+            }
+            if overlaps(&place(middle)) { near = middle } else { far = middle }
+        }
+        for share in [near, far] {
+            let pose = place(share);
+            for pair in [
+                Pair2::new(&case.shape_a, &case.pose_a, &case.shape_b, &pose),
+                Pair2::new(&case.shape_b, &pose, &case.shape_a, &case.pose_a),
+            ] {
+                let Separation2::Measured(measured) = pair.separation(f32::INFINITY) else {
+                    panic!("{seed}")
+                };
+                let most = 1e-12 * case.size();
+                assert!(f64::from(measured.error) < most, "{seed}: {measured:?} of {case:?} at {pose:?}");
+                assert!(f64::from(measured.separation.abs()) < most, "{seed}: {measured:?}");
+                assert_eq!(measured.separation <= 0.0, share == near, "{seed}: {measured:?}");
+            }
+            apart += 1;
+        }
+    }
+    assert!(apart > 60_000, "{apart}");
 }

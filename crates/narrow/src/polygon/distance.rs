@@ -116,7 +116,10 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
                 wider.push(found);
                 let Some((nearest, place)) = nearest_to_origin(&wider) else {
                     let is_proved = is_around_origin(&wider, precision);
-                    return Reached::Origin(Close { corners: vertices(&wider), is_proved, within: length });
+                    // Its border is as near as any point may be that it really holds.
+                    let border = nearest_on_border(&wider).map_or(length, |(_, place)| place.length());
+                    let within = length.min(border);
+                    return Reached::Origin(Close { corners: vertices(&wider), is_proved, within });
                 };
                 if place.length() < length {
                     (simplex, v) = (nearest, place);
@@ -178,6 +181,11 @@ fn nearest_to_origin(simplex: &Simplex) -> Option<(Simplex, DVec2)> {
             return None;
         }
     }
+    nearest_on_border(simplex)
+}
+
+/// The same of the corners and the sides between them.
+fn nearest_on_border(simplex: &Simplex) -> Option<(Simplex, DVec2)> {
     let mut best: Option<(Simplex, DVec2)> = None;
     let mut offer = |corners: Simplex| {
         let first = corners[0].1;
