@@ -21,7 +21,7 @@ impl Playable for Plane {
     }
 
     fn motion(from: &Pose2, to: &Pose2) -> Option<Motion2> {
-        Motion2::new(to.position() - from.position(), to.rotation()).ok()
+        Motion2::between(from, to).ok()
     }
 
     fn fraction(impact: &Impact2) -> f64 {
@@ -35,7 +35,7 @@ impl Playable for Volume {
     }
 
     fn motion(from: &Pose3, to: &Pose3) -> Option<Motion3> {
-        Motion3::new(to.position() - from.position(), to.rotation()).ok()
+        Motion3::between(from, to).ok()
     }
 
     fn fraction(impact: &Impact3) -> f64 {

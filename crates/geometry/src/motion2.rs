@@ -58,6 +58,28 @@ impl Motion2 {
         Ok(Self { displacement, to: None })
     }
 
+    /// The motion that leads from one pose to another: what a solver's step is, once it is done. It turns the shorter way.
+    ///
+    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Of poses with the same
+    /// rotation it is a shift.
+    ///
+    /// ```
+    /// use asunder_geometry::{Motion2, Pose2, Rotation2};
+    /// let (from, to) = (Pose2::at([1.0, 2.0])?, Pose2::new([1.5, 2.0], Rotation2::new(0.6, 0.8)?)?);
+    /// let motion = Motion2::between(&from, &to)?;
+    /// assert_eq!((motion.pose_at(&from, 0.0), motion.pose_at(&from, 1.0)), (from, to));
+    /// assert_eq!(Motion2::between(&to, &to)?, Motion2::STILL);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Positions that are more than [`MAX_POSITION`](crate::tolerance::MAX_POSITION) apart on an axis.
+    pub fn between(from: &Pose2, to: &Pose2) -> Result<Self, PoseError> {
+        let motion = Self::shift(to.position() - from.position())?;
+        let bits = |pose: &Pose2| [pose.rotation().cos().to_bits(), pose.rotation().sin().to_bits()];
+        Ok(Self { to: (bits(from) != bits(to)).then_some(to.rotation()), ..motion })
+    }
+
     /// How far the position moves, in metres.
     #[inline]
     pub const fn displacement(&self) -> DVec2 {

@@ -90,6 +90,30 @@ impl Motion3 {
         Ok(Self { displacement, rotation: None })
     }
 
+    /// The motion that leads from one pose to another: what a solver's step is, once it is done. It turns the shorter way.
+    ///
+    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Of poses with the same
+    /// rotation it is a shift.
+    ///
+    /// ```
+    /// use asunder_geometry::{Motion3, Pose3, glam::Quat};
+    /// let from = Pose3::at([1.0, 2.0, 3.0])?;
+    /// let to = Pose3::new([1.5, 2.0, 3.0], Quat::from_xyzw(0.0, 0.6, 0.0, 0.8))?;
+    /// let motion = Motion3::between(&from, &to)?;
+    /// assert_eq!((motion.pose_at(&from, 0.0), motion.pose_at(&from, 1.0)), (from, to));
+    /// assert_eq!(Motion3::between(&to, &to)?, Motion3::STILL);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Positions that are more than 1e9 m apart on an axis.
+    pub fn between(from: &Pose3, to: &Pose3) -> Result<Self, PoseError> {
+        let motion = Self::shift(to.position() - from.position())?;
+        let [start, end] = [from, to].map(|pose| pose.rotation().to_array());
+        let is_turned = start.map(f32::to_bits) != end.map(f32::to_bits);
+        Ok(Self { rotation: is_turned.then_some(end), ..motion })
+    }
+
     /// How far the position moves in all, in metres.
     #[inline]
     pub const fn displacement(&self) -> DVec3 {
