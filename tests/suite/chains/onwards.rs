@@ -121,3 +121,30 @@ fn a_bullet_that_slides_along_its_chain_is_told_of_the_wall() {
     assert!((hit.impact.fraction - 5.5 / 40.0).abs() < 1e-6 && hit.other == yard, "{hit:?}");
     assert!((hit.impact.normal - Vec2::X).length() < 1e-6, "{hit:?}");
 }
+
+#[test]
+fn a_floor_of_tiles_in_a_compound_stops_nobody_and_its_wall_does() {
+    let tile = |half: [f32; 2]| Shape2::from(Rect::from_half_extents(Vec2::from(half)).unwrap());
+    let mut parts: Vec<_> =
+        (0..6).map(|i| (Pose2::at([2.0 * f64::from(i) - 5.0, -0.5]).unwrap(), tile([1.0, 0.5]))).collect();
+    parts.push((Pose2::at([7.0, 0.0]).unwrap(), tile([1.0, 3.0])));
+    let yard = Shape2::from(Compound2::new(parts).unwrap());
+    for seed in 0..4000 {
+        let mut random = Random::new(seed);
+        let (shape, down, ahead) = bodies().swap_remove(random.below(4));
+        let start = DVec2::new(random.between(-4.0, 4.0), down - random.pick(&[0.0, 1e-6, 1e-3]));
+        let way = DVec2::new(random.between(0.5, 12.0), -random.pick(&[0.0, 1e-6, 2.7e-3]));
+        let here = Pose2::at(start).unwrap();
+        let pair = Pair2::new(&shape, &here, &yard, &Pose2::IDENTITY);
+        if !pair.overlaps() {
+            continue;
+        }
+        let expected = (6.0 - ahead - start.x) / way.x;
+        match pair.next_impact(&Motion2::shift(way).unwrap(), &Motion2::STILL) {
+            Some(impact) => {
+                assert!((impact.fraction - expected).abs() < 1e-5, "{seed}: {impact:?} {expected}")
+            }
+            None => assert!(expected > 1.0 - 1e-5, "{seed}: through the wall at {expected}"),
+        }
+    }
+}

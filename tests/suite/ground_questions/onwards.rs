@@ -214,3 +214,59 @@ fn steps_down_and_ramps_are_met_and_what_was_touched_is_not() {
     let floor = slab([9.0, 1.0, 9.0]);
     assert_eq!(next(&floor, [0.0, 1.5, 0.0], [3.0, -0.1, 0.0]), None);
 }
+
+#[test]
+fn a_floor_of_slabs_in_a_compound_stops_nobody_and_its_wall_does() {
+    let slab = |half: [f32; 3]| Shape3::from(Cuboid::from_half_extents(Vec3::from(half)).unwrap());
+    let mut parts: Vec<_> = (0..6)
+        .map(|i| (Pose3::at([2.0 * f64::from(i) - 5.0, -0.5, 0.0]).unwrap(), slab([1.0, 0.5, 4.0])))
+        .collect();
+    parts.push((Pose3::at([7.0, 0.0, 0.0]).unwrap(), slab([1.0, 3.0, 4.0])));
+    let yard = Shape3::from(Compound3::new(parts).unwrap());
+    for seed in 0..2000 {
+        let mut random = Random::new(seed);
+        let (shape, down, ahead) = bodies().swap_remove(random.below(4));
+        let pressed = random.pick(&[0.0, 1e-6, 1e-3]);
+        let start = DVec3::new(random.between(-4.0, 4.0), down - pressed, random.between(-1.0, 1.0));
+        let way = DVec3::new(random.between(0.5, 12.0), -random.pick(&[0.0, 1e-6, 2.7e-3]), random.signed());
+        let here = Pose3::at(start).unwrap();
+        let pair = Pair3::new(&shape, &here, &yard, &Pose3::IDENTITY);
+        if !pair.overlaps() {
+            continue;
+        }
+        let told = pair.next_impact(&Motion3::shift(way).unwrap(), &Motion3::STILL);
+        let expected = (WALL - ahead - start.x) / way.x;
+        match told {
+            Some(impact) => {
+                assert!((impact.fraction - expected).abs() < 1e-5, "{seed}: {impact:?} {expected}")
+            }
+            None => assert!(expected > 1.0 - 1e-5, "{seed}: through the wall at {expected}"),
+        }
+    }
+}
+
+#[test]
+fn what_turns_or_is_thin_is_stopped_by_the_wall_beside_it() {
+    let mut random = Random::new(1);
+    let yard = yard(&mut random);
+    let next = |shape: &Shape3, pose: Pose3, motion: Motion3| {
+        let pair = Pair3::new(shape, &pose, &yard, &Pose3::IDENTITY);
+        assert!(pair.overlaps());
+        pair.next_impact(&motion, &Motion3::STILL)
+    };
+    // A rod on the floor, a millimetre from the wall, turns by half a turn: both ends are in the wall on the way, and neither at
+    // the end.
+    let rod = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.1, 0.1, 1.0)).unwrap());
+    for turn in [Quat::from_xyzw(0.0, 1.0, 0.0, 0.0), Quat::from_xyzw(0.0, 0.99, 0.0, 0.01)] {
+        let motion = Motion3::new(DVec3::ZERO, turn).unwrap();
+        let impact = next(&rod, Pose3::at([WALL - 0.101, 0.0999, 0.0]).unwrap(), motion).unwrap();
+        assert!(impact.fraction < 0.01 && (impact.normal - Vec3::X).length() < 1e-5, "{impact:?}");
+    }
+    // A needle that lies askew in its own axes is no thicker than it is.
+    let askew = Vec3::splat(1.0).normalize();
+    let needle = Shape3::from(Capsule3::new(-askew, askew, 0.001).unwrap());
+    let along_wall =
+        Pose3::new([WALL - 0.0015, 0.00099, 0.0], Quat::from_rotation_arc(askew, Vec3::Z)).unwrap();
+    let impact = next(&needle, along_wall, Motion3::shift([0.0042, 0.0, 0.0]).unwrap()).unwrap();
+    assert!((impact.fraction * 0.0042 - 0.0005).abs() < 1e-5, "{impact:?}");
+}

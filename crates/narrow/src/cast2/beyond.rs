@@ -8,10 +8,13 @@ use crate::answer::Manifold2;
 use crate::feature::Hint;
 use crate::impact2::Impact2;
 use crate::pair2::Pair2;
-use asunder_geometry::glam::DVec2;
+use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::tolerance::{NEXT_LEVEL, NEXT_THICKNESS};
-use asunder_geometry::{Chain, Motion2, Shape2};
+use asunder_geometry::{Chain, Motion2, Polygon, Shape2};
 use core::cell::Cell;
+
+/// Moments of each half of a motion with a turn that are looked at.
+const MOMENTS: u32 = 16;
 
 thread_local! {
     /// Memory for manifolds: who asks every frame allocates nothing.
@@ -51,6 +54,14 @@ fn with_manifolds<R>(pair: &Pair2, ask: impl FnOnce(&[Manifold2]) -> R) -> R {
     answer
 }
 
+/// Radius of a circle about the middle of a polygon's vertices, which is inside it, that the core holds.
+fn inner_radius(polygon: &Polygon) -> f64 {
+    let sum: DVec2 = polygon.vertices().iter().map(|vertex| vertex.as_dvec2()).sum();
+    let middle = sum / polygon.vertices().len() as f64;
+    let height = |(vertex, normal): (&Vec2, &DVec2)| (vertex.as_dvec2() - middle).dot(*normal);
+    polygon.vertices().iter().zip(polygon.normals()).map(height).fold(f64::INFINITY, f64::min).max(0.0)
+}
+
 /// How what two parts meet with lies to what is touched.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Lies {
@@ -76,10 +87,25 @@ impl Touched<'_> {
         let [Some(first), Some(last)] = [stretches.first(), stretches.last()] else { return Lies::Level };
         let [first, last] = [first, last].map(|stretch| Course::over(stretch, pieces, [0.0, 1.0]));
         let slack = NEXT_LEVEL * self.thickness(pieces);
+        let is_flush = |manifold: &Manifold2| {
+            let above = first.gap(manifold.normal.as_dvec2(), 0.0);
+            above <= slack && above >= f64::from(manifold.separation) - slack
+        };
+        if self.are_ground == [false; 2] && self.manifolds.iter().any(is_flush) {
+            return Lies::Level;
+        }
         if first.gap(normal, 0.0) > slack {
             return Lies::Ahead;
         }
-        let closing = |axis: DVec2| first.gap(axis, 0.0) - last.gap(axis, 1.0);
+        // Who turns may be in deepest on the way.
+        let is_turning = stretches.iter().any(|stretch| stretch.is_turning());
+        let between = if is_turning { 1..MOMENTS } else { 0..0 };
+        let closing = |axis: DVec2| {
+            let at = |i: u32| f64::from(i) / f64::from(MOMENTS);
+            let on_the_way = between.clone().map(|i| first.gap(axis, at(i)).min(last.gap(axis, at(i))));
+            let least = on_the_way.fold(first.gap(axis, 1.0).min(last.gap(axis, 1.0)), f64::min);
+            first.gap(axis, 0.0) - least
+        };
         let into = closing(normal);
         let anyway = |manifold: &Manifold2| {
             let touched = manifold.normal.as_dvec2();
@@ -97,11 +123,12 @@ impl Touched<'_> {
             if self.are_ground[i] || !size.is_finite() {
                 return f64::INFINITY;
             }
-            let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-            for vertex in shape.core().vertices() {
-                (low, high) = (low.min(vertex.as_dvec2()), high.max(vertex.as_dvec2()));
-            }
-            let thickness = 0.5 * (high - low).min_element() + f64::from(shape.radius());
+            let inner = match shape {
+                Shape2::Rect(rect) => f64::from(rect.half_extents().min_element()),
+                Shape2::Polygon(polygon) => inner_radius(polygon),
+                _ => 0.0,
+            };
+            let thickness = inner + f64::from(shape.radius());
             thickness.max(NEXT_THICKNESS * size)
         };
         let least = of(0).min(of(1));
