@@ -198,6 +198,13 @@ fn steps_down_and_ramps_are_met_and_what_was_touched_is_not() {
     let impact = next(&ledge, [-0.5, 0.5, 0.0], [4.0, -4.0, 0.0]).unwrap();
     assert!((impact.fraction - 0.5).abs() < 1e-5 && impact.part_b == 1, "{impact:?}");
     assert!((impact.normal - Vec3::NEG_Y).length() < 1e-5, "{impact:?}");
+    // Over a ditch, down into the side of its other bank, which is as high as the near one.
+    let banks = Compound3::new([-6.0, 6.0].map(|x| (at([x, -2.0, 0.0]), slab([5.0, 2.0, 5.0]))));
+    let impact = next(&Shape3::from(banks.unwrap()), [-1.0, 0.5, 0.0], [4.0, -4.0, 0.0]).unwrap();
+    assert!(
+        (impact.fraction - 0.375).abs() < 1e-5 && (impact.normal - Vec3::X).length() < 1e-5,
+        "{impact:?}"
+    );
     // Through what is touched, however fast: that is a contact.
     assert_eq!(next(&ledge, [-2.0, 0.5, 0.0], [0.0, -0.4, 0.0]), None);
     // A ramp of 30 degrees in one mesh with its floor.

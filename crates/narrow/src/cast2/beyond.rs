@@ -86,17 +86,8 @@ impl Touched<'_> {
         let stretches = self.travel.stretches();
         let [Some(first), Some(last)] = [stretches.first(), stretches.last()] else { return Lies::Level };
         let [first, last] = [first, last].map(|stretch| Course::over(stretch, pieces, [0.0, 1.0]));
-        let slack = NEXT_LEVEL * self.thickness(pieces);
-        let is_flush = |manifold: &Manifold2| {
-            let above = first.gap(manifold.normal.as_dvec2(), 0.0);
-            above <= slack && above >= f64::from(manifold.separation) - slack
-        };
-        if self.are_ground == [false; 2] && self.manifolds.iter().any(is_flush) {
-            return Lies::Level;
-        }
-        if first.gap(normal, 0.0) > slack {
-            return Lies::Ahead;
-        }
+        let thickness = self.thickness(pieces);
+        let slack = NEXT_LEVEL * thickness;
         // Who turns may be in deepest on the way.
         let is_turning = stretches.iter().any(|stretch| stretch.is_turning());
         let between = if is_turning { 1..MOMENTS } else { 0..0 };
@@ -106,6 +97,18 @@ impl Touched<'_> {
             let least = on_the_way.fold(first.gap(axis, 1.0).min(last.gap(axis, 1.0)), f64::min);
             first.gap(axis, 0.0) - least
         };
+        let is_flush = |manifold: &Manifold2| {
+            let touched = manifold.normal.as_dvec2();
+            let above = first.gap(touched, 0.0);
+            let lowest = f64::from(manifold.separation) - slack;
+            above <= slack && above >= lowest && closing(touched) <= 0.5 * thickness
+        };
+        if self.are_ground == [false; 2] && self.manifolds.iter().any(is_flush) {
+            return Lies::Level;
+        }
+        if first.gap(normal, 0.0) > slack {
+            return Lies::Ahead;
+        }
         let into = closing(normal);
         let anyway = |manifold: &Manifold2| {
             let touched = manifold.normal.as_dvec2();

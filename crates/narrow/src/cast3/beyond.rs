@@ -6,8 +6,9 @@
 //!   gap       along n at the start, no more than a 64th of the body's thickness, and
 //!   closing   along n from the start to the deepest, less what goes into the touched anyway, no more than that too:
 //!             it is level with what is touched, and passed over (the next triangle of a floor, a bend of half a degree)
-//!   of compounds: a part that is flush with a touched one along the normal m of that contact is level too: ground has normals
-//!             of its own for inner edges, where the side of the next slab of a floor looks like a wall
+//!   of compounds: a part that is flush with a touched one along the normal m of that contact is level too, unless the body sinks
+//!             along m by half its thickness: ground has normals of its own for inner edges, where the side of the next slab
+//!             of a floor looks like a wall
 //!   else:     an impact
 //! nothing until half a thickness of the way: what ground is in the manifolds there, and moved into, is an impact at the start
 //! ```
@@ -68,21 +69,11 @@ impl Touched<'_> {
     /// How it lies what two parts meet with along a unit axis from A to B.
     pub(super) fn lies(&self, passage: &Passage, parts: [Part; 2], normal: DVec3) -> Lies {
         let (core_a, core_b) = (parts[0].shape.core(), parts[1].shape.core());
-        let slack = NEXT_LEVEL * self.thickness(&parts);
+        let thickness = self.thickness(&parts);
+        let slack = NEXT_LEVEL * thickness;
         let course = Course::new(passage, parts, [&core_a, &core_b]);
         let (start, end) = (course.at(0.0), course.at(1.0));
         let gap = |moment: &Moment, axis: DVec3| gap_along(moment, axis) - course.radii;
-        let is_flush = |manifold: &Manifold3| {
-            let above = gap(&start, manifold.normal.as_dvec3());
-            above <= slack && above >= f64::from(manifold.separation) - slack
-        };
-        // Of ground that is known already: it has normals of its own for its inner edges.
-        if self.are_ground == [false; 2] && self.manifolds.iter().any(is_flush) {
-            return Lies::Level;
-        }
-        if gap(&start, normal) > slack {
-            return Lies::Ahead;
-        }
         // Who turns may be in deepest on the way.
         let between = if passage.is_straight() { 0 } else { MOMENTS };
         let on_the_way = (1..between).map(|i| course.at(f64::from(i) / f64::from(MOMENTS)));
@@ -91,6 +82,19 @@ impl Touched<'_> {
             let least = on_the_way.iter().fold(gap(&end, axis), |least, moment| least.min(gap(moment, axis)));
             gap(&start, axis) - least
         };
+        let is_flush = |manifold: &Manifold3| {
+            let touched = manifold.normal.as_dvec3();
+            let above = gap(&start, touched);
+            let lowest = f64::from(manifold.separation) - slack;
+            above <= slack && above >= lowest && closing(touched) <= 0.5 * thickness
+        };
+        // Of ground that is known already: it has normals of its own for its inner edges.
+        if self.are_ground == [false; 2] && self.manifolds.iter().any(is_flush) {
+            return Lies::Level;
+        }
+        if gap(&start, normal) > slack {
+            return Lies::Ahead;
+        }
         let into = closing(normal);
         let anyway = |manifold: &Manifold3| {
             let touched = manifold.normal.as_dvec3();
