@@ -181,6 +181,6 @@ impl<S: Space> AnyWorld<S> for World<S> {
     }
 
     fn impacts_of(&self, bullet: S::Key) -> impl Iterator<Item = &Hit<S::Key, S::Impact>> + Clone {
-        self.impacts.iter().filter(move |hit| hit.bullet == bullet)
+        self.hits_of(bullet)
     }
 }

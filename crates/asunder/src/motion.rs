@@ -114,6 +114,10 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
+    pub(crate) fn hits_of(&self, bullet: S::Key) -> impl Iterator<Item = &Hit<S::Key, S::Impact>> + Clone {
+        self.impacts.iter().filter(move |hit| hit.bullet == bullet)
+    }
+
     /// After an update the motions are history, and the boxes around them too wide.
     pub(crate) fn forget_motions(&mut self) {
         while let Some(slot) = self.motions.slots.pop() {

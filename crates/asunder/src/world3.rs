@@ -148,7 +148,7 @@ impl World<Volume> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn impacts_of(&self, bullet: BodyKey3) -> impl Iterator<Item = &Hit3> + Clone {
-        self.impacts.iter().filter(move |hit| hit.bullet == bullet)
+        self.hits_of(bullet)
     }
 
     /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update. What becomes ground is

@@ -31,14 +31,15 @@ mod ray;
 #[cfg(test)]
 mod tests;
 
-use crate::answer::Separation3;
+use crate::answer::{Manifold3, Separation3};
 use crate::ground3::OnGround;
 use crate::impact3::Impact3;
+use crate::level::Lies;
 use crate::pair3::{Pair3, Part, for_parts};
 use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Motion3, Shape3};
-use beyond::{Lies, Touched, with_touched};
+use beyond::{Touched, with_touched};
 use march::march;
 use passage::{Course, Passage, Stretch, rounding_of};
 pub use ray::cast_ray3;
@@ -232,32 +233,27 @@ impl Pair3<'_> {
 
     /// Shapes that touch before anything has moved.
     fn touching_at_start(&self) -> Impact3 {
-        let mut impact = Impact3 {
-            fraction: 0.0,
-            error: 0.0,
-            overlapping: true,
-            normal: Vec3::X,
-            anchor_a: Vec3::ZERO,
-            anchor_b: Vec3::ZERO,
-            part_a: 0,
-            part_b: 0,
-        };
-        let Some(manifold) = self.manifold(0.0) else {
-            if let Separation3::Measured(measured) = self.separation(0.0) {
-                impact.normal = measured.normal;
-            }
-            return impact;
-        };
-        (impact.normal, impact.part_a, impact.part_b) = (manifold.normal, manifold.part_a, manifold.part_b);
-        let deepest = manifold
-            .points
-            .iter()
-            .reduce(|best, next| if next.separation < best.separation { next } else { best });
-        if let Some(point) = deepest {
-            (impact.anchor_a, impact.anchor_b) = (point.anchor_a, point.anchor_b);
+        if let Some(manifold) = self.manifold(0.0) {
+            return at_start(&manifold);
         }
-        impact
+        let normal = match self.separation(0.0) {
+            Separation3::Measured(measured) => measured.normal,
+            Separation3::AtLeast(_) => Vec3::X,
+        };
+        let (anchor_a, anchor_b) = (Vec3::ZERO, Vec3::ZERO);
+        let (fraction, error, part_a, part_b) = (0.0, 0.0, 0, 0);
+        Impact3 { fraction, error, overlapping: true, normal, anchor_a, anchor_b, part_a, part_b }
     }
+}
+
+/// A manifold as an impact, with its deepest point.
+fn at_start(manifold: &Manifold3) -> Impact3 {
+    let points = manifold.points.iter();
+    let deepest = points.reduce(|best, next| if next.separation < best.separation { next } else { best });
+    let (anchor_a, anchor_b) =
+        deepest.map_or((Vec3::ZERO, Vec3::ZERO), |point| (point.anchor_a, point.anchor_b));
+    let Manifold3 { normal, part_a, part_b, .. } = *manifold;
+    Impact3 { fraction: 0.0, error: 0.0, overlapping: true, normal, anchor_a, anchor_b, part_a, part_b }
 }
 
 /// How the motion of two parts ends that may touch on a stretch of it.

@@ -65,6 +65,8 @@ mod jobs3;
 mod kept;
 mod lanes;
 mod least;
+mod level;
+mod lists;
 #[cfg(test)]
 mod numbers;
 mod pair2;

@@ -148,3 +148,35 @@ fn a_floor_of_tiles_in_a_compound_stops_nobody_and_its_wall_does() {
         }
     }
 }
+
+/// Asks a question when its thread ends, and what memory the thread had for questions is gone.
+struct LastWish(std::sync::mpsc::Sender<bool>);
+
+impl LastWish {
+    fn ask() -> bool {
+        let line = [[6.0, 3.0], [6.0, 0.0], [-6.0, 0.0]].map(Vec2::from);
+        let yard = Shape2::from(Chain::open(line).unwrap());
+        let (ball, here) = (Circle::new(0.5).unwrap().into(), Pose2::at([0.0, 0.499]).unwrap());
+        let motion = Motion2::shift([40.0, 0.0]).unwrap();
+        Pair2::new(&ball, &here, &yard, &Pose2::IDENTITY).next_impact(&motion, &Motion2::STILL).is_some()
+    }
+}
+
+impl Drop for LastWish {
+    fn drop(&mut self) {
+        self.0.send(Self::ask()).unwrap();
+    }
+}
+
+#[test]
+fn a_thread_that_is_about_to_end_may_ask() {
+    thread_local!(static WISH: std::cell::RefCell<Option<LastWish>> = const { std::cell::RefCell::new(None) });
+    let (sender, answers) = std::sync::mpsc::channel();
+    let thread = std::thread::spawn(move || {
+        // What is made last goes first: the memory for questions.
+        WISH.with(|wish| *wish.borrow_mut() = Some(LastWish(sender)));
+        LastWish::ask()
+    });
+    assert!(thread.join().unwrap());
+    assert_eq!(answers.recv(), Ok(true));
+}

@@ -1,4 +1,4 @@
-//! What a body meets next that touches some of the other already, in the plane: see `cast3/beyond.rs`.
+//! What a body meets next that touches some of the other already, in the plane: see [`level`](crate::level).
 
 use super::at_start;
 use super::course::Course;
@@ -7,19 +7,14 @@ use super::stretch::Travel;
 use crate::answer::Manifold2;
 use crate::feature::Hint;
 use crate::impact2::Impact2;
+use crate::level::{Lies, Passing, half_through, thickness, thinner};
+use crate::lists::{MANIFOLDS2, with_list};
 use crate::pair2::Pair2;
-use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::tolerance::{NEXT_LEVEL, NEXT_THICKNESS};
-use asunder_geometry::{Chain, Motion2, Polygon, Shape2};
-use core::cell::Cell;
+use asunder_geometry::glam::DVec2;
+use asunder_geometry::{Chain, Motion2, Shape2};
 
 /// Moments of each half of a motion with a turn that are looked at.
 const MOMENTS: u32 = 16;
-
-thread_local! {
-    /// Memory for manifolds: who asks every frame allocates nothing.
-    static LISTS: Cell<Vec<Vec<Manifold2>>> = const { Cell::new(Vec::new()) };
-}
 
 /// How two bodies touch at the start.
 pub(super) struct Touched<'t> {
@@ -38,39 +33,14 @@ pub(super) fn with_touched<R>(pair: &Pair2, travel: &Travel, ask: impl FnOnce(&T
 
 /// The manifolds of a pair, in memory that is kept.
 fn with_manifolds<R>(pair: &Pair2, ask: impl FnOnce(&[Manifold2]) -> R) -> R {
-    let mut lists = LISTS.take();
-    let mut manifolds = lists.pop().unwrap_or_default();
-    LISTS.set(lists);
-    manifolds.clear();
-    if pair.has_ground() {
-        pair.contact_on_ground(0.0, &mut manifolds);
-    } else {
-        let _ = pair.contact(0.0, Hint::NONE, true, |manifold| manifolds.push(manifold));
-    }
-    let answer = ask(&manifolds);
-    let mut lists = LISTS.take();
-    lists.push(manifolds);
-    LISTS.set(lists);
-    answer
-}
-
-/// Radius of a circle about the middle of a polygon's vertices, which is inside it, that the core holds.
-fn inner_radius(polygon: &Polygon) -> f64 {
-    let sum: DVec2 = polygon.vertices().iter().map(|vertex| vertex.as_dvec2()).sum();
-    let middle = sum / polygon.vertices().len() as f64;
-    let height = |(vertex, normal): (&Vec2, &DVec2)| (vertex.as_dvec2() - middle).dot(*normal);
-    polygon.vertices().iter().zip(polygon.normals()).map(height).fold(f64::INFINITY, f64::min).max(0.0)
-}
-
-/// How what two parts meet with lies to what is touched.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Lies {
-    /// Further on.
-    Ahead,
-    /// Beside it, and gone into no further.
-    Level,
-    /// Beside it, and gone into.
-    Across,
+    with_list(&MANIFOLDS2, |manifolds| {
+        if pair.has_ground() {
+            pair.contact_on_ground(0.0, manifolds);
+        } else {
+            let _ = pair.contact(0.0, Hint::NONE, true, |manifold| manifolds.push(manifold));
+        }
+        ask(manifolds)
+    })
 }
 
 impl Touched<'_> {
@@ -86,8 +56,6 @@ impl Touched<'_> {
         let stretches = self.travel.stretches();
         let [Some(first), Some(last)] = [stretches.first(), stretches.last()] else { return Lies::Level };
         let [first, last] = [first, last].map(|stretch| Course::over(stretch, pieces, [0.0, 1.0]));
-        let thickness = self.thickness(pieces);
-        let slack = NEXT_LEVEL * thickness;
         // Who turns may be in deepest on the way.
         let is_turning = stretches.iter().any(|stretch| stretch.is_turning());
         let between = if is_turning { 1..MOMENTS } else { 0..0 };
@@ -97,45 +65,30 @@ impl Touched<'_> {
             let least = on_the_way.fold(first.gap(axis, 1.0).min(last.gap(axis, 1.0)), f64::min);
             first.gap(axis, 0.0) - least
         };
-        let is_flush = |manifold: &Manifold2| {
-            let touched = manifold.normal.as_dvec2();
-            let above = first.gap(touched, 0.0);
-            let lowest = f64::from(manifold.separation) - slack;
-            above <= slack && above >= lowest && closing(touched) <= 0.5 * thickness
+        let passing = Passing {
+            thickness: self.thickness(pieces),
+            is_on_ground: self.are_ground != [false; 2],
+            gap: &|axis| first.gap(axis, 0.0),
+            closing: &closing,
+            dot: DVec2::dot,
         };
-        if self.are_ground == [false; 2] && self.manifolds.iter().any(is_flush) {
-            return Lies::Level;
-        }
-        if first.gap(normal, 0.0) > slack {
-            return Lies::Ahead;
-        }
-        let into = closing(normal);
-        let anyway = |manifold: &Manifold2| {
-            let touched = manifold.normal.as_dvec2();
-            closing(touched).max(0.0) * touched.dot(normal).max(0.0)
-        };
-        let is_level = into <= slack || self.manifolds.iter().any(|it| into - anyway(it) <= slack);
-        if is_level { Lies::Level } else { Lies::Across }
+        passing.lies(normal, self.manifolds.iter().map(|it| (it.normal.as_dvec2(), it.separation.into())))
     }
 
     /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.
     fn thickness(&self, pieces: [&Piece; 2]) -> f64 {
-        let of = |i: usize| {
+        thinner([0, 1].map(|i| {
             let shape = pieces[i].shape;
-            let size = f64::from(shape.outer_radius());
-            if self.are_ground[i] || !size.is_finite() {
-                return f64::INFINITY;
+            if self.are_ground[i] || !shape.outer_radius().is_finite() {
+                return None;
             }
-            let inner = match shape {
-                Shape2::Rect(rect) => f64::from(rect.half_extents().min_element()),
-                Shape2::Polygon(polygon) => inner_radius(polygon),
-                _ => 0.0,
-            };
-            let thickness = inner + f64::from(shape.radius());
-            thickness.max(NEXT_THICKNESS * size)
-        };
-        let least = of(0).min(of(1));
-        if least.is_finite() { least } else { 0.0 }
+            let core = shape.core();
+            let sum: DVec2 = core.vertices().iter().map(|vertex| vertex.as_dvec2()).sum();
+            let middle = sum / core.vertices().len().max(1) as f64;
+            let edges = core.normals().iter().zip(core.vertices());
+            let heights = edges.map(|(normal, vertex)| normal.dot(vertex.as_dvec2() - middle));
+            Some(thickness(heights, shape.radius(), shape.outer_radius()))
+        }))
     }
 
     /// What of a chain is touched, not told, and gone into: seen from where half a thickness of the way is done, unless
@@ -170,7 +123,7 @@ impl Touched<'_> {
         let is_turning = stretches.iter().any(|stretch| stretch.is_turning());
         let turned =
             if is_turning { 2.0 * f64::from(body.center().length() + body.outer_radius()) } else { 0.0 };
-        (0.5 * thickness / (drift + turned)).min(1.0)
+        half_through(thickness, drift + turned)
     }
 
     fn is_across(&self, (side, chain, body): (usize, &Chain, &Shape2), manifold: &Manifold2) -> bool {

@@ -11,11 +11,12 @@
 //! The side is that at the start of the motion: what comes from the front is stopped however fast it is.
 
 use super::advance::{End, Met};
-use super::beyond::{Lies, Touched as TouchedAtStart};
+use super::beyond::Touched as TouchedAtStart;
 use super::passage::Passage;
 use super::{impact_of, part_end};
 use crate::ground3::{Corners, OnGround, Touched};
 use crate::impact3::Impact3;
+use crate::level::Lies;
 use crate::pair3::{Pair3, Part};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};

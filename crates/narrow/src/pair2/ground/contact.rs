@@ -17,13 +17,13 @@ use crate::answer::Manifold2;
 use crate::counted::count_step;
 use crate::feature::Hint;
 use crate::ground2::{Surface, Told, Zone};
+use crate::lists::{MANIFOLDS2, with_list};
 use crate::polygon::manifold::Point;
 use crate::polygon::measure::{Asked, Near, Probe};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::STRAIGHT;
 use asunder_geometry::{Chain, Run, Shape2};
-use core::cell::Cell;
 use core::ops::ControlFlow;
 
 /// One convex part, and the chain that it may stand on.
@@ -71,23 +71,15 @@ impl Pair2<'_> {
     }
 }
 
-thread_local! {
-    /// Memory for manifolds of which one is wanted: who asks every frame allocates nothing.
-    static LIST: Cell<Vec<Manifold2>> = const { Cell::new(Vec::new()) };
-}
-
 impl Pair2<'_> {
     /// The same, and the deepest of the manifolds; of equals, the first.
     pub(crate) fn deepest_on_ground(&self, margin: f32) -> (Option<bool>, Option<Manifold2>) {
-        let mut list = LIST.try_with(Cell::take).unwrap_or_default();
-        list.clear();
-        let touch = self.contact_on_ground(margin, &mut list);
-        let deepest =
-            list.iter().reduce(|best, next| if next.separation < best.separation { next } else { best });
-        let deepest = deepest.cloned();
-        // A thread that is about to end has no place for it any more.
-        let _ = LIST.try_with(|place| place.set(list));
-        (touch, deepest)
+        with_list(&MANIFOLDS2, |list| {
+            let touch = self.contact_on_ground(margin, list);
+            let deepest =
+                list.iter().reduce(|best, next| if next.separation < best.separation { next } else { best });
+            (touch, deepest.cloned())
+        })
     }
 }
 

@@ -1,0 +1,91 @@
+//! What a body that touches some of another meets next: whether that is level with what it touches, in the plane and in
+//! space.
+//!
+//! ```text
+//! touched at the start: no answer, it is a contact already
+//! every other part, where it is met first, by the normal n that it is met with:
+//!   of compounds: flush with a touched part along the normal m of its contact, and the body sinks along m by less than half
+//!             its thickness: level (the next slab of a floor, whose side looks like a wall; ground has normals of its own
+//!             for inner edges)
+//!   gap       along n at the start, no more than a 64th of the body's thickness, and
+//!   closing   along n from the start to the deepest, less what goes into the touched anyway, no more than that too:
+//!             level, and passed over (the next triangle of a floor, a bend of half a degree)
+//!   else:     an impact
+//! nothing until half a thickness of the way: what ground is in the manifolds there, and moved into, is an impact at the start
+//! ```
+//! The last is for ground that is touched but not told, since its neighbour tells of it: a ball in a hollow touches two faces where
+//! they meet, stands on one, and runs into the other.
+//!
+//! What goes into the touched is what a game's solver takes out of the motion: (d.m) (m.n) for a contact's normal m. So a body
+//! that is pressed to a floor runs over its seams and over bends that fall, and into ramps and walls. A body that passes over
+//! ends no deeper in it than that 64th beyond what it does in the touched. What a motion sinks into the touched by all its
+//! thickness, as a coin that falls for a frame while it lies, passes under what stands there.
+
+use asunder_geometry::tolerance::{NEXT_LEVEL, NEXT_THICKNESS};
+
+/// Share of a body's thickness by which it may sink into what it touches, and be led over what is flush with that.
+const SUNK: f64 = 0.5;
+
+/// How what two parts meet with lies to what is touched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Lies {
+    /// Further on.
+    Ahead,
+    /// Beside it, and gone into no further.
+    Level,
+    /// Beside it, and gone into.
+    Across,
+}
+
+/// Two parts on their way, along axes from A to B.
+pub(crate) struct Passing<'p, V> {
+    /// That of the thinner of the two, in metres: [`thickness`].
+    pub(crate) thickness: f64,
+    /// Whether one is ground, whose inner edges have the normals of its faces.
+    pub(crate) is_on_ground: bool,
+    /// Their gap along an axis at the start.
+    pub(crate) gap: &'p dyn Fn(V) -> f64,
+    /// By how much that gap closes, to where it is least.
+    pub(crate) closing: &'p dyn Fn(V) -> f64,
+    pub(crate) dot: fn(V, V) -> f64,
+}
+
+impl<V: Copy> Passing<'_, V> {
+    /// How it lies what they meet with along a unit axis, beside contacts with their normals and separations.
+    pub(crate) fn lies(&self, normal: V, touched: impl Iterator<Item = (V, f64)> + Clone) -> Lies {
+        let slack = NEXT_LEVEL * self.thickness;
+        let is_flush = |(axis, separation): (V, f64)| {
+            let above = (self.gap)(axis);
+            above <= slack && above >= separation - slack && (self.closing)(axis) <= SUNK * self.thickness
+        };
+        if !self.is_on_ground && touched.clone().any(is_flush) {
+            return Lies::Level;
+        }
+        if (self.gap)(normal) > slack {
+            return Lies::Ahead;
+        }
+        let into = (self.closing)(normal);
+        let anyway = |axis: V| (self.closing)(axis).max(0.0) * (self.dot)(axis, normal).max(0.0);
+        let is_level = into <= slack || touched.into_iter().any(|(axis, _)| into - anyway(axis) <= slack);
+        if is_level { Lies::Level } else { Lies::Across }
+    }
+}
+
+/// What a convex part counts for: how thick it is from its middle, for a core with planes at these heights above its middle,
+/// around which there is a radius; all in metres, as its outer radius is.
+pub(crate) fn thickness(heights: impl Iterator<Item = f64>, radius: f32, outer: f32) -> f64 {
+    let inner = heights.fold(f64::INFINITY, f64::min);
+    let inner = if inner.is_finite() { inner.max(0.0) } else { 0.0 };
+    (inner + f64::from(radius)).max(NEXT_THICKNESS * f64::from(outer))
+}
+
+/// The thinner of two, where ground and what has no end do not count.
+pub(crate) fn thinner(of: [Option<f64>; 2]) -> f64 {
+    let least = of.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 0.0 }
+}
+
+/// The share of a motion that is half a thickness, where it leads by so many metres at most.
+pub(crate) fn half_through(thickness: f64, way: f64) -> f64 {
+    (SUNK * thickness / way).min(1.0)
+}
