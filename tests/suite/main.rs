@@ -111,6 +111,7 @@ mod persistent_ground;
 mod plane;
 mod plumb;
 mod polygons;
+mod poses;
 mod questions;
 mod refusals;
 mod regressions;

@@ -1,15 +1,14 @@
 //! Questions to a world in the plane, in plain types.
 
 use crate::query::{
-    Asked, CastAnswer2, Filter2, Met, NearAnswer2, RayAnswer2, bodies_along, bodies_along_ray, bodies_near,
-    bodies_over, boxes_over,
+    Asked, CastAnswer2, Filter2, Met, NearAnswer2, RayAnswer2, bodies_ahead, bodies_along, bodies_along_ray,
+    bodies_near, bodies_over, boxes_over,
 };
 use crate::space::{BodyKey2, Plane};
-use crate::world::{StaleKey, World};
+use crate::world::World;
 
 use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::{Aabb2, Motion2, Pose2, Ray2, Shape2};
-use asunder_narrow::{Impact2, Pair2};
+use asunder_geometry::{Aabb2, Pose2, Ray2, Shape2};
 use core::ops::ControlFlow;
 
 /// # Questions
@@ -410,6 +409,31 @@ impl World<Plane> {
         bodies_along(self, from, displacement, filter).first()
     }
 
+    /// What a moved shape runs into next, as [`World::cast_shape`] tells it, where what it touches at the start is passed over: along a
+    /// floor to the wall, though both be one body. See [`Pair2::next_impact`] for what counts as level with what is touched. It passes
+    /// whichever way the shape goes: into the floor as well.
+    ///
+    /// ```
+    /// use asunder::{Chain, Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let level = [[-9.0, 4.0], [-9.0, 0.0], [9.0, 0.0], [9.0, 4.0]].map(Vec2::from);
+    /// let level = world.insert(Collider2::new(Chain::open(level)?));
+    /// let (ball, on_floor) = (Shape2::from(Circle::new(1.0)?), Pose2::at([0.0, 1.0])?);
+    /// let from = (&ball, &on_floor);
+    /// assert!(world.cast_shape(from, Vec2::X * 16.0, &Filter2::new()).is_some_and(|hit| hit.overlapping), "the floor");
+    /// let hit = world.cast_shape_onwards(from, Vec2::X * 16.0, &Filter2::new()).ok_or("the wall")?;
+    /// assert!(hit.body == level && hit.fraction <= 0.5 && hit.fraction > 0.499_99 && hit.normal.x > 0.999);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_shape_onwards(
+        &self,
+        from: (&Shape2, &Pose2),
+        displacement: Vec2,
+        filter: &Filter2<'_>,
+    ) -> Option<CastAnswer2> {
+        bodies_ahead(self, from, displacement, filter).first()
+    }
+
     /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
     ///
     /// ```
@@ -461,34 +485,5 @@ impl World<Plane> {
         visitor: impl FnMut(CastAnswer2) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         bodies_along(self, from, displacement, filter).visit(visitor)
-    }
-
-    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not.
-    /// What stands gets a motion of zero.
-    ///
-    /// ```
-    /// use asunder::{Circle, Collider2, Motion2, Pose2, StaleKey, World2, glam::DVec2};
-    /// let mut world = World2::new();
-    /// let one = world.insert(Collider2::new(Circle::new(1.0)?));
-    /// let other = world.insert(Collider2::new(Circle::new(1.0)?).at(Pose2::at(DVec2::X * 6.0)?));
-    /// let (right, left) = (Motion2::shift(DVec2::X * 4.0)?, Motion2::shift(DVec2::X * -4.0)?);
-    /// let impact = world.impact(one, other, &right, &left)?.ok_or("they meet")?;
-    /// assert!(impact.fraction <= 0.5 && impact.fraction > 0.499_99);
-    /// world.remove(other);
-    /// assert_eq!(world.impact(one, other, &right, &left), Err(StaleKey));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A stale key.
-    pub fn impact(
-        &self,
-        a: BodyKey2,
-        b: BodyKey2,
-        motion_a: &Motion2,
-        motion_b: &Motion2,
-    ) -> Result<Option<Impact2>, StaleKey> {
-        let (a, b) = (self.bodies.get(a).ok_or(StaleKey)?, self.bodies.get(b).ok_or(StaleKey)?);
-        Ok(Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 }

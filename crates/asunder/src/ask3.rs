@@ -1,15 +1,14 @@
 //! Questions to a world in space, in plain types.
 
 use crate::query::{
-    Asked, CastAnswer3, Filter3, Met, NearAnswer3, RayAnswer3, bodies_along, bodies_along_ray, bodies_near,
-    bodies_over, boxes_over,
+    Asked, CastAnswer3, Filter3, Met, NearAnswer3, RayAnswer3, bodies_ahead, bodies_along, bodies_along_ray,
+    bodies_near, bodies_over, boxes_over,
 };
 use crate::space::{BodyKey3, Volume};
-use crate::world::{StaleKey, World};
+use crate::world::World;
 
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Aabb3, Motion3, Pose3, Ray3, Shape3};
-use asunder_narrow::{Impact3, Pair3};
+use asunder_geometry::{Aabb3, Pose3, Ray3, Shape3};
 use core::ops::ControlFlow;
 
 /// # Questions
@@ -410,6 +409,32 @@ impl World<Volume> {
         bodies_along(self, from, displacement, filter).first()
     }
 
+    /// What a moved shape runs into next, as [`World::cast_shape`] tells it, where what it touches at the start is passed over: along a
+    /// floor to the wall, though both be one body. See [`Pair3::next_impact`] for what counts as level with what is touched. It passes
+    /// whichever way the shape goes: into the floor as well.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, TriMesh, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let corners = [[-9.0, 0.0, -9.0], [9.0, 0.0, -9.0], [9.0, 0.0, 9.0], [-9.0, 0.0, 9.0], [9.0, 9.0, 9.0], [9.0, 9.0, -9.0]];
+    /// let floor_and_wall = TriMesh::new(corners.map(Vec3::from), [[0, 2, 1], [0, 3, 2], [1, 2, 4], [1, 4, 5]])?;
+    /// let level = world.insert(Collider3::new(floor_and_wall));
+    /// let (ball, on_floor) = (Shape3::from(Sphere::new(1.0)?), Pose3::at([0.0, 1.0, 0.0])?);
+    /// let from = (&ball, &on_floor);
+    /// assert!(world.cast_shape(from, Vec3::X * 16.0, &Filter3::new()).is_some_and(|hit| hit.overlapping), "the floor");
+    /// let hit = world.cast_shape_onwards(from, Vec3::X * 16.0, &Filter3::new()).ok_or("the wall")?;
+    /// assert!(hit.body == level && hit.fraction <= 0.5 && hit.fraction > 0.499_99 && hit.normal.x > 0.999);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_shape_onwards(
+        &self,
+        from: (&Shape3, &Pose3),
+        displacement: Vec3,
+        filter: &Filter3<'_>,
+    ) -> Option<CastAnswer3> {
+        bodies_ahead(self, from, displacement, filter).first()
+    }
+
     /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
     ///
     /// ```
@@ -461,34 +486,5 @@ impl World<Volume> {
         visitor: impl FnMut(CastAnswer3) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         bodies_along(self, from, displacement, filter).visit(visitor)
-    }
-
-    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not.
-    /// What stands gets a motion of zero.
-    ///
-    /// ```
-    /// use asunder::{Sphere, Collider3, Motion3, Pose3, StaleKey, World3, glam::DVec3};
-    /// let mut world = World3::new();
-    /// let one = world.insert(Collider3::new(Sphere::new(1.0)?));
-    /// let other = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at(DVec3::X * 6.0)?));
-    /// let (right, left) = (Motion3::shift(DVec3::X * 4.0)?, Motion3::shift(DVec3::X * -4.0)?);
-    /// let impact = world.impact(one, other, &right, &left)?.ok_or("they meet")?;
-    /// assert!(impact.fraction <= 0.5 && impact.fraction > 0.499_99);
-    /// world.remove(other);
-    /// assert_eq!(world.impact(one, other, &right, &left), Err(StaleKey));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A stale key.
-    pub fn impact(
-        &self,
-        a: BodyKey3,
-        b: BodyKey3,
-        motion_a: &Motion3,
-        motion_b: &Motion3,
-    ) -> Result<Option<Impact3>, StaleKey> {
-        let (a, b) = (self.bodies.get(a).ok_or(StaleKey)?, self.bodies.get(b).ok_or(StaleKey)?);
-        Ok(Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 }

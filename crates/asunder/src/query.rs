@@ -30,5 +30,7 @@ pub use answer::{
 };
 pub use filter::{Filter, Filter2, Filter3};
 pub(crate) use index::Boxes;
-pub(crate) use questions::{bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over};
+pub(crate) use questions::{
+    bodies_ahead, bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over,
+};
 pub(crate) use space::Asked;

@@ -7,6 +7,7 @@ use crate::motion::Hit2;
 use crate::space::{BodyKey2, Plane};
 use crate::world::{StaleKey, World};
 use asunder_geometry::{Motion2, Pose2, Shape2};
+use asunder_narrow::{Impact2, Pair2};
 
 /// A world of bodies in the plane.
 ///
@@ -149,6 +150,35 @@ impl World<Plane> {
     /// ```
     pub fn impacts_of(&self, bullet: BodyKey2) -> impl Iterator<Item = &Hit2> + Clone {
         self.hits_of(bullet)
+    }
+
+    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not.
+    /// What stands gets a motion of zero.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Motion2, Pose2, StaleKey, World2, glam::DVec2};
+    /// let mut world = World2::new();
+    /// let one = world.insert(Collider2::new(Circle::new(1.0)?));
+    /// let other = world.insert(Collider2::new(Circle::new(1.0)?).at(Pose2::at(DVec2::X * 6.0)?));
+    /// let (right, left) = (Motion2::shift(DVec2::X * 4.0)?, Motion2::shift(DVec2::X * -4.0)?);
+    /// let impact = world.impact(one, other, &right, &left)?.ok_or("they meet")?;
+    /// assert!(impact.fraction <= 0.5 && impact.fraction > 0.499_99);
+    /// world.remove(other);
+    /// assert_eq!(world.impact(one, other, &right, &left), Err(StaleKey));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn impact(
+        &self,
+        a: BodyKey2,
+        b: BodyKey2,
+        motion_a: &Motion2,
+        motion_b: &Motion2,
+    ) -> Result<Option<Impact2>, StaleKey> {
+        let (a, b) = (self.bodies.get(a).ok_or(StaleKey)?, self.bodies.get(b).ok_or(StaleKey)?);
+        Ok(Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 
     /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update. What becomes ground is

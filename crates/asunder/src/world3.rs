@@ -7,6 +7,7 @@ use crate::motion::Hit3;
 use crate::space::{BodyKey3, Volume};
 use crate::world::{StaleKey, World};
 use asunder_geometry::{Motion3, Pose3, Shape3};
+use asunder_narrow::{Impact3, Pair3};
 
 /// A world of bodies in space.
 ///
@@ -149,6 +150,35 @@ impl World<Volume> {
     /// ```
     pub fn impacts_of(&self, bullet: BodyKey3) -> impl Iterator<Item = &Hit3> + Clone {
         self.hits_of(bullet)
+    }
+
+    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not.
+    /// What stands gets a motion of zero.
+    ///
+    /// ```
+    /// use asunder::{Sphere, Collider3, Motion3, Pose3, StaleKey, World3, glam::DVec3};
+    /// let mut world = World3::new();
+    /// let one = world.insert(Collider3::new(Sphere::new(1.0)?));
+    /// let other = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at(DVec3::X * 6.0)?));
+    /// let (right, left) = (Motion3::shift(DVec3::X * 4.0)?, Motion3::shift(DVec3::X * -4.0)?);
+    /// let impact = world.impact(one, other, &right, &left)?.ok_or("they meet")?;
+    /// assert!(impact.fraction <= 0.5 && impact.fraction > 0.499_99);
+    /// world.remove(other);
+    /// assert_eq!(world.impact(one, other, &right, &left), Err(StaleKey));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn impact(
+        &self,
+        a: BodyKey3,
+        b: BodyKey3,
+        motion_a: &Motion3,
+        motion_b: &Motion3,
+    ) -> Result<Option<Impact3>, StaleKey> {
+        let (a, b) = (self.bodies.get(a).ok_or(StaleKey)?, self.bodies.get(b).ok_or(StaleKey)?);
+        Ok(Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 
     /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update. What becomes ground is

@@ -33,6 +33,7 @@ mod pose3;
 mod radius;
 mod ray;
 mod rect;
+mod relative;
 #[cfg(feature = "serde")]
 mod saved;
 mod segment;

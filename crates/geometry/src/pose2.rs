@@ -32,9 +32,13 @@ impl Rotation2 {
     /// What is not finite, and zero.
     pub fn new(cos: f32, sin: f32) -> Result<Self, PoseError> {
         check_rotation(&[cos, sin])?;
-        let (c, s) = (f64::from(cos), f64::from(sin));
+        Ok(Self::of_f64(cos.into(), sin.into()))
+    }
+
+    /// Of numbers that are finite, and not both zero.
+    pub(crate) fn of_f64(c: f64, s: f64) -> Self {
         let length = (c * c + s * s).sqrt();
-        Ok(Self { cos: (c / length) as f32, sin: (s / length) as f32 })
+        Self { cos: (c / length) as f32, sin: (s / length) as f32 }
     }
 
     /// The rotation that was stored as these, bit for bit: [`Rotation2::new`] would round them once more.

@@ -3,8 +3,8 @@
 use super::{mesh, sheet};
 use asunder::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder::{
-    Capsule3, Collider3, Compound3, Cuboid, Ground, HeightField, Manifold3, Motion3, Pair3, Pose3, Ray3,
-    Shape3, Sphere, World3, cast_ray3,
+    Capsule3, Collider3, Compound3, Cuboid, Filter3, Ground, HeightField, Manifold3, Motion3, Pair3, Pose3,
+    Ray3, Shape3, Sphere, World3, cast_ray3,
 };
 use asunder_tests::cases::Random;
 
@@ -276,4 +276,44 @@ fn what_turns_or_is_thin_is_stopped_by_the_wall_beside_it() {
         Pose3::new([WALL - 0.0015, 0.00099, 0.0], Quat::from_rotation_arc(askew, Vec3::Z)).unwrap();
     let impact = next(&needle, along_wall, Motion3::shift([0.0042, 0.0, 0.0]).unwrap()).unwrap();
     assert!((impact.fraction * 0.0042 - 0.0005).abs() < 1e-5, "{impact:?}");
+}
+
+#[test]
+fn a_moved_shape_is_cast_on_from_the_floor_that_it_touches() {
+    let (mut walls, mut crates, mut free) = (0, 0, 0);
+    for seed in 0..400 {
+        let mut random = Random::new(seed);
+        let (shape, down, ahead) = bodies().swap_remove(random.below(4));
+        let mut world = World3::new();
+        let yard = world.insert(Collider3::new(yard(&mut random)));
+        // Stands level with the yard's floor, and in the way; a door that is open stands before it, and one around the start.
+        let crate_at = random.between(2.0, 8.0);
+        let post = Cuboid::from_half_extents(Vec3::new(0.5, 1.0, 9.0)).unwrap();
+        let post = Collider3::new(post).fixed().at(Pose3::at([crate_at + 0.5, 1.0, 0.0]).unwrap());
+        let post = world.insert(if random.below(2) == 0 { post.disabled() } else { post });
+        let door = Collider3::new(Sphere::new(1.0).unwrap()).sensor();
+        let start = DVec3::new(random.between(-4.0, 1.0), down - 1e-6, random.between(-2.0, 2.0));
+        world.insert(door.at(Pose3::at(start).unwrap()));
+        let (from, filter) = ((&shape, &Pose3::at(start).unwrap()), Filter3::new());
+        let way = Vec3::new(random.between(0.5, 12.0) as f32, -2.7e-3, random.between(-2.0, 2.0) as f32);
+        let is_post = world.get(post).is_some_and(Collider3::is_enabled) && crate_at < WALL;
+        let expected = (if is_post { crate_at } else { WALL } - ahead - start.x) / f64::from(way.x);
+        if random.below(2) == 0 {
+            world.update();
+        }
+        assert!(world.cast_shape(from, way, &filter).is_some_and(|hit| hit.overlapping), "{seed}: its floor");
+        let Some(hit) = world.cast_shape_onwards(from, way, &filter) else {
+            assert!(expected > 1.0 - 1e-5, "{seed}: through what stands at {expected}");
+            free += 1;
+            continue;
+        };
+        assert!(
+            (hit.fraction - expected).abs() < 1e-5 && !hit.overlapping,
+            "{seed}: {hit:?}, not {expected}"
+        );
+        assert!((hit.normal - Vec3::X).length() < 1e-6, "{seed}: {hit:?}");
+        assert_eq!(hit.body, if is_post { post } else { yard }, "{seed}: {hit:?}");
+        if is_post { crates += 1 } else { walls += 1 }
+    }
+    assert!(walls > 50 && crates > 50 && free > 50, "{walls} {crates} {free}");
 }

@@ -2,8 +2,8 @@
 
 use super::sieve::{Allowed, Sieve};
 use asunder::{
-    CastAnswer, Circle, Collider, Filter, NearAnswer, Pair2, Pair3, Plane, Pose2, Pose3, Ray2, Ray3,
-    RayAnswer, Shape2, Shape3, Space, Sphere, Volume, World,
+    CastAnswer, Circle, Collider, Filter, Motion2, Motion3, NearAnswer, Pair2, Pair3, Plane, Pose2, Pose3,
+    Ray2, Ray3, RayAnswer, Shape2, Shape3, Space, Sphere, Volume, World,
 };
 use asunder_broad::Cast;
 use asunder_narrow::{cast_ray2, cast_ray3};
@@ -39,6 +39,8 @@ pub(super) struct All<K, N, P> {
     pub(super) first_ray: Option<RayAnswer<K, N, P>>,
     pub(super) casts: Vec<CastAnswer<K, N, P>>,
     pub(super) first_cast: Option<CastAnswer<K, N, P>>,
+    /// There is no list of these.
+    pub(super) onwards: Option<CastAnswer<K, N, P>>,
 }
 
 pub(super) type Answers<S> = All<<S as Space>::Key, <S as Questioned>::Vector, <S as Questioned>::Point>;
@@ -57,6 +59,8 @@ pub(super) struct Judged {
     along_ray: Option<(f64, f64, bool)>,
     /// Fraction of the displacement, and whether they overlap already.
     along: Option<(f64, bool)>,
+    /// The same, but for what they touch already.
+    onwards: Option<f64>,
     /// Whether the body's box is beside the ray, or the way of the moved shape's box: then they meet by rounding at
     /// most.
     is_beside: [bool; 2],
@@ -98,6 +102,7 @@ fn no_answers<S: Questioned>() -> Answers<S> {
         first_ray: None,
         casts: vec![],
         first_cast: None,
+        onwards: None,
     }
 }
 
@@ -150,6 +155,7 @@ pub(super) fn check<S: Questioned>(world: &World<S>, asked: &Asked<S>, sieve: &S
     let passing: Vec<(S::Key, Collider<S>, Judged)> =
         passing(world, &sieve.allowed).into_iter().map(judge).collect();
     check_casts(asked, &passing, found);
+    check_onwards(asked, &passing, found);
     let keys = |is_wanted: fn(&Judged) -> bool| -> Vec<S::Key> {
         passing.iter().filter(|(_, _, judged)| is_wanted(judged)).map(|(key, _, _)| *key).collect()
     };
@@ -221,6 +227,25 @@ fn check_casts<S: Questioned>(
     }
     assert!(grazes == 0 || grazes * 100 < known, "{grazes} grazes of {known}: too many to be rounding");
     known
+}
+
+/// Fails unless a moved shape runs into the first that the narrow phase says it does, but for what it touches.
+fn check_onwards<S: Questioned>(
+    asked: &Asked<S>,
+    judged: &[(S::Key, Collider<S>, Judged)],
+    found: &Answers<S>,
+) {
+    // A box may say that a body is met later than a cast does, by no more than that errs.
+    let is_same = |told: f64, truth: f64| told >= truth && told <= truth + 1e-5;
+    let first = found.onwards.map_or(f64::INFINITY, |hit| hit.fraction);
+    for (key, _, judged) in judged.iter().filter(|(.., judged)| !judged.is_beside[1]) {
+        let is_first = judged.onwards.is_none_or(|fraction| first <= fraction || is_same(first, fraction));
+        assert!(is_first, "{key:?} is met at {:?}: {:?} {asked:?}", judged.onwards, found.onwards);
+    }
+    if let Some(hit) = found.onwards {
+        let truth = judged.iter().find(|(key, ..)| *key == hit.body).and_then(|(.., judged)| judged.onwards);
+        assert!(truth.is_some_and(|truth| is_same(hit.fraction, truth)), "{hit:?} for {truth:?}: {asked:?}");
+    }
 }
 
 /// A body, and its distance with the judge's error, if it is apart.
@@ -299,6 +324,7 @@ impl Questioned for Volume {
         into.first_ray = world.cast_ray(ray, *limit, filter);
         world.cast_shape_all(at, *displacement, filter, &mut into.casts);
         into.first_cast = world.cast_shape(at, *displacement, filter);
+        into.onwards = world.cast_shape_onwards(at, *displacement, filter);
         into.closest = [world.closest(*point, *within, filter), world.closest_to_shape(at, *within, filter)];
     }
 
@@ -312,6 +338,7 @@ impl Questioned for Volume {
         let _ = world.visit_within_shape(at, *within, filter, push(&mut into.near_shape));
         let _ = world.visit_ray(ray, *limit, filter, push(&mut into.rays));
         let _ = world.visit_cast_shape(at, *displacement, filter, push(&mut into.casts));
+        into.onwards = world.cast_shape_onwards(at, *displacement, filter);
     }
 
     fn judge(asked: &Asked<Self>, body: &Collider<Self>) -> Judged {
@@ -330,6 +357,13 @@ impl Questioned for Volume {
                 (hit.distance, f64::from(hit.error) / length, hit.inside)
             }),
             along: pair.cast(asked.displacement).map(|impact| (impact.fraction, impact.overlapping)),
+            onwards: if body.is_sensor() {
+                pair.cast(asked.displacement).filter(|impact| !impact.overlapping)
+            } else {
+                let way = Motion3::shift(asked.displacement).unwrap();
+                pair.next_impact(&way, &Motion3::STILL)
+            }
+            .map(|impact| impact.fraction),
             is_beside: [
                 Cast::from(asked.ray).meets(&bounds, f64::INFINITY).is_none(),
                 Cast::of_box3(&asked.shape.bounds(&asked.pose, 0.0), asked.displacement)
@@ -393,6 +427,7 @@ impl Questioned for Plane {
         into.first_ray = world.cast_ray(ray, *limit, filter);
         world.cast_shape_all(at, *displacement, filter, &mut into.casts);
         into.first_cast = world.cast_shape(at, *displacement, filter);
+        into.onwards = world.cast_shape_onwards(at, *displacement, filter);
         into.closest = [world.closest(*point, *within, filter), world.closest_to_shape(at, *within, filter)];
     }
 
@@ -406,6 +441,7 @@ impl Questioned for Plane {
         let _ = world.visit_within_shape(at, *within, filter, push(&mut into.near_shape));
         let _ = world.visit_ray(ray, *limit, filter, push(&mut into.rays));
         let _ = world.visit_cast_shape(at, *displacement, filter, push(&mut into.casts));
+        into.onwards = world.cast_shape_onwards(at, *displacement, filter);
     }
 
     fn judge(asked: &Asked<Self>, body: &Collider<Self>) -> Judged {
@@ -424,6 +460,13 @@ impl Questioned for Plane {
                 (hit.distance, f64::from(hit.error) / length, hit.inside)
             }),
             along: pair.cast(asked.displacement).map(|impact| (impact.fraction, impact.overlapping)),
+            onwards: if body.is_sensor() {
+                pair.cast(asked.displacement).filter(|impact| !impact.overlapping)
+            } else {
+                let way = Motion2::shift(asked.displacement).unwrap();
+                pair.next_impact(&way, &Motion2::STILL)
+            }
+            .map(|impact| impact.fraction),
             is_beside: [
                 Cast::from(asked.ray).meets(&bounds, f64::INFINITY).is_none(),
                 Cast::of_box2(&asked.shape.bounds(&asked.pose, 0.0), asked.displacement)

@@ -66,3 +66,15 @@ pub(crate) fn bodies_along<'q, S: Asked>(
     let reach = Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
     Question { world, filter, reach, limit: 1.0, ask }
 }
+
+/// Which bodies a moved shape runs into, but for what it touches at the start.
+pub(crate) fn bodies_ahead<'q, S: Asked>(
+    world: &'q World<S>,
+    at: Posed<'q, S>,
+    displacement: S::Vector,
+    filter: &'q Filter<'q, S>,
+) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
+    let ask = move |key, body: &_| S::meet_next(at, displacement, key, body);
+    let reach = Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
+    Question { world, filter, reach, limit: 1.0, ask }
+}

@@ -5,8 +5,10 @@ use crate::collider::Collider;
 use crate::space::{Plane, Space, Volume};
 use asunder_broad::Cast;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
-use asunder_geometry::{Aabb2, Aabb3, Circle, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere};
-use asunder_narrow::{Pair2, Pair3, cast_ray2, cast_ray3};
+use asunder_geometry::{
+    Aabb2, Aabb3, Circle, Motion2, Motion3, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere,
+};
+use asunder_narrow::{Impact2, Impact3, Pair2, Pair3, cast_ray2, cast_ray3};
 
 /// A shape, and where it is.
 pub(crate) type Posed<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
@@ -34,6 +36,13 @@ pub(crate) trait Asked: Space {
     fn enter(ray: &Self::Ray, limit: f64, key: Self::Key, body: &Collider<Self>) -> Option<Enter<Self>>;
     /// Where the shape, moved, meets the body.
     fn meet(
+        at: Posed<'_, Self>,
+        displacement: Self::Vector,
+        key: Self::Key,
+        body: &Collider<Self>,
+    ) -> Option<Meet<Self>>;
+    /// Where it runs into the body next, whatever it touches at the start.
+    fn meet_next(
         at: Posed<'_, Self>,
         displacement: Self::Vector,
         key: Self::Key,
@@ -110,18 +119,22 @@ impl Asked for Plane {
         key: Self::Key,
         body: &Collider<Self>,
     ) -> Option<Meet<Self>> {
-        let impact = Pair2::new(shape, pose, &body.shape, &body.pose).cast(displacement)?;
-        Some(CastAnswer {
-            body: key,
-            fraction: impact.fraction,
-            error: impact.error,
-            overlapping: impact.overlapping,
-            normal: impact.normal,
-            point: body.pose.position() + impact.anchor_b.as_dvec2(),
-            anchor: impact.anchor_a,
-            part: impact.part_b,
-            part_of_moved: impact.part_a,
-        })
+        Some(met2(&Pair2::new(shape, pose, &body.shape, &body.pose).cast(displacement)?, key, body))
+    }
+
+    fn meet_next(
+        (shape, pose): Posed<'_, Self>,
+        displacement: Vec2,
+        key: Self::Key,
+        body: &Collider<Self>,
+    ) -> Option<Meet<Self>> {
+        let pair = Pair2::new(shape, pose, &body.shape, &body.pose);
+        let impact = if body.sensor {
+            pair.cast(displacement).filter(|impact| !impact.overlapping)?
+        } else {
+            pair.next_impact(&Motion2::shift(displacement).ok()?, &Motion2::STILL)?
+        };
+        Some(met2(&impact, key, body))
     }
 }
 
@@ -188,17 +201,49 @@ impl Asked for Volume {
         key: Self::Key,
         body: &Collider<Self>,
     ) -> Option<Meet<Self>> {
-        let impact = Pair3::new(shape, pose, &body.shape, &body.pose).cast(displacement)?;
-        Some(CastAnswer {
-            body: key,
-            fraction: impact.fraction,
-            error: impact.error,
-            overlapping: impact.overlapping,
-            normal: impact.normal,
-            point: body.pose.position() + impact.anchor_b.as_dvec3(),
-            anchor: impact.anchor_a,
-            part: impact.part_b,
-            part_of_moved: impact.part_a,
-        })
+        Some(met3(&Pair3::new(shape, pose, &body.shape, &body.pose).cast(displacement)?, key, body))
+    }
+
+    fn meet_next(
+        (shape, pose): Posed<'_, Self>,
+        displacement: Vec3,
+        key: Self::Key,
+        body: &Collider<Self>,
+    ) -> Option<Meet<Self>> {
+        let pair = Pair3::new(shape, pose, &body.shape, &body.pose);
+        let impact = if body.sensor {
+            pair.cast(displacement).filter(|impact| !impact.overlapping)?
+        } else {
+            pair.next_impact(&Motion3::shift(displacement).ok()?, &Motion3::STILL)?
+        };
+        Some(met3(&impact, key, body))
+    }
+}
+
+fn met2(impact: &Impact2, key: <Plane as Space>::Key, body: &Collider<Plane>) -> Meet<Plane> {
+    CastAnswer {
+        body: key,
+        fraction: impact.fraction,
+        error: impact.error,
+        overlapping: impact.overlapping,
+        normal: impact.normal,
+        point: body.pose.position() + impact.anchor_b.as_dvec2(),
+        anchor: impact.anchor_a,
+        part: impact.part_b,
+        part_of_moved: impact.part_a,
+    }
+}
+
+fn met3(impact: &Impact3, key: <Volume as Space>::Key, body: &Collider<Volume>) -> Meet<Volume> {
+    CastAnswer {
+        body: key,
+        fraction: impact.fraction,
+        error: impact.error,
+        overlapping: impact.overlapping,
+        normal: impact.normal,
+        point: body.pose.position() + impact.anchor_b.as_dvec3(),
+        anchor: impact.anchor_a,
+        part: impact.part_b,
+        part_of_moved: impact.part_a,
     }
 }

@@ -30,10 +30,29 @@ fn widest<K: Kernel>(kernel: K) -> K::Output {
     anywhere(kernel)
 }
 
+/// The same of a kernel whose rows are as long as the widest registers that there are: others gain nothing by those, and
+/// contact points lose 3 %.
+#[inline(always)]
+fn widest_of_rows<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    if !cfg!(feature = "portable") && std::arch::is_x86_feature_detected!("avx512f") {
+        // SAFETY: the processor has been asked, and has AVX-512. There is no other condition.
+        return unsafe { with_avx512(kernel) };
+    }
+    widest(kernel)
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 #[inline(never)]
 fn with_avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+#[inline(never)]
+fn with_avx512<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
 }
 
@@ -57,13 +76,15 @@ impl<const GRADED: bool> Kernel for Look<'_, GRADED> {
 /// Looks at eight pairs.
 #[inline]
 pub(super) fn look<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
-    widest(Look::<GRADED>(asked, seen));
+    widest_of_rows(Look::<GRADED>(asked, seen));
 }
 
-/// [`look`] by the portable twin.
+/// [`look`] with registers that the processor may have wider, and by the portable twin.
 #[cfg(test)]
-pub(super) fn look_anywhere<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
-    anywhere(Look::<GRADED>(asked, seen));
+pub(super) fn look_narrower<const GRADED: bool>(asked: &Asked8, seen: [&mut Seen8; 2]) {
+    let [one, other] = seen;
+    widest(Look::<GRADED>(asked, one));
+    anywhere(Look::<GRADED>(asked, other));
 }
 
 struct Cut<'a>(&'a Faces, &'a Wanted);

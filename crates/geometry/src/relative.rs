@@ -1,0 +1,124 @@
+//! Poses in the axes of others: what is held, carried and mounted.
+
+use crate::pose2::{Pose2, Rotation2};
+use crate::pose3::{Pose3, PoseError};
+use glam::Quat;
+
+impl Pose3 {
+    /// Where something is in the world that has this pose in the axes of another: a lantern in a hand, a wheel on a cart.
+    ///
+    /// Right to 2^-23 of a radian, and to that many distances from this pose; beside the identity exact. The rotation is of any
+    /// length, as ever. [`Pose3::relative_to`] undoes it.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat, Vec3}};
+    /// let quarter = Quat::from_xyzw(0.0, 0.0, 1.0, 1.0);
+    /// let (hand, lantern) = (Pose3::new([5.0, 1.0, 0.0], quarter)?, Pose3::new([2.0, 0.0, 0.0], quarter)?);
+    /// let shown = hand.compose(&lantern)?;
+    /// assert_eq!((shown.position(), shown.turn(DVec3::X)), (DVec3::new(5.0, 3.0, 0.0), DVec3::NEG_X));
+    /// assert_eq!(shown.transform(Vec3::Y), hand.transform(lantern.transform(Vec3::Y)));
+    /// assert_eq!(hand.compose(&Pose3::IDENTITY)?, hand);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A position out of range: see [`Pose3::new`].
+    pub fn compose(&self, local: &Self) -> Result<Self, PoseError> {
+        Self::new(self.transform(local.position()), product(self.rotation(), local.rotation()))
+    }
+
+    /// This pose as another one sees it: what [`Pose3::compose`] undoes. Of the identity it is the inverse of the other.
+    ///
+    /// Positions are subtracted before they are turned, so that it is as good far from the origin.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
+    /// let quarter = Quat::from_xyzw(0.0, 0.0, 1.0, 1.0);
+    /// let (cart, wheel) = (Pose3::new([5e6, 1.0, 0.0], quarter)?, Pose3::at([5e6, 3.5, 0.0])?);
+    /// let mounted = wheel.relative_to(&cart)?;
+    /// assert_eq!((mounted.position(), mounted.turn(DVec3::Y)), (DVec3::new(2.5, 0.0, 0.0), DVec3::X));
+    /// assert_eq!(cart.compose(&mounted)?.position(), wheel.position());
+    /// let back = Pose3::IDENTITY.relative_to(&cart)?;
+    /// assert_eq!(back.transform(wheel.position()), mounted.position());
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A position out of range: see [`Pose3::new`].
+    pub fn relative_to(&self, other: &Self) -> Result<Self, PoseError> {
+        let [x, y, z, w] = other.rotation().to_array();
+        let back = Quat::from_xyzw(-x, -y, -z, w);
+        Self::new(other.transform_back(self.position()), product(back, self.rotation()))
+    }
+}
+
+/// The product of two quaternions that are not zero, rounded once to f32, and of a length that is one for f32.
+///
+/// A power of two more or less of length loses nothing.
+fn product(p: Quat, q: Quat) -> Quat {
+    let ([a, b, c, d], [x, y, z, w]) = (p.to_array().map(f64::from), q.to_array().map(f64::from));
+    let made = [
+        (d * x + a * w) + (b * z - c * y),
+        (d * y + b * w) + (c * x - a * z),
+        (d * z + c * w) + (a * y - b * x),
+        (d * w - a * x) - (b * y + c * z),
+    ];
+    let most = made.into_iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    // Its exponent, taken away where it is far from that of one.
+    let exponent = most.to_bits() >> 52;
+    let scale = if (2e-3..=2e3).contains(&most) { 1.0 } else { f64::from_bits((2046 - exponent) << 52) };
+    Quat::from_array(made.map(|part| (part * scale) as f32))
+}
+
+impl Pose2 {
+    /// Where something is in the world that has this pose in the axes of another: a turret on a tank.
+    ///
+    /// Right to 2^-23 of a radian, and to that many distances from this pose; beside the identity exact. [`Pose2::relative_to`]
+    /// undoes it.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rotation2, glam::{DVec2, Vec2}};
+    /// let quarter = Rotation2::new(0.0, 1.0)?;
+    /// let (tank, turret) = (Pose2::new([5.0, 1.0], quarter)?, Pose2::new([2.0, 0.0], quarter)?);
+    /// let shown = tank.compose(&turret)?;
+    /// assert_eq!((shown.position(), shown.turn(DVec2::X)), (DVec2::new(5.0, 3.0), DVec2::NEG_X));
+    /// assert_eq!(shown.transform(Vec2::Y), tank.transform(turret.transform(Vec2::Y)));
+    /// assert_eq!(tank.compose(&Pose2::IDENTITY)?, tank);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A position out of range: see [`Pose2::new`].
+    pub fn compose(&self, local: &Self) -> Result<Self, PoseError> {
+        Self::new(self.transform(local.position()), self.rotation().then(local.rotation(), 1.0))
+    }
+
+    /// This pose as another one sees it: what [`Pose2::compose`] undoes. Of the identity it is the inverse of the other.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
+    /// let (tank, turret) = (Pose2::new([5e6, 1.0], Rotation2::new(0.0, 1.0)?)?, Pose2::at([5e6, 3.5])?);
+    /// let mounted = turret.relative_to(&tank)?;
+    /// assert_eq!((mounted.position(), mounted.turn(DVec2::Y)), (DVec2::new(2.5, 0.0), DVec2::X));
+    /// assert_eq!(tank.compose(&mounted)?, turret);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A position out of range: see [`Pose2::new`].
+    pub fn relative_to(&self, other: &Self) -> Result<Self, PoseError> {
+        Self::new(other.transform_back(self.position()), self.rotation().then(other.rotation(), -1.0))
+    }
+}
+
+impl Rotation2 {
+    /// This rotation and another one after it, or its inverse, by a sign.
+    fn then(self, other: Self, sign: f64) -> Self {
+        if other == Self::IDENTITY {
+            return self;
+        }
+        let [c, s] = [self.cos(), self.sin()].map(f64::from);
+        let [x, y] = [f64::from(other.cos()), sign * f64::from(other.sin())];
+        Self::of_f64(c * x - s * y, s * x + c * y)
+    }
+}
