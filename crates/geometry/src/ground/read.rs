@@ -2,7 +2,7 @@
 //!
 //! What is known of a triangle lies in several tables, and what a body stands on is all over the memory of a large mesh: in
 //! one of a million triangles nearly every read waits. Read one triangle after the other, with much work between, each waits
-//! for itself. Read together, first what is found by numbers, then vertices, they wait together.
+//! for itself. Read together, they wait together. Corners come with the boxes of a mesh's tree, and cost no read of their own.
 
 use super::{Ground, Prominent};
 use crate::aabb::Aabb3;
@@ -49,43 +49,89 @@ impl Ground<'_> {
     pub fn read_near(
         self,
         bounds: &Aabb3,
+        visitor: impl FnMut(&NearTriangle) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.read_near_if(bounds, |_| true, visitor)
+    }
+
+    /// The same of those triangles alone whose corners are wanted: of others nothing else is read. Cost: as that, for less.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+    /// use core::ops::ControlFlow;
+    /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
+    /// let shape = Shape3::from(mesh);
+    /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
+    /// let is_high = |corners: &[Vec3; 3]| corners.iter().any(|corner| corner.y > 0.5);
+    /// let mut high = vec![];
+    /// let _ = ground.read_near_if(&Aabb3::new(Vec3::splat(-1.0), Vec3::splat(2.0)), is_high, |triangle| {
+    ///     high.push(triangle.number);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(high, [1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn read_near_if(
+        self,
+        bounds: &Aabb3,
+        is_wanted: impl Fn(&[Vec3; 3]) -> bool,
         mut visitor: impl FnMut(&NearTriangle) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let mut numbers = [0; AT_ONCE];
-        let mut count = 0;
-        self.visit_near(bounds, |number| {
-            numbers[count] = number;
-            count += 1;
-            if count < AT_ONCE {
+        let mut batch = Batch { numbers: [0; AT_ONCE], corners: [[Vec3::ZERO; 3]; AT_ONCE], count: 0 };
+        self.meet_near(bounds, |number, corners| {
+            if !is_wanted(&corners) {
                 return ControlFlow::Continue(());
             }
-            count = 0;
-            self.read_all(&numbers, &mut visitor)
+            let place = batch.count % AT_ONCE;
+            (batch.numbers[place], batch.corners[place]) = (number, corners);
+            batch.count += 1;
+            if batch.count < AT_ONCE {
+                return ControlFlow::Continue(());
+            }
+            let flow = self.read_all(&batch, &mut visitor);
+            batch.count = 0;
+            flow
         })?;
-        self.read_all(&numbers[..count], &mut visitor)
+        self.read_all(&batch, &mut visitor)
+    }
+
+    /// As [`visit_near`](Self::visit_near), with corners.
+    #[inline]
+    fn meet_near(
+        self,
+        bounds: &Aabb3,
+        mut visitor: impl FnMut(u32, [Vec3; 3]) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        match self {
+            Self::Mesh(mesh) => mesh.tree().visit_overlapping(bounds, |number, corners| {
+                visitor(number, corners.unwrap_or_else(|| mesh.corners(number)))
+            }),
+            Self::Field(field) => field.visit_near(bounds, |number| visitor(number, field.corners(number))),
+        }
     }
 
     #[inline(never)]
     fn read_all(
         self,
-        numbers: &[u32],
+        batch: &Batch,
         visitor: &mut impl FnMut(&NearTriangle) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let (mut patches, mut prominent) = ([0; AT_ONCE], [Prominent::NONE; AT_ONCE]);
-        let (mut vertices, mut corners) = ([[0; 3]; AT_ONCE], [[Vec3::ZERO; 3]; AT_ONCE]);
-        for (i, &number) in numbers.iter().enumerate().take(AT_ONCE) {
+        let count = batch.count.min(AT_ONCE);
+        for (i, &number) in batch.numbers[..count].iter().enumerate() {
             (patches[i], prominent[i]) = (self.patch(number), self.prominent(number));
-            vertices[i] = self.vertex_numbers(number);
         }
-        for (i, &number) in numbers.iter().enumerate().take(AT_ONCE) {
-            corners[i] = match self {
-                Self::Mesh(mesh) => mesh.corners_by(vertices[i]),
-                Self::Field(field) => field.corners(number),
-            };
-        }
-        (0..numbers.len().min(AT_ONCE)).try_for_each(|i| {
-            let (number, corners) = (numbers[i], corners[i]);
+        (0..count).try_for_each(|i| {
+            let (number, corners) = (batch.numbers[i], batch.corners[i]);
             visitor(&NearTriangle { number, corners, patch: patches[i], prominent: prominent[i] })
         })
     }
+}
+
+/// Triangles to be read together.
+struct Batch {
+    numbers: [u32; AT_ONCE],
+    corners: [[Vec3; 3]; AT_ONCE],
+    count: usize,
 }

@@ -66,7 +66,7 @@ impl HeightField {
         if (columns.len() as u32).saturating_mul(rows.len() as u32) <= FEW {
             return cells(columns, rows).try_for_each(|cell| grid.visit_cell(cell, heights, &mut visitor));
         }
-        self.data.blocks.visit_overlapping(bounds, |block| {
+        self.data.blocks.visit_overlapping(bounds, |block, _| {
             let [block_columns, block_rows] = BLOCK.ranges(grid, block);
             let of_both = cells(common(&columns, &block_columns), common(&rows, &block_rows));
             of_both.into_iter().try_for_each(|cell| grid.visit_cell(cell, heights, &mut visitor))

@@ -180,13 +180,9 @@ impl TriMesh {
 
     #[inline]
     pub(crate) fn corners(&self, triangle: u32) -> [Vec3; 3] {
-        self.corners_by(self.vertex_numbers(triangle))
-    }
-
-    #[inline]
-    pub(crate) fn corners_by(&self, vertices: [u32; 3]) -> [Vec3; 3] {
         let at = |vertex: u32| self.data.vertices.get(vertex as usize).copied().unwrap_or_default();
-        [at(vertices[0]), at(vertices[1]), at(vertices[2])]
+        let [a, b, c] = self.vertex_numbers(triangle);
+        [at(a), at(b), at(c)]
     }
 
     #[inline]
@@ -220,9 +216,9 @@ impl TriMesh {
     pub(crate) fn visit_near(
         &self,
         bounds: &Aabb3,
-        visitor: impl FnMut(u32) -> ControlFlow<()>,
+        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        self.data.tree.visit_overlapping(bounds, visitor)
+        self.data.tree.visit_overlapping(bounds, |number, _| visitor(number))
     }
 
     pub(crate) fn tree(&self) -> &Tree {

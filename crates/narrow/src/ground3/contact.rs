@@ -200,24 +200,23 @@ impl<'a> Asking<'a> {
     /// Whether a part overlaps, if it is within the margin. Once another part does, its own yes or no is of no
     /// interest.
     fn contact_of(&self, part: Part<'a>, is_settled: bool, manifolds: &mut impl Room) -> Option<bool> {
-        let place = Place::of(self.on, &part, self.poses);
         if let (Shape3::Sphere(sphere), false) = (part.shape, self.is_plain) {
-            let round = Round::new(&place, sphere.radius().into(), self.reach);
+            let round = Round::new(self.on, &part, sphere.radius().into(), self.reach);
             if let Some(found) = round.contact(self, part, is_settled, manifolds) {
                 return found;
             }
         }
-        self.contact_in_general(part, place, is_settled, manifolds)
+        self.contact_in_general(part, is_settled, manifolds)
     }
 
     #[inline(never)]
     fn contact_in_general(
         &self,
         part: Part<'a>,
-        place: Place,
         is_settled: bool,
         manifolds: &mut impl Room,
     ) -> Option<bool> {
+        let place = Place::of(self.on, &part, self.poses);
         let core = part.shape.core();
         let solid = Solid::new(&core, place.axes, place.origin, f64::from(part.shape.radius()));
         let mut octets = Octets::new_const();

@@ -48,33 +48,8 @@ impl<'a> OnGround<'a> {
         }
     }
 
-    /// The box around a convex part of the body in the ground's axes, grown by `reach` metres and rounded outwards.
-    /// Everything, for a half-space.
-    pub(crate) fn bounds(&self, part: &Part, reach: f64) -> Aabb3 {
-        let (axes, shift) = part.placed(&self.body_basis);
-        let origin = self.basis.turn_back(self.to_body + shift);
-        let axes = [axes.x, axes.y, axes.z].map(|axis| self.basis.turn_back(axis));
-        let (mut low, mut high) = (origin, origin);
-        match part.shape {
-            Shape3::Sphere(_) => {}
-            Shape3::Cuboid(cuboid) => {
-                let half = cuboid.half_extents().as_dvec3();
-                let half = axes[0].abs() * half.x + axes[1].abs() * half.y + axes[2].abs() * half.z;
-                (low, high) = (low - half, high + half);
-            }
-            shape => {
-                (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-                for vertex in shape.core().vertices() {
-                    let [x, y, z] = vertex.as_dvec3().to_array();
-                    let place = axes[0] * x + axes[1] * y + axes[2] * z + origin;
-                    (low, high) = (low.min(place), high.max(place));
-                }
-            }
-        }
-        self.bounds_around(part, [low, high], reach)
-    }
-
-    /// The same from the box around the part's core in the ground's axes, as good as f64 has it.
+    /// The box around a convex part of the body in the ground's axes, grown by `reach` metres and rounded outwards, from that around its
+    /// core as good as f64 has it. Everything, for a half-space.
     pub(crate) fn bounds_around(&self, part: &Part, [low, high]: [DVec3; 2], reach: f64) -> Aabb3 {
         if matches!(part.shape, Shape3::HalfSpace(_)) {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);

@@ -33,12 +33,13 @@ pub(crate) struct Found {
 }
 
 impl Tree {
-    /// Hands the number of every box that overlaps this one to `visitor`, each once, until it breaks off.
+    /// Hands the number of every box that overlaps this one to `visitor`, each once, until it breaks off; and where it is known,
+    /// its triangle.
     #[inline]
     pub(crate) fn visit_overlapping(
         &self,
         bounds: &Aabb3,
-        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
+        mut visitor: impl FnMut(u32, Option<[Vec3; 3]>) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         if self.root == EMPTY || !bounds.is_valid() {
             return ControlFlow::Continue(());
@@ -54,7 +55,8 @@ impl Tree {
                 let leaf = &self.leaves[(slot & !IS_LEAF) as usize];
                 let mut hits = overlapping(&leaf.sides(), &one);
                 while hits != 0 {
-                    visitor(leaf.slots[hits.trailing_zeros() as usize % WIDTH])?;
+                    let place = hits.trailing_zeros() as usize % WIDTH;
+                    visitor(leaf.slots[place], Some(leaf.triangle(place)))?;
                     hits &= hits - 1;
                 }
                 continue;
@@ -68,7 +70,7 @@ impl Tree {
                     stack[waiting] = slot;
                     waiting += 1;
                 } else {
-                    visitor(slot & !IS_BOX)?;
+                    visitor(slot & !IS_BOX, None)?;
                 }
             }
         }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! for each triangle near it:
+//!   a plane parts them by more than is wanted: done                                      (Round::may_reach)
 //!   its plane is too far, or its nearest point: done
 //!   neither is in front for certain, and no side of it may give that direction: no point
 //!   else, and only then: which side the centre is on, which takes a walk around the corner       (Facet::is_before)
@@ -14,15 +15,19 @@
 //! What it buys: no core, no solid, no vertices eight by eight, and for most triangles no side.
 
 use super::ball::{Nearest, nearest_to};
-use super::facet::{Facet, Furthest, is_same};
-use super::standing::{Place, doubt_of};
+use super::facet::{Facet, Furthest, is_same, widened};
+use super::standing::doubt_of;
 use super::{Asking, Known};
+use crate::ground3::{OnGround, box_around};
 use crate::pair3::Part;
 use crate::room::Room;
-use asunder_geometry::glam::DVec3;
+use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Aabb3, Ground, NearTriangle, Prominent};
 use core::ops::ControlFlow;
+
+/// More than the sine of the angle by which a triangle's normal may be off, and what products lose beside it.
+const LOST: f64 = 1e-6;
 
 /// A sphere, in the ground's axes.
 #[derive(Clone, Copy, Debug)]
@@ -36,8 +41,19 @@ pub(super) struct Round {
 }
 
 impl Round {
-    pub(super) fn new(place: &Place, radius: f64, reach: f64) -> Self {
-        Self { center: place.point(DVec3::ZERO), radius, lengths: place.summed + radius, reach }
+    /// Of a sphere, all that counts of how it is placed.
+    #[inline]
+    pub(super) fn new(on: &OnGround, part: &Part, radius: f64, reach: f64) -> Self {
+        let (_, shift) = part.placed(&on.body_basis);
+        let lengths = on.to_body.length() + shift.length() + radius;
+        Self { center: on.basis.turn_back(on.to_body + shift), radius, lengths, reach }
+    }
+
+    /// The box around what is near it, rounded outwards.
+    #[inline]
+    fn bounds(&self) -> Aabb3 {
+        let grow = DVec3::splat(self.radius + self.reach + 64.0 * f64::EPSILON * self.lengths);
+        box_around([self.center - grow, self.center + grow])
     }
 
     /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; nothing where the general way has to be
@@ -49,10 +65,9 @@ impl Round {
         is_settled: bool,
         manifolds: &mut impl Room,
     ) -> Option<Option<bool>> {
-        let bounds = asking.on.bounds(&part, self.reach);
         let slack = self.slack();
         let mut known = Known::new([slack; 2]);
-        if !self.look(asking.on.ground, &bounds, !manifolds.is_wanted(), &mut known) {
+        if !self.look(asking.on.ground, !manifolds.is_wanted(), &mut known) {
             return None;
         }
         if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
@@ -72,19 +87,64 @@ impl Round {
 
     /// Looks at the triangles near it, all but at once if only yes or no is wanted. Whether that settles everything;
     /// else it is to be asked in the general way, from the start.
-    fn look(&self, ground: Ground, bounds: &Aabb3, is_yes_enough: bool, known: &mut Known) -> bool {
-        let flow = ground.read_near(bounds, |near| {
-            if !self.look_at(ground, near, known) {
-                known.is_open = true;
-                return ControlFlow::Break(());
-            }
-            if known.overlapping && is_yes_enough {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
+    fn look(&self, ground: Ground, is_yes_enough: bool, known: &mut Known) -> bool {
+        let flow = ground.read_near_if(
+            &self.bounds(),
+            |corners| self.may_reach(corners),
+            |near| {
+                if !self.look_at(ground, near, known) {
+                    known.is_open = true;
+                    return ControlFlow::Break(());
+                }
+                if known.overlapping && is_yes_enough {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            },
+        );
         flow.is_continue() || !known.is_open
+    }
+
+    /// Whether a triangle may be within reach: not where a plane has it and the ball on either side, further apart than that.
+    ///
+    /// The plane is square to the way from the triangle's nearest point to the centre, or from where rounding has that;
+    /// corners decide, whatever it is worth, and no root is taken. Six triangles of ten near a ball on hills end here: frames of
+    /// balls that roll take 0.84 of the time. Tried: eight at a time in f32, of which LLVM makes more moves than products, for SSE2;
+    /// one by one without a branch: frames take 1.05 to 1.7, and 1.2 times as long (AMD EPYC, Zen 5, 2026-11-25).
+    ///
+    /// Ericson, "Real-time collision detection" (2005), 5.1.5.
+    #[inline]
+    fn may_reach(&self, corners: &[Vec3; 3]) -> bool {
+        let [a, b, c] = widened(*corners);
+        let (ab, ac) = (b - a, c - a);
+        let (from_a, from_b, from_c) = (self.center - a, self.center - b, self.center - c);
+        let (ab_a, ab_b, ab_c) = (ab.dot(from_a), ab.dot(from_b), ab.dot(from_c));
+        let (ac_a, ac_b, ac_c) = (ac.dot(from_a), ac.dot(from_b), ac.dot(from_c));
+        let away = if ab_a <= 0.0 && ac_a <= 0.0 {
+            from_a
+        } else if ab_b >= 0.0 && ac_b <= ab_b {
+            from_b
+        } else if ac_c >= 0.0 && ab_c <= ac_c {
+            from_c
+        } else if ab_a * ac_b - ab_b * ac_a <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0 {
+            from_a - ab * (ab_a / (ab_a - ab_b))
+        } else if ab_c * ac_a - ab_a * ac_c <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0 {
+            from_a - ac * (ac_a / (ac_a - ac_c))
+        } else if ab_b * ac_c - ab_c * ac_b <= 0.0 {
+            let (after_b, before_c) = (ac_b - ab_b, ab_c - ac_c);
+            from_b - (c - b) * (after_b / (after_b + before_c))
+        } else {
+            let normal = ab.cross(ac);
+            normal * normal.dot(from_a)
+        };
+        let least = away.dot(from_a).min(away.dot(from_b)).min(away.dot(from_c));
+        // More than what the rest can take a separation to be off by: nothing is lost.
+        let lever = from_a.abs().element_sum() + self.radius;
+        let beyond = self.radius + self.reach + doubt_of(self.lengths, a) + LOST * lever;
+        // What is not a number may reach.
+        let is_beyond = least > 0.0 && least * least > beyond * beyond * away.length_squared();
+        !is_beyond
     }
 
     /// Looks at one triangle; whether it is settled.
