@@ -199,3 +199,44 @@ fn may_add(nearest: &Nearest, facet: &Facet, prominent: Prominent) -> bool {
     };
     is_prominent || is_same(facet.normal, nearest.towards) || is_same(-facet.normal, nearest.towards)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_triangle_within_reach_is_told_to_be_beyond() {
+        let mut random = oorandom::Rand64::new(3);
+        let mut number = || 2.0 * random.rand_float() - 1.0;
+        let (mut near, mut parted, mut far) = (0, 0, 0);
+        for round in 0..200_000 {
+            // Of all sizes, from needles to even ones, near home and not.
+            let size = (20.0 * number()).exp2();
+            let thin = [1.0, 1e-3, 1e-6][round % 3];
+            let away = DVec3::new(number(), number(), number()) * [0.0, 1e3 * size][round % 2];
+            let mut point = || DVec3::new(number(), number(), number()) * size;
+            let (from, to, beside, center) = (point(), point(), point() * thin, point() * 2.0);
+            let corners = [away + from, away + to, away + from + beside].map(|corner| corner.as_vec3());
+            let Some(facet) = Facet::front_of(0, corners) else { continue };
+            let center = away + center;
+            let distance = match nearest_to(&facet, center) {
+                (Furthest::Face, _) => facet.height(center).abs(),
+                (_, at) => (center - at).length(),
+            };
+            // Balls of which the triangle is just within reach, or just not.
+            for share in [1.0 + 1e-9, 1.0, 1.0 - 1e-9, 0.999] {
+                let (radius, reach) = (0.9 * distance * share, 0.1 * distance * share);
+                let round = Round { center, radius, lengths: radius, reach };
+                let is_told = round.may_reach(&corners);
+                if share >= 1.0 {
+                    assert!(is_told, "{distance} from {center}, {share}: {corners:?}");
+                    near += 1;
+                } else if share == 0.999 {
+                    far += 1;
+                    parted += usize::from(!is_told);
+                }
+            }
+        }
+        assert!(near > 300_000 && parted * 10 > far * 9, "{near} near, {parted} of {far} parted");
+    }
+}
