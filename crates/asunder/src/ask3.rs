@@ -410,7 +410,7 @@ impl World<Volume> {
     }
 
     /// What a moved shape runs into next, as [`World::cast_shape`] tells it, where what it touches at the start is passed over: along a
-    /// floor to the wall, though both be one body. See [`Pair3::next_impact`] for what counts as level with what is touched. It passes
+    /// floor to the wall, though both be one body. See [`Pair3::next_impact`](crate::Pair3::next_impact) for what counts as level with what is touched. It passes
     /// whichever way the shape goes: into the floor as well.
     ///
     /// ```

@@ -6,7 +6,8 @@
 //! ```text
 //! overlap      the triangles whose boxes the part's box meets; the axis across the triangle; a point of it in the sphere
 //!              inside the part; then as any pair
-//! separation   the triangles nearest first by their boxes, until those are beyond the least so far:
+//! separation   a sphere that is apart from all is told so in closed form                                   (ask_round)
+//!              the triangles nearest first by their boxes, until those are beyond the least so far:
 //!                beyond what a point of the part and one of a triangle that was met show: passed over
 //!                else it waits
 //!              those that wait, the least lower bound first:
@@ -14,8 +15,8 @@
 //!                else as any pair
 //! ```
 //! Kernels are dear, and most of the triangles around the nearest share the corner or the edge that is. What the bounds
-//! save: kernels asked, of hulls of 32 over hills, 9.4 to 1.8 a question; of boxes 5.1 to 2.2; of spheres 4.4 to 1.1. Times
-//! from 11.0 us to 6.4, 7.3 to 5.6, 5.7 to 2.9 (AMD EPYC, Zen 4, 2026-11-22).
+//! save: kernels asked, of hulls of 32 over hills, 9.4 to 1.8 a question; of boxes 5.1 to 2.2. Times from 11.0 us to 6.4, 7.3
+//! to 5.6 (AMD EPYC, Zen 4, 2026-11-22).
 //!
 //! Two grounds are asked about each triangle of one against those of the other that are near it.
 
@@ -37,11 +38,11 @@ use core::ops::ControlFlow;
 const MOST_WAITING: usize = 16;
 
 /// What is told of the triangle that is nearest.
-struct Told {
-    parts: [u32; 2],
-    separation: f32,
-    normal: Vec3,
-    closest: Option<[Vec3; 2]>,
+pub(super) struct Told {
+    pub(super) parts: [u32; 2],
+    pub(super) separation: f32,
+    pub(super) normal: Vec3,
+    pub(super) closest: Option<[Vec3; 2]>,
 }
 
 impl OnGround<'_> {
@@ -181,6 +182,9 @@ impl Pair3<'_> {
         (part, wanted): (&Part, Wanted),
         least: &mut Least<Told>,
     ) -> f64 {
+        if matches!(part.shape, Shape3::Sphere(_)) && self.look_around_ball(on, part, least) {
+            return least.reach();
+        }
         let placed = &Corners::of(on, part);
         let mut asker = Asker { pair: self, on, bases, part, wanted, placed, shown: None };
         let mut waiting: ArrayVec<(f64, u32), MOST_WAITING> = ArrayVec::new();

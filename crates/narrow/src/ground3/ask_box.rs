@@ -239,7 +239,8 @@ impl Corners {
 
 /// The point of a triangle that is nearest to another, up to rounding: by its edges' and corners' regions (Ericson,
 /// "Real-Time Collision Detection" (2005), 5.1.5).
-fn nearest(point: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+#[inline]
+pub(super) fn nearest(point: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let (u, v) = (b - a, c - a);
     let [d1, d2] = [u, v].map(|edge| edge.dot(point - a));
     let [d3, d4] = [u, v].map(|edge| edge.dot(point - b));

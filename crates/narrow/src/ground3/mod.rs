@@ -2,6 +2,7 @@
 
 mod ask;
 mod ask_box;
+mod ask_round;
 mod ask_sides;
 mod contact;
 mod near;

@@ -18,6 +18,7 @@ use super::ball::{Nearest, nearest_to};
 use super::facet::{Facet, Furthest, is_same, widened};
 use super::standing::doubt_of;
 use super::{Asking, Known};
+use crate::ground3::ask_box::nearest;
 use crate::ground3::{OnGround, box_around};
 use crate::pair3::Part;
 use crate::room::Room;
@@ -112,32 +113,11 @@ impl Round {
     /// corners decide, whatever it is worth, and no root is taken. Six triangles of ten near a ball on hills end here: frames of
     /// balls that roll take 0.84 of the time. Tried: eight at a time in f32, of which LLVM makes more moves than products, for SSE2;
     /// one by one without a branch: frames take 1.05 to 1.7, and 1.2 times as long (AMD EPYC, Zen 5, 2026-11-25).
-    ///
-    /// Ericson, "Real-time collision detection" (2005), 5.1.5.
     #[inline]
     fn may_reach(&self, corners: &[Vec3; 3]) -> bool {
         let [a, b, c] = widened(*corners);
-        let (ab, ac) = (b - a, c - a);
         let (from_a, from_b, from_c) = (self.center - a, self.center - b, self.center - c);
-        let (ab_a, ab_b, ab_c) = (ab.dot(from_a), ab.dot(from_b), ab.dot(from_c));
-        let (ac_a, ac_b, ac_c) = (ac.dot(from_a), ac.dot(from_b), ac.dot(from_c));
-        let away = if ab_a <= 0.0 && ac_a <= 0.0 {
-            from_a
-        } else if ab_b >= 0.0 && ac_b <= ab_b {
-            from_b
-        } else if ac_c >= 0.0 && ab_c <= ac_c {
-            from_c
-        } else if ab_a * ac_b - ab_b * ac_a <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0 {
-            from_a - ab * (ab_a / (ab_a - ab_b))
-        } else if ab_c * ac_a - ab_a * ac_c <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0 {
-            from_a - ac * (ac_a / (ac_a - ac_c))
-        } else if ab_b * ac_c - ab_c * ac_b <= 0.0 {
-            let (after_b, before_c) = (ac_b - ab_b, ab_c - ac_c);
-            from_b - (c - b) * (after_b / (after_b + before_c))
-        } else {
-            let normal = ab.cross(ac);
-            normal * normal.dot(from_a)
-        };
+        let away = self.center - nearest(self.center, [a, b, c]);
         let least = away.dot(from_a).min(away.dot(from_b)).min(away.dot(from_c));
         // More than what the rest can take a separation to be off by: nothing is lost.
         let lever = from_a.abs().element_sum() + self.radius;
