@@ -4,6 +4,7 @@
 //! arithmetic elsewhere ([`exactness`](crate::exactness), [`separation`](crate::separation)).
 
 mod hard;
+mod leaving;
 mod moving;
 mod peer;
 mod rays;

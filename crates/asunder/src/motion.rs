@@ -114,8 +114,12 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    pub(crate) fn hits_of(&self, bullet: S::Key) -> impl Iterator<Item = &Hit<S::Key, S::Impact>> + Clone {
-        self.impacts.iter().filter(move |hit| hit.bullet == bullet)
+    pub(crate) fn hits_of(&self, bullet: S::Key) -> &[Hit<S::Key, S::Impact>] {
+        let slot = slot_of(bullet);
+        let before = self.impacts.partition_point(|hit| slot_of(hit.bullet) < slot);
+        let later = &self.impacts[before..];
+        // A reused slot is another bullet's.
+        &later[..later.iter().take_while(|hit| hit.bullet == bullet).count()]
     }
 
     /// After an update the motions are history, and the boxes around them too wide.

@@ -133,7 +133,8 @@ impl World<Volume> {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update, by time; nothing for a stale key. Cost: the number of all impacts.
+    /// What one bullet ran into at the last update, by time; nothing for a stale key. Cost: the logarithm of all
+    /// impacts.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Motion3, Pose3, World3};
@@ -144,11 +145,11 @@ impl World<Volume> {
     /// let shot = world.insert(ball.bullet());
     /// world.set_motion(shot, Motion3::shift([9.0, 0.0, 0.0])?)?;
     /// world.update();
-    /// assert!(world.impacts_of(shot).map(|hit| hit.other).eq([gate, wall]));
-    /// assert_eq!(world.impacts_of(wall).count(), 0, "it is no bullet");
+    /// assert!(world.impacts_of(shot).iter().map(|hit| hit.other).eq([gate, wall]));
+    /// assert!(world.impacts_of(wall).is_empty(), "it is no bullet");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn impacts_of(&self, bullet: BodyKey3) -> impl Iterator<Item = &Hit3> + Clone {
+    pub fn impacts_of(&self, bullet: BodyKey3) -> &[Hit3] {
         self.hits_of(bullet)
     }
 

@@ -68,8 +68,8 @@ impl Pair2<'_> {
     /// - Touching at the start, exactly, is an impact at fraction 0, also where A moves away. Its anchors are the
     ///   deepest contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
     /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin, 1e-7 m at 1e8
-    ///   m) is an impact at 0 too, whichever way A moves; but `overlapping` says no, and `error` how far apart they
-    ///   may be.
+    ///   m) is an impact at 0 too, but where A parts from it; `overlapping` says no, and `error` how far apart they
+    ///   may be. So what a cast has brought to another may leave it.
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
     ///   by how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.

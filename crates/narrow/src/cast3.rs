@@ -50,7 +50,8 @@ impl Pair3<'_> {
     /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most
     /// 1e-6 of the pair's size for round shapes, 4e-9 for others, save where the displacement is so long or the
     /// bodies so far from the origin that f64 has no nearer place. A miss is certain too. Shapes that pass each
-    /// other within `error` may be told as an impact.
+    /// other within `error` may be told as an impact; those that part from each other are not, however near they are, so that
+    /// what a cast has brought to another may leave it.
     ///
     /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal
     /// with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own,
@@ -205,17 +206,20 @@ impl Pair3<'_> {
                 let met = match part_end(passage, [a, b], &stretch, until) {
                     End::Apart => return false,
                     End::Met(met) => met,
-                    End::Unclear(met) if beyond.is_some() => {
-                        if self.parts(&passage.bases, a, b).convex.verdict().overlapping {
+                    End::Unclear(met, is_parting) if beyond.is_some() => {
+                        if is_parting || self.parts(&passage.bases, a, b).convex.verdict().overlapping {
                             return false;
                         }
                         met
                     }
-                    End::Unclear(met) => {
+                    End::Unclear(met, is_parting) => {
                         if !is_asked && self.overlaps() {
                             return true;
                         }
                         is_asked = true;
+                        if is_parting {
+                            return false;
+                        }
                         met
                     }
                 };

@@ -18,6 +18,9 @@ const MAX_ROUNDS: usize = 96;
 /// Tries for one round's step of shapes that turn.
 const MAX_TRIES: usize = 20;
 
+/// What rounding to f32 turns a unit axis by at most.
+const ROUNDED: f64 = f32::EPSILON as f64;
+
 /// Share of the gap that a step of shapes that turn may leave unused.
 const UNUSED: f64 = 0.03;
 
@@ -150,10 +153,17 @@ impl<'a> Course<'a> {
         let mut now = self.times[0];
         let mut axis = self.towards_b(now);
         for round in 1..=MAX_ROUNDS {
-            let Some(look) = self.look(now, axis) else { return Some(self.too_close(now, axis)) };
+            let Some(look) = self.look(now, axis) else {
+                let touching = self.too_close(now, axis);
+                let is_parting = now <= 0.0 && self.parts(touching.axis, ROUNDED);
+                return (!is_parting).then_some(touching);
+            };
             axis = look.axis;
             let rest = self.times[1] - now;
-            if look.least > self.slack && self.keeps_apart(&look, now, rest) {
+            // What is as good as touching, and parts, comes no nearer than it is.
+            let is_parting =
+                look.least > -self.slack - 16.0 * self.precision.projection() && self.parts(axis, 0.0);
+            if is_parting || look.least > self.slack && self.keeps_apart(&look, now, rest) {
                 return None;
             }
             if look.least <= self.aim || look.most <= self.enough || round == MAX_ROUNDS {
@@ -166,6 +176,11 @@ impl<'a> Course<'a> {
             now = next;
         }
         None
+    }
+
+    /// Whether the gap along an axis, which may be off by a share, gets no less from then on: however fast what turns does so.
+    fn parts(&self, axis: DVec2, off: f64) -> bool {
+        self.closing(axis) + self.pace + off * self.stretch.velocity.length() <= 0.0
     }
 
     /// Whether an axis, at least so far, shows a gap for all the time there is.

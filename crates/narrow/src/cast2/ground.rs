@@ -13,6 +13,7 @@ use crate::ground2::{Surface, Told};
 use crate::impact2::Impact2;
 use crate::pair2::Pair2;
 use asunder_geometry::glam::DVec2;
+use asunder_geometry::tolerance::SAME_NORMAL;
 use asunder_geometry::{Aabb2, Chain, Run, Shape2};
 
 impl Pair2<'_> {
@@ -91,6 +92,14 @@ impl First<'_> {
                 Some((surface_met(chain, segment.index, &course, &touching, side)?, touching))
             });
             let Some(((axis, run), touching)) = found else { return };
+            // What the ground has for a normal there may look the way the body goes: from one-sided ground it comes out.
+            let goes = |axis: DVec2| axis.dot(first.stretch.velocity);
+            let back = -SAME_NORMAL * first.stretch.velocity.length();
+            let looks_back = !first.stretch.is_turning() && goes(axis) < back;
+            if looks_back && chain.is_one_sided() {
+                return;
+            }
+            let axis = if looks_back && goes(touching.axis) > 0.0 { touching.axis } else { axis };
             // Of equals, the first counts.
             if first.impact.is_some() && touching.at >= first.end {
                 return;

@@ -46,8 +46,9 @@ pub(super) enum End {
     Apart,
     /// They touch, or are all but there.
     Met(Met),
-    /// Whether they touch at the start is below rounding, or they overlap there.
-    Unclear(Met),
+    /// Whether they touch at the start is below rounding, or they overlap there; and whether, if they do not, they come no nearer
+    /// than they are.
+    Unclear(Met, bool),
 }
 
 /// Where two parts have come so close that they count as touching.
@@ -90,7 +91,8 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         }
         let here = course.met(&moment, &found, (fraction, gap));
         if found.at_least <= 0.0 {
-            return if fraction == 0.0 { End::Unclear(here) } else { End::Met(here) };
+            let is_parting = found.at_least > -4.0 * doubt && course.parts_along(found.normal, until);
+            return if fraction == 0.0 { End::Unclear(here, is_parting) } else { End::Met(here) };
         }
         let Step::By(step, left) = course.step(&moment, &found, [fraction, until]) else { return End::Apart };
         // Never beyond, whatever the sum's rounding.
@@ -112,12 +114,29 @@ impl Course<'_> {
         Met { fraction, gap: gap.max(0.0), normal: found.normal, anchors }
     }
 
+    /// Whether the gap along an axis gets no less before the limit, however fast what turns does so.
+    fn parts_along(&self, axis: DVec3, until: f64) -> bool {
+        let mut pace = self.closing(axis);
+        for ((turn, part), arm) in self.passage.turns.iter().zip(&self.parts).zip(&self.arms) {
+            let Some(turn) = turn else { continue };
+            if let Shape3::HalfSpace(_) = part.shape {
+                return false;
+            }
+            pace += turn.bounds_within(0.0, until)[0] * arm.from_axis * (1.0 + 64.0 * f64::EPSILON);
+        }
+        pace <= 0.0
+    }
+
+    /// An upper bound on the speed at which the gap along an axis closes, turning left out.
+    fn closing(&self, axis: DVec3) -> f64 {
+        // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
+        axis.dot(self.passage.drift) + 16.0 * f64::EPSILON * length(self.passage.drift)
+    }
+
     /// How far the motion may go before the shapes can touch, by the axis that was found.
     fn step(&self, moment: &Moment, found: &Closest, [fraction, until]: [f64; 2]) -> Step {
         let span = until - fraction;
-        let drift = self.passage.drift;
-        // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
-        let closing = found.normal.dot(drift) + 16.0 * f64::EPSILON * length(drift);
+        let closing = self.closing(found.normal);
         let rest = self.fineness.rest(moment.precision.projection());
         let free = found.at_least - rest;
         if moment.spins == [DVec3::ZERO; 2] {

@@ -125,11 +125,14 @@ impl Search<'_> {
         let met = match part_end(self.passage, parts, &stretch, until) {
             End::Apart => return until,
             End::Met(met) => met,
-            End::Unclear(met) => {
+            End::Unclear(met, is_parting) => {
                 let parts = self.pair.parts(&self.passage.bases, parts[0], parts[1]);
                 if parts.convex.verdict().overlapping {
                     self.touches = self.beyond.is_none();
                     return if self.touches { -1.0 } else { until };
+                }
+                if is_parting {
+                    return until;
                 }
                 met
             }

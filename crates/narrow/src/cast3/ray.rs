@@ -255,8 +255,9 @@ impl<'a> Cast<'a> {
         let course = Course::new(&passage, parts, [&core_point, &core]).refined_to(Fineness::FINEST);
         let met = match advance(&course, 1.0) {
             End::Apart => return None,
-            End::Unclear(_) if self.is_inside(part) => return Some(self.inside()),
-            End::Unclear(met) | End::Met(met) => met,
+            End::Unclear(..) if self.is_inside(part) => return Some(self.inside()),
+            End::Unclear(_, true) => return None,
+            End::Unclear(met, false) | End::Met(met) => met,
         };
         let steep = met.normal.dot(unit).abs();
         let error = if met.gap <= steep * radius { met.gap / steep } else { 2.0 * radius };
