@@ -126,13 +126,15 @@ impl Pair3<'_> {
     /// [`impact`](Self::impact), of bodies that may touch already: what they run into next.
     ///
     /// Parts of ground and of compounds that touch at the start are no answer, and neither is what is level with
-    /// them: what a body is no more than a 64th of its thickness away from, and goes no further into, beyond what it
-    /// goes into what it touches anyway; and, of a compound, what is flush with what it touches. So a ball on a level's
+    /// them. Level is what lies no more than a 64th of the body's thickness away from it at the start, along the normal
+    /// that it is met with, and no deeper than that 64th at the end, beyond what the motion goes into what is touched
+    /// anyway; and, of a compound, what is flush with what it touches. The thickness is the radius of a ball in the body's middle. So a ball on a level's
     /// floor, pressed to it by its weight, runs over the floor's seams, and into the level's walls, steps and ramps.
     /// A motion that sinks a body into its floor by all its thickness leads it under what stands there.
     ///
-    /// What is touched, but told in no manifold, since its neighbour tells of it, and is gone into, is an impact at the
-    /// start; its anchors are as good as half a thickness. Of bodies of one part each that touch, nothing. Never
+    /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at the
+    /// start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as half a
+    /// thickness. Of bodies of one part each that touch, nothing. Never
     /// `overlapping`. Cost: as the impact, which is asked first; for those that touch their manifolds too, and another
     /// search.
     ///

@@ -317,3 +317,23 @@ fn a_moved_shape_is_cast_on_from_the_floor_that_it_touches() {
     }
     assert!(walls > 50 && crates > 50 && free > 50, "{walls} {crates} {free}");
 }
+
+#[test]
+fn a_shape_is_cast_on_however_far() {
+    let mut world = World3::new();
+    let yard = world.insert(Collider3::new(yard(&mut Random::new(1))));
+    let ball = Shape3::from(Sphere::new(0.5).unwrap());
+    for (y, touches) in [(0.5 - 1e-6, true), (0.75, false)] {
+        let here = Pose3::at([0.0, y, 0.0]).unwrap();
+        for far in [1e3, 1e9, 1e12, 1e30, f32::MAX] {
+            let hit = world.cast_shape_onwards((&ball, &here), Vec3::X * far, &Filter3::new());
+            let hit = hit.unwrap_or_else(|| panic!("nothing in the way of {far} m, {touches}"));
+            let off = (hit.fraction * f64::from(far) - 5.5).abs();
+            assert!(hit.body == yard && off < 1e-3, "{far}: {hit:?}");
+        }
+    }
+    let here = Pose3::at([0.0, 2.0, 0.0]).unwrap();
+    for way in [Vec3::NAN, Vec3::INFINITY, Vec3::ZERO] {
+        assert_eq!(world.cast_shape_onwards((&ball, &here), way, &Filter3::new()), None, "{way}");
+    }
+}

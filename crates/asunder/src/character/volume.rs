@@ -64,7 +64,7 @@ impl World<Volume> {
     /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a
     /// frame, by its velocity times the time, gravity included.
     ///
-    /// - Where it overlaps solids, it is freed first, as by [`depenetrate`](World::depenetrate). From then on it
+    /// - Where it overlaps solids, it is freed first, much as by [`depenetrate`](World::depenetrate). From then on it
     ///   moves by casts alone: it never enters anything, nor passes through, however far it goes.
     /// - What can be walked on takes all that goes down: nobody slides off. What is steeper is a wall, and a slope
     ///   to slide down for who falls.

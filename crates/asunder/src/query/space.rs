@@ -6,7 +6,7 @@ use crate::space::{Plane, Space, Volume};
 use asunder_broad::Cast;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder_geometry::{
-    Aabb2, Aabb3, Circle, Motion2, Motion3, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere,
+    Aabb2, Aabb3, Circle, Motion2, Motion3, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere, tolerance,
 };
 use asunder_narrow::{Impact2, Impact3, Pair2, Pair3, cast_ray2, cast_ray3};
 
@@ -129,11 +129,14 @@ impl Asked for Plane {
         body: &Collider<Self>,
     ) -> Option<Meet<Self>> {
         let pair = Pair2::new(shape, pose, &body.shape, &body.pose);
-        let impact = if body.sensor {
-            pair.cast(displacement).filter(|impact| !impact.overlapping)?
-        } else {
-            pair.next_impact(&Motion2::shift(displacement).ok()?, &Motion2::STILL)?
-        };
+        if body.sensor {
+            let impact = pair.cast(displacement).filter(|impact| !impact.overlapping)?;
+            return Some(met2(&impact, key, body));
+        }
+        let share = share_of(displacement.abs().max_element());
+        let way = Motion2::shift(displacement.as_dvec2() * share).ok()?;
+        let mut impact = pair.next_impact(&way, &Motion2::STILL)?;
+        impact.fraction *= share;
         Some(met2(&impact, key, body))
     }
 }
@@ -211,13 +214,21 @@ impl Asked for Volume {
         body: &Collider<Self>,
     ) -> Option<Meet<Self>> {
         let pair = Pair3::new(shape, pose, &body.shape, &body.pose);
-        let impact = if body.sensor {
-            pair.cast(displacement).filter(|impact| !impact.overlapping)?
-        } else {
-            pair.next_impact(&Motion3::shift(displacement).ok()?, &Motion3::STILL)?
-        };
+        if body.sensor {
+            let impact = pair.cast(displacement).filter(|impact| !impact.overlapping)?;
+            return Some(met3(&impact, key, body));
+        }
+        let share = share_of(displacement.abs().max_element());
+        let way = Motion3::shift(displacement.as_dvec3() * share).ok()?;
+        let mut impact = pair.next_impact(&way, &Motion3::STILL)?;
+        impact.fraction *= share;
         Some(met3(&impact, key, body))
     }
+}
+
+/// What of a displacement of that size leads anywhere: no motion is longer than all that there is.
+fn share_of(size: f32) -> f64 {
+    (tolerance::MAX_POSITION / f64::from(size)).min(1.0)
 }
 
 fn met2(impact: &Impact2, key: <Plane as Space>::Key, body: &Collider<Plane>) -> Meet<Plane> {
