@@ -4,7 +4,6 @@
 //! arithmetic elsewhere ([`exactness`](crate::exactness), [`separation`](crate::separation)).
 
 mod hard;
-mod leaving;
 mod moving;
 mod peer;
 mod rays;

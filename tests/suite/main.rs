@@ -5,6 +5,7 @@
 //!
 //! Geometry
 //! - [`refusals`]: what is no convex shape and no pose is refused, by an error that names the place
+//! - [`poses`]: poses in the axes of others take points where one after the other does
 //! - [`bounds`]: the box around a posed shape holds it, and is no wider than rounding needs
 //! - [`hulls`]: parry3d's vertices, errors that hold, and clouds of 65,535 points
 //! - [`polygons`]: hulls of points in the plane, simplified ones, and outlines cut into convex parts, against exact
@@ -35,6 +36,7 @@
 //!   parry3d's word
 //! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the
 //!   exact yes or no say
+//! - [`leaving`]: what a cast has brought to another may leave it, in the plane and in space; walls are met from the front
 //! - [`ground_worlds`]: ground is fixed; slides begin and end once; snapshots hold it once; its edges are drawn
 //! - [`ground_questions`]: overlaps, distances, rays and casts over meshes and height fields are the least of all
 //!   triangles', one by one; sides; characters on ground
@@ -101,6 +103,7 @@ mod hints;
 mod hulls;
 mod index;
 mod invariance;
+mod leaving;
 mod manifolds;
 mod mass;
 mod motions;

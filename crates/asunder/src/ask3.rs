@@ -410,9 +410,9 @@ impl World<Volume> {
         bodies_along(self, from, displacement, filter).first()
     }
 
-    /// What a moved shape runs into next, as [`World::cast_shape`] tells it, where what it touches at the start is passed over: along a
-    /// floor to the wall, though both be one body. See [`Pair3::next_impact`](crate::Pair3::next_impact) for what counts as level with what is touched. It passes
-    /// whichever way the shape goes: into the floor as well.
+    /// What a moved shape runs into next, as [`World::cast_shape`] tells it, where what it touches at the start is passed over:
+    /// along a floor to the wall, though both be one body. What counts as level with what is touched,
+    /// [`Pair3::next_impact`](crate::Pair3::next_impact) says. It passes whichever way the shape goes: into the floor as well.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, TriMesh, World3, glam::Vec3};

@@ -130,10 +130,11 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
     /// When two bodies first touch in their motions where they do not touch at the start, and the share of the motions
-    /// that is done by then. What is in a sensor, in any part of it, runs into no other part.
+    /// that is done by then. What is in a sensor, where one is, runs into no other part of it.
     #[doc(hidden)]
     fn impact(
-        bodies: [&Collider<Self>; 2],
+        of: [(&Self::Shape, &Self::Pose); 2],
+        sensor: bool,
         motions: [Option<Self::Motion>; 2],
     ) -> Option<(f64, Self::Impact)>;
 
@@ -227,10 +228,14 @@ impl Space for Plane {
         (a - b).length()
     }
 
-    fn impact([a, b]: [&Collider<Self>; 2], motions: [Option<Motion2>; 2]) -> Option<(f64, Impact2)> {
+    fn impact(
+        [(shape_a, pose_a), (shape_b, pose_b)]: [(&Shape2, &Pose2); 2],
+        sensor: bool,
+        motions: [Option<Motion2>; 2],
+    ) -> Option<(f64, Impact2)> {
         let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion2::STILL));
-        let pair = Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose);
-        let impact = if a.sensor || b.sensor {
+        let pair = Pair2::new(shape_a, pose_a, shape_b, pose_b);
+        let impact = if sensor {
             pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping)
         } else {
             pair.next_impact(&of_a, &of_b)
@@ -332,10 +337,14 @@ impl Space for Volume {
         (a - b).length()
     }
 
-    fn impact([a, b]: [&Collider<Self>; 2], motions: [Option<Motion3>; 2]) -> Option<(f64, Impact3)> {
+    fn impact(
+        [(shape_a, pose_a), (shape_b, pose_b)]: [(&Shape3, &Pose3); 2],
+        sensor: bool,
+        motions: [Option<Motion3>; 2],
+    ) -> Option<(f64, Impact3)> {
         let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion3::STILL));
-        let pair = Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose);
-        let impact = if a.sensor || b.sensor {
+        let pair = Pair3::new(shape_a, pose_a, shape_b, pose_b);
+        let impact = if sensor {
             pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping)
         } else {
             pair.next_impact(&of_a, &of_b)

@@ -289,12 +289,17 @@ impl<'a> Ground<'a> {
         mut visitor: impl FnMut(u32, [Vec3; 3]) -> f64,
     ) {
         self.meet_along([from, direction], grown, limit, |number, corners| {
-            let corners = match corners {
-                Some(corners) => corners,
-                None => self.corners(number),
-            };
-            visitor(number, corners)
+            visitor(number, self.known_or_read(number, corners))
         });
+    }
+
+    /// The corners of a triangle, where they did not come with its box.
+    #[inline]
+    fn known_or_read(self, number: u32, corners: Option<[Vec3; 3]>) -> [Vec3; 3] {
+        match corners {
+            Some(corners) => corners,
+            None => self.corners(number),
+        }
     }
 
     #[inline]
@@ -353,11 +358,7 @@ impl<'a> Ground<'a> {
     #[inline]
     pub fn read_nearest(self, bounds: &Aabb3, limit: f64, mut visitor: impl FnMut(u32, [Vec3; 3]) -> f64) {
         self.meet_nearest(bounds, limit, |number, corners| {
-            let corners = match corners {
-                Some(corners) => corners,
-                None => self.corners(number),
-            };
-            visitor(number, corners)
+            visitor(number, self.known_or_read(number, corners))
         });
     }
 

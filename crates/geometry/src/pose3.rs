@@ -200,7 +200,7 @@ impl Pose3 {
 
     /// The rotation's x, y, z, w. Written out, as what follows is: without link-time optimisation `map` is a call.
     #[inline(always)]
-    fn components(&self) -> [f64; 4] {
+    pub(crate) fn components(&self) -> [f64; 4] {
         let [x, y, z, w] = self.rotation;
         [x.into(), y.into(), z.into(), w.into()]
     }
@@ -306,6 +306,20 @@ impl Default for Pose3 {
     }
 }
 
+/// conjugate(p) q: the turn from one rotation to another, as the first sees it.
+///
+/// Products of f32 are exact in f64, so that equal rotations cancel to the last bit; pairs first, so that each component is
+/// rounded twice.
+#[inline(always)]
+pub(crate) fn turn_between([a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]) -> [f64; 4] {
+    [
+        (d * x - a * w) + (c * y - b * z),
+        (d * y - b * w) + (a * z - c * x),
+        (d * z - c * w) + (b * x - a * y),
+        (d * w + a * x) + (b * y + c * z),
+    ]
+}
+
 /// A rotation as the three images of the coordinate axes, in f64.
 ///
 /// Our own products, in a fixed order of summation: glam's matrix code sums in an order that depends on the
@@ -339,15 +353,8 @@ impl Basis3 {
     /// assert_eq!(Basis3::between([0.0, 0.0, 0.0, 1.0], turned), Basis3::of_quaternion(turned));
     /// ```
     #[inline(always)]
-    pub fn between([a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]) -> Self {
-        // conjugate(p) q. Products of f32 are exact in f64, so that equal rotations cancel to the last bit; pairs
-        // first, so that each component is rounded twice.
-        Self::of_quaternion([
-            (d * x - a * w) + (c * y - b * z),
-            (d * y - b * w) + (a * z - c * x),
-            (d * z - c * w) + (b * x - a * y),
-            (d * w + a * x) + (b * y + c * z),
-        ])
+    pub fn between(from: [f64; 4], to: [f64; 4]) -> Self {
+        Self::of_quaternion(turn_between(from, to))
     }
 
     /// M(q)/|q|^2 of a quaternion x, y, z, w of any length but zero, with the values of f32 numbers.

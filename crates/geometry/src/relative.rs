@@ -1,7 +1,7 @@
 //! Poses in the axes of others: what is held, carried and mounted.
 
 use crate::pose2::{Pose2, Rotation2};
-use crate::pose3::{Pose3, PoseError};
+use crate::pose3::{Pose3, PoseError, turn_between};
 use glam::Quat;
 
 impl Pose3 {
@@ -24,7 +24,9 @@ impl Pose3 {
     /// # Errors
     /// A position out of range: see [`Pose3::new`].
     pub fn compose(&self, local: &Self) -> Result<Self, PoseError> {
-        Self::new(self.transform(local.position()), product(self.rotation(), local.rotation()))
+        let [x, y, z, w] = self.components();
+        let rotation = turn_between([-x, -y, -z, w], local.components());
+        Self::new(self.transform(local.position()), rounded(rotation))
     }
 
     /// This pose as another one sees it: what [`Pose3::compose`] undoes. Of the identity it is the inverse of the other.
@@ -46,28 +48,18 @@ impl Pose3 {
     /// # Errors
     /// A position out of range: see [`Pose3::new`].
     pub fn relative_to(&self, other: &Self) -> Result<Self, PoseError> {
-        let [x, y, z, w] = other.rotation().to_array();
-        let back = Quat::from_xyzw(-x, -y, -z, w);
-        Self::new(other.transform_back(self.position()), product(back, self.rotation()))
+        let rotation = turn_between(other.components(), self.components());
+        Self::new(other.transform_back(self.position()), rounded(rotation))
     }
 }
 
-/// The product of two quaternions that are not zero, rounded once to f32, and of a length that is one for f32.
-///
-/// A power of two more or less of length loses nothing.
-fn product(p: Quat, q: Quat) -> Quat {
-    let ([a, b, c, d], [x, y, z, w]) = (p.to_array().map(f64::from), q.to_array().map(f64::from));
-    let made = [
-        (d * x + a * w) + (b * z - c * y),
-        (d * y + b * w) + (c * x - a * z),
-        (d * z + c * w) + (a * y - b * x),
-        (d * w - a * x) - (b * y + c * z),
-    ];
-    let most = made.into_iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+/// A quaternion that is not zero, rounded to f32, and of a length that is one for f32: a power of two more or less of it loses nothing.
+fn rounded(quaternion: [f64; 4]) -> Quat {
+    let most = quaternion.into_iter().fold(0.0_f64, |most, part| most.max(part.abs()));
     // Its exponent, taken away where it is far from that of one.
     let exponent = most.to_bits() >> 52;
     let scale = if (2e-3..=2e3).contains(&most) { 1.0 } else { f64::from_bits((2046 - exponent) << 52) };
-    Quat::from_array(made.map(|part| (part * scale) as f32))
+    Quat::from_array(quaternion.map(|part| (part * scale) as f32))
 }
 
 impl Pose2 {

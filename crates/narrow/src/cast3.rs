@@ -128,15 +128,15 @@ impl Pair3<'_> {
     /// Parts of ground and of compounds that touch at the start are no answer, and neither is what is level with
     /// them. Level is what lies no more than a 64th of the body's thickness away from it at the start, along the normal
     /// that it is met with, and no deeper than that 64th at the end, beyond what the motion goes into what is touched
-    /// anyway; and, of a compound, what is flush with what it touches. The thickness is the radius of a ball in the body's middle. So a ball on a level's
-    /// floor, pressed to it by its weight, runs over the floor's seams, and into the level's walls, steps and ramps.
-    /// A motion that sinks a body into its floor by all its thickness leads it under what stands there.
+    /// anyway; and, of a compound, what is flush with what it touches. The thickness is the radius of a ball in the
+    /// body's middle. So a ball on a level's floor, pressed to it by its weight, runs over the floor's seams, and into
+    /// the level's walls, steps and ramps. A motion that sinks a body into its floor by all its thickness leads it under
+    /// what stands there.
     ///
     /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at the
     /// start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as half a
-    /// thickness. Of bodies of one part each that touch, nothing. Never
-    /// `overlapping`. Cost: as the impact, which is asked first; for those that touch their manifolds too, and another
-    /// search.
+    /// thickness. Of bodies of one part each that touch, nothing. Never `overlapping`. Cost: as the impact, which is asked
+    /// first; for those that touch their manifolds too, and another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Compound3, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
@@ -208,18 +208,13 @@ impl Pair3<'_> {
                 let met = match part_end(passage, [a, b], &stretch, until) {
                     End::Apart => return false,
                     End::Met(met) => met,
-                    End::Unclear(met, is_parting) if beyond.is_some() => {
-                        if is_parting || self.parts(&passage.bases, a, b).convex.verdict().overlapping {
-                            return false;
-                        }
-                        met
-                    }
                     End::Unclear(met, is_parting) => {
-                        if !is_asked && self.overlaps() {
+                        if beyond.is_none() && !is_asked && self.overlaps() {
                             return true;
                         }
                         is_asked = true;
-                        if is_parting {
+                        let is_touched = || self.parts(&passage.bases, a, b).convex.verdict().overlapping;
+                        if is_parting || beyond.is_some() && is_touched() {
                             return false;
                         }
                         met

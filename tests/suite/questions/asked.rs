@@ -357,11 +357,11 @@ impl Questioned for Volume {
                 (hit.distance, f64::from(hit.error) / length, hit.inside)
             }),
             along: pair.cast(asked.displacement).map(|impact| (impact.fraction, impact.overlapping)),
-            onwards: if body.is_sensor() {
-                pair.cast(asked.displacement).filter(|impact| !impact.overlapping)
-            } else {
-                let way = Motion3::shift(asked.displacement).unwrap();
-                pair.next_impact(&way, &Motion3::STILL)
+            onwards: {
+                let (way, still) = (Motion3::shift(asked.displacement).unwrap(), Motion3::STILL);
+                // As bullets meet: what is in a sensor runs into no other part of it.
+                let met = pair.impact(&way, &still).filter(|impact| !impact.overlapping);
+                if body.is_sensor() { met } else { pair.next_impact(&way, &still) }
             }
             .map(|impact| impact.fraction),
             is_beside: [
@@ -460,11 +460,11 @@ impl Questioned for Plane {
                 (hit.distance, f64::from(hit.error) / length, hit.inside)
             }),
             along: pair.cast(asked.displacement).map(|impact| (impact.fraction, impact.overlapping)),
-            onwards: if body.is_sensor() {
-                pair.cast(asked.displacement).filter(|impact| !impact.overlapping)
-            } else {
-                let way = Motion2::shift(asked.displacement).unwrap();
-                pair.next_impact(&way, &Motion2::STILL)
+            onwards: {
+                let (way, still) = (Motion2::shift(asked.displacement).unwrap(), Motion2::STILL);
+                // As bullets meet: what is in a sensor runs into no other part of it.
+                let met = pair.impact(&way, &still).filter(|impact| !impact.overlapping);
+                if body.is_sensor() { met } else { pair.next_impact(&way, &still) }
             }
             .map(|impact| impact.fraction),
             is_beside: [

@@ -55,8 +55,10 @@ fn ask<S: Space>(world: &mut World<S>) {
     let impact = |&(bullet, other): &(S::Key, S::Key)| {
         let (slot, other_slot) = (slot_of(bullet), slot_of(other));
         let (one, two) = bodies.get(bullet).zip(bodies.get(other))?;
-        let (fraction, impact) = S::impact([one, two], [motions.of(slot), motions.of(other_slot)])?;
-        let hit = Hit { bullet, other, sensor: one.sensor || two.sensor, impact };
+        let posed = [(&one.shape, &one.pose), (&two.shape, &two.pose)];
+        let sensor = one.sensor || two.sensor;
+        let (fraction, impact) = S::impact(posed, sensor, [motions.of(slot), motions.of(other_slot)])?;
+        let hit = Hit { bullet, other, sensor, impact };
         Some((slot, fraction, other_slot, hit))
     };
     scratch.found.clear();

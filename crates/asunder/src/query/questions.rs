@@ -4,7 +4,9 @@ use super::answer::Met;
 use super::filter::Filter;
 use super::space::{Asked, Enter, Meet, Near, Posed};
 use super::walk::{Along, Around, Asks, Over, Question};
+use crate::collider::Collider;
 use crate::world::World;
+use asunder_geometry::tolerance;
 
 /// Bodies at a distance of at most `limit`: a NaN counts as no limit, and a negative limit as zero.
 fn limit_of(limit: f64) -> f64 {
@@ -62,9 +64,7 @@ pub(crate) fn bodies_along<'q, S: Asked>(
     displacement: S::Vector,
     filter: &'q Filter<'q, S>,
 ) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
-    let ask = move |key, body: &_| S::meet(at, displacement, key, body);
-    let reach = Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
-    Question { world, filter, reach, limit: 1.0, ask }
+    moved((world, filter), at, displacement, move |body| S::meet(at, displacement, body))
 }
 
 /// Which bodies a moved shape runs into, but for what it touches at the start.
@@ -74,7 +74,25 @@ pub(crate) fn bodies_ahead<'q, S: Asked>(
     displacement: S::Vector,
     filter: &'q Filter<'q, S>,
 ) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
-    let ask = move |key, body: &_| S::meet_next(at, displacement, key, body);
+    // No motion is longer than all that there is, and none need be.
+    let share = (tolerance::MAX_POSITION / S::longest(displacement)).min(1.0);
+    moved((world, filter), at, displacement, move |body: &Collider<S>| {
+        let motions = [Some(S::shift(displacement, share)?), None];
+        let (fraction, impact) = S::impact([at, (&body.shape, &body.pose)], body.sensor, motions)?;
+        Some((fraction * share, impact))
+    })
+}
+
+/// Whom a moved shape meets, and when.
+fn moved<'q, S: Asked>(
+    (world, filter): (&'q World<S>, &'q Filter<'q, S>),
+    at: Posed<'q, S>,
+    displacement: S::Vector,
+    meet: impl Fn(&Collider<S>) -> Option<(f64, S::Impact)>,
+) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
+    let ask = move |key, body: &Collider<S>| {
+        meet(body).map(|(fraction, impact)| S::met(fraction, &impact, key, body))
+    };
     let reach = Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
     Question { world, filter, reach, limit: 1.0, ask }
 }

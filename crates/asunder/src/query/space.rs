@@ -6,7 +6,7 @@ use crate::space::{Plane, Space, Volume};
 use asunder_broad::Cast;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder_geometry::{
-    Aabb2, Aabb3, Circle, Motion2, Motion3, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere, tolerance,
+    Aabb2, Aabb3, Circle, Motion2, Motion3, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere,
 };
 use asunder_narrow::{Impact2, Impact3, Pair2, Pair3, cast_ray2, cast_ray3};
 
@@ -38,16 +38,14 @@ pub(crate) trait Asked: Space {
     fn meet(
         at: Posed<'_, Self>,
         displacement: Self::Vector,
-        key: Self::Key,
         body: &Collider<Self>,
-    ) -> Option<Meet<Self>>;
-    /// Where it runs into the body next, whatever it touches at the start.
-    fn meet_next(
-        at: Posed<'_, Self>,
-        displacement: Self::Vector,
-        key: Self::Key,
-        body: &Collider<Self>,
-    ) -> Option<Meet<Self>>;
+    ) -> Option<(f64, Self::Impact)>;
+    /// That share of a displacement, as a motion. Nothing where it is not finite, or longer than any.
+    fn shift(displacement: Self::Vector, share: f64) -> Option<Self::Motion>;
+    /// The greatest coordinate of a displacement, in metres.
+    fn longest(displacement: Self::Vector) -> f64;
+    /// What is told of an impact at a share of the displacement.
+    fn met(at: f64, impact: &Self::Impact, key: Self::Key, body: &Collider<Self>) -> Meet<Self>;
 }
 
 pub(crate) type Enter<S> = RayAnswer<<S as Space>::Key, <S as Asked>::Vector, <S as Asked>::Point>;
@@ -116,28 +114,32 @@ impl Asked for Plane {
     fn meet(
         (shape, pose): Posed<'_, Self>,
         displacement: Vec2,
-        key: Self::Key,
         body: &Collider<Self>,
-    ) -> Option<Meet<Self>> {
-        Some(met2(&Pair2::new(shape, pose, &body.shape, &body.pose).cast(displacement)?, key, body))
+    ) -> Option<(f64, Impact2)> {
+        let impact = Pair2::new(shape, pose, &body.shape, &body.pose).cast(displacement)?;
+        Some((impact.fraction, impact))
     }
 
-    fn meet_next(
-        (shape, pose): Posed<'_, Self>,
-        displacement: Vec2,
-        key: Self::Key,
-        body: &Collider<Self>,
-    ) -> Option<Meet<Self>> {
-        let pair = Pair2::new(shape, pose, &body.shape, &body.pose);
-        if body.sensor {
-            let impact = pair.cast(displacement).filter(|impact| !impact.overlapping)?;
-            return Some(met2(&impact, key, body));
+    fn shift(displacement: Vec2, share: f64) -> Option<Motion2> {
+        Motion2::shift(displacement.as_dvec2() * share).ok()
+    }
+
+    fn longest(displacement: Vec2) -> f64 {
+        displacement.abs().max_element().into()
+    }
+
+    fn met(at: f64, impact: &Impact2, key: Self::Key, body: &Collider<Self>) -> Meet<Self> {
+        CastAnswer {
+            body: key,
+            fraction: at,
+            error: impact.error,
+            overlapping: impact.overlapping,
+            normal: impact.normal,
+            point: body.pose.position() + impact.anchor_b.as_dvec2(),
+            anchor: impact.anchor_a,
+            part: impact.part_b,
+            part_of_moved: impact.part_a,
         }
-        let share = share_of(displacement.abs().max_element());
-        let way = Motion2::shift(displacement.as_dvec2() * share).ok()?;
-        let mut impact = pair.next_impact(&way, &Motion2::STILL)?;
-        impact.fraction *= share;
-        Some(met2(&impact, key, body))
     }
 }
 
@@ -201,60 +203,31 @@ impl Asked for Volume {
     fn meet(
         (shape, pose): Posed<'_, Self>,
         displacement: Vec3,
-        key: Self::Key,
         body: &Collider<Self>,
-    ) -> Option<Meet<Self>> {
-        Some(met3(&Pair3::new(shape, pose, &body.shape, &body.pose).cast(displacement)?, key, body))
+    ) -> Option<(f64, Impact3)> {
+        let impact = Pair3::new(shape, pose, &body.shape, &body.pose).cast(displacement)?;
+        Some((impact.fraction, impact))
     }
 
-    fn meet_next(
-        (shape, pose): Posed<'_, Self>,
-        displacement: Vec3,
-        key: Self::Key,
-        body: &Collider<Self>,
-    ) -> Option<Meet<Self>> {
-        let pair = Pair3::new(shape, pose, &body.shape, &body.pose);
-        if body.sensor {
-            let impact = pair.cast(displacement).filter(|impact| !impact.overlapping)?;
-            return Some(met3(&impact, key, body));
+    fn shift(displacement: Vec3, share: f64) -> Option<Motion3> {
+        Motion3::shift(displacement.as_dvec3() * share).ok()
+    }
+
+    fn longest(displacement: Vec3) -> f64 {
+        displacement.abs().max_element().into()
+    }
+
+    fn met(at: f64, impact: &Impact3, key: Self::Key, body: &Collider<Self>) -> Meet<Self> {
+        CastAnswer {
+            body: key,
+            fraction: at,
+            error: impact.error,
+            overlapping: impact.overlapping,
+            normal: impact.normal,
+            point: body.pose.position() + impact.anchor_b.as_dvec3(),
+            anchor: impact.anchor_a,
+            part: impact.part_b,
+            part_of_moved: impact.part_a,
         }
-        let share = share_of(displacement.abs().max_element());
-        let way = Motion3::shift(displacement.as_dvec3() * share).ok()?;
-        let mut impact = pair.next_impact(&way, &Motion3::STILL)?;
-        impact.fraction *= share;
-        Some(met3(&impact, key, body))
-    }
-}
-
-/// What of a displacement of that size leads anywhere: no motion is longer than all that there is.
-fn share_of(size: f32) -> f64 {
-    (tolerance::MAX_POSITION / f64::from(size)).min(1.0)
-}
-
-fn met2(impact: &Impact2, key: <Plane as Space>::Key, body: &Collider<Plane>) -> Meet<Plane> {
-    CastAnswer {
-        body: key,
-        fraction: impact.fraction,
-        error: impact.error,
-        overlapping: impact.overlapping,
-        normal: impact.normal,
-        point: body.pose.position() + impact.anchor_b.as_dvec2(),
-        anchor: impact.anchor_a,
-        part: impact.part_b,
-        part_of_moved: impact.part_a,
-    }
-}
-
-fn met3(impact: &Impact3, key: <Volume as Space>::Key, body: &Collider<Volume>) -> Meet<Volume> {
-    CastAnswer {
-        body: key,
-        fraction: impact.fraction,
-        error: impact.error,
-        overlapping: impact.overlapping,
-        normal: impact.normal,
-        point: body.pose.position() + impact.anchor_b.as_dvec3(),
-        anchor: impact.anchor_a,
-        part: impact.part_b,
-        part_of_moved: impact.part_a,
     }
 }

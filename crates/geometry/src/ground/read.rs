@@ -105,7 +105,7 @@ impl Ground<'_> {
     ) -> ControlFlow<()> {
         match self {
             Self::Mesh(mesh) => mesh.tree().visit_overlapping(bounds, |number, corners| {
-                visitor(number, corners.unwrap_or_else(|| mesh.corners(number)))
+                visitor(number, self.known_or_read(number, corners))
             }),
             Self::Field(field) => field.visit_near(bounds, |number| visitor(number, field.corners(number))),
         }

@@ -9,7 +9,7 @@ use crate::polygon::distance::{Reached, Until, Witness, distance};
 use crate::polygon::outline::{Outline, Turn};
 use crate::precision::Precision;
 use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::tolerance::CAST_GAP2;
+use asunder_geometry::tolerance::{CAST_GAP2, SAME_NORMAL};
 use asunder_geometry::{Chain, Core2, Pose2, Rotation2, Run, Shape2};
 
 /// Rounds after which a cast says how far it came. Those that graze take some 25, the others 1 to 10.
@@ -181,6 +181,12 @@ impl<'a> Course<'a> {
     /// Whether the gap along an axis, which may be off by a share, gets no less from then on: however fast what turns does so.
     fn parts(&self, axis: DVec2, off: f64) -> bool {
         self.closing(axis) + self.pace + off * self.stretch.velocity.length() <= 0.0
+    }
+
+    /// Whether A moves away from B along an axis, where nothing turns.
+    pub(super) fn looks_back(&self, axis: DVec2) -> bool {
+        let velocity = self.stretch.velocity;
+        !self.stretch.is_turning() && axis.dot(velocity) < -SAME_NORMAL * velocity.length()
     }
 
     /// Whether an axis, at least so far, shows a gap for all the time there is.

@@ -13,7 +13,6 @@ use crate::ground2::{Surface, Told};
 use crate::impact2::Impact2;
 use crate::pair2::Pair2;
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::tolerance::SAME_NORMAL;
 use asunder_geometry::{Aabb2, Chain, Run, Shape2};
 
 impl Pair2<'_> {
@@ -89,17 +88,9 @@ impl First<'_> {
             let pieces = if side == 0 { [segment, other] } else { [other, segment] };
             let found = Course::new(first.stretch, pieces, first.end).and_then(|course| {
                 let touching = course.first_touch()?;
-                Some((surface_met(chain, segment.index, &course, &touching, side)?, touching))
+                Some((surface_met((chain, segment.index), &course, &touching, side)?, touching))
             });
             let Some(((axis, run), touching)) = found else { return };
-            // What the ground has for a normal there may look the way the body goes: from one-sided ground it comes out.
-            let goes = |axis: DVec2| axis.dot(first.stretch.velocity);
-            let back = -SAME_NORMAL * first.stretch.velocity.length();
-            let looks_back = !first.stretch.is_turning() && goes(axis) < back;
-            if looks_back && chain.is_one_sided() {
-                return;
-            }
-            let axis = if looks_back && goes(touching.axis) > 0.0 { touching.axis } else { axis };
             // Of equals, the first counts.
             if first.impact.is_some() && touching.at >= first.end {
                 return;
@@ -118,9 +109,11 @@ impl First<'_> {
 
 /// The axis from A to B that the ground has where it is met, and the run there. Nothing where it does not see the
 /// other.
+///
+/// The ground's own normal may look the way the other goes, where a corner of it is met. What comes so out of one-sided ground
+/// passes; of other ground it is met along the axis that they touch along.
 fn surface_met(
-    chain: &Chain,
-    segment: u32,
+    (chain, segment): (&Chain, u32),
     course: &Course,
     touching: &Touching,
     side: usize,
@@ -136,5 +129,10 @@ fn surface_met(
         Told::Face | Told::Inner => surface.normal,
         Told::Beyond(normal) => normal,
     };
-    Some((if side == 0 { normal } else { -normal }, run))
+    let axis = if side == 0 { normal } else { -normal };
+    if !course.looks_back(axis) {
+        return Some((axis, run));
+    }
+    let is_met = !course.looks_back(touching.axis);
+    (!chain.is_one_sided()).then_some((if is_met { touching.axis } else { axis }, run))
 }

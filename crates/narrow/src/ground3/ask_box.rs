@@ -9,7 +9,7 @@
 //! An axis is any: what all corners of both show along it is proved, however it was found. And any two points bound a
 //! separation from above.
 
-use super::near::{OnGround, box_around};
+use super::near::{OnGround, grown_around};
 use crate::pair3::Part;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -61,13 +61,13 @@ impl Along {
 impl Corners {
     /// A part as it stands. A half-space has no points, and proves nothing.
     pub(crate) fn of(on: &OnGround, part: &Part) -> Self {
-        let (axes, shift) = part.placed(&on.body_basis);
-        let origin = on.basis.turn_back(on.to_body + shift);
+        let (axes, _) = part.placed(&on.body_basis);
+        let (origin, summed) = on.origin_of(part);
         let center = on.basis.turn_back(on.to_body + part.center);
         let axes = [axes.x, axes.y, axes.z].map(|axis| on.basis.turn_back(axis));
         let (shape, radius) = (part.shape, f64::from(part.shape.radius()));
         let reach = if let Shape3::HalfSpace(_) = shape { 0.0 } else { shape.outer_radius() };
-        let lengths = on.to_body.length() + shift.length() + f64::from(reach);
+        let lengths = summed + f64::from(reach);
         let lengths = lengths + shape.center().as_dvec3().length() + radius;
         let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let inner_radius = match shape {
@@ -111,8 +111,7 @@ impl Corners {
         if self.points.is_empty() {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
         }
-        let grow = DVec3::splat(f64::from(part.shape.radius()) + reach + 64.0 * f64::EPSILON * self.lengths);
-        box_around([self.low - grow, self.high + grow])
+        grown_around([self.low, self.high], f64::from(part.shape.radius()) + reach, self.lengths)
     }
 
     /// A triangle as it lies beside the part: what all bounds start from.
@@ -237,10 +236,19 @@ impl Corners {
     }
 }
 
+/// The way from a triangle's nearest point to another point, up to rounding, and how far above its corners that point is along it,
+/// times its length: the plane square to it through the highest corner parts them by that, whatever the way is worth.
+#[inline]
+pub(super) fn way_from(corners: [DVec3; 3], point: DVec3) -> (DVec3, f64) {
+    let away = point - nearest(point, corners);
+    let [a, b, c] = corners;
+    (away, away.dot(point - a).min(away.dot(point - b)).min(away.dot(point - c)))
+}
+
 /// The point of a triangle that is nearest to another, up to rounding: by its edges' and corners' regions (Ericson,
 /// "Real-Time Collision Detection" (2005), 5.1.5).
 #[inline]
-pub(super) fn nearest(point: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+fn nearest(point: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let (u, v) = (b - a, c - a);
     let [d1, d2] = [u, v].map(|edge| edge.dot(point - a));
     let [d3, d4] = [u, v].map(|edge| edge.dot(point - b));

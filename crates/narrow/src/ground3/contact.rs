@@ -110,6 +110,7 @@ use prism::{Incident, Prism};
 use protrusion::Levels;
 use refused::AllRefused;
 use round::Round;
+pub(super) use standing::doubt_of;
 use standing::{Extent, Octets, Place, Standing};
 use unsaid::AllUnsaid;
 

@@ -54,13 +54,24 @@ impl<'a> OnGround<'a> {
         if matches!(part.shape, Shape3::HalfSpace(_)) {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
         }
-        let (_, shift) = part.placed(&self.body_basis);
-        let radius = f64::from(part.shape.radius());
-        let lengths = self.to_body.length() + shift.length() + f64::from(part.shape.outer_radius());
-        let lengths = lengths + part.shape.center().as_dvec3().length();
-        let grow = DVec3::splat(radius + reach + 64.0 * f64::EPSILON * lengths);
-        box_around([low - grow, high + grow])
+        let (_, summed) = self.origin_of(part);
+        let lengths = summed + f64::from(part.shape.outer_radius()) + part.shape.center().as_dvec3().length();
+        grown_around([low, high], f64::from(part.shape.radius()) + reach, lengths)
     }
+
+    /// Where a part's own origin is in the ground's axes, and how long the vectors are that this is a sum of, in metres.
+    #[inline]
+    pub(crate) fn origin_of(&self, part: &Part) -> (DVec3, f64) {
+        let (_, shift) = part.placed(&self.body_basis);
+        (self.basis.turn_back(self.to_body + shift), self.to_body.length() + shift.length())
+    }
+}
+
+/// A box that holds all between two corners and so many metres around them, which are off by what rounding takes from such lengths.
+#[inline]
+pub(crate) fn grown_around([low, high]: [DVec3; 2], grow: f64, lengths: f64) -> Aabb3 {
+    let grow = DVec3::splat(grow + 64.0 * f64::EPSILON * lengths);
+    box_around([low - grow, high + grow])
 }
 
 /// A box that holds all between two corners: rounded outwards, one step further than the nearest.

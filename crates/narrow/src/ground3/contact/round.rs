@@ -18,8 +18,8 @@ use super::ball::{Nearest, nearest_to};
 use super::facet::{Facet, Furthest, is_same, widened};
 use super::standing::doubt_of;
 use super::{Asking, Known};
-use crate::ground3::ask_box::nearest;
-use crate::ground3::{OnGround, box_around};
+use crate::ground3::ask_box::way_from;
+use crate::ground3::near::{OnGround, grown_around};
 use crate::pair3::Part;
 use crate::room::Room;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -45,16 +45,14 @@ impl Round {
     /// Of a sphere, all that counts of how it is placed.
     #[inline]
     pub(super) fn new(on: &OnGround, part: &Part, radius: f64, reach: f64) -> Self {
-        let (_, shift) = part.placed(&on.body_basis);
-        let lengths = on.to_body.length() + shift.length() + radius;
-        Self { center: on.basis.turn_back(on.to_body + shift), radius, lengths, reach }
+        let (center, summed) = on.origin_of(part);
+        Self { center, radius, lengths: summed + radius, reach }
     }
 
     /// The box around what is near it, rounded outwards.
     #[inline]
     fn bounds(&self) -> Aabb3 {
-        let grow = DVec3::splat(self.radius + self.reach + 64.0 * f64::EPSILON * self.lengths);
-        box_around([self.center - grow, self.center + grow])
+        grown_around([self.center; 2], self.radius + self.reach, self.lengths)
     }
 
     /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; nothing where the general way has to be
@@ -115,13 +113,11 @@ impl Round {
     /// one by one without a branch: frames take 1.05 to 1.7, and 1.2 times as long (AMD EPYC, Zen 5, 2026-11-25).
     #[inline]
     fn may_reach(&self, corners: &[Vec3; 3]) -> bool {
-        let [a, b, c] = widened(*corners);
-        let (from_a, from_b, from_c) = (self.center - a, self.center - b, self.center - c);
-        let away = self.center - nearest(self.center, [a, b, c]);
-        let least = away.dot(from_a).min(away.dot(from_b)).min(away.dot(from_c));
+        let corners = widened(*corners);
+        let (away, least) = way_from(corners, self.center);
         // More than what the rest can take a separation to be off by: nothing is lost.
-        let lever = from_a.abs().element_sum() + self.radius;
-        let beyond = self.radius + self.reach + doubt_of(self.lengths, a) + LOST * lever;
+        let lever = (self.center - corners[0]).abs().element_sum() + self.radius;
+        let beyond = self.radius + self.reach + doubt_of(self.lengths, corners[0]) + LOST * lever;
         // What is not a number may reach.
         let is_beyond = least > 0.0 && least * least > beyond * beyond * away.length_squared();
         !is_beyond

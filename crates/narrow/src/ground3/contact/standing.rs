@@ -70,14 +70,14 @@ impl Extent {
 
 impl Place {
     pub(super) fn of(on: &OnGround, part: &Part, [body, ground]: [&Pose3; 2]) -> Self {
-        let (axes, shift) = part.placed(&on.body_basis);
+        let (axes, _) = part.placed(&on.body_basis);
         // Equal rotations cancel to the last bit.
         let axes = match part.site(body).part {
             None => body.basis_from(ground),
             Some(_) => axes.relative_to(&on.basis),
         };
-        let origin = on.basis.turn_back(on.to_body + shift);
-        Self { axes, origin, summed: on.to_body.length() + shift.length() }
+        let (origin, summed) = on.origin_of(part);
+        Self { axes, origin, summed }
     }
 
     /// From the part's own axes to the ground's.
@@ -272,7 +272,7 @@ fn first(of: &[f64; 8], number: f64) -> usize {
 /// What a coordinate that such lengths went into, and a product of it with a unit vector, may be off by at most, beside
 /// a point of ground.
 #[inline]
-pub(super) fn doubt_of(lengths: f64, ground: DVec3) -> f64 {
+pub(in crate::ground3) fn doubt_of(lengths: f64, ground: DVec3) -> f64 {
     IN_SPACE[1] * (f64::EPSILON / 2.0) * (lengths + ground.abs().element_sum())
 }
 

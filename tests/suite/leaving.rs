@@ -1,6 +1,6 @@
 //! What a cast has brought to another may leave again, and what it meets it meets from the front.
 
-use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
+use asunder::glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 use asunder::{
     Capsule2, Capsule3, Chain, Circle, Cuboid, Motion2, Motion3, Pair2, Pair3, Pose2, Pose3, Rect, Rotation2,
     Shape2, Shape3, Sphere,
@@ -101,7 +101,7 @@ fn who_hovers_by_a_hair_and_rises_meets_nothing_though_it_turns() {
             for (shape, down) in &solids {
                 let pose = Pose3::at([0.1, 0.5 + down + gap, 0.2]).unwrap();
                 let pair = Pair3::new(shape, &pose, &ground, &Pose3::IDENTITY);
-                let goal = asunder::glam::Quat::from_xyzw((0.5 * turn) as f32, 0.0, 0.0, 1.0);
+                let goal = Quat::from_xyzw((0.5 * turn) as f32, 0.0, 0.0, 1.0);
                 let motion = Motion3::new([0.05, rise, 0.0], goal).unwrap();
                 let told = pair.impact(&motion, &Motion3::STILL);
                 assert!(pair.overlaps() || told.is_none(), "{gap} {rise} {turn}: {shape:?} {told:?}");
