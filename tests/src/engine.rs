@@ -5,7 +5,7 @@ use crate::shapes::{Clay, KINDS2, KINDS3};
 use asunder::slotmap::Key;
 use asunder::{
     Collider, Contact, Cuboid, Event, Hit, Hull, Layers, Motion2, Motion3, Pair2, Pair3, Plane, Polygon,
-    Pose2, Pose3, Rect, Shape2, Shape3, Space, Volume, World,
+    Pose2, Pose3, Rect, Shape2, Shape3, Space, Touch2, Touch3, Volume, World,
 };
 use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
 use glam::{Vec2, Vec3};
@@ -76,11 +76,14 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
         a: (&Collider<Self>, &Self::Motion),
         b: (&Collider<Self>, &Self::Motion),
     ) -> Option<(f64, bool, Self::Impact)>;
-    /// `Pair::next_impact`, and the share of the motion.
+    /// `Pair::next_impact_beside`, and the share of the motion.
     fn next_touch(
         a: (&Collider<Self>, &Self::Motion),
         b: (&Collider<Self>, &Self::Motion),
+        touches: &[Self::Touch],
     ) -> Option<(f64, Self::Impact)>;
+    /// `Pair::add_touches`.
+    fn add_touches(a: &Collider<Self>, b: &Collider<Self>, to: &mut Vec<Self::Touch>);
     /// A motion by up to `reach` on each axis that turns, or does not.
     fn random_motion(random: &mut Random, reach: f64) -> Self::Motion;
     /// A motion along the first axis.
@@ -227,9 +230,14 @@ impl Engine for Volume {
     fn next_touch(
         a: (&Collider<Self>, &Self::Motion),
         b: (&Collider<Self>, &Self::Motion),
+        touches: &[Touch3],
     ) -> Option<(f64, Self::Impact)> {
         let pair = Pair3::new(a.0.shape(), a.0.pose(), b.0.shape(), b.0.pose());
-        pair.next_impact(a.1, b.1).map(|impact| (impact.fraction, impact))
+        pair.next_impact_beside(touches, a.1, b.1).map(|impact| (impact.fraction, impact))
+    }
+
+    fn add_touches(a: &Collider<Self>, b: &Collider<Self>, to: &mut Vec<Touch3>) {
+        Pair3::new(a.shape(), a.pose(), b.shape(), b.pose()).add_touches(to);
     }
 
     fn random_motion(random: &mut Random, reach: f64) -> Self::Motion {
@@ -406,9 +414,14 @@ impl Engine for Plane {
     fn next_touch(
         a: (&Collider<Self>, &Self::Motion),
         b: (&Collider<Self>, &Self::Motion),
+        touches: &[Touch2],
     ) -> Option<(f64, Self::Impact)> {
         let pair = Pair2::new(a.0.shape(), a.0.pose(), b.0.shape(), b.0.pose());
-        pair.next_impact(a.1, b.1).map(|impact| (impact.fraction, impact))
+        pair.next_impact_beside(touches, a.1, b.1).map(|impact| (impact.fraction, impact))
+    }
+
+    fn add_touches(a: &Collider<Self>, b: &Collider<Self>, to: &mut Vec<Touch2>) {
+        Pair2::new(a.shape(), a.pose(), b.shape(), b.pose()).add_touches(to);
     }
 
     fn random_motion(random: &mut Random, reach: f64) -> Self::Motion {

@@ -2,8 +2,8 @@
 
 use asunder::slotmap::Key;
 use asunder::{
-    Circle, Collider2, Collider3, Cuboid, HalfSpace, Motion2, Motion3, Plane, Pose2, Pose3, Rotation2, Space,
-    Sphere, Volume, World, World2, World3, glam::Quat, glam::Vec3,
+    Circle, Collider, Collider2, Collider3, Cuboid, HalfSpace, Motion2, Motion3, Plane, Pose2, Pose3,
+    Rotation2, Space, Sphere, Volume, World, World2, World3, glam::Quat, glam::Vec3,
 };
 use asunder_tests::cases::Random;
 use asunder_tests::engine::{Engine, slot_of};
@@ -49,6 +49,13 @@ impl<S: Engine> Room<S> {
         let mut all = Vec::new();
         for (bullet, a) in bodies.iter().filter(|(_, body)| body.is_bullet()) {
             let mut of_bullet = Vec::new();
+            let mut touches = Vec::new();
+            if self.motions.contains_key(&slot_of(*bullet)) {
+                let solid = |b: &Collider<S>| !a.is_sensor() && !b.is_sensor() && may_meet(a, b);
+                for (_, b) in bodies.iter().filter(|(other, b)| other != bullet && solid(b)) {
+                    S::add_touches(a, b, &mut touches);
+                }
+            }
             for (other, b) in bodies.iter().filter(|(other, _)| other != bullet) {
                 let moves = self.motions.contains_key(&slot_of(*bullet))
                     || self.motions.contains_key(&slot_of(*other));
@@ -57,9 +64,10 @@ impl<S: Engine> Room<S> {
                 }
                 let (a_moves, b_moves) = ((a, motion(*bullet)), (b, motion(*other)));
                 let found = match S::first_touch(a_moves, b_moves) {
+                    // In a sensor it is already; of what is solid, there may be more than what it touches, and less
+                    // than it would meet.
+                    Some(_) if !a.is_sensor() && !b.is_sensor() => S::next_touch(a_moves, b_moves, &touches),
                     Some((fraction, false, impact)) => Some((fraction, impact)),
-                    // In a sensor it is already; of what is solid, there may be more than what it touches.
-                    Some(_) if !a.is_sensor() && !b.is_sensor() => S::next_touch(a_moves, b_moves),
                     _ => None,
                 };
                 let Some((fraction, impact)) = found else { continue };
@@ -103,7 +111,7 @@ impl<S: Engine> Room<S> {
     }
 }
 
-fn may_meet<S: Engine>(a: &asunder::Collider<S>, b: &asunder::Collider<S>) -> bool {
+fn may_meet<S: Engine>(a: &Collider<S>, b: &Collider<S>) -> bool {
     let one_owner = a.get_owner().is_some() && a.get_owner() == b.get_owner();
     a.get_layers().meets(b.get_layers()) && !one_owner && !(a.is_fixed() && b.is_fixed())
 }

@@ -1,8 +1,8 @@
 //! Questions to a world in the plane, in plain types.
 
 use crate::query::{
-    Asked, CastAnswer2, Filter2, Met, NearAnswer2, RayAnswer2, bodies_ahead, bodies_along, bodies_along_ray,
-    bodies_near, bodies_over, boxes_over,
+    Asked, CastAnswer2, Filter2, Met, NearAnswer2, RayAnswer2, bodies_along, bodies_along_ray, bodies_near,
+    bodies_over, boxes_over, first_ahead,
 };
 use crate::space::{BodyKey2, Plane};
 use crate::world::World;
@@ -432,7 +432,7 @@ impl World<Plane> {
         displacement: Vec2,
         filter: &Filter2<'_>,
     ) -> Option<CastAnswer2> {
-        bodies_ahead(self, from, displacement, filter).first()
+        first_ahead(self, from, displacement, filter)
     }
 
     /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.

@@ -1,8 +1,8 @@
 //! Questions to a world in space, in plain types.
 
 use crate::query::{
-    Asked, CastAnswer3, Filter3, Met, NearAnswer3, RayAnswer3, bodies_ahead, bodies_along, bodies_along_ray,
-    bodies_near, bodies_over, boxes_over,
+    Asked, CastAnswer3, Filter3, Met, NearAnswer3, RayAnswer3, bodies_along, bodies_along_ray, bodies_near,
+    bodies_over, boxes_over, first_ahead,
 };
 use crate::space::{BodyKey3, Volume};
 use crate::world::World;
@@ -433,7 +433,7 @@ impl World<Volume> {
         displacement: Vec3,
         filter: &Filter3<'_>,
     ) -> Option<CastAnswer3> {
-        bodies_ahead(self, from, displacement, filter).first()
+        first_ahead(self, from, displacement, filter)
     }
 
     /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.

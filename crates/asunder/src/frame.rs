@@ -26,10 +26,12 @@ mod refit;
 mod report;
 mod settle;
 mod sweep;
+mod touches;
 
 pub(crate) use ask::manifolds_at;
 pub(crate) use impacts::Found;
 pub(crate) use settle::Settled;
+pub(crate) use touches::Touches;
 
 use crate::clock::Moment;
 use crate::hooks::{Hooks, edit_contacts};

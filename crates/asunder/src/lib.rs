@@ -93,7 +93,7 @@ pub use asunder_geometry::{
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, ContactPoints, Feature, FeatureId, Impact2,
     Impact3, Manifold2, Manifold3, Measured2, Measured3, Pair2, Pair3, RayHit2, RayHit3, Separation2,
-    Separation3, Tier, Verdict, cast_ray2, cast_ray3,
+    Separation3, Tier, Touch, Touch2, Touch3, Verdict, cast_ray2, cast_ray3,
 };
 pub use character::{
     Freed, Freed2, Freed3, Obstacle, Obstacle2, Obstacle3, Slide, Slide2, Slide3, Walk, Walk2, Walk3,

@@ -31,6 +31,6 @@ pub use answer::{
 pub use filter::{Filter, Filter2, Filter3};
 pub(crate) use index::Boxes;
 pub(crate) use questions::{
-    bodies_ahead, bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over,
+    bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over, first_ahead,
 };
 pub(crate) use space::Asked;

@@ -4,7 +4,7 @@ use crate::collider::Collider;
 use asunder_geometry::{Aabb2, Aabb3, Bounds, Motion2, Motion3, Pose2, Pose3, Shape2, Shape3};
 use asunder_narrow::{
     Answer, Batch, Batch2, Batch3, Hint, Impact2, Impact3, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3,
-    Persistent2, Persistent3, Spare3, collide2, collide3,
+    Persistent2, Persistent3, Spare3, Touch2, Touch3, collide2, collide3,
 };
 use core::fmt::Debug;
 
@@ -37,6 +37,16 @@ slotmap::new_key_type! {
     /// # Ok::<(), asunder::RadiusError>(())
     /// ```
     pub struct BodyKey3;
+}
+
+/// What a body on its way may run into.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum RunsInto<'f, S: Space> {
+    /// Either is a sensor.
+    Sensor,
+    /// Something solid, while it touches this.
+    Solid(&'f [S::Touch]),
 }
 
 mod sealed {
@@ -93,6 +103,9 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     type Motion: Copy + PartialEq + Debug + Send + Sync;
     /// When two bodies first touch.
     type Impact: Copy + PartialEq + Debug + Send + Sync;
+    /// What a body touches beside the other of a pair.
+    #[doc(hidden)]
+    type Touch: Copy + Debug + Send + Sync;
     /// One pair for the narrow phase.
     #[doc(hidden)]
     type Job<'a>: Send + Sync;
@@ -130,13 +143,18 @@ pub trait Space: sealed::Sealed + Sized + 'static {
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
     /// When two bodies first touch in their motions where they do not touch at the start, and the share of the motions
-    /// that is done by then. What is in a sensor, where one is, runs into no other part of it.
+    /// that is done by then. What is in a sensor, where one is, runs into no other part of it; of what is solid, the first
+    /// is led over what is flush with what it touches.
     #[doc(hidden)]
     fn impact(
         of: [(&Self::Shape, &Self::Pose); 2],
-        sensor: bool,
+        runs_into: RunsInto<'_, Self>,
         motions: [Option<Self::Motion>; 2],
     ) -> Option<(f64, Self::Impact)>;
+
+    /// What a contact's manifold is to one of its two.
+    #[doc(hidden)]
+    fn touch(manifold: &Self::Manifold, is_a: bool) -> Self::Touch;
 
     /// Whether a shape is ground, which is always fixed.
     #[doc(hidden)]
@@ -193,6 +211,7 @@ impl Space for Plane {
     type Spare = ();
     type Motion = Motion2;
     type Impact = Impact2;
+    type Touch = Touch2;
     type Job<'a> = Job2<'a>;
 
     fn same_bits(one: &Pose2, other: &Pose2) -> bool {
@@ -230,17 +249,20 @@ impl Space for Plane {
 
     fn impact(
         [(shape_a, pose_a), (shape_b, pose_b)]: [(&Shape2, &Pose2); 2],
-        sensor: bool,
+        runs_into: RunsInto<'_, Self>,
         motions: [Option<Motion2>; 2],
     ) -> Option<(f64, Impact2)> {
         let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion2::STILL));
         let pair = Pair2::new(shape_a, pose_a, shape_b, pose_b);
-        let impact = if sensor {
-            pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping)
-        } else {
-            pair.next_impact(&of_a, &of_b)
+        let impact = match runs_into {
+            RunsInto::Sensor => pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping),
+            RunsInto::Solid(touches) => pair.next_impact_beside(touches, &of_a, &of_b),
         };
         impact.map(|impact| (impact.fraction, impact))
+    }
+
+    fn touch(manifold: &Manifold2, is_a: bool) -> Touch2 {
+        Touch2::of(manifold, is_a)
     }
 
     fn is_ground(shape: &Shape2) -> bool {
@@ -302,6 +324,7 @@ impl Space for Volume {
     type Spare = Spare3;
     type Motion = Motion3;
     type Impact = Impact3;
+    type Touch = Touch3;
     type Job<'a> = Job3<'a>;
 
     fn same_bits(one: &Pose3, other: &Pose3) -> bool {
@@ -339,17 +362,20 @@ impl Space for Volume {
 
     fn impact(
         [(shape_a, pose_a), (shape_b, pose_b)]: [(&Shape3, &Pose3); 2],
-        sensor: bool,
+        runs_into: RunsInto<'_, Self>,
         motions: [Option<Motion3>; 2],
     ) -> Option<(f64, Impact3)> {
         let [of_a, of_b] = motions.map(|motion| motion.unwrap_or(Motion3::STILL));
         let pair = Pair3::new(shape_a, pose_a, shape_b, pose_b);
-        let impact = if sensor {
-            pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping)
-        } else {
-            pair.next_impact(&of_a, &of_b)
+        let impact = match runs_into {
+            RunsInto::Sensor => pair.impact(&of_a, &of_b).filter(|impact| !impact.overlapping),
+            RunsInto::Solid(touches) => pair.next_impact_beside(touches, &of_a, &of_b),
         };
         impact.map(|impact| (impact.fraction, impact))
+    }
+
+    fn touch(manifold: &Manifold3, is_a: bool) -> Touch3 {
+        Touch3::of(manifold, is_a)
     }
 
     fn is_ground(shape: &Shape3) -> bool {

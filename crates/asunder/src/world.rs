@@ -3,7 +3,7 @@
 use crate::collider::{Collider, Tag};
 use crate::contact::{Candidate, Contact, Record};
 use crate::event::Event;
-use crate::frame::{Found, Settled, manifolds_at};
+use crate::frame::{Found, Settled, Touches, manifolds_at};
 use crate::hooks::Edited;
 use crate::motion::{Hit, Motions};
 use crate::odometer::Odometer;
@@ -108,6 +108,8 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) editing: Vec<S::Manifold>,
     /// Pairs with a bullet, the bullet first; and what they run into.
     pub(crate) of_bullets: Vec<(S::Key, S::Key)>,
+    /// By their slots, what bullets touch.
+    pub(crate) touches: Touches<S>,
     pub(crate) found: Vec<Found<S>>,
     #[cfg(feature = "parallel")]
     pub(crate) impacts: Vec<Option<Found<S>>>,
@@ -160,6 +162,7 @@ impl<S: Space> World<S> {
                 ended: Vec::new(),
                 editing: Vec::new(),
                 of_bullets: Vec::new(),
+                touches: Touches::NONE,
                 found: Vec::new(),
                 #[cfg(feature = "parallel")]
                 impacts: Vec::new(),

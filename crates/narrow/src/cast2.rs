@@ -53,6 +53,7 @@ mod tests;
 use crate::answer::{Manifold2, Separation2};
 use crate::impact2::Impact2;
 use crate::pair2::Pair2;
+use crate::touch::Touch2;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Motion2, Pose2};
 use beyond::{Touched, with_touched};
@@ -155,17 +156,53 @@ impl Pair2<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn next_impact(&self, motion_a: &Motion2, motion_b: &Motion2) -> Option<Impact2> {
+        self.next_impact_beside(&[], motion_a, motion_b)
+    }
+
+    /// [`next_impact`](Self::next_impact) of a body A that touches others: of a B that it does not touch, what is flush with those is
+    /// passed over, as the next of the tiles that a floor is made of.
+    ///
+    /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A ends
+    /// no deeper below that than half of that thickness: who is stuck deeper is led over nothing. An axis that is not of length
+    /// 1 counts for nothing. Cost: as the next impact; where there is one, another search.
+    ///
+    /// ```
+    /// use asunder_geometry::{Motion2, Pose2, Rect, Shape2, glam::Vec2};
+    /// use asunder_narrow::{Touch2, Pair2};
+    /// let (crate_, tile) = (Rect::from_half_extents(Vec2::splat(0.5))?, Rect::from_half_extents(Vec2::ONE)?);
+    /// let (crate_, tile) = (Shape2::from(crate_), Shape2::from(tile));
+    /// // A millimetre in a tile whose top is at height 0, and 0.5 m before the next.
+    /// let (from, way) = (Pose2::at([0.0, 0.499])?, Motion2::shift([2.0, 0.0])?);
+    /// let stands = Touch2 { normal: Vec2::NEG_Y, separation: -0.001 };
+    /// let meets = |height: f64| {
+    ///     let next = Pose2::at([2.0, height - 1.0])?;
+    ///     let pair = Pair2::new(&crate_, &from, &tile, &next);
+    ///     Ok::<_, asunder_geometry::PoseError>(pair.next_impact_beside(&[stands], &way, &Motion2::STILL).is_some())
+    /// };
+    /// // As high as the one that it stands on, a little higher, and too high.
+    /// assert_eq!([meets(0.0)?, meets(0.005)?, meets(0.02)?], [false, false, true]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn next_impact_beside(
+        &self,
+        touches: &[Touch2],
+        motion_a: &Motion2,
+        motion_b: &Motion2,
+    ) -> Option<Impact2> {
         let travel = Travel::of([&self.pose_a, &self.pose_b], [motion_a, motion_b]);
         let first = self.first_touch(&travel)?;
+        let beyond = |touched: &Touched| {
+            travel.stretches().iter().find_map(|stretch| self.first_touch_in(stretch, Some(touched)))
+        };
         if !first.overlapping {
-            return Some(first);
+            let is_first = touches.is_empty();
+            return if is_first { Some(first) } else { beyond(&Touched::beside(self, &travel, touches)) };
         }
         if travel.is_still() || !self.has_ground() && !self.is_compound() {
             return None;
         }
         with_touched(self, &travel, |touched| {
-            let mut stretches = travel.stretches().iter();
-            let first = stretches.find_map(|stretch| self.first_touch_in(stretch, Some(touched)));
+            let first = beyond(touched);
             touched.across([motion_a, motion_b], first.as_ref()).or(first)
         })
     }

@@ -36,6 +36,7 @@ use crate::ground3::OnGround;
 use crate::impact3::Impact3;
 use crate::level::Lies;
 use crate::pair3::{Pair3, Part, for_parts};
+use crate::touch::Touch3;
 use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Motion3, Shape3};
@@ -155,10 +156,49 @@ impl Pair3<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn next_impact(&self, motion_a: &Motion3, motion_b: &Motion3) -> Option<Impact3> {
+        self.next_impact_beside(&[], motion_a, motion_b)
+    }
+
+    /// [`next_impact`](Self::next_impact) of a body A that touches others: of a B that it does not touch, what is flush with those is
+    /// passed over, as the next of the tiles that a floor is made of.
+    ///
+    /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A ends
+    /// no deeper below that than half of that thickness: who is stuck deeper is led over nothing. An axis that is not of length
+    /// 1 counts for nothing. Cost: as the next impact; where there is one, another search.
+    ///
+    /// ```
+    /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// use asunder_narrow::{Touch3, Pair3};
+    /// let (ball, tile) = (Shape3::from(Sphere::new(0.5)?), Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?));
+    /// // A millimetre in a tile whose top is at height 0, and 1 m before the next.
+    /// let (from, way) = (Pose3::at([0.0, 0.499, 0.0])?, Motion3::shift([3.0, 0.0, 0.0])?);
+    /// let stands = Touch3 { normal: Vec3::NEG_Y, separation: -0.001 };
+    /// let meets = |height: f64| {
+    ///     let next = Pose3::at([2.0, height - 1.0, 0.0])?;
+    ///     let pair = Pair3::new(&ball, &from, &tile, &next);
+    ///     Ok::<_, asunder_geometry::PoseError>(pair.next_impact_beside(&[stands], &way, &Motion3::STILL).is_some())
+    /// };
+    /// // As high as the one that it stands on, a little higher, and too high.
+    /// assert_eq!([meets(0.0)?, meets(0.005)?, meets(0.02)?], [false, false, true]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn next_impact_beside(
+        &self,
+        touches: &[Touch3],
+        motion_a: &Motion3,
+        motion_b: &Motion3,
+    ) -> Option<Impact3> {
         let passage = Passage::of_motions(self, [motion_a, motion_b]);
         let first = self.first_touch(&passage)?;
         if !first.overlapping {
-            return Some(first);
+            if touches.is_empty() {
+                return Some(first);
+            }
+            let touched = Touched::beside(self, touches);
+            return match OnGround::of(self) {
+                Some(on) => self.first_touch_on(&on, &passage, Some(&touched)),
+                None => self.first_touch_of_parts(&passage, Some(&touched)),
+            };
         }
         let has_parts = |shape: &Shape3| shape.is_ground() || matches!(shape, Shape3::Compound(_));
         if passage.is_still() || !has_parts(self.shape_a) && !has_parts(self.shape_b) {
@@ -167,8 +207,7 @@ impl Pair3<'_> {
         with_touched(self, |touched| match OnGround::of(self) {
             Some(on) => {
                 let first = self.first_touch_on(&on, &passage, Some(touched));
-                let at_once = self.across((&on, &passage), [motion_a, motion_b], touched, first.as_ref());
-                at_once.or(first)
+                self.across((&on, &passage), [motion_a, motion_b], touched, first.as_ref()).or(first)
             }
             None => self.first_touch_of_parts(&passage, Some(touched)),
         })

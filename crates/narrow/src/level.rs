@@ -11,6 +11,8 @@
 //!   closing   along n from the start to the deepest, less what goes into the touched anyway, no more than that too:
 //!             level, and passed over (the next triangle of a floor, a bend of half a degree)
 //!   else:     an impact
+//! of a B that is not touched, where A touches others, as the tile that it stands on:
+//!   flush with one of those, and in the end A is no deeper below it than half its thickness: level
 //! nothing until half a thickness of the way: what ground is in the manifolds there, and moved into, is an impact at the start
 //! ```
 //! The last is for ground that is touched but not told, since its neighbour tells of it: a ball in a hollow touches two faces where
@@ -53,14 +55,10 @@ pub(crate) struct Passing<'p, V> {
 impl<V: Copy> Passing<'_, V> {
     /// How it lies what they meet with along a unit axis, beside contacts with their normals and separations.
     pub(crate) fn lies(&self, normal: V, touched: impl Iterator<Item = (V, f64)> + Clone) -> Lies {
-        let slack = NEXT_LEVEL * self.thickness;
-        let is_flush = |(axis, separation): (V, f64)| {
-            let above = (self.gap)(axis);
-            above <= slack && above >= separation - slack && (self.closing)(axis) <= SUNK * self.thickness
-        };
-        if !self.is_on_ground && touched.clone().any(is_flush) {
+        if !self.is_on_ground && touched.clone().any(|it| self.is_flush(it, SUNK * self.thickness)) {
             return Lies::Level;
         }
+        let slack = NEXT_LEVEL * self.thickness;
         if (self.gap)(normal) > slack {
             return Lies::Ahead;
         }
@@ -68,6 +66,19 @@ impl<V: Copy> Passing<'_, V> {
         let anyway = |axis: V| (self.closing)(axis).max(0.0) * (self.dot)(axis, normal).max(0.0);
         let is_level = into <= slack || touched.into_iter().any(|(axis, _)| into - anyway(axis) <= slack);
         if is_level { Lies::Level } else { Lies::Across }
+    }
+
+    /// Whether it is flush with what the body touches beside both.
+    pub(crate) fn is_flush_with(&self, mut touches: impl Iterator<Item = (V, f64)>) -> bool {
+        touches
+            .any(|(axis, separation)| self.is_flush((axis, separation), SUNK * self.thickness + separation))
+    }
+
+    /// Whether it stands up no higher than a contact, and no further down than the body reaches, which sinks so far at most.
+    fn is_flush(&self, (axis, separation): (V, f64), most_sunk: f64) -> bool {
+        let slack = NEXT_LEVEL * self.thickness;
+        let above = (self.gap)(axis);
+        above <= slack && above >= separation - slack && (self.closing)(axis) <= most_sunk
     }
 }
 

@@ -81,6 +81,7 @@ mod polyhedron;
 mod precision;
 mod room;
 mod shadow;
+mod touch;
 mod whole2;
 mod whole3;
 
@@ -102,3 +103,4 @@ pub use pair3::Pair3;
 pub use persistent2::Persistent2;
 pub use persistent3::{Persistent3, Spare3};
 pub use points::ContactPoints;
+pub use touch::{Touch, Touch2, Touch3};

@@ -1,6 +1,9 @@
 //! Memory for lists that a thread keeps from one question to the next: who asks every frame allocates nothing.
 
 use crate::answer::{Manifold2, Manifold3};
+use crate::feature::Hint;
+use crate::pair2::Pair2;
+use crate::pair3::Pair3;
 use core::cell::Cell;
 use std::thread::LocalKey;
 
@@ -8,7 +11,7 @@ thread_local! {
     /// Lists of manifolds in the plane.
     pub(crate) static MANIFOLDS2: Cell<Vec<Vec<Manifold2>>> = const { Cell::new(Vec::new()) };
     /// The same in space.
-    pub(crate) static MANIFOLDS3: Cell<Vec<Vec<Manifold3>>> = const { Cell::new(Vec::new()) };
+    static MANIFOLDS3: Cell<Vec<Vec<Manifold3>>> = const { Cell::new(Vec::new()) };
 }
 
 /// Hands out an empty list, and takes it back. A question within a question gets another one.
@@ -26,4 +29,24 @@ pub(crate) fn with_list<T, R>(
     all.push(list);
     let _ = lists.try_with(|place| place.set(all));
     answer
+}
+
+/// The manifolds of a pair in the plane that touches.
+pub(crate) fn with_manifolds2<R>(pair: &Pair2, ask: impl FnOnce(&[Manifold2]) -> R) -> R {
+    with_list(&MANIFOLDS2, |manifolds| {
+        if pair.has_ground() {
+            pair.contact_on_ground(0.0, manifolds);
+        } else {
+            let _ = pair.contact(0.0, Hint::NONE, true, |manifold| manifolds.push(manifold));
+        }
+        ask(manifolds)
+    })
+}
+
+/// The same in space.
+pub(crate) fn with_manifolds3<R>(pair: &Pair3, ask: impl FnOnce(&[Manifold3]) -> R) -> R {
+    with_list(&MANIFOLDS3, |manifolds| {
+        let _ = pair.contact(0.0, Hint::NONE, Some(manifolds));
+        ask(manifolds)
+    })
 }

@@ -134,7 +134,7 @@ impl<S: Judged> Ahead<S> {
             let before = seen.separations.iter().zip(1..).filter(|(_, k)| moment(*k) < fraction);
             let is_clear = off >= -LOOSE && before.clone().all(|(&separation, _)| separation >= -LOOSE);
             assert!(
-                seen.is_one_sided || !is_apart || is_clear,
+                seen.is_one_sided || !is_apart || is_clear || self.is_led_over(bodies, bullet, other),
                 "passed through before {:?} and {:?}",
                 a.body,
                 b.body
@@ -145,6 +145,9 @@ impl<S: Judged> Ahead<S> {
                 [(a, b), (b, a)].into_iter().filter(|(slot, _)| bodies[slot].body.is_bullet())
             {
                 let Some(time) = seen.first_touch([&bodies[&bullet], &bodies[&other]]) else { continue };
+                if self.is_led_over(bodies, bullet, other) {
+                    continue;
+                }
                 let is_told = |hit: &&(u32, f64, u32, bool, f64)| {
                     hit.0 == bullet && hit.1 <= time && (hit.2 == other || !hit.3)
                 };
@@ -152,6 +155,24 @@ impl<S: Judged> Ahead<S> {
             }
         }
         hits.len()
+    }
+
+    /// Whether a bullet may go over another by what it touches, as over the next tile of a floor: it touches a third that is
+    /// solid, and goes into the other by no more than half of what it is thick.
+    fn is_led_over(&self, bodies: &BTreeMap<u32, Tenant<S>>, bullet: u32, other: u32) -> bool {
+        let is_solid = |slot: &u32| !bodies[slot].body.is_sensor();
+        let stands_on = |(&(a, b), seen): (&Slots, &Seen)| {
+            let third = if a == bullet { b } else { a };
+            let touches = seen.start.overlapping || seen.start.is_doubtful;
+            (a == bullet || b == bullet) && third != other && touches && is_solid(&third)
+        };
+        let seen = &self.seen[&(bullet.min(other), bullet.max(other))];
+        let most = 0.5 * bodies[&bullet].stand.reach() + LOOSE;
+        is_solid(&bullet)
+            && is_solid(&other)
+            && bodies[&bullet].motion.is_some()
+            && self.seen.iter().any(stands_on)
+            && seen.separations.iter().all(|&separation| separation >= -most)
     }
 
     fn is_still(&self, (a, b): Slots) -> bool {

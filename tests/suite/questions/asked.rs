@@ -3,7 +3,7 @@
 use super::sieve::{Allowed, Sieve};
 use asunder::{
     CastAnswer, Circle, Collider, Filter, Motion2, Motion3, NearAnswer, Pair2, Pair3, Plane, Pose2, Pose3,
-    Ray2, Ray3, RayAnswer, Shape2, Shape3, Space, Sphere, Volume, World,
+    Ray2, Ray3, RayAnswer, Shape2, Shape3, Space, Sphere, Touch2, Touch3, Volume, World,
 };
 use asunder_broad::Cast;
 use asunder_narrow::{cast_ray2, cast_ray3};
@@ -83,7 +83,9 @@ pub(super) trait Questioned: Engine {
     /// The same by visitors.
     fn visits(world: &World<Self>, asked: &Asked<Self>, filter: &Filter<'_, Self>, into: &mut Answers<Self>);
     /// What a body has to do with it.
-    fn judge(asked: &Asked<Self>, body: &Collider<Self>) -> Judged;
+    fn judge(asked: &Asked<Self>, body: &Collider<Self>, touches: &[Self::Touch]) -> Judged;
+    /// What the shape touches of a body.
+    fn touches_of(asked: &Asked<Self>, body: &Collider<Self>, to: &mut Vec<Self::Touch>);
     /// Fails if the moved shape overlaps the body before this share of the displacement.
     fn check_free(asked: &Asked<Self>, fraction: f64, body: &Collider<Self>);
     /// How far two points are apart, and the largest coordinate of both.
@@ -148,12 +150,16 @@ fn passing<S: Questioned>(world: &World<S>, allowed: &Allowed<S>) -> Vec<(S::Key
 
 /// Fails unless the world says of every body what the narrow phase says of it.
 pub(super) fn check<S: Questioned>(world: &World<S>, asked: &Asked<S>, sieve: &Sieve<S>, found: &Answers<S>) {
+    let bodies = passing(world, &sieve.allowed);
+    let mut touches = Vec::new();
+    for (_, body) in bodies.iter().filter(|(_, body)| !body.is_sensor()) {
+        S::touches_of(asked, body, &mut touches);
+    }
     let judge = |(key, body): (S::Key, Collider<S>)| {
-        let judged = S::judge(asked, &body);
+        let judged = S::judge(asked, &body, &touches);
         (key, body, judged)
     };
-    let passing: Vec<(S::Key, Collider<S>, Judged)> =
-        passing(world, &sieve.allowed).into_iter().map(judge).collect();
+    let passing: Vec<(S::Key, Collider<S>, Judged)> = bodies.into_iter().map(judge).collect();
     check_casts(asked, &passing, found);
     check_onwards(asked, &passing, found);
     let keys = |is_wanted: fn(&Judged) -> bool| -> Vec<S::Key> {
@@ -341,7 +347,11 @@ impl Questioned for Volume {
         into.onwards = world.cast_shape_onwards(at, *displacement, filter);
     }
 
-    fn judge(asked: &Asked<Self>, body: &Collider<Self>) -> Judged {
+    fn touches_of(asked: &Asked<Self>, body: &Collider<Self>, to: &mut Vec<Touch3>) {
+        Pair3::new(&asked.shape, &asked.pose, body.shape(), body.pose()).add_touches(to);
+    }
+
+    fn judge(asked: &Asked<Self>, body: &Collider<Self>, touches: &[Touch3]) -> Judged {
         let pair = Pair3::new(&asked.shape, &asked.pose, body.shape(), body.pose());
         let (dot, at) = (Shape3::from(Sphere::POINT), Pose3::at(asked.point).unwrap());
         let of_point = Pair3::new(&dot, &at, body.shape(), body.pose());
@@ -361,7 +371,7 @@ impl Questioned for Volume {
                 let (way, still) = (Motion3::shift(asked.displacement).unwrap(), Motion3::STILL);
                 // As bullets meet: what is in a sensor runs into no other part of it.
                 let met = pair.impact(&way, &still).filter(|impact| !impact.overlapping);
-                if body.is_sensor() { met } else { pair.next_impact(&way, &still) }
+                if body.is_sensor() { met } else { pair.next_impact_beside(touches, &way, &still) }
             }
             .map(|impact| impact.fraction),
             is_beside: [
@@ -444,7 +454,11 @@ impl Questioned for Plane {
         into.onwards = world.cast_shape_onwards(at, *displacement, filter);
     }
 
-    fn judge(asked: &Asked<Self>, body: &Collider<Self>) -> Judged {
+    fn touches_of(asked: &Asked<Self>, body: &Collider<Self>, to: &mut Vec<Touch2>) {
+        Pair2::new(&asked.shape, &asked.pose, body.shape(), body.pose()).add_touches(to);
+    }
+
+    fn judge(asked: &Asked<Self>, body: &Collider<Self>, touches: &[Touch2]) -> Judged {
         let pair = Pair2::new(&asked.shape, &asked.pose, body.shape(), body.pose());
         let (dot, at) = (Shape2::from(Circle::POINT), Pose2::at(asked.point).unwrap());
         let of_point = Pair2::new(&dot, &at, body.shape(), body.pose());
@@ -464,7 +478,7 @@ impl Questioned for Plane {
                 let (way, still) = (Motion2::shift(asked.displacement).unwrap(), Motion2::STILL);
                 // As bullets meet: what is in a sensor runs into no other part of it.
                 let met = pair.impact(&way, &still).filter(|impact| !impact.overlapping);
-                if body.is_sensor() { met } else { pair.next_impact(&way, &still) }
+                if body.is_sensor() { met } else { pair.next_impact_beside(touches, &way, &still) }
             }
             .map(|impact| impact.fraction),
             is_beside: [

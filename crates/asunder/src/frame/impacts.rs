@@ -4,11 +4,13 @@
 //! of each candidate pair with a bullet, and a motion: when do they first touch?      in parallel
 //! sort by bullet, then by time; cut each bullet's list after the first that is solid
 //! ```
-//! What overlaps at the start is a contact already; of bodies of several parts, the others are asked (`next_impact`).
+//! What overlaps at the start is a contact already; of bodies of several parts, the others are asked, and what is flush with
+//! what the bullet touches is passed over (`next_impact_beside`).
 
+use super::touches::Touches;
 use crate::contact::Candidate;
 use crate::motion::Hit;
-use crate::space::Space;
+use crate::space::{RunsInto, Space};
 use crate::world::{World, slot_of};
 
 /// Below this many pairs, other threads cost more than they save.
@@ -42,6 +44,7 @@ pub(super) fn impacts<S: Space>(world: &mut World<S>) {
 
 /// Asks about every pair with a bullet; as both sides, where both are bullets.
 fn ask<S: Space>(world: &mut World<S>) {
+    Touches::gather(world);
     let World { bodies, candidates, motions, scratch, .. } = world;
     scratch.of_bullets.clear();
     let is_bullet = |key| bodies.get(key).is_some_and(|body| body.bullet);
@@ -52,12 +55,14 @@ fn ask<S: Space>(world: &mut World<S>) {
         let both = [(*a, *b), (*b, *a)];
         scratch.of_bullets.extend(both.into_iter().filter(|(bullet, _)| is_bullet(*bullet)));
     }
+    let touches = &scratch.touches;
     let impact = |&(bullet, other): &(S::Key, S::Key)| {
         let (slot, other_slot) = (slot_of(bullet), slot_of(other));
         let (one, two) = bodies.get(bullet).zip(bodies.get(other))?;
         let posed = [(&one.shape, &one.pose), (&two.shape, &two.pose)];
         let sensor = one.sensor || two.sensor;
-        let (fraction, impact) = S::impact(posed, sensor, [motions.of(slot), motions.of(other_slot)])?;
+        let runs_into = if sensor { RunsInto::Sensor } else { RunsInto::Solid(touches.of(slot)) };
+        let (fraction, impact) = S::impact(posed, runs_into, [motions.of(slot), motions.of(other_slot)])?;
         let hit = Hit { bullet, other, sensor, impact };
         Some((slot, fraction, other_slot, hit))
     };

@@ -5,8 +5,10 @@ use super::filter::Filter;
 use super::space::{Asked, Enter, Meet, Near, Posed};
 use super::walk::{Along, Around, Asks, Over, Question};
 use crate::collider::Collider;
+use crate::space::RunsInto;
 use crate::world::World;
 use asunder_geometry::tolerance;
+use core::ops::ControlFlow;
 
 /// Bodies at a distance of at most `limit`: a NaN counts as no limit, and a negative limit as zero.
 fn limit_of(limit: f64) -> f64 {
@@ -67,18 +69,43 @@ pub(crate) fn bodies_along<'q, S: Asked>(
     moved((world, filter), at, displacement, move |body| S::meet(at, displacement, body))
 }
 
-/// Which bodies a moved shape runs into, but for what it touches at the start.
-pub(crate) fn bodies_ahead<'q, S: Asked>(
-    world: &'q World<S>,
+/// What a moved shape runs into first, but for what it touches at the start, and what is flush with that.
+pub(crate) fn first_ahead<S: Asked>(
+    world: &World<S>,
+    at: Posed<'_, S>,
+    displacement: S::Vector,
+    filter: &Filter<'_, S>,
+) -> Option<Meet<S>> {
+    // Who runs into nothing stands wherever it likes.
+    let first = bodies_ahead((world, filter), at, displacement, &[]).first()?;
+    S::with_touches(|touches| {
+        let bounds = S::bounds(at.0, at.1, 0.0);
+        let _ = boxes_over(world, &bounds, filter).visit(|Met(key)| {
+            if let Some(body) = world.bodies.get(key).filter(|body| !body.sensor) {
+                S::add_touches(at, body, touches);
+            }
+            ControlFlow::Continue(())
+        });
+        if touches.is_empty() {
+            return Some(first);
+        }
+        bodies_ahead((world, filter), at, displacement, touches).first()
+    })
+}
+
+/// Which bodies a moved shape runs into, but for what it touches at the start, and what is flush with that.
+fn bodies_ahead<'q, S: Asked>(
+    (world, filter): (&'q World<S>, &'q Filter<'q, S>),
     at: Posed<'q, S>,
     displacement: S::Vector,
-    filter: &'q Filter<'q, S>,
+    touches: &'q [S::Touch],
 ) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
     // No motion is longer than all that there is, and none need be.
     let share = (tolerance::MAX_POSITION / S::longest(displacement)).min(1.0);
     moved((world, filter), at, displacement, move |body: &Collider<S>| {
         let motions = [Some(S::shift(displacement, share)?), None];
-        let (fraction, impact) = S::impact([at, (&body.shape, &body.pose)], body.sensor, motions)?;
+        let runs_into = if body.sensor { RunsInto::Sensor } else { RunsInto::Solid(touches) };
+        let (fraction, impact) = S::impact([at, (&body.shape, &body.pose)], runs_into, motions)?;
         Some((fraction * share, impact))
     })
 }

@@ -1,6 +1,7 @@
 //! What the narrow phase says of one body: for the plane, and for space.
 
 use super::answer::{CastAnswer, NearAnswer, RayAnswer};
+use super::walk::with_kept;
 use crate::collider::Collider;
 use crate::space::{Plane, Space, Volume};
 use asunder_broad::Cast;
@@ -8,7 +9,13 @@ use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder_geometry::{
     Aabb2, Aabb3, Circle, Motion2, Motion3, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere,
 };
-use asunder_narrow::{Impact2, Impact3, Pair2, Pair3, cast_ray2, cast_ray3};
+use asunder_narrow::{Impact2, Impact3, Pair2, Pair3, Touch2, Touch3, cast_ray2, cast_ray3};
+use core::cell::Cell;
+
+thread_local! {
+    static TOUCHES2: Cell<Vec<Touch2>> = const { Cell::new(Vec::new()) };
+    static TOUCHES3: Cell<Vec<Touch3>> = const { Cell::new(Vec::new()) };
+}
 
 /// A shape, and where it is.
 pub(crate) type Posed<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
@@ -26,6 +33,10 @@ pub(crate) trait Asked: Space {
     fn point(at: Self::Point) -> Option<(Self::Shape, Self::Pose)>;
     /// Whether the body shares a point with the shape; exact.
     fn overlaps(at: Posed<'_, Self>, body: &Collider<Self>) -> bool;
+    /// Appends what the body is to a shape that overlaps it.
+    fn add_touches(at: Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Self::Touch>);
+    /// Hands out an empty list, and takes its memory back: who asks every frame allocates nothing.
+    fn with_touches<R>(ask: impl FnOnce(&mut Vec<Self::Touch>) -> R) -> R;
     /// How near the body is.
     fn near(at: Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self>;
     /// A ray, for boxes.
@@ -65,6 +76,17 @@ impl Asked for Plane {
 
     fn overlaps((shape, pose): Posed<'_, Self>, body: &Collider<Self>) -> bool {
         Pair2::new(shape, pose, &body.shape, &body.pose).overlaps()
+    }
+
+    fn add_touches((shape, pose): Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Touch2>) {
+        Pair2::new(shape, pose, &body.shape, &body.pose).add_touches(to);
+    }
+
+    fn with_touches<R>(ask: impl FnOnce(&mut Vec<Touch2>) -> R) -> R {
+        with_kept(&TOUCHES2, |touches| {
+            touches.clear();
+            ask(touches)
+        })
     }
 
     fn near((shape, pose): Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self> {
@@ -154,6 +176,17 @@ impl Asked for Volume {
 
     fn overlaps((shape, pose): Posed<'_, Self>, body: &Collider<Self>) -> bool {
         Pair3::new(shape, pose, &body.shape, &body.pose).overlaps()
+    }
+
+    fn add_touches((shape, pose): Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Touch3>) {
+        Pair3::new(shape, pose, &body.shape, &body.pose).add_touches(to);
+    }
+
+    fn with_touches<R>(ask: impl FnOnce(&mut Vec<Touch3>) -> R) -> R {
+        with_kept(&TOUCHES3, |touches| {
+            touches.clear();
+            ask(touches)
+        })
     }
 
     fn near((shape, pose): Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self> {

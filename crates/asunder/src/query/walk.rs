@@ -9,6 +9,7 @@ use asunder_broad::{Cast, Found, Index, Queue, least_distance};
 use asunder_geometry::Bounds;
 use core::cell::Cell;
 use core::ops::ControlFlow;
+use std::thread::LocalKey;
 
 /// Which boxes a question is about.
 pub(crate) trait Reach<B: Bounds> {
@@ -41,11 +42,16 @@ thread_local! {
     static QUEUE: Cell<Queue> = Cell::new(Queue::new());
 }
 
-fn with_queue(ask: impl FnOnce(&mut Queue)) {
-    let mut queue = QUEUE.try_with(Cell::take).unwrap_or_default();
-    ask(&mut queue);
+/// Lends what a thread keeps from one question to the next.
+pub(super) fn with_kept<T: Default, R>(
+    place: &'static LocalKey<Cell<T>>,
+    ask: impl FnOnce(&mut T) -> R,
+) -> R {
     // A thread that is about to end has no place for it any more.
-    let _ = QUEUE.try_with(|place| place.set(queue));
+    let mut kept = place.try_with(Cell::take).unwrap_or_default();
+    let answer = ask(&mut kept);
+    let _ = place.try_with(|place| place.set(kept));
+    answer
 }
 
 impl<B: Bounds> Reach<B> for Over<B> {
@@ -84,7 +90,7 @@ impl<B: Bounds> Reach<B> for Along {
     }
 
     fn in_order(&self, index: &Index<B>, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
-        with_queue(|queue| {
+        with_kept(&QUEUE, |queue| {
             index.crossed_in_order(&self.0, limit, queue, |found: Found| visitor(found.number));
         });
     }
@@ -110,7 +116,7 @@ impl<B: Bounds> Reach<B> for Around<B> {
     }
 
     fn in_order(&self, index: &Index<B>, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
-        with_queue(|queue| {
+        with_kept(&QUEUE, |queue| {
             index.nearest_in_order(&self.0, limit, queue, |found: Found| visitor(found.number));
         });
     }

@@ -5,42 +5,49 @@ use super::course::Course;
 use super::piece::{Piece, for_pieces};
 use super::stretch::Travel;
 use crate::answer::Manifold2;
-use crate::feature::Hint;
 use crate::impact2::Impact2;
 use crate::level::{Lies, Passing, half_through, thickness, thinner};
-use crate::lists::{MANIFOLDS2, with_list};
+use crate::lists::with_manifolds2;
 use crate::pair2::Pair2;
+use crate::touch::Touch2;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Chain, Motion2, Shape2};
 
 /// Moments of each half of a motion with a turn that are looked at.
 const MOMENTS: u32 = 16;
 
-/// How two bodies touch at the start.
+/// What is touched at the start.
 pub(super) struct Touched<'t> {
     pair: &'t Pair2<'t>,
     travel: &'t Travel,
-    manifolds: &'t [Manifold2],
+    by: By<'t>,
     /// Which of the two are ground, and so have no thickness that counts.
     are_ground: [bool; 2],
 }
 
-/// Asks with what two bodies touch at the start.
-pub(super) fn with_touched<R>(pair: &Pair2, travel: &Travel, ask: impl FnOnce(&Touched) -> R) -> R {
-    let are_ground = [pair.shape_a.is_ground(), pair.shape_b.is_ground()];
-    with_manifolds(pair, |manifolds| ask(&Touched { pair, travel, manifolds, are_ground }))
+/// Who touches what.
+#[derive(Clone, Copy)]
+enum By<'t> {
+    /// The two each other.
+    Both(&'t [Manifold2]),
+    /// A touches others.
+    A(&'t [Touch2]),
 }
 
-/// The manifolds of a pair, in memory that is kept.
-fn with_manifolds<R>(pair: &Pair2, ask: impl FnOnce(&[Manifold2]) -> R) -> R {
-    with_list(&MANIFOLDS2, |manifolds| {
-        if pair.has_ground() {
-            pair.contact_on_ground(0.0, manifolds);
-        } else {
-            let _ = pair.contact(0.0, Hint::NONE, true, |manifold| manifolds.push(manifold));
-        }
-        ask(manifolds)
-    })
+/// Asks with how two bodies touch at the start.
+pub(super) fn with_touched<R>(pair: &Pair2, travel: &Travel, ask: impl FnOnce(&Touched) -> R) -> R {
+    with_manifolds2(pair, |manifolds| ask(&Touched::new((pair, travel), By::Both(manifolds))))
+}
+
+impl<'t> Touched<'t> {
+    /// What A touches that does not touch B.
+    pub(super) fn beside(pair: &'t Pair2<'t>, travel: &'t Travel, touches: &'t [Touch2]) -> Self {
+        Self::new((pair, travel), By::A(touches))
+    }
+
+    fn new((pair, travel): (&'t Pair2<'t>, &'t Travel), by: By<'t>) -> Self {
+        Self { pair, travel, by, are_ground: [pair.shape_a.is_ground(), pair.shape_b.is_ground()] }
+    }
 }
 
 impl Touched<'_> {
@@ -72,7 +79,14 @@ impl Touched<'_> {
             closing: &closing,
             dot: DVec2::dot,
         };
-        passing.lies(normal, self.manifolds.iter().map(|it| (it.normal.as_dvec2(), it.separation.into())))
+        match self.by {
+            By::A(touches) if passing.is_flush_with(touches.iter().filter_map(Touch2::axis)) => Lies::Level,
+            By::A(_) => Lies::Ahead,
+            By::Both(manifolds) => {
+                let touched = manifolds.iter().map(|it| (it.normal.as_dvec2(), it.separation.into()));
+                passing.lies(normal, touched)
+            }
+        }
     }
 
     /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.
@@ -108,7 +122,7 @@ impl Touched<'_> {
         let [pose_a, pose_b] =
             [motions[0].pose_at(&pair.pose_a, ahead), motions[1].pose_at(&pair.pose_b, ahead)];
         let later = Pair2::new(pair.shape_a, &pose_a, pair.shape_b, &pose_b);
-        with_manifolds(&later, |manifolds| {
+        with_manifolds2(&later, |manifolds| {
             let across = manifolds.iter().find(|manifold| self.is_across((side, chain, body), manifold))?;
             Some(Impact2 { fraction: 0.0, error: 0.0, overlapping: false, ..at_start(across)? })
         })

@@ -3,13 +3,13 @@
 use super::at_start;
 use super::passage::{Course, Moment, Passage};
 use crate::answer::Manifold3;
-use crate::feature::Hint;
 use crate::ground3::OnGround;
 use crate::impact3::Impact3;
 use crate::level::{Lies, Passing, half_through, thickness, thinner};
-use crate::lists::{MANIFOLDS3, with_list};
+use crate::lists::with_manifolds3;
 use crate::pair3::{Pair3, Part, for_parts};
 use crate::polyhedron::closest::Placed;
+use crate::touch::Touch3;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Motion3, Shape3};
@@ -17,17 +17,36 @@ use asunder_geometry::{Motion3, Shape3};
 /// Moments of a motion with a turn that are looked at: 6 degrees of a half turn apart, by which an arm comes 0.14 % further.
 const MOMENTS: u32 = 32;
 
-/// How two bodies touch at the start.
+/// What is touched at the start.
 pub(super) struct Touched<'t> {
-    manifolds: &'t [Manifold3],
+    by: By<'t>,
     /// Which of the two are ground, and so have no thickness that counts.
     are_ground: [bool; 2],
 }
 
-/// Asks with what two bodies touch at the start.
+/// Who touches what.
+#[derive(Clone, Copy)]
+enum By<'t> {
+    /// The two each other.
+    Both(&'t [Manifold3]),
+    /// A touches others.
+    A(&'t [Touch3]),
+}
+
+/// Asks with how two bodies touch at the start.
 pub(super) fn with_touched<R>(pair: &Pair3, ask: impl FnOnce(&Touched) -> R) -> R {
-    let are_ground = [pair.shape_a.is_ground(), pair.shape_b.is_ground()];
-    with_manifolds(pair, |manifolds| ask(&Touched { manifolds, are_ground }))
+    with_manifolds3(pair, |manifolds| ask(&Touched::new(pair, By::Both(manifolds))))
+}
+
+impl<'t> Touched<'t> {
+    /// What A touches that does not touch B.
+    pub(super) fn beside(pair: &Pair3, touches: &'t [Touch3]) -> Self {
+        Self::new(pair, By::A(touches))
+    }
+
+    fn new(pair: &Pair3, by: By<'t>) -> Self {
+        Self { by, are_ground: [pair.shape_a.is_ground(), pair.shape_b.is_ground()] }
+    }
 }
 
 impl Touched<'_> {
@@ -52,7 +71,14 @@ impl Touched<'_> {
             closing: &closing,
             dot: DVec3::dot,
         };
-        passing.lies(normal, self.manifolds.iter().map(|it| (it.normal.as_dvec3(), it.separation.into())))
+        match self.by {
+            By::A(touches) if passing.is_flush_with(touches.iter().filter_map(Touch3::axis)) => Lies::Level,
+            By::A(_) => Lies::Ahead,
+            By::Both(manifolds) => {
+                let touched = manifolds.iter().map(|it| (it.normal.as_dvec3(), it.separation.into()));
+                passing.lies(normal, touched)
+            }
+        }
     }
 
     /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.
@@ -70,14 +96,6 @@ impl Touched<'_> {
             Some(thickness(heights, shape.radius(), shape.outer_radius()))
         }))
     }
-}
-
-/// The manifolds of a pair, in memory that is kept.
-fn with_manifolds<R>(pair: &Pair3, ask: impl FnOnce(&[Manifold3]) -> R) -> R {
-    with_list(&MANIFOLDS3, |manifolds| {
-        let _ = pair.contact(0.0, Hint::NONE, Some(manifolds));
-        ask(manifolds)
-    })
 }
 
 impl Pair3<'_> {
@@ -117,7 +135,7 @@ impl Pair3<'_> {
             });
             (lies == Lies::Across).then(|| Impact3 { overlapping: false, ..at_start(manifold) })
         };
-        with_manifolds(&later, |manifolds| manifolds.iter().find_map(is_across))
+        with_manifolds3(&later, |manifolds| manifolds.iter().find_map(is_across))
     }
 }
 

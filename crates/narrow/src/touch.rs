@@ -1,0 +1,118 @@
+//! What a body stands on, leans against or is stuck in, while it is asked what it meets of another.
+
+use crate::answer::{Manifold2, Manifold3};
+use crate::lists::{with_manifolds2, with_manifolds3};
+use crate::pair2::Pair2;
+use crate::pair3::Pair3;
+use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
+
+/// What a body touches beside the other of a pair: the tile that it stands on, where the next one is asked about.
+///
+/// ```
+/// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, glam::Vec3};
+/// use asunder_narrow::{Touch3, Pair3};
+/// let tile = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 0.5, 1.0))?);
+/// let crate_ = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4))?);
+/// // It is a millimetre in the tile that it stands on, and so in the way of the next one's side.
+/// let (sunk, here, next) = (Pose3::at([0.0, 0.899, 0.0])?, Pose3::IDENTITY, Pose3::at([2.0, 0.0, 0.0])?);
+/// let (push, still) = (Motion3::shift([1.5, 0.0, 0.0])?, Motion3::STILL);
+/// let on_tile = Pair3::new(&crate_, &sunk, &tile, &here).manifold(0.0).ok_or("it stands there")?;
+/// let stands = Touch3::of(&on_tile, true);
+/// assert!(stands.normal == Vec3::NEG_Y && (stands.separation + 0.001).abs() < 1e-6);
+/// let pair = Pair3::new(&crate_, &sunk, &tile, &next);
+/// assert!(pair.next_impact(&push, &still).is_some());
+/// assert_eq!(pair.next_impact_beside(&[stands], &push, &still), None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch<V> {
+    /// Unit axis in world axes, from the body to what it touches.
+    pub normal: V,
+    /// How far the two are apart along it, in metres: negative where the body is in.
+    pub separation: f32,
+}
+
+/// What a body in the plane touches beside the other of a pair.
+///
+/// ```
+/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
+/// use asunder_narrow::{Touch2, Pair2};
+/// let ball = Shape2::from(Circle::new(0.5)?);
+/// let beside = Pose2::at([0.75, 0.0])?;
+/// let touch = Pair2::new(&ball, &Pose2::IDENTITY, &ball, &beside).manifold(0.0).ok_or("they touch")?;
+/// let [of_a, of_b]: [Touch2; 2] = [true, false].map(|is_a| Touch2::of(&touch, is_a));
+/// assert_eq!((of_a.normal, of_b.normal), (Vec2::X, Vec2::NEG_X));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub type Touch2 = Touch<Vec2>;
+
+/// What a body in space touches beside the other of a pair: see [`Touch`].
+pub type Touch3 = Touch<Vec3>;
+
+impl Touch<Vec2> {
+    /// Of a contact, for its A or its B.
+    pub fn of(manifold: &Manifold2, is_a: bool) -> Self {
+        let normal = if is_a { manifold.normal } else { -manifold.normal };
+        Self { normal, separation: manifold.separation }
+    }
+
+    /// Its axis and separation; nothing where they are none.
+    pub(crate) fn axis(&self) -> Option<(DVec2, f64)> {
+        let is_sound = self.normal.is_normalized() && self.separation.is_finite();
+        is_sound.then(|| (self.normal.as_dvec2(), self.separation.into()))
+    }
+}
+
+impl Touch<Vec3> {
+    /// Of a contact, for its A or its B.
+    pub fn of(manifold: &Manifold3, is_a: bool) -> Self {
+        let normal = if is_a { manifold.normal } else { -manifold.normal };
+        Self { normal, separation: manifold.separation }
+    }
+
+    /// Its axis and separation; nothing where they are none.
+    pub(crate) fn axis(&self) -> Option<(DVec3, f64)> {
+        let is_sound = self.normal.is_normalized() && self.separation.is_finite();
+        is_sound.then(|| (self.normal.as_dvec3(), self.separation.into()))
+    }
+}
+
+impl Pair2<'_> {
+    /// Appends what B is to A, if they overlap: one touch a manifold. Cost: of the yes or no, and of the manifolds.
+    ///
+    /// ```
+    /// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
+    /// use asunder_narrow::{Touch2, Pair2};
+    /// let ball = Shape2::from(Circle::new(1.0)?);
+    /// let (here, there) = (Pose2::IDENTITY, Pose2::at([1.5, 0.0])?);
+    /// let mut touches = vec![];
+    /// Pair2::new(&ball, &here, &ball, &there).add_touches(&mut touches);
+    /// assert_eq!(touches, [Touch2 { normal: Vec2::X, separation: -0.5 }]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn add_touches(&self, to: &mut Vec<Touch2>) {
+        if self.overlaps() {
+            with_manifolds2(self, |manifolds| to.extend(manifolds.iter().map(|it| Touch2::of(it, true))));
+        }
+    }
+}
+
+impl Pair3<'_> {
+    /// Appends what B is to A, if they overlap: one touch a manifold. Cost: of the yes or no, and of the manifolds.
+    ///
+    /// ```
+    /// use asunder_geometry::{Sphere, Pose3, Shape3, glam::Vec3};
+    /// use asunder_narrow::{Touch3, Pair3};
+    /// let ball = Shape3::from(Sphere::new(1.0)?);
+    /// let (here, there) = (Pose3::IDENTITY, Pose3::at([1.5, 0.0, 0.0])?);
+    /// let mut touches = vec![];
+    /// Pair3::new(&ball, &here, &ball, &there).add_touches(&mut touches);
+    /// assert_eq!(touches, [Touch3 { normal: Vec3::X, separation: -0.5 }]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn add_touches(&self, to: &mut Vec<Touch3>) {
+        if self.overlaps() {
+            with_manifolds3(self, |manifolds| to.extend(manifolds.iter().map(|it| Touch3::of(it, true))));
+        }
+    }
+}
