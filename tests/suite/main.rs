@@ -55,6 +55,7 @@
 //! - [`solver`]: stacks, pyramids and leaning cards stand on the manifolds, by the names of their points
 //!
 //! World
+//! - [`tiles`]: floors of many bodies have no seams for bullets and casts, and their walls stand
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
 //! - [`world_crowds`]: pairs that come and go by tens of thousands are those of a double loop
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
@@ -127,6 +128,7 @@ mod solver;
 mod steady;
 mod stored;
 mod theory;
+mod tiles;
 mod world_crowds;
 mod world_events;
 mod world_model;

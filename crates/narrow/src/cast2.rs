@@ -159,8 +159,8 @@ impl Pair2<'_> {
         self.next_impact_beside(&[], motion_a, motion_b)
     }
 
-    /// [`next_impact`](Self::next_impact) of a body A that touches others: of a B that it does not touch, what is flush with those is
-    /// passed over, as the next of the tiles that a floor is made of.
+    /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as well, as the
+    /// next of the tiles that a floor is made of; but for parts of ground that it touches too, which has no such seams.
     ///
     /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A ends
     /// no deeper below that than half of that thickness: who is stuck deeper is led over nothing. An axis that is not of length
@@ -191,19 +191,17 @@ impl Pair2<'_> {
     ) -> Option<Impact2> {
         let travel = Travel::of([&self.pose_a, &self.pose_b], [motion_a, motion_b]);
         let first = self.first_touch(&travel)?;
-        let beyond = |touched: &Touched| {
-            travel.stretches().iter().find_map(|stretch| self.first_touch_in(stretch, Some(touched)))
-        };
-        if !first.overlapping {
-            let is_first = touches.is_empty();
-            return if is_first { Some(first) } else { beyond(&Touched::beside(self, &travel, touches)) };
+        let do_touch = first.overlapping;
+        if !do_touch && touches.is_empty() {
+            return Some(first);
         }
-        if travel.is_still() || !self.has_ground() && !self.is_compound() {
+        if do_touch && (travel.is_still() || !self.has_ground() && !self.is_compound()) {
             return None;
         }
-        with_touched(self, &travel, |touched| {
-            let first = beyond(touched);
-            touched.across([motion_a, motion_b], first.as_ref()).or(first)
+        with_touched((self, &travel), (do_touch, touches), |touched| {
+            let mut stretches = travel.stretches().iter();
+            let first = stretches.find_map(|stretch| self.first_touch_in(stretch, Some(touched)));
+            if do_touch { touched.across([motion_a, motion_b], first.as_ref()).or(first) } else { first }
         })
     }
 

@@ -159,8 +159,8 @@ impl Pair3<'_> {
         self.next_impact_beside(&[], motion_a, motion_b)
     }
 
-    /// [`next_impact`](Self::next_impact) of a body A that touches others: of a B that it does not touch, what is flush with those is
-    /// passed over, as the next of the tiles that a floor is made of.
+    /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as well, as the
+    /// next of the tiles that a floor is made of; but for parts of ground that it touches too, which has no such seams.
     ///
     /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A ends
     /// no deeper below that than half of that thickness: who is stuck deeper is led over nothing. An axis that is not of length
@@ -190,23 +190,20 @@ impl Pair3<'_> {
     ) -> Option<Impact3> {
         let passage = Passage::of_motions(self, [motion_a, motion_b]);
         let first = self.first_touch(&passage)?;
-        if !first.overlapping {
-            if touches.is_empty() {
-                return Some(first);
-            }
-            let touched = Touched::beside(self, touches);
-            return match OnGround::of(self) {
-                Some(on) => self.first_touch_on(&on, &passage, Some(&touched)),
-                None => self.first_touch_of_parts(&passage, Some(&touched)),
-            };
+        let do_touch = first.overlapping;
+        if !do_touch && touches.is_empty() {
+            return Some(first);
         }
         let has_parts = |shape: &Shape3| shape.is_ground() || matches!(shape, Shape3::Compound(_));
-        if passage.is_still() || !has_parts(self.shape_a) && !has_parts(self.shape_b) {
+        if do_touch && (passage.is_still() || !has_parts(self.shape_a) && !has_parts(self.shape_b)) {
             return None;
         }
-        with_touched(self, |touched| match OnGround::of(self) {
+        with_touched(self, (do_touch, touches), |touched| match OnGround::of(self) {
             Some(on) => {
                 let first = self.first_touch_on(&on, &passage, Some(touched));
+                if !do_touch {
+                    return first;
+                }
                 self.across((&on, &passage), [motion_a, motion_b], touched, first.as_ref()).or(first)
             }
             None => self.first_touch_of_parts(&passage, Some(touched)),

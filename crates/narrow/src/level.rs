@@ -11,7 +11,7 @@
 //!   closing   along n from the start to the deepest, less what goes into the touched anyway, no more than that too:
 //!             level, and passed over (the next triangle of a floor, a bend of half a degree)
 //!   else:     an impact
-//! of a B that is not touched, where A touches others, as the tile that it stands on:
+//! where A touches others, as the tile that it stands on; of anything but ground that is touched as well:
 //!   flush with one of those, and in the end A is no deeper below it than half its thickness: level
 //! nothing until half a thickness of the way: what ground is in the manifolds there, and moved into, is an impact at the start
 //! ```

@@ -20,34 +20,26 @@ const MOMENTS: u32 = 16;
 pub(super) struct Touched<'t> {
     pair: &'t Pair2<'t>,
     travel: &'t Travel,
-    by: By<'t>,
+    /// How the two touch each other, where they do.
+    manifolds: Option<&'t [Manifold2]>,
+    /// What A touches, which may be B.
+    touches: &'t [Touch2],
     /// Which of the two are ground, and so have no thickness that counts.
     are_ground: [bool; 2],
 }
 
-/// Who touches what.
-#[derive(Clone, Copy)]
-enum By<'t> {
-    /// The two each other.
-    Both(&'t [Manifold2]),
-    /// A touches others.
-    A(&'t [Touch2]),
-}
-
-/// Asks with how two bodies touch at the start.
-pub(super) fn with_touched<R>(pair: &Pair2, travel: &Travel, ask: impl FnOnce(&Touched) -> R) -> R {
-    with_manifolds2(pair, |manifolds| ask(&Touched::new((pair, travel), By::Both(manifolds))))
-}
-
-impl<'t> Touched<'t> {
-    /// What A touches that does not touch B.
-    pub(super) fn beside(pair: &'t Pair2<'t>, travel: &'t Travel, touches: &'t [Touch2]) -> Self {
-        Self::new((pair, travel), By::A(touches))
+/// Asks with what is touched at the start: each other, where they do, and what A touches.
+pub(super) fn with_touched<R>(
+    (pair, travel): (&Pair2, &Travel),
+    (do_touch, touches): (bool, &[Touch2]),
+    ask: impl FnOnce(&Touched) -> R,
+) -> R {
+    let are_ground = [pair.shape_a.is_ground(), pair.shape_b.is_ground()];
+    let touched = Touched { pair, travel, manifolds: None, touches, are_ground };
+    if !do_touch {
+        return ask(&touched);
     }
-
-    fn new((pair, travel): (&'t Pair2<'t>, &'t Travel), by: By<'t>) -> Self {
-        Self { pair, travel, by, are_ground: [pair.shape_a.is_ground(), pair.shape_b.is_ground()] }
-    }
+    with_manifolds2(pair, |manifolds| ask(&Touched { manifolds: Some(manifolds), ..touched }))
 }
 
 impl Touched<'_> {
@@ -79,14 +71,13 @@ impl Touched<'_> {
             closing: &closing,
             dot: DVec2::dot,
         };
-        match self.by {
-            By::A(touches) if passing.is_flush_with(touches.iter().filter_map(Touch2::axis)) => Lies::Level,
-            By::A(_) => Lies::Ahead,
-            By::Both(manifolds) => {
-                let touched = manifolds.iter().map(|it| (it.normal.as_dvec2(), it.separation.into()));
-                passing.lies(normal, touched)
-            }
+        // Inner edges of ground that is touched have the normals of its faces.
+        let has_inner_edges = passing.is_on_ground && self.manifolds.is_some();
+        if !has_inner_edges && passing.is_flush_with(self.touches.iter().filter_map(Touch2::axis)) {
+            return Lies::Level;
         }
+        let Some(manifolds) = self.manifolds else { return Lies::Ahead };
+        passing.lies(normal, manifolds.iter().map(|it| (it.normal.as_dvec2(), it.separation.into())))
     }
 
     /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.

@@ -19,34 +19,25 @@ const MOMENTS: u32 = 32;
 
 /// What is touched at the start.
 pub(super) struct Touched<'t> {
-    by: By<'t>,
+    /// How the two touch each other, where they do.
+    manifolds: Option<&'t [Manifold3]>,
+    /// What A touches, which may be B.
+    touches: &'t [Touch3],
     /// Which of the two are ground, and so have no thickness that counts.
     are_ground: [bool; 2],
 }
 
-/// Who touches what.
-#[derive(Clone, Copy)]
-enum By<'t> {
-    /// The two each other.
-    Both(&'t [Manifold3]),
-    /// A touches others.
-    A(&'t [Touch3]),
-}
-
-/// Asks with how two bodies touch at the start.
-pub(super) fn with_touched<R>(pair: &Pair3, ask: impl FnOnce(&Touched) -> R) -> R {
-    with_manifolds3(pair, |manifolds| ask(&Touched::new(pair, By::Both(manifolds))))
-}
-
-impl<'t> Touched<'t> {
-    /// What A touches that does not touch B.
-    pub(super) fn beside(pair: &Pair3, touches: &'t [Touch3]) -> Self {
-        Self::new(pair, By::A(touches))
+/// Asks with what is touched at the start: each other, where they do, and what A touches.
+pub(super) fn with_touched<R>(
+    pair: &Pair3,
+    (do_touch, touches): (bool, &[Touch3]),
+    ask: impl FnOnce(&Touched) -> R,
+) -> R {
+    let are_ground = [pair.shape_a.is_ground(), pair.shape_b.is_ground()];
+    if !do_touch {
+        return ask(&Touched { manifolds: None, touches, are_ground });
     }
-
-    fn new(pair: &Pair3, by: By<'t>) -> Self {
-        Self { by, are_ground: [pair.shape_a.is_ground(), pair.shape_b.is_ground()] }
-    }
+    with_manifolds3(pair, |manifolds| ask(&Touched { manifolds: Some(manifolds), touches, are_ground }))
 }
 
 impl Touched<'_> {
@@ -71,14 +62,13 @@ impl Touched<'_> {
             closing: &closing,
             dot: DVec3::dot,
         };
-        match self.by {
-            By::A(touches) if passing.is_flush_with(touches.iter().filter_map(Touch3::axis)) => Lies::Level,
-            By::A(_) => Lies::Ahead,
-            By::Both(manifolds) => {
-                let touched = manifolds.iter().map(|it| (it.normal.as_dvec3(), it.separation.into()));
-                passing.lies(normal, touched)
-            }
+        // Inner edges of ground that is touched have the normals of its faces.
+        let has_inner_edges = passing.is_on_ground && self.manifolds.is_some();
+        if !has_inner_edges && passing.is_flush_with(self.touches.iter().filter_map(Touch3::axis)) {
+            return Lies::Level;
         }
+        let Some(manifolds) = self.manifolds else { return Lies::Ahead };
+        passing.lies(normal, manifolds.iter().map(|it| (it.normal.as_dvec3(), it.separation.into())))
     }
 
     /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.
