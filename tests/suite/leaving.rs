@@ -111,6 +111,68 @@ fn who_hovers_by_a_hair_and_rises_meets_nothing_though_it_turns() {
 }
 
 #[test]
+fn what_parts_slowly_while_it_turns_is_told_near_or_not_at_all() {
+    // Balls beside long planks that turn: a twentieth more of the gap is all that a fixed axis shows a step later.
+    let (mut told, mut free) = (0, 0);
+    for seed in 0..3000 {
+        let mut random = Random::new(seed);
+        let gap = random.pick(&[1e-4, 1e-3, 1e-2]);
+        let (along, leaves) = (random.between(-1.5, 1.5), random.between(-0.1, 0.3));
+        let (slides, turn) = (random.between(-1.5, 1.5), random.between(-0.7, 0.7));
+        let half = [random.between(1.0, 4.0) as f32, 0.5];
+
+        let plank = Shape2::from(Rect::from_half_extents(Vec2::from(half)).unwrap());
+        let ball = Shape2::from(Circle::new(0.5).unwrap());
+        let at = Pose2::at([along, 1.0 + gap]).unwrap();
+        let motion = Motion2::shift([slides, leaves]).unwrap();
+        let turns = Motion2::new(DVec2::ZERO, Rotation2::from_angle(turn as f32).unwrap()).unwrap();
+        let pair = Pair2::new(&ball, &at, &plank, &Pose2::IDENTITY);
+        let flat = pair.impact(&motion, &turns).map(|impact| (impact.fraction, impact.error));
+        let apart = |fraction: f64| {
+            let (ball_at, plank_at) =
+                (motion.pose_at(&at, fraction), turns.pose_at(&Pose2::IDENTITY, fraction));
+            Pair2::new(&ball, &ball_at, &plank, &plank_at).distance().map_or(0.0, |closest| closest.distance)
+        };
+        check_told(seed, flat, apart);
+
+        let plank = Shape3::from(Cuboid::from_half_extents(Vec3::new(half[0], half[1], 1.0)).unwrap());
+        let ball = Shape3::from(Sphere::new(0.5).unwrap());
+        let at = Pose3::at([along, 1.0 + gap, 0.1]).unwrap();
+        let motion = Motion3::shift([slides, leaves, 0.05]).unwrap();
+        let turns = Motion3::new(DVec3::ZERO, Quat::from_xyzw(0.0, 0.02, (0.5 * turn) as f32, 1.0)).unwrap();
+        let pair = Pair3::new(&ball, &at, &plank, &Pose3::IDENTITY);
+        let solid = pair.impact(&motion, &turns).map(|impact| (impact.fraction, impact.error));
+        let apart = |fraction: f64| {
+            let (ball_at, plank_at) =
+                (motion.pose_at(&at, fraction), turns.pose_at(&Pose3::IDENTITY, fraction));
+            Pair3::new(&ball, &ball_at, &plank, &plank_at).distance().map_or(0.0, |closest| closest.distance)
+        };
+        check_told(seed, solid, apart);
+        for impact in [flat, solid] {
+            if impact.is_some() { told += 1 } else { free += 1 }
+        }
+    }
+    assert!(told > 1500 && free > 1500, "{told} {free}");
+}
+
+/// Fails unless an impact, a share of a motion and its error, is where two bodies all but touch, of which it is known how far
+/// they are apart at each share; and they are apart until then.
+fn check_told(seed: u128, told: Option<(f64, f32)>, apart: impl Fn(f64) -> f32) {
+    if let Some((fraction, error)) = told {
+        assert!(
+            error < 1e-5 && apart(fraction) < 1e-5,
+            "{seed}: told {error} m apart, {} m",
+            apart(fraction)
+        );
+    }
+    let until = told.map_or(1.0, |(fraction, _)| fraction);
+    for moment in 0..64 {
+        let fraction = until * f64::from(moment) / 64.0;
+        assert!(apart(fraction) > 0.0, "{seed}: they touch at {fraction}, before {told:?}");
+    }
+}
+
+#[test]
 fn what_falls_about_in_a_cave_meets_its_walls_from_the_front_and_comes_to_rest() {
     let mut stops = 0;
     for seed in 0..120 {

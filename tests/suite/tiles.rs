@@ -3,8 +3,8 @@
 use asunder::glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 use asunder::{
     BodyKey2, BodyKey3, Capsule2, Capsule3, Circle, Collider2, Collider3, Compound3, Cuboid, Filter2,
-    Filter3, Hit2, Hit3, Hooks3, Motion2, Motion3, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3, Sphere,
-    World2, World3,
+    Filter3, Hit2, Hit3, Hooks3, Motion2, Motion3, Pose2, Pose3, Rect, Shape2, Shape3, Sphere, World2,
+    World3,
 };
 use asunder_tests::cases::Random;
 

@@ -27,15 +27,21 @@
 //! Near the contact K h^2 vanishes beside the gap, and the iteration is Newton's again.
 //!
 //! A half-space that turns has an axis that turns with it: the same, with the vertices of the other seen from the
-//! plane. Cost: a distance and a few support searches a step.
+//! plane. So has any body beside whose face another passes: along a fixed axis, what turns on comes into the way of what is
+//! seen no further than its far corner lets. Where steps are many, an axis that turns along with either body is tried as well.
+//! Cost: a distance and a few support searches a step.
 
 use super::passage::{Course, Moment, length};
+use crate::pair3::Part;
 use crate::polyhedron::closest::{Closest, Placed, closest};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
 /// Steps after which the fraction that was reached is told with the gap that is left there.
 const MAX_STEPS: usize = 256;
+
+/// Steps after which axes that turn along with a body are tried as well.
+const PATIENT: usize = 16;
 
 /// Chords after which a step is good enough.
 const MAX_CHORDS: usize = 6;
@@ -64,12 +70,16 @@ pub(super) struct Met {
 }
 
 /// How far along an axis it goes.
+#[derive(Clone, Copy)]
 enum Step {
     /// To the limit and beyond.
     Free,
     /// By so much; what the axis then shows is at least that.
     By(f64, f64),
 }
+
+/// With whom an axis turns.
+type Carrier = Option<usize>;
 
 /// Moves two parts until they touch, or until the limit, a fraction.
 pub(super) fn advance(course: &Course, until: f64) -> End {
@@ -79,7 +89,7 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         .unwrap_or(DVec3::X);
     let (mut fraction, mut kept) = (0.0, f64::NEG_INFINITY);
     let mut met = None;
-    for _ in 0..MAX_STEPS {
+    for number in 0..MAX_STEPS {
         let moment = course.at(fraction);
         let mut found = closest(&moment.a, &moment.b, towards, &moment.precision);
         let doubt = moment.precision.projection();
@@ -94,14 +104,20 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
             let is_parting = found.at_least > -4.0 * doubt && course.parts_along(found.normal, until);
             return if fraction == 0.0 { End::Unclear(here, is_parting) } else { End::Met(here) };
         }
-        let Step::By(step, left) = course.step(&moment, &found, [fraction, until]) else { return End::Apart };
+        let carriers: &[Carrier] = if number < PATIENT { &[None] } else { &[None, Some(0), Some(1)] };
+        let Some((step, left, carrier)) = course.longest_step(&moment, &found, [fraction, until], carriers)
+        else {
+            return End::Apart;
+        };
         // Never beyond, whatever the sum's rounding.
         let next = (fraction + step).next_down();
         if gap <= course.fineness.gap(doubt) || next <= fraction {
             return End::Met(here);
         }
         met = Some(here);
-        (fraction, towards, kept) = (next.min(until), found.normal, left);
+        let next = next.min(until);
+        (towards, kept) = (course.carried(found.normal, carrier, [fraction, next]), left);
+        fraction = next;
     }
     met.map_or(End::Apart, End::Met)
 }
@@ -133,8 +149,44 @@ impl Course<'_> {
         axis.dot(self.passage.drift) + 16.0 * f64::EPSILON * length(self.passage.drift)
     }
 
-    /// How far the motion may go before the shapes can touch, by the axis that was found.
-    fn step(&self, moment: &Moment, found: &Closest, [fraction, until]: [f64; 2]) -> Step {
+    /// The longest step by the axis that was found, whichever of these it turns along with; nothing where one parts them for
+    /// good.
+    fn longest_step(
+        &self,
+        moment: &Moment,
+        found: &Closest,
+        times: [f64; 2],
+        carriers: &[Carrier],
+    ) -> Option<(f64, f64, Carrier)> {
+        let mut longest = (0.0, f64::NEG_INFINITY, None);
+        for &carrier in carriers.iter().filter(|carrier| self.may_carry(**carrier)) {
+            let Step::By(step, left) = self.step(moment, (found, carrier), times) else { return None };
+            if carrier.is_none() || step > longest.0 {
+                longest = (step, left, carrier);
+            }
+        }
+        Some(longest)
+    }
+
+    /// Whether an axis may turn along with a body: with one that turns, and not where a plane has an axis of its own.
+    fn may_carry(&self, carrier: Carrier) -> bool {
+        let is_plane = |part: &Part| matches!(part.shape, Shape3::HalfSpace(_));
+        carrier.is_none_or(|i| self.passage.turns[i].is_some() && !self.parts.iter().any(is_plane))
+    }
+
+    /// Where an axis is after a while that turns along with a body.
+    fn carried(&self, axis: DVec3, carrier: Carrier, [from, to]: [f64; 2]) -> DVec3 {
+        let Some(turn) = carrier.and_then(|i| self.passage.turns[i]) else { return axis };
+        turn.basis_at(to).turn(turn.basis_at(from).turn_back(axis)).normalize_or(axis)
+    }
+
+    /// How far the motion may go before the shapes can touch, by the axis that was found and what it turns along with.
+    fn step(
+        &self,
+        moment: &Moment,
+        (found, carrier): (&Closest, Carrier),
+        [fraction, until]: [f64; 2],
+    ) -> Step {
         let span = until - fraction;
         let closing = self.closing(found.normal);
         let rest = self.fineness.rest(moment.precision.projection());
@@ -150,8 +202,9 @@ impl Course<'_> {
             // No longer parallel, they meet far out at once.
             return Step::By(0.0, found.at_least);
         }
-        let mut bend = self.bend(moment, fraction, span);
-        let at_end = self.shown(moment, found.normal, closing, span);
+        let axis = (found.normal, carrier);
+        let mut bend = self.bend(moment, carrier, [fraction, span]);
+        let at_end = self.shown(moment, axis, closing, span);
         if at_end - 0.5 * bend * span * span > 0.0 {
             return Step::Free;
         }
@@ -170,32 +223,37 @@ impl Course<'_> {
             }
             step = next;
             chord = (2.0 * step).min(span);
-            end = self.shown(moment, found.normal, closing, chord);
-            bend = self.bend(moment, fraction, chord);
+            end = self.shown(moment, axis, closing, chord);
+            bend = self.bend(moment, carrier, [fraction, chord]);
         }
         Step::By(step * (1.0 - 16.0 * f64::EPSILON), 0.5 * rest)
     }
 
     /// The separation along an axis after a step, every vertex moved along its own tangent: a lower bound, but for
     /// what its path bends.
-    fn shown(&self, moment: &Moment, axis: DVec3, closing: f64, step: f64) -> f64 {
+    fn shown(&self, moment: &Moment, (axis, carrier): (DVec3, Carrier), closing: f64, step: f64) -> f64 {
         let [spin_a, spin_b] = moment.spins.map(|spin| spin * step);
+        let [a, b] = [&moment.a, &moment.b];
+        let takes_along =
+            |i: usize, placed: &Placed| carrier == Some(i) || matches!(placed, Placed::HalfSpace(_));
         // A plane takes its axis along.
         let mut along = axis;
-        if let Placed::HalfSpace(_) = moment.a {
+        if takes_along(0, a) {
             along += spin_a.cross(axis);
         }
-        if let Placed::HalfSpace(_) = moment.b {
+        if takes_along(1, b) {
             along += spin_b.cross(axis);
         }
-        let reach_a = match &moment.a {
-            Placed::Core(solid) => solid.support(along + axis.cross(spin_a)).reach,
+        // Along an axis that it takes along, a body reaches as far as ever.
+        let seen = |i: usize, spin: DVec3| if carrier == Some(i) { axis } else { along + axis.cross(spin) };
+        let reach_a = match a {
+            Placed::Core(solid) => solid.support(seen(0, spin_a)).reach,
             Placed::HalfSpace(_) => 0.0,
         };
-        let reach_b = match &moment.b {
+        let reach_b = match b {
             // From B's own position.
             Placed::Core(solid) => {
-                let along = along + axis.cross(spin_b);
+                let along = seen(1, spin_b);
                 solid.support(-along).reach + along.dot(moment.between)
             }
             Placed::HalfSpace(_) => 0.0,
@@ -206,7 +264,7 @@ impl Course<'_> {
     }
 
     /// A bound on how fast any vertex may be accelerated along an axis, from here until `span` later.
-    fn bend(&self, moment: &Moment, fraction: f64, span: f64) -> f64 {
+    fn bend(&self, moment: &Moment, carrier: Carrier, [fraction, span]: [f64; 2]) -> f64 {
         let bounds = self.passage.turns.map(|turn| match turn {
             Some(turn) => turn.bounds_within(fraction, fraction + span),
             None => [0.0; 2],
@@ -216,15 +274,13 @@ impl Course<'_> {
         let apart = moment.between.length() + drift * span;
         let of = |i: usize| {
             let (own, other) = (change(i) + speed(i) * speed(i), 1 - i);
-            match self.parts[i].shape {
+            if carrier == Some(i) || matches!(self.parts[i].shape, Shape3::HalfSpace(_)) {
                 // Seen from a plane that turns, all that moves is bent.
-                Shape3::HalfSpace(_) => {
-                    let arm = self.arms[other];
-                    own * (apart + arm.from_position)
-                        + 2.0 * speed(i) * (drift + speed(other) * arm.from_axis)
-                }
-                _ => own * self.arms[i].from_axis,
+                let arm = self.arms[other];
+                return own * (apart + arm.from_position)
+                    + 2.0 * speed(i) * (drift + speed(other) * arm.from_axis);
             }
+            own * self.arms[i].from_axis
         };
         (of(0) + of(1)) * (1.0 + 64.0 * f64::EPSILON)
     }
