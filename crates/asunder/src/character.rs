@@ -111,6 +111,7 @@ pub type Freed3 = Freed<Pose3, DVec3>;
 /// fn bumped(velocity: Vec3, met: &Obstacle3) -> Vec3 {
 ///     velocity - met.normal * velocity.dot(met.normal).min(0.0)
 /// }
+/// // Of a character that runs, only the fall: a slope that is too steep would turn the run into a climb (guide: characters).
 /// let met = Obstacle3 { body: Default::default(), normal: Vec3::NEG_X, point: DVec3::X };
 /// assert!(!World3::new().contains(met.body), "the null key is nobody's");
 /// assert_eq!(bumped(Vec3::new(2.0, 0.0, 1.0), &met), Vec3::Z);

@@ -34,7 +34,9 @@ pub struct Contact<'a, K, M> {
     /// Whether they are further apart than their margins, and here for what their motions may bring: a solver that
     /// lets no point come nearer than its separation allows lets nothing through. Touches nobody until they overlap.
     pub speculative: bool,
-    /// One manifold for each pair of convex parts that touch, on ground one for each normal of each part. Normals point
+    /// One manifold for each pair of convex parts within the margins, on ground one for each normal of each part; and, where the
+    /// bodies have motions, of parts that these may bring together, in this contact too where other parts touch: a solver that
+    /// knows no speculative points leaves out those whose separation is more than both margins. Normals point
     /// from `a` to `b`. None for a sensor, nor for two half-spaces that overlap without end: fix all but one of those, as
     /// a level's are, and they never pair.
     pub manifolds: &'a [M],

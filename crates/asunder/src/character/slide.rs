@@ -147,10 +147,12 @@ impl<S: Walks> Mover<'_, S> {
     fn slide(&mut self, displacement: S::Point, slid: &mut Slid<S>) {
         let length = displacement.length();
         let is_rising = displacement.dot(self.gait.up) > STANDSTILL * length;
-        let was_on_ground = !is_rising && self.land(0.0).is_some();
+        let ground = if is_rising { None } else { self.land(0.0) };
+        let was_on_ground = ground.is_some();
         let mut may_climb = was_on_ground && self.gait.step > 0.0;
         let mut left = displacement;
-        let mut bounds = ArrayVec::<Bound<S>, SLIDES>::new();
+        // Who stands goes along the ground from the start: what goes down a little would not meet it soon enough to keep the skin.
+        let mut bounds: ArrayVec<Bound<S>, SLIDES> = ground.iter().map(|hit| self.footing(hit)).collect();
         for _ in 0..SLIDES {
             let way = self.way(left, &bounds);
             if left.length() <= STANDSTILL * length || way.length() <= STANDSTILL * length {
@@ -258,6 +260,19 @@ impl<S: Walks> Mover<'_, S> {
             is_ground,
             holds: self.holds(hit),
         }
+    }
+
+    /// What carries a character that stands: the plane of a face, which it goes along, up and down; on an edge, that it goes no
+    /// further down.
+    fn footing(&self, hit: &Hit<S>) -> Bound<S> {
+        let Gait { up, skin, .. } = self.gait;
+        let bound = self.bound(hit);
+        let body = self.world.bodies.get(hit.body).filter(|_| bound.is_ground);
+        let enter = |body| S::enter(&S::ray(hit.point + up * skin, -up * (2.0 * skin))?, 1.0, hit.body, body);
+        let is_face = body
+            .and_then(enter)
+            .is_some_and(|found| !found.inside && S::wide(found.normal).dot(hit.normal) >= 1.0 - STANDSTILL);
+        if is_face { bound } else { Bound { normal: up, is_ground: false, wall: None, holds: true, ..bound } }
     }
 
     /// Whether a character can stand on what it met: on ground, and on an edge no higher than a step, behind which
