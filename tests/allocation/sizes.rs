@@ -1,9 +1,13 @@
 //! Memory a body, which the documentation of `World` states; and what ground says that it holds.
 
 use asunder::glam::{Vec2, Vec3};
-use asunder::{Collider2, Collider3, HeightField, Manifold2, Manifold3, Plane, TriMesh, Volume};
+use asunder::{
+    Collider2, Collider3, Compound3, Cuboid, HeightField, Manifold2, Manifold3, Plane, Pose3, Shape3,
+    TriMesh, Volume, World3,
+};
 use asunder_scenes::terrain::Terrain;
 use asunder_scenes::worlds::WorldScene;
+use asunder_tests::cases::Random;
 use asunder_tests::counting::{counted, live_bytes};
 use asunder_tests::recorded::{Recorded, Recording};
 
@@ -47,6 +51,55 @@ fn memory_a_body_is_as_documented() {
     check::<Volume>("boxes_pile", (WorldScene::BoxesPile, 100_005), in_space);
     check::<Plane>("plane/mixed", (WorldScene::Mixed, 100_000), in_plane);
     check::<Plane>("plane/many_pyramids", (WorldScene::ManyPyramids, 100_000), in_plane);
+}
+
+/// The same of bodies whose pairs have many manifolds: bytes for each beyond one a candidate.
+fn check_many(name: &str, level: Collider3, bodies: &[Collider3], a_manifold: f64) {
+    let level = level.margin(0.01).unwrap();
+    counted(1, || {
+        let before = live_bytes();
+        let mut world = World3::new();
+        world.insert(level.clone());
+        let keys: Vec<_> = bodies.iter().map(|body| world.insert(body.clone())).collect();
+        for frame in 0..6 {
+            // They tremble, and so their contacts are moved along; in the end they rest.
+            let by = [0.0, 1e-4, -1e-4, 0.0, 0.0, 0.0][frame];
+            for (key, body) in keys.iter().zip(bodies) {
+                world.set_pose(*key, body.pose().shifted([by, 0.0, 0.0]).unwrap()).unwrap();
+            }
+            world.update();
+        }
+        let (held, stats) = ((live_bytes() - before) as f64, *world.stats());
+        let [bodies, candidates, manifolds] =
+            [stats.bodies, stats.candidates, stats.manifolds].map(|count| count as f64);
+        let beyond = held - 450.0 * bodies - 1600.0 * candidates;
+        println!(
+            "{name}: {held} bytes of {bodies} bodies, {candidates} candidates, {manifolds} manifolds: {:.0} for each beyond the first",
+            beyond / (manifolds - candidates),
+        );
+        assert!(manifolds > 2.0 * candidates, "{name}: {stats:?}");
+        assert!(beyond <= a_manifold * (manifolds - candidates), "{name}: {held} bytes held");
+    });
+}
+
+#[test]
+fn memory_of_pairs_of_many_manifolds_is_as_documented() {
+    let mut random = Random::new(3);
+    let heights: Vec<f32> = (0..101 * 101).map(|_| random.between(0.0, 0.3) as f32).collect();
+    let field = HeightField::new(101, 101, heights, Vec2::splat(0.25)).unwrap();
+    let box_ = Collider3::new(Cuboid::from_half_extents(Vec3::new(0.5, 0.1, 0.5)).unwrap());
+    let at = |i: u32, y: f64| {
+        let [x, z] = [i % 20, i / 20].map(|cell| 0.7 + 1.2 * f64::from(cell));
+        Pose3::at([x, y, z]).unwrap()
+    };
+    let boxes: Vec<Collider3> = (0..400).map(|i| box_.clone().margin(0.01).unwrap().at(at(i, 0.3))).collect();
+    check_many("field", Collider3::new(field), &boxes, 1200.0);
+    let slab = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.2, 0.2, 13.0)).unwrap());
+    let slabs = (0..60).map(|i| (Pose3::at([0.4 * f64::from(i), 0.0, 13.0]).unwrap(), slab.clone()));
+    let floor = Collider3::new(Compound3::new(slabs).unwrap()).fixed();
+    let boxes: Vec<Collider3> =
+        (0..400).map(|i| box_.clone().margin(0.01).unwrap().at(at(i, 0.295))).collect();
+    check_many("slabs", floor, &boxes, 1200.0);
 }
 
 /// What ground says that it holds, and what the allocator gave for it; checks that all of it is given back.

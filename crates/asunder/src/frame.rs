@@ -13,8 +13,8 @@
 //! 4. **merge**: what the chunks found, in their order.
 //! 5. **report**: events in pair order.
 //!
-//! Hooks are asked between the stages, by one thread, in pair order: who may pair after the sweep, what to make of
-//! a contact after the merge. What bullets run into is a function of one pair, and sorted.
+//! Hooks are asked by one thread, in pair order: who may pair after the sweep, what to make of a contact after the report.
+//! What bullets run into comes last, a function of one pair and of what the bullet touches, and sorted.
 //!
 //! No stage walks a hash map, calls std's trigonometry or fuses a multiplication with an addition.
 
@@ -63,9 +63,9 @@ impl<S: Space> World<S> {
         self.stats.sweep = self.timed(|world| sweep::sweep(world, hooks));
         self.stats.collide = self.timed(collide::collide);
         self.stats.merge = self.timed(merge::merge);
+        self.stats.report = self.timed(report::report);
         self.stats.hooks = self.timed(|world| edit_contacts(world, hooks));
         self.stats.impacts = self.timed(impacts::impacts);
-        self.stats.report = self.timed(report::report);
     }
 
     fn timed(&mut self, stage: impl FnOnce(&mut Self)) -> Duration {

@@ -101,15 +101,20 @@ impl<'a, S: Space> Hooks<'a, S> {
     }
 
     /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on
-    /// agree. A pair that is refused is no candidate, and no bullet of it runs into the other; a contact that it had ends.
+    /// agree. A pair that is refused is no candidate, and no bullet of it runs into the other; a contact that it had ends. For
+    /// [`World::set_max_pairs`] it counts: that bounds what is asked.
     #[must_use]
     pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
         self.pair = Some(may_meet);
         self
     }
 
-    /// Hands over every contact that has manifolds, to be edited, speculative ones too. What bullets run into is no contact, and
-    /// goes past it: what is to stop no bullet is refused by [`pair`](Self::pair).
+    /// Hands over every contact that has manifolds, to be edited, speculative ones too. Impacts of bullets are no contacts and are
+    /// not handed over: to let bullets through, refuse the pair in [`pair`](Self::pair). A bullet that stands on what the
+    /// hook took away stands on nothing.
+    ///
+    /// By then the update's events are written. Where the hook panics, and the game goes on, contacts are as they were found, and
+    /// there are no impacts.
     #[must_use]
     pub fn contact(mut self, edit: &'a (dyn Fn(Meeting<'_, S>) + Sync)) -> Self {
         self.contact = Some(edit);
@@ -178,14 +183,14 @@ pub(crate) fn refuse_pairs<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>)
 /// Hands every contact with manifolds to the hook, on a copy of its own.
 pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     if world.stats.overflow {
+        world.stats.manifolds = world.edited.as_ref().map_or(world.stats.manifolds, Edited::len);
         return;
     }
-    let Some(edit) = hooks.contact else {
-        world.edited = None;
-        return;
-    };
-    let World { bodies, records, answered, edited, scratch, .. } = world;
-    let edited = edited.get_or_insert_with(|| Edited { manifolds: Vec::new(), ends: Vec::new() });
+    // A hook that panics leaves contacts as they were found.
+    let last = world.edited.take();
+    let Some(edit) = hooks.contact else { return };
+    let World { bodies, records, answered, scratch, .. } = world;
+    let mut edited = last.unwrap_or_else(|| Edited { manifolds: Vec::new(), ends: Vec::new() });
     edited.manifolds.clear();
     edited.ends.clear();
     for (number, record) in records.iter() {
@@ -208,4 +213,6 @@ pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>
         }
         edited.ends.push(edited.manifolds.len() as u32);
     }
+    world.stats.manifolds = edited.len();
+    world.edited = Some(edited);
 }

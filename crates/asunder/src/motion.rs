@@ -101,6 +101,11 @@ impl<S: Space> Motions<S> {
             self.of_slot.resize(index + 1, None);
         }
         if self.of_slot[index].replace(motion).is_none() {
+            // Bodies that are replaced again and again before an update would be noted each time.
+            if self.slots.len() >= 2 * self.of_slot.len() {
+                self.slots.sort_unstable();
+                self.slots.dedup();
+            }
             self.slots.push(slot);
         }
     }

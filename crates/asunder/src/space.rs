@@ -82,7 +82,7 @@ pub enum Plane {}
 pub enum Volume {}
 
 /// A dimension. Sealed: [`Plane`] and [`Volume`] are all there is.
-pub trait Space: sealed::Sealed + Sized + 'static {
+pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     /// Key of a body.
     type Key: slotmap::Key + Debug + Send + Sync;
     /// Where a body is.

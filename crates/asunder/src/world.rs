@@ -91,7 +91,7 @@ pub struct World<S: Space> {
 }
 
 /// Memory that a frame needs, and nothing that an output depends on.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Scratch<S: Space> {
     pub(crate) sweep: LooseSweep<S::Aabb>,
     pub(crate) pairs: Vec<PairId>,
@@ -116,6 +116,38 @@ pub(crate) struct Scratch<S: Space> {
     /// Where each slot's records end, in order of their second body; and these with their numbers.
     pub(crate) ends: Vec<u32>,
     pub(crate) seconds: Vec<(u32, u32)>,
+}
+
+impl<S: Space> Scratch<S> {
+    fn with(sweep: LooseSweep<S::Aabb>) -> Self {
+        Self {
+            sweep,
+            pairs: Vec::new(),
+            spare: S::Spare::default(),
+            settled: Vec::new(),
+            refitted: Vec::new(),
+            last_candidates: Vec::new(),
+            last_records: Records::new(),
+            last_answered: Vec::new(),
+            ended: Vec::new(),
+            editing: Vec::new(),
+            of_bullets: Vec::new(),
+            touches: Touches::NONE,
+            found: Vec::new(),
+            #[cfg(feature = "parallel")]
+            impacts: Vec::new(),
+            ends: Vec::new(),
+            seconds: Vec::new(),
+        }
+    }
+}
+
+/// Nothing but what the sweep knows of last update's boxes: a clone is made every frame by games that go back in time, and all
+/// else is a fifth of a world.
+impl<S: Space> Clone for Scratch<S> {
+    fn clone(&self) -> Self {
+        Self::with(self.sweep.clone())
+    }
 }
 
 impl<S: Space> Default for World<S> {
@@ -150,25 +182,7 @@ impl<S: Space> World<S> {
             impacts: Vec::new(),
             by_second: Vec::new(),
             stats: Stats::default(),
-            scratch: Scratch {
-                sweep: LooseSweep::new(),
-                pairs: Vec::new(),
-                spare: S::Spare::default(),
-                settled: Vec::new(),
-                refitted: Vec::new(),
-                last_candidates: Vec::new(),
-                last_records: Records::new(),
-                last_answered: Vec::new(),
-                ended: Vec::new(),
-                editing: Vec::new(),
-                of_bullets: Vec::new(),
-                touches: Touches::NONE,
-                found: Vec::new(),
-                #[cfg(feature = "parallel")]
-                impacts: Vec::new(),
-                ends: Vec::new(),
-                seconds: Vec::new(),
-            },
+            scratch: Scratch::with(LooseSweep::new()),
         }
     }
 
@@ -182,7 +196,8 @@ impl<S: Space> World<S> {
         self.bodies.is_empty()
     }
 
-    /// Sets how many candidate pairs an update may make; 2^24 at first. See [`Stats::overflow`].
+    /// Sets how many candidate pairs an update may make, hooks aside; 2^24 at first, which bounds no memory to speak of: at
+    /// 1,600 bytes each they are 27 GB. See [`Stats::overflow`].
     ///
     /// ```
     /// use asunder::{Collider2, Rect, World2, glam::Vec2};

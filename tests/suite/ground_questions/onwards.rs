@@ -332,6 +332,16 @@ fn a_shape_is_cast_on_however_far() {
             assert!(hit.body == yard && off < 1e-3, "{far}: {hit:?}");
         }
     }
+    // From the one end of all that there is to the other: further than a motion leads.
+    let target = world.insert(Collider3::new(ball.clone()).at(Pose3::at([8e8, 0.0, 9e8]).unwrap()));
+    let far_off = Pose3::at([-9e8, 0.0, 9e8]).unwrap();
+    for far in [1.8e9, 4e9, 1e20] {
+        let hit = world.cast_shape_onwards((&ball, &far_off), Vec3::X * far, &Filter3::new()).unwrap();
+        let off = (hit.fraction * f64::from(far) - (1.7e9 - 1.0)).abs();
+        // f64 has 2e-7 m there, and the fraction as much of all the way.
+        assert!(hit.body == target && off < 1e-5 && hit.normal == Vec3::X, "{far}: {hit:?}, {off} m off");
+        assert!((hit.point - DVec3::new(8e8 - 0.5, 0.0, 9e8)).length() < 1e-5, "{far}: {hit:?}");
+    }
     let here = Pose3::at([0.0, 2.0, 0.0]).unwrap();
     for way in [Vec3::NAN, Vec3::INFINITY, Vec3::ZERO] {
         assert_eq!(world.cast_shape_onwards((&ball, &here), way, &Filter3::new()), None, "{way}");

@@ -10,7 +10,7 @@ use slotmap::Key;
 /// Writes the events in pair order, then the index of records by their second body. Of records, only those of chunks with a
 /// new one are read.
 pub(super) fn report<S: Space>(world: &mut World<S>) {
-    let World { keys, candidates, records, edited, events, by_second, stats, scratch, .. } = world;
+    let World { keys, candidates, records, events, by_second, stats, scratch, .. } = world;
     let Scratch { ended, settled, seconds, ends, .. } = scratch;
     events.clear();
     let tallies = || settled.iter().map(|settled| &settled.tally);
@@ -39,9 +39,6 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
         stats.manifolds = tallies().map(|tally| tally.manifolds).sum();
         let lists = || tallies().map(|tally| &*tally.seconds);
         index_by_second((lists, stats.contacts), keys.len(), by_second, (seconds, ends));
-    }
-    if let Some(edited) = edited {
-        stats.manifolds = edited.len();
     }
 }
 

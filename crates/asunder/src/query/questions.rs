@@ -100,10 +100,16 @@ fn bodies_ahead<'q, S: Asked>(
     displacement: S::Vector,
     touches: &'q [S::Touch],
 ) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
-    // No motion is longer than all that there is, and none need be.
-    let share = (tolerance::MAX_POSITION / S::longest(displacement)).min(1.0);
+    // From one end of all that there is to the other and further, which is further than one motion leads: then each goes half
+    // of the way to meet the other.
+    let share = (2.0 * tolerance::MAX_POSITION / S::longest(displacement)).min(1.0);
+    let is_far = share * S::longest(displacement) > tolerance::MAX_POSITION;
     moved((world, filter), at, displacement, move |body: &Collider<S>| {
-        let motions = [Some(S::shift(displacement, share)?), None];
+        let motions = if is_far {
+            [Some(S::shift(displacement, 0.5 * share)?), Some(S::shift(displacement, -0.5 * share)?)]
+        } else {
+            [Some(S::shift(displacement, share)?), None]
+        };
         let runs_into = if body.sensor { RunsInto::Sensor } else { RunsInto::Solid(touches) };
         let (fraction, impact) = S::impact([at, (&body.shape, &body.pose)], runs_into, motions)?;
         Some((fraction * share, impact))
