@@ -130,19 +130,23 @@ fn a_least_translation_parts_and_a_shorter_one_does_not() {
 #[test]
 fn exact_overlap_agrees_wherever_f64_can_tell() {
     let mut random = Random::new(5);
+    let mut told = [0; 2];
     for round in 0..600 {
         let gap = random.pick(&[0.0, 1e-3, -1e-3, 1e-7, -1e-7, 1e-11, -1e-11]);
         let case = if round % 3 == 0 { random.case3() } else { random.near_case3(gap) };
         let separation = case.truth().separation;
         if separation.abs() > ROUNDING {
             assert_eq!(exact3(&case), separation < 0.0, "{round}: {separation}");
+            told[usize::from(separation < 0.0)] += 1;
         }
         let case = if round % 3 == 0 { random.case2() } else { random.near_case2(gap) };
         let separation = case.truth().separation;
         if separation.abs() > ROUNDING {
             assert_eq!(exact2(&case), separation < 0.0, "{round}: {separation}");
+            told[usize::from(separation < 0.0)] += 1;
         }
     }
+    assert!(told.iter().all(|&told| told > 200), "{told:?}");
 }
 
 #[test]

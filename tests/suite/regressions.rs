@@ -2,6 +2,7 @@
 
 mod blades;
 mod close;
+mod hooks;
 mod needles;
 mod peers;
 mod points;

@@ -123,7 +123,7 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    /// Sends a body to sleep, or wakes it: no reason to look at it again.
+    /// Sends a body to sleep, or wakes it. It does not count as changed: its contacts stay as they are.
     pub(crate) fn set_asleep(&mut self, key: S::Key, asleep: bool) -> Result<(), StaleKey> {
         self.bodies.get_mut(key).ok_or(StaleKey)?.asleep = asleep;
         Ok(())

@@ -31,8 +31,8 @@ pub struct Contact<'a, K, M> {
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
-    /// Whether they are further apart than their margins, and here for what their motions may bring: a solver that
-    /// lets no point come nearer than its separation allows lets nothing through. Touches nobody until they overlap.
+    /// Whether they are further apart than their margins, and here for what their motions may bring. A solver that lets no point
+    /// close by more than its separation lets nothing through. Touches nobody until they overlap.
     pub speculative: bool,
     /// One manifold for each pair of convex parts within the margins, on ground one for each normal of each part; and, where the
     /// bodies have motions, of parts that these may bring together, in this contact too where other parts touch: a solver that

@@ -1,6 +1,6 @@
 //! A collision engine for games: which bodies touch, how deep, and how sure it is.
 //!
-//! A world holds bodies, each a convex shape with a pose. Move them as your game pleases and call `update` once a
+//! A world holds bodies, each a shape with a pose: convex, a compound of such, or ground. Move them as your game pleases and call `update` once a
 //! frame: a broad phase sorts and sweeps their boxes, a narrow phase runs the separating axis test on the pairs left,
 //! and the world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]). It moves nothing
 //! itself.
@@ -36,8 +36,8 @@
 //! - Two shapes without a world: [`Pair3`].
 //!
 //! All of it is there in the plane as well, with a 2 in place of the 3. The crates `asunder_geometry` and
-//! `asunder_narrow`, which some examples on these pages name, are parts of this one: what they show is here under
-//! the same name, `asunder::Pose3`.
+//! `asunder_narrow`, which some examples on these pages name, are parts of this one: what a game needs of them is here under
+//! the same name, `asunder::Pose3`. Who writes a world of their own finds jobs, batches and hints in `asunder_narrow`.
 //!
 //! # How sure the answers are
 //! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches
@@ -49,7 +49,7 @@
 //! they overlap.
 //!
 //! # Feature flags
-//! - `parallel` (default): refit and collide on rayon's threads. Every output is bit-equal with and without.
+//! - `parallel` (default): refit, sweep, collide and impacts on rayon's threads. Every output is bit-equal with and without.
 //! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and
 //!   serde's traits for bodies, shapes, poses, rays, keys, events and manifolds. What comes in is checked as by the
 //!   constructors.
@@ -84,11 +84,11 @@ pub use any_world::AnyWorld;
 pub use asunder_geometry::{
     Aabb2, Aabb3, Basis3, Bounds, Capsule2, Capsule3, CapsuleError, Chain, ChainError, Circle, Compound2,
     Compound3, CompoundError, Core2, Core3, Cuboid, DecomposeError, DirectionError, DroppedTriangles,
-    ExtentError, Ground, HalfEdge, HalfPlane, HalfSpace, HeightField, HeightFieldError, Hull, HullError,
-    HullFault, MassError, MassProperties2, MassProperties3, MeshError, Motion2, Motion3, Part2, Part3,
-    Polygon, PolygonError, Pose2, Pose3, PoseError, Prominent, RadiusError, Ray2, Ray3, RayError, Rect,
-    Rotation2, Run, Segment2, Segment3, Shape2, Shape3, Sphere, Topology, TriMesh, Triangle3, Turn3,
-    VertexError, decompose, glam, tolerance,
+    EdgeArc, EdgeOctet, ExtentError, FaceOctet, Ground, HalfEdge, HalfPlane, HalfSpace, HeightField,
+    HeightFieldError, Hull, HullError, HullFault, MassError, MassProperties2, MassProperties3, MeshError,
+    Motion2, Motion3, NearTriangle, Part2, Part3, Polygon, PolygonError, Pose2, Pose3, PoseError, Prominent,
+    RadiusError, Ray2, Ray3, RayError, Rect, Rotation2, Run, Segment2, Segment3, Shape2, Shape3, Sphere,
+    Topology, TriMesh, Triangle3, Turn3, VertexError, VertexOctet, decompose, glam, tolerance,
 };
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, ContactPoints, Feature, FeatureId, Impact2,

@@ -45,7 +45,7 @@ impl<K> Records<K> {
         Self { firsts, chunks: list.chunks(CHUNK).map(<[_]>::to_vec).collect() }
     }
 
-    /// An empty chunk for each chunk of so many of these pairs, and one at least.
+    /// One empty chunk for every `size` pairs; at least one.
     pub(crate) fn chunks_of(&mut self, pairs: &[PairId], size: usize) -> &mut [Vec<Record<K>>] {
         self.firsts.clear();
         self.firsts.extend(pairs.iter().step_by(size));

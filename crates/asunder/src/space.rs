@@ -73,9 +73,13 @@ pub enum Plane {}
 /// fn count<S: Space>(worlds: &[World<S>]) -> usize {
 ///     worlds.iter().map(World::len).sum()
 /// }
+/// /// A world to come back to, whatever its dimension.
+/// fn keep<S: Space>(world: &World<S>) -> World<S> {
+///     world.clone()
+/// }
 /// let mut world = World::<Volume>::new();
 /// world.insert(Collider::<Volume>::new(Sphere::new(1.0)?));
-/// assert_eq!(count(&[world.clone(), world]), 2);
+/// assert_eq!(count(&[keep(&world), world]), 2);
 /// # Ok::<(), asunder::RadiusError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,8 +147,8 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
     /// When two bodies first touch in their motions where they do not touch at the start, and the share of the motions
-    /// that is done by then. What is in a sensor, where one is, runs into no other part of it; of what is solid, the first
-    /// is led over what is flush with what it touches.
+    /// that is done by then. Where either is a sensor and they overlap already, there is no impact with other parts; where
+    /// both are solid, the first is led over what is flush with what it touches.
     #[doc(hidden)]
     fn impact(
         of: [(&Self::Shape, &Self::Pose); 2],

@@ -10,7 +10,9 @@ use core::time::Duration;
 /// let mut world = World3::new();
 /// world.update();
 /// assert_eq!((world.stats().bodies, world.stats().candidates), (0, 0));
-/// assert!(world.stats().total() >= world.stats().sweep);
+/// let stats = world.stats();
+/// let stages = [stats.refit, stats.sweep, stats.collide, stats.merge, stats.report, stats.hooks, stats.impacts];
+/// assert!(stats.total() == stages.iter().sum() && !stats.total().is_zero());
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stats {
@@ -22,9 +24,9 @@ pub struct Stats {
     pub collide: Duration,
     /// Stage 4: what the threads found, put together.
     pub merge: Duration,
-    /// Between stages 4 and 5: the contact hook; nothing without one.
+    /// After stage 5: the contact hook; nothing without one.
     pub hooks: Duration,
-    /// Between stages 4 and 5: what bullets run into; nothing without motions.
+    /// After that: what bullets run into; nothing without motions.
     pub impacts: Duration,
     /// Stage 5: events, and the index by body.
     pub report: Duration,

@@ -11,8 +11,8 @@
 //! an axis that points back: a ball in either body, which the patch and the ball span M to, keeps it away
 //! so the separation is S + the rise of the points, up to   d (lean + lean^2) + 5 spin * arm
 //! ```
-//! The last is what turning by `spin` moves points of the one body by that is seen to move, which is so long, once about
-//! the point that is deepest now, once for that having been another; a fifth part is spare. For faces that rest on each other
+//! The last term bounds what turning by `spin` adds, where `arm` is how far the moving body reaches: counted once about the point
+//! that is deepest now, once since another was deepest before, with a fifth part to spare. For faces that rest on each other
 //! `lean` is a thousandth, so a drift of a millimetre costs a micrometre of error, and is all that points may stand beside
 //! where new ones would.
 //!

@@ -16,7 +16,7 @@
 //! whose fifteen axes cost no more than a proof, 1599, 1952, 3155 to 1707, 2028, 3090: their hint is no gain in
 //! time, and is kept for the face that points stand on.
 //!
-//! Hints of directions find no room. They are of parts that are apart, and of corners across a gap.
+//! Hints that are directions do not fit, and are not kept: those of parts that are apart, and of corners across a gap.
 
 use crate::feature::{Feature, FeatureId, Hint, OnFace};
 use asunder_geometry::tolerance::{MAX_HULL_VERTICES, MAX_PARTS, MAX_POLYGON_VERTICES};

@@ -13,10 +13,11 @@
 //!   else:     an impact
 //! where A touches others, as the tile that it stands on; of anything but ground that is touched as well:
 //!   flush with one of those, and in the end A is no deeper below it than half its thickness: level
-//! nothing until half a thickness of the way: what ground is in the manifolds there, and moved into, is an impact at the start
+//! where nothing is met within the first half thickness of the way: ground that the body has a manifold with at that point, and moves
+//!   into, is an impact at the start
 //! ```
-//! The last is for ground that is touched but not told, since its neighbour tells of it: a ball in a hollow touches two faces where
-//! they meet, stands on one, and runs into the other.
+//! That last rule is for ground that is touched but has no manifold, since its neighbour's stands for it: a ball in a hollow touches two
+//! faces where they meet, stands on one, and runs into the other.
 //!
 //! What goes into the touched is what a game's solver takes out of the motion: (d.m) (m.n) for a contact's normal m. So a body
 //! that is pressed to a floor runs over its seams and over bends that fall, and into ramps and walls. A body that passes over
@@ -28,7 +29,7 @@ use asunder_geometry::tolerance::{NEXT_LEVEL, NEXT_THICKNESS};
 /// Share of a body's thickness by which it may sink into what it touches, and be led over what is flush with that.
 const SUNK: f64 = 0.5;
 
-/// How what two parts meet with lies to what is touched.
+/// How the next meeting of two parts relates to the contacts that there are already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lies {
     /// Further on.
@@ -53,7 +54,7 @@ pub(crate) struct Passing<'p, V> {
 }
 
 impl<V: Copy> Passing<'_, V> {
-    /// How it lies what they meet with along a unit axis, beside contacts with their normals and separations.
+    /// Classifies a meeting along a unit axis, given the normals and separations of the contacts between the two bodies.
     pub(crate) fn lies(&self, normal: V, touched: impl Iterator<Item = (V, f64)> + Clone) -> Lies {
         if !self.is_on_ground && touched.clone().any(|it| self.is_flush(it, SUNK * self.thickness)) {
             return Lies::Level;

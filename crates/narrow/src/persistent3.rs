@@ -77,6 +77,9 @@ enum Kind {
 /// assert!(kept.carry_on([&pose_a, &slid], &mut batch.manifolds), "by two millimetres");
 /// spare.take(&mut kept);
 /// assert!(!spare.is_empty());
+/// let mut other = Spare3::default();
+/// spare.lend(&mut other);
+/// assert!(spare.is_empty() && !other.is_empty());
 /// assert!([slid, pose_b].iter().all(|pose| !kept.carry_on([&pose_a, pose], &mut batch.manifolds)), "nor where it was");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -3,8 +3,8 @@
 //! So they have in common what makes one of them the other, bit by bit, and of a point that is kept from frame to frame one end
 //! is enough (`persistent3::solids`). The end that is moved goes by some 1e-7 of how deep the point is.
 //!
-//! It is not the end that lies further from its body's position by much, of a floor as wide as a town: that one was rounded to
-//! millimetres, and took the other with it.
+//! The end that lies much further from its body's position is always the one that is moved: on a floor as wide as a town it was
+//! rounded to millimetres, and kept, it took the other with it.
 
 use crate::answer::Manifold3;
 use asunder_geometry::glam::{DVec3, Vec3};

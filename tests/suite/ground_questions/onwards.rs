@@ -339,7 +339,8 @@ fn a_shape_is_cast_on_however_far() {
         let hit = world.cast_shape_onwards((&ball, &far_off), Vec3::X * far, &Filter3::new()).unwrap();
         let off = (hit.fraction * f64::from(far) - (1.7e9 - 1.0)).abs();
         // f64 has 2e-7 m there, and the fraction as much of all the way.
-        assert!(hit.body == target && off < 1e-5 && hit.normal == Vec3::X, "{far}: {hit:?}, {off} m off");
+        assert!(off <= f64::from(hit.error) + 1e-6 && hit.error < 1e-4, "{far}: {hit:?}, {off} m off");
+        assert!(hit.body == target && hit.normal == Vec3::X, "{far}: {hit:?}");
         assert!((hit.point - DVec3::new(8e8 - 0.5, 0.0, 9e8)).length() < 1e-5, "{far}: {hit:?}");
     }
     let here = Pose3::at([0.0, 2.0, 0.0]).unwrap();

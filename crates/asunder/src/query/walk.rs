@@ -138,8 +138,8 @@ pub(crate) struct Question<'q, S: Space, R, F> {
 }
 
 impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, R, F> {
-    /// The answer of a body, if it is within a limit that may be nearer by now. Its own box comes last where one
-    /// from a tree was met: the narrow phase says no more often than a second box does.
+    /// The answer of a body, if it is within a limit that may be nearer by now. Where a box from a tree was met already, the
+    /// body's exact box is looked at after the narrow phase, which refuses more of them.
     fn answer(&self, slot: u32, limit: f64, is_from_tree: bool) -> Option<A> {
         let key = *self.world.keys.get(slot as usize)?;
         let body = self.world.bodies.get(key).filter(|body| self.filter.admits(key, body))?;

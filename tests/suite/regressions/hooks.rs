@@ -1,0 +1,27 @@
+//! Hooks that go wrong.
+
+use asunder::{Collider3, Hooks3, Meeting3, Pose3, Sphere, World3};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Symptom: after a contact hook panicked, `contacts()` panicked too, and whoever had begun to touch was never reported. Cause: the
+/// hook's lists were cut short in place, and the report came after it.
+#[test]
+fn a_hook_that_panics_loses_no_event_and_no_contact() {
+    let mut world = World3::new();
+    let ball = Collider3::new(Sphere::new(0.5).unwrap());
+    for x in 0..5 {
+        world.insert(ball.clone().at(Pose3::at([0.75 * f64::from(x), 0.0, 0.0]).unwrap()));
+    }
+    for known in [0, 4] {
+        let fails = |_: Meeting3<'_>| panic!("a game's own mistake");
+        let update = AssertUnwindSafe(|| world.update_with(&Hooks3::new().contact(&fails)));
+        assert!(catch_unwind(update).is_err());
+        assert_eq!(world.events().iter().filter(|event| event.is_began()).count(), 4 - known);
+        assert!(world.contacts().all(|contact| contact.overlapping && contact.manifolds.len() == 1));
+        assert_eq!((world.contacts().count(), world.stats().manifolds), (4, 4));
+    }
+    world.update_with(&Hooks3::new().contact(&|meeting| meeting.manifolds.clear()));
+    assert!(world.events().is_empty() && world.contacts().all(|contact| contact.manifolds.is_empty()));
+    world.update();
+    assert!(world.events().is_empty() && world.contacts().all(|contact| contact.manifolds.len() == 1));
+}
