@@ -317,6 +317,7 @@ impl Compound3 {
 /// assert_eq!(Compound3::new([]), Err(CompoundError::NoParts));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum CompoundError {
     /// None were given.
     NoParts,

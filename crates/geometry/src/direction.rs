@@ -7,6 +7,7 @@
 /// assert_eq!(HalfSpace::new(Vec3::ZERO).unwrap_err(), DirectionError::Zero);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum DirectionError {
     /// A component is NaN or infinite.
     NotFinite {

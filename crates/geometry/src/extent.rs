@@ -10,6 +10,7 @@ use crate::tolerance::{MAX_RADIUS, MIN_RADIUS};
 /// assert_eq!(refused.unwrap_err(), ExtentError::NotPositive { axis: 1, value: 0.0 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ExtentError {
     /// A half extent is NaN or infinite.
     NotFinite {

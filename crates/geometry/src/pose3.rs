@@ -11,6 +11,7 @@ use glam::{DVec3, Quat};
 /// assert_eq!(refused.unwrap_err(), PoseError::ZeroRotation);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum PoseError {
     /// A coordinate of the position is NaN or infinite.
     PositionNotFinite {

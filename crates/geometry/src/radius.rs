@@ -11,6 +11,7 @@ use crate::tolerance::{MAX_RADIUS, MIN_RADIUS};
 /// assert!(Sphere::new(0.0).unwrap_err().to_string().contains("0.000001"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum RadiusError {
     /// NaN or infinite.
     NotFinite {

@@ -158,6 +158,7 @@ impl Ray3 {
 /// assert_eq!(refused, RayError::Origin(PoseError::PositionTooFar { axis: 1, value: 2e9 }));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum RayError {
     /// What is wrong with its origin.
     Origin(PoseError),

@@ -311,6 +311,7 @@ impl Capsule3 {
 /// assert!(point.unwrap_err().to_string().contains("circle or sphere"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum CapsuleError {
     /// A half height below zero.
     HalfHeight {

@@ -10,6 +10,7 @@ use glam::DVec3;
 /// assert_eq!(Segment3::new(Vec3::X, Vec3::X).unwrap_err(), VertexError::Repeated { first: 0, second: 1 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum VertexError {
     /// A coordinate is NaN or infinite.
     NotFinite {

@@ -12,6 +12,7 @@ use crate::collider::MarginError;
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SnapshotError {
     /// Of another version of the format than this library's.
     Format {

@@ -12,6 +12,7 @@ use crate::tolerance::{MAX_CHAIN_VERTICES, MAX_RADIUS};
 /// assert!(fault.to_string().contains("needs 3"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ChainError {
     /// A coordinate is NaN or infinite.
     NotFinite {

@@ -12,6 +12,7 @@ use crate::tolerance::{MAX_POLYGON_VERTICES, MAX_RADIUS, MIN_RADIUS};
 /// assert_eq!(decompose(&pinched).unwrap_err(), DecomposeError::Touching { vertex: 3, edge: 0 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum DecomposeError {
     /// Fewer than three vertices.
     TooFewVertices {

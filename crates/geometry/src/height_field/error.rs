@@ -10,6 +10,7 @@ use crate::tolerance::{MAX_FIELD_SIDE, MAX_RADIUS};
 /// assert_eq!(refused, HeightFieldError::NotFinite { column: 0, row: 1 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum HeightFieldError {
     /// Fewer than 2 columns or rows, or more than [`MAX_FIELD_SIDE`].
     Sides {

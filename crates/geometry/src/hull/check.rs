@@ -20,6 +20,7 @@ use std::collections::BTreeSet;
 /// # Ok::<(), asunder_geometry::HullError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum HullFault {
     /// A half-edge has no twin that runs back along it, in another face.
     Open {

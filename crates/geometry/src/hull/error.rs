@@ -10,6 +10,7 @@ use crate::tolerance::{MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIU
 /// assert_eq!(Hull::from_points(&square).unwrap_err(), HullError::Flat { dimension: 2 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum HullError {
     /// Fewer than four points, or none where fewer would do.
     TooFewPoints {

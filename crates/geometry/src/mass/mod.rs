@@ -37,6 +37,7 @@ use crate::shape::{Shape2, Shape3};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum MassError {
     /// A density that is not finite or not positive.
     Density {

@@ -30,6 +30,7 @@ pub struct DroppedTriangles {
 /// assert_eq!(TriMesh::new(corners, []).unwrap_err(), MeshError::NoTriangles);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum MeshError {
     /// None were given, or all were dropped.
     NoTriangles,

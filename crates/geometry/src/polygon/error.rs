@@ -10,6 +10,7 @@ use crate::tolerance::{MAX_POLYGON_VERTICES, MAX_RADIUS, MIN_RADIUS};
 /// assert_eq!(Polygon::new(&dart).unwrap_err(), PolygonError::Concave { vertex: 2 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum PolygonError {
     /// Fewer than three points.
     TooFewPoints {
