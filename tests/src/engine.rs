@@ -27,6 +27,14 @@ pub enum Change<S: Space> {
     Sleep,
     /// `World::wake`.
     Wake,
+    /// `World::set_sensor`.
+    Sensor(bool),
+    /// `World::set_fixed`.
+    Fixed(bool),
+    /// `World::set_owner`.
+    Owner(Option<u64>),
+    /// `World::set_bullet`.
+    Bullet(bool),
     /// `World::replace`.
     Replace(Collider<S>),
 }
@@ -36,7 +44,7 @@ impl<S: Engine> Change<S> {
     pub fn random(random: &mut Random) -> Self {
         let groups = [0b01, 0b10, 0b11, u32::MAX];
         let mut body = S::random_body(random, 1.6);
-        match random.below(16) {
+        match random.below(20) {
             0..4 => Self::Shape(S::shape_of(&body).clone()),
             4..6 => {
                 Self::Layers(Layers { member_of: random.pick(&groups), collides_with: random.pick(&groups) })
@@ -46,6 +54,10 @@ impl<S: Engine> Change<S> {
             10..12 => Self::Disable,
             12 => Self::Sleep,
             13 => Self::Wake,
+            14 => Self::Sensor(random.below(2) == 0),
+            15 => Self::Fixed(random.below(2) == 0),
+            16 => Self::Owner(Some(random.below(4) as u64).filter(|&owner| owner < 3)),
+            17 => Self::Bullet(random.below(2) == 0),
             _ => {
                 // A body is given back as it was; the model knows none that sleep or are disabled.
                 body = body.user_data(random.below(1 << 20) as u64);
@@ -92,6 +104,8 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn shape_of(body: &Collider<Self>) -> &Self::Shape;
     /// The same body with another shape.
     fn shaped(body: &Collider<Self>, shape: Self::Shape) -> Collider<Self>;
+    /// The same body with other traits.
+    fn with_traits(body: &Collider<Self>, traits: Traits) -> Collider<Self>;
     /// `World::iter`.
     fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)>;
     /// `World::candidates`.
@@ -142,20 +156,41 @@ pub fn slot_of(key: impl Key) -> u32 {
     key.data().as_ffi() as u32
 }
 
-/// A body of one's shape and pose, with the traits of another.
-fn with_traits_of<S: Space>(mut body: Collider<S>, other: &Collider<S>) -> Collider<S> {
+/// What of a body a builder only ever turns on.
+#[derive(Clone, Copy, Debug)]
+pub struct Traits {
+    /// `Collider::fixed`.
+    pub fixed: bool,
+    /// `Collider::sensor`.
+    pub sensor: bool,
+    /// `Collider::bullet`.
+    pub bullet: bool,
+    /// `Collider::owner`.
+    pub owner: Option<u64>,
+}
+
+impl Traits {
+    /// Those of a body.
+    pub fn of<S: Space>(body: &Collider<S>) -> Self {
+        let (fixed, sensor, bullet) = (body.is_fixed(), body.is_sensor(), body.is_bullet());
+        Self { fixed, sensor, bullet, owner: body.get_owner() }
+    }
+}
+
+/// A body of one's shape and pose, with what else another is, and these traits.
+fn with_traits<S: Space>(mut body: Collider<S>, other: &Collider<S>, traits: Traits) -> Collider<S> {
     body =
         body.layers(other.get_layers()).user_data(other.get_user_data()).margin(other.get_margin()).unwrap();
-    if other.is_fixed() {
+    if traits.fixed {
         body = body.fixed();
     }
-    if other.is_sensor() {
+    if traits.sensor {
         body = body.sensor();
     }
-    if other.is_bullet() {
+    if traits.bullet {
         body = body.bullet();
     }
-    other.get_owner().into_iter().fold(body, Collider::owner)
+    traits.owner.into_iter().fold(body, Collider::owner)
 }
 
 /// Gives a body some of the traits that decide whom it meets.
@@ -206,6 +241,10 @@ impl Engine for Volume {
             Change::Disable => world.disable(key),
             Change::Sleep => world.sleep(key),
             Change::Wake => world.wake(key),
+            Change::Sensor(sensor) => world.set_sensor(key, sensor),
+            Change::Fixed(fixed) => world.set_fixed(key, fixed),
+            Change::Owner(owner) => world.set_owner(key, owner),
+            Change::Bullet(bullet) => world.set_bullet(key, bullet),
             Change::Replace(body) => world.replace(key, body).map(|_| ()),
         };
         done.is_ok()
@@ -257,7 +296,11 @@ impl Engine for Volume {
     }
 
     fn shaped(body: &Collider<Self>, shape: Self::Shape) -> Collider<Self> {
-        with_traits_of(Collider::<Self>::new(shape).at(*body.pose()), body)
+        with_traits(Collider::<Self>::new(shape).at(*body.pose()), body, Traits::of(body))
+    }
+
+    fn with_traits(body: &Collider<Self>, traits: Traits) -> Collider<Self> {
+        with_traits(Collider::<Self>::new(body.shape().clone()).at(*body.pose()), body, traits)
     }
 
     fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)> {
@@ -390,6 +433,10 @@ impl Engine for Plane {
             Change::Disable => world.disable(key),
             Change::Sleep => world.sleep(key),
             Change::Wake => world.wake(key),
+            Change::Sensor(sensor) => world.set_sensor(key, sensor),
+            Change::Fixed(fixed) => world.set_fixed(key, fixed),
+            Change::Owner(owner) => world.set_owner(key, owner),
+            Change::Bullet(bullet) => world.set_bullet(key, bullet),
             Change::Replace(body) => world.replace(key, body).map(|_| ()),
         };
         done.is_ok()
@@ -441,7 +488,11 @@ impl Engine for Plane {
     }
 
     fn shaped(body: &Collider<Self>, shape: Self::Shape) -> Collider<Self> {
-        with_traits_of(Collider::<Self>::new(shape).at(*body.pose()), body)
+        with_traits(Collider::<Self>::new(shape).at(*body.pose()), body, Traits::of(body))
+    }
+
+    fn with_traits(body: &Collider<Self>, traits: Traits) -> Collider<Self> {
+        with_traits(Collider::<Self>::new(body.shape().clone()).at(*body.pose()), body, traits)
     }
 
     fn bodies(world: &World<Self>) -> Vec<(Self::Key, Collider<Self>)> {

@@ -15,7 +15,7 @@ mod ahead;
 mod bits;
 mod check;
 
-use crate::engine::{Change, Engine, slot_of};
+use crate::engine::{Change, Engine, Traits, slot_of};
 use crate::judged::{Judged, Question, Stand, Word};
 use ahead::Ahead;
 use asunder::{Collider, Event, World};
@@ -185,6 +185,18 @@ impl<S: Judged> NaiveWorld<S> {
             Change::Disable => tenant.is_disabled = true,
             Change::Sleep => tenant.is_asleep = true,
             Change::Wake => tenant.is_asleep = false,
+            Change::Sensor(sensor) => {
+                *body = S::with_traits(body, Traits { sensor: *sensor, ..Traits::of(body) });
+            }
+            Change::Fixed(fixed) => {
+                *body = S::with_traits(body, Traits { fixed: *fixed, ..Traits::of(body) })
+            }
+            Change::Owner(owner) => {
+                *body = S::with_traits(body, Traits { owner: *owner, ..Traits::of(body) })
+            }
+            Change::Bullet(bullet) => {
+                *body = S::with_traits(body, Traits { bullet: *bullet, ..Traits::of(body) });
+            }
             Change::Replace(other) => {
                 if S::shape_of(body) != S::shape_of(other) {
                     self.reshaped.insert(slot);

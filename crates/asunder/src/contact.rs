@@ -61,6 +61,34 @@ impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
     }
 }
 
+impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
+    /// Which way normals point, as this body sees it: 1 for `a`, from which they point to the other body, -1 for `b`, and 0 for
+    /// whoever else.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Pose2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let [left, right] = [0.0, 1.5].map(|x| Pose2::at([x, 0.0]).map(|pose| world.insert(ball.clone().at(pose))));
+    /// let (left, right) = (left?, right?);
+    /// world.update();
+    /// for (body, towards) in [(left, Vec2::X), (right, Vec2::NEG_X)] {
+    ///     let contact = world.contacts_of(body).next().ok_or("they touch")?;
+    ///     assert_eq!(contact.manifolds[0].normal * contact.sign(body), towards, "from the body to the other");
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn sign(&self, body: K) -> f32 {
+        if body == self.a {
+            1.0
+        } else if body == self.b {
+            -1.0
+        } else {
+            0.0
+        }
+    }
+}
+
 /// The one of two that another is not; nothing where it is neither.
 pub(crate) fn other_of<K: PartialEq>((a, b): (K, K), body: K) -> Option<K> {
     match (a, b) {
