@@ -76,7 +76,6 @@ mod slab;
 mod snapshot;
 mod space;
 mod stats;
-mod traits;
 mod world;
 mod world2;
 mod world3;

@@ -27,11 +27,9 @@ impl<T> Slab<T> {
         self.items.get(place as usize)
     }
 
-    /// Gives a place up, which may be [`NOWHERE`]. What is in it stays until the place is handed out again.
+    /// Gives a place up that is one. What is in it stays until the place is handed out again.
     pub(crate) fn vacate(&mut self, place: u32) {
-        if place != NOWHERE {
-            self.vacant.push(place);
-        }
+        self.vacant.push(place);
     }
 
     /// Puts something in the place it had, or where there is one if it had none; says where it is now. What was there is shown
@@ -71,7 +69,6 @@ mod tests {
             ((0, Some('a')), Some(&'c'), Some(&'b'))
         );
         slab.vacate(0);
-        slab.vacate(NOWHERE);
         assert_eq!((put(&mut slab, NOWHERE, 'd'), slab.get(0)), ((0, Some('c')), Some(&'d')));
         assert_eq!(put(&mut slab, NOWHERE, 'e'), (2, None));
         assert_eq!((slab.get(2), slab.get(NOWHERE)), (Some(&'e'), None));

@@ -1,4 +1,4 @@
-//! What a broad phase hands over.
+//! `PairId`, two boxes that overlap by their numbers: what every sweep's list is made of.
 
 /// Two boxes that overlap, by their numbers, the smaller first. Orders by `a`, then by `b`.
 ///

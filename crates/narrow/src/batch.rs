@@ -1,4 +1,4 @@
-//! Answers to many jobs, in memory that is kept between frames.
+//! Where `collide2` and `collide3` write their answers and manifolds: lists that a caller keeps from frame to frame.
 
 use crate::answer::{Answer, Manifold2, Manifold3};
 use crate::feature::Hint;

@@ -49,7 +49,7 @@ impl Pair3<'_> {
     /// When A, moved by this displacement in metres, first touches B, which stands; nothing where it never does.
     ///
     /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most
-    /// 1e-6 of the pair's size for round shapes, 4e-9 for others, save where the displacement is so long or the
+    /// 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds, save where the displacement is so long or the
     /// bodies so far from the origin that f64 has no nearer place. A miss is certain too. Shapes that pass each
     /// other within `error` may be told as an impact; those that part from each other are not, however near they are, so that
     /// what a cast has brought to another may leave it.

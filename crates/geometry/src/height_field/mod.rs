@@ -34,7 +34,8 @@ use std::sync::Arc;
 /// ```
 ///
 /// It is what a [`TriMesh`](crate::TriMesh) of these triangles would be, in a tenth of the memory: a set of points
-/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided), of bodies that are always fixed.
+/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided), of bodies that are always fixed. Of what is
+/// deep in it, the two may tell different ones of several contacts: in which order triangles are looked at counts there.
 ///
 /// # Costs and limits
 /// From 2 to [`MAX_FIELD_SIDE`](crate::tolerance::MAX_FIELD_SIDE) columns and rows, within 1e6 m of the shape's

@@ -1,4 +1,4 @@
-//! What a tree is asked.
+//! Walks down a tree of boxes: all that overlap one, and whatever a rank puts in order, as what a moved box crosses or what is nearest.
 
 use super::{EMPTY, IS_BOX, IS_LEAF, MOST_DEPTH, Rows, Sides, Tree, WIDTH};
 use crate::aabb::{Aabb3, Bounds};
