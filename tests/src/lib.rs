@@ -73,6 +73,8 @@ mod guide {
     struct Characters;
     #[doc = include_str!("../../docs/guide/levels.md")]
     struct Levels;
+    #[doc = include_str!("../../docs/guide/solvers.md")]
+    struct Solvers;
     #[doc = include_str!("../../docs/guide/units.md")]
     struct Units;
 }

@@ -103,7 +103,37 @@ impl Pose2 {
     }
 }
 
+/// One rotation after another: the right one first, rounded to f32.
+///
+/// ```
+/// use asunder_geometry::{Rotation2, glam::DVec2};
+/// let (quarter, eighth) = (Rotation2::new(0.0, 1.0)?, Rotation2::new(1.0, 1.0)?);
+/// let turned = (quarter * eighth).turn(DVec2::X);
+/// assert!((turned - quarter.turn(eighth.turn(DVec2::X))).length() < 1e-7);
+/// assert_eq!(quarter * quarter.inverse(), Rotation2::IDENTITY);
+/// # Ok::<(), asunder_geometry::PoseError>(())
+/// ```
+impl core::ops::Mul for Rotation2 {
+    type Output = Self;
+
+    fn mul(self, first: Self) -> Self {
+        first.then(self, 1.0)
+    }
+}
+
 impl Rotation2 {
+    /// The rotation that undoes this one.
+    ///
+    /// ```
+    /// use asunder_geometry::Rotation2;
+    /// assert_eq!(Rotation2::new(0.0, 2.0)?.inverse(), Rotation2::new(0.0, -1.0)?);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        Self::IDENTITY.then(self, -1.0)
+    }
+
     /// This rotation and another one after it, or its inverse, by a sign.
     fn then(self, other: Self, sign: f64) -> Self {
         if other == Self::IDENTITY {
