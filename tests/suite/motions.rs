@@ -50,11 +50,9 @@ impl<S: Engine> Room<S> {
         for (bullet, a) in bodies.iter().filter(|(_, body)| body.is_bullet()) {
             let mut of_bullet = Vec::new();
             let mut touches = Vec::new();
-            if self.motions.contains_key(&slot_of(*bullet)) {
-                let solid = |b: &Collider<S>| !a.is_sensor() && !b.is_sensor() && may_meet(a, b);
-                for (_, b) in bodies.iter().filter(|(other, b)| other != bullet && solid(b)) {
-                    S::add_touches(a, b, &mut touches);
-                }
+            let solid = |b: &Collider<S>| !a.is_sensor() && !b.is_sensor() && may_meet(a, b);
+            for (_, b) in bodies.iter().filter(|(other, b)| other != bullet && solid(b)) {
+                S::add_touches(a, b, &mut touches);
             }
             for (other, b) in bodies.iter().filter(|(other, _)| other != bullet) {
                 let moves = self.motions.contains_key(&slot_of(*bullet))

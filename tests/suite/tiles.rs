@@ -3,8 +3,8 @@
 use asunder::glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 use asunder::{
     BodyKey2, BodyKey3, Capsule2, Capsule3, Circle, Collider2, Collider3, Compound3, Cuboid, Filter2,
-    Filter3, Hit2, Hit3, Hooks3, Motion2, Motion3, Pose2, Pose3, Rect, Shape2, Shape3, Sphere, World2,
-    World3,
+    Filter3, HalfPlane, HalfSpace, Hit2, Hit3, Hooks3, Motion2, Motion3, Pose2, Pose3, Rect, Shape2, Shape3,
+    Sphere, World2, World3,
 };
 use asunder_tests::cases::Random;
 
@@ -228,4 +228,80 @@ fn what_carries_nobody_is_no_floor() {
     // As a sensor, disabled, or of the same owner or no common layer, it would carry nobody.
     assert!(next_tile(&mut World3::new(), (0.001, 0.0), 0.0, Collider3::sensor));
     assert!(next_tile(&mut World3::new(), (0.001, 0.0), 0.0, Collider3::disabled));
+}
+
+/// Whom a ball runs into that lies in a floor whose top is at height 0, on its way.
+fn met_by_ball(walls: Vec<Collider3>, from: [f64; 3], way: [f64; 3]) -> Option<f64> {
+    let mut world = World3::new();
+    world.insert(slab([9.0, 1.0, 9.0], [0.0, -1.0, 0.0]).fixed());
+    walls.into_iter().for_each(|wall| _ = world.insert(wall.fixed()));
+    let ball = Collider3::new(Sphere::new(0.25).unwrap()).bullet();
+    let ball = world.insert(ball.at(Pose3::at(from).unwrap()));
+    world.set_motion(ball, Motion3::shift(way).unwrap()).unwrap();
+    world.update();
+    let hit = world.impacts().first().map(|hit| hit.impact.fraction);
+    let (shape, pose) = (world.get(ball).unwrap().shape().clone(), Pose3::at(from).unwrap());
+    let way = DVec3::from(way).as_vec3();
+    let cast = world.cast_shape_onwards((&shape, &pose), way, &Filter3::new().without(ball));
+    let cast = cast.map(|cast| cast.fraction);
+    let are_equal =
+        hit.is_some() == cast.is_some() && (hit.unwrap_or(0.0) - cast.unwrap_or(0.0)).abs() < 1e-6;
+    assert!(are_equal, "casts and bullets are of one mind: {hit:?} {cast:?}");
+    hit
+}
+
+/// Symptom: balls went through half-spaces whose pose stood level with the floor. Cause: a half-space was taken to end at its
+/// position along whatever axis.
+#[test]
+fn what_has_no_end_is_flush_with_nothing() {
+    for height in [0.0, 0.001, -0.0005, 1.0, -3.0] {
+        let wall = Collider3::new(HalfSpace::new(Vec3::NEG_X).unwrap());
+        let wall = wall.at(Pose3::at([6.0, height, 0.0]).unwrap());
+        let met = met_by_ball(vec![wall], [0.0, 0.2495, 0.0], [12.0, 0.0, 0.0]).unwrap();
+        assert!((met * 12.0 - 5.75).abs() < 1e-5, "{height}: {met}");
+    }
+    for ahead in [0.002, 0.007] {
+        let mut world = World2::new();
+        let floor = Rect::from_half_extents(Vec2::new(9.0, 1.0)).unwrap();
+        world.insert(Collider2::new(floor).fixed().at(Pose2::at([0.0, -1.0]).unwrap()));
+        let wall = Collider2::new(HalfPlane::new(Vec2::NEG_X).unwrap());
+        let wall = world.insert(wall.fixed().at(Pose2::at([0.5 + ahead, 0.0]).unwrap()));
+        let ball = Collider2::new(Circle::new(0.5).unwrap()).bullet();
+        let ball = world.insert(ball.at(Pose2::at([0.0, 0.499]).unwrap()));
+        world.set_motion(ball, Motion2::shift([0.2, 0.0]).unwrap()).unwrap();
+        world.update();
+        assert!(matches!(world.impacts(), [hit] if hit.other == wall), "{ahead}: {:?}", world.impacts());
+    }
+}
+
+/// Symptom: who lay deep in the floor and rose went through fences whose tops were level with it. Cause: how deep it was at the
+/// start counted nowhere, and rising took it away.
+#[test]
+fn who_is_stuck_deep_and_rises_is_led_over_nothing() {
+    let fence = |half: f32| slab([half, 0.5, 4.0], [9.0 + 3.0, -0.5, 0.0]);
+    for (depth, rise) in [(0.3, 0.3), (0.2, 0.2), (0.2, 0.0), (0.1, 0.0)] {
+        let met = met_by_ball(vec![fence(0.025)], [8.0, 0.25 - depth, 0.0], [8.0, rise, 0.0]);
+        // The fence is 2.5 cm thick, from its middle: 1.25 cm are its half.
+        assert!(met.is_some(), "{depth} deep, by {rise}");
+        let met = met_by_ball(vec![fence(1.0)], [8.0, 0.25 - depth, 0.0], [8.0, rise, 0.0]);
+        assert_eq!(met.is_some(), depth > 0.125, "{depth} deep, by {rise}");
+    }
+}
+
+#[test]
+fn a_bullet_that_stands_still_is_led_over_as_one_that_says_so() {
+    // A millimetre in its tile, while a platform as high comes from the side.
+    for is_said in [false, true] {
+        let mut world = World3::new();
+        world.insert(slab([1.0, 0.5, 2.0], [0.0, -0.5, 0.0]).fixed());
+        let platform = world.insert(slab([1.0, 0.5, 2.0], [3.0, -0.5, 0.0]));
+        let ball = Collider3::new(Sphere::new(0.25).unwrap()).bullet();
+        let ball = world.insert(ball.at(Pose3::at([0.9, 0.249, 0.0]).unwrap()));
+        world.set_motion(platform, Motion3::shift([-2.0, 0.0, 0.0]).unwrap()).unwrap();
+        if is_said {
+            world.set_motion(ball, Motion3::STILL).unwrap();
+        }
+        world.update();
+        assert!(world.impacts().is_empty(), "{is_said}: {:?}", world.impacts());
+    }
 }

@@ -59,6 +59,8 @@ impl<S: Space> World<S> {
     /// [`Hooks::contact`].
     pub fn update_with(&mut self, hooks: &Hooks<'_, S>) {
         self.stats = Stats { bodies: self.bodies.len(), ..Stats::default() };
+        // Of a hook that panics, nothing of last update's is left to be taken for this one's.
+        self.impacts.clear();
         self.stats.refit = self.timed(refit::refit);
         self.stats.sweep = self.timed(|world| sweep::sweep(world, hooks));
         self.stats.collide = self.timed(collide::collide);

@@ -113,8 +113,8 @@ impl<'a, S: Space> Hooks<'a, S> {
     /// not handed over: to let bullets through, refuse the pair in [`pair`](Self::pair). A bullet that stands on what the
     /// hook took away stands on nothing.
     ///
-    /// By then the update's events are written. Where the hook panics, and the game goes on, contacts are as they were found, and
-    /// there are no impacts.
+    /// By then the update's events are written. Where the hook panics, and the game goes on, contacts are as they were found,
+    /// there are no impacts, and motions are left for the next update.
     #[must_use]
     pub fn contact(mut self, edit: &'a (dyn Fn(Meeting<'_, S>) + Sync)) -> Self {
         self.contact = Some(edit);

@@ -33,4 +33,4 @@ pub(crate) use index::Boxes;
 pub(crate) use questions::{
     bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over, first_ahead,
 };
-pub(crate) use space::Asked;
+pub(crate) use space::{Asked, Meet};

@@ -162,8 +162,9 @@ impl Pair3<'_> {
     /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as well, as the
     /// next of the tiles that a floor is made of; but for parts of ground that it touches too, which has no such seams.
     ///
-    /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A ends
-    /// no deeper below that than half of that thickness: who is stuck deeper is led over nothing. An axis that is not of length
+    /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A is
+    /// never deeper below that than half of that thickness: who is stuck deeper is led over nothing. Half-spaces are flush with
+    /// nothing. An axis that is not of length
     /// 1 counts for nothing. Cost: as the next impact; where there is one, another search.
     ///
     /// ```

@@ -4,7 +4,7 @@
 //! ```text
 //! touched at the start: no answer, it is a contact already
 //! every other part, where it is met first, by the normal n that it is met with:
-//!   of compounds: flush with a touched part along the normal m of its contact, and the body sinks along m by less than half
+//!   of compounds: flush with a touched part along the normal m of its contact, and the body is never deeper below that than half
 //!             its thickness: level (the next slab of a floor, whose side looks like a wall; ground has normals of its own
 //!             for inner edges)
 //!   gap       along n at the start, no more than a 64th of the body's thickness, and
@@ -12,7 +12,8 @@
 //!             level, and passed over (the next triangle of a floor, a bend of half a degree)
 //!   else:     an impact
 //! where A touches others, as the tile that it stands on; of anything but ground that is touched as well:
-//!   flush with one of those, and in the end A is no deeper below it than half its thickness: level
+//!   flush with one of those, and A never deeper below it than half its thickness: level; half-spaces reach along their normals alone,
+//!   and are flush with nothing
 //! where nothing is met within the first half thickness of the way: ground that the body has a manifold with at that point, and moves
 //!   into, is an impact at the start
 //! ```
@@ -56,7 +57,7 @@ pub(crate) struct Passing<'p, V> {
 impl<V: Copy> Passing<'_, V> {
     /// Classifies a meeting along a unit axis, given the normals and separations of the contacts between the two bodies.
     pub(crate) fn lies(&self, normal: V, touched: impl Iterator<Item = (V, f64)> + Clone) -> Lies {
-        if !self.is_on_ground && touched.clone().any(|it| self.is_flush(it, SUNK * self.thickness)) {
+        if !self.is_on_ground && touched.clone().any(|it| self.is_flush(it)) {
             return Lies::Level;
         }
         let slack = NEXT_LEVEL * self.thickness;
@@ -71,15 +72,16 @@ impl<V: Copy> Passing<'_, V> {
 
     /// Whether it is flush with what the body touches beside both.
     pub(crate) fn is_flush_with(&self, mut touches: impl Iterator<Item = (V, f64)>) -> bool {
-        touches
-            .any(|(axis, separation)| self.is_flush((axis, separation), SUNK * self.thickness + separation))
+        touches.any(|it| self.is_flush(it))
     }
 
-    /// Whether it stands up no higher than a contact, and no further down than the body reaches, which sinks so far at most.
-    fn is_flush(&self, (axis, separation): (V, f64), most_sunk: f64) -> bool {
+    /// Whether it stands up no higher than a contact, and no further down than the body reaches, which in the end is no deeper below
+    /// that than half its thickness, and was not at the start.
+    fn is_flush(&self, (axis, separation): (V, f64)) -> bool {
         let slack = NEXT_LEVEL * self.thickness;
         let above = (self.gap)(axis);
-        above <= slack && above >= separation - slack && (self.closing)(axis) <= most_sunk
+        let deepest = (self.closing)(axis).max(0.0) - separation;
+        above <= slack && above >= separation - slack && deepest <= SUNK * self.thickness
     }
 }
 

@@ -170,8 +170,8 @@ impl<S: Judged> Ahead<S> {
         let most = 0.5 * bodies[&bullet].stand.reach() + LOOSE;
         is_solid(&bullet)
             && is_solid(&other)
-            && bodies[&bullet].motion.is_some()
-            && self.seen.iter().any(stands_on)
+            // What neither moves was not looked at.
+            && (bodies[&bullet].motion.is_none() || self.seen.iter().any(stands_on))
             && seen.separations.iter().all(|&separation| separation >= -most)
     }
 

@@ -1,6 +1,6 @@
 //! Hooks that go wrong.
 
-use asunder::{Collider3, Hooks3, Meeting3, Pose3, Sphere, World3};
+use asunder::{Collider3, Hooks3, Meeting3, Motion3, Pose3, Sphere, World3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Symptom: after a contact hook panicked, `contacts()` panicked too, and whoever had begun to touch was never reported. Cause: the
@@ -24,4 +24,21 @@ fn a_hook_that_panics_loses_no_event_and_no_contact() {
     assert!(world.events().is_empty() && world.contacts().all(|contact| contact.manifolds.is_empty()));
     world.update();
     assert!(world.events().is_empty() && world.contacts().all(|contact| contact.manifolds.len() == 1));
+}
+
+/// Symptom: after a hook panicked, `impacts()` were those of the update before. Cause: they were cleared by the stage that makes them.
+#[test]
+fn a_hook_that_panics_leaves_no_impact_of_the_update_before() {
+    let mut world = World3::new();
+    let ball = Collider3::new(Sphere::new(0.5).unwrap());
+    let bullet = world.insert(ball.clone().bullet());
+    for x in [0.75, 4.0] {
+        world.insert(ball.clone().at(Pose3::at([x, 0.0, 0.0]).unwrap()));
+    }
+    world.set_motion(bullet, Motion3::shift([9.0, 0.0, 0.0]).unwrap()).unwrap();
+    world.update();
+    assert_eq!(world.impacts().len(), 1);
+    let fails = |_: Meeting3<'_>| panic!("a game's own mistake");
+    assert!(catch_unwind(AssertUnwindSafe(|| world.update_with(&Hooks3::new().contact(&fails)))).is_err());
+    assert!(world.impacts().is_empty());
 }

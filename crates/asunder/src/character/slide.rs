@@ -4,11 +4,12 @@ use super::clip::along;
 use super::free::{free, has_entered, is_overlapping, near, push};
 use super::gait::Gait;
 use super::{Freed, Linear, Obstacle, Slide, Walk, Walks};
-use crate::query::{Asked, Filter, bodies_along};
+use crate::query::{Asked, Filter, Meet, bodies_along};
 use crate::space::Space;
-use crate::world::World;
+use crate::world::{World, slot_of};
 use asunder_geometry::tolerance::{EDGE_HOLD, GRAZING, MAX_POSITION, SKIN_SLACK, STANDSTILL, UPRIGHT};
 use asunder_narrow::ArrayVec;
+use core::ops::ControlFlow;
 
 /// Casts along the way, and so walls that can be slid along, one after the other.
 const SLIDES: usize = 6;
@@ -35,6 +36,16 @@ struct Hit<S: Walks> {
 }
 
 impl<S: Walks> Hit<S> {
+    /// Of a cast along a unit direction, so many metres long.
+    fn of(hit: &Meet<S>, unit: S::Point, length: f64) -> Self {
+        let mut normal = -S::wide(hit.normal);
+        if -unit.dot(normal) < GRAZING {
+            normal = (normal - unit * (unit.dot(normal) + GRAZING)).unit().unwrap_or(-unit);
+        }
+        let (parts, at) = ((hit.part, hit.part_of_moved), hit.fraction * length);
+        Self { body: hit.body, parts, normal, point: hit.point, at, approach: -unit.dot(normal) }
+    }
+
     /// How far one can go and keep a gap: as if the body were a plane.
     fn until(&self, gap: f64) -> f64 {
         (self.at - gap / self.approach).max(0.0)
@@ -230,21 +241,7 @@ impl<S: Walks> Mover<'_, S> {
         let length = S::wide(cast).length();
         let unit = S::wide(cast).unit()?;
         let hit = bodies_along(self.world, (self.shape, &self.pose), cast, &self.filter).first();
-        let hit = hit.map(|hit| {
-            let mut normal = -S::wide(hit.normal);
-            if -unit.dot(normal) < GRAZING {
-                normal = (normal - unit * (unit.dot(normal) + GRAZING)).unit().unwrap_or(-unit);
-            }
-            Hit {
-                body: hit.body,
-                parts: (hit.part, hit.part_of_moved),
-                normal,
-                point: hit.point,
-                at: hit.fraction * length,
-                approach: -unit.dot(normal),
-            }
-        });
-        Some((unit, hit))
+        Some((unit, hit.map(|hit| Hit::of(&hit, unit, length))))
     }
 
     fn bound(&self, hit: &Hit<S>) -> Bound<S> {
@@ -344,9 +341,30 @@ impl<S: Walks> Mover<'_, S> {
     /// The ground within reach below, and down to it. Ground a skin further down counts as stood on, too.
     fn land(&mut self, reach: f64) -> Option<Hit<S>> {
         let (down, hit) = self.look(-self.gait.up, reach)?;
-        let hit = hit.filter(|hit| self.holds_below(hit, down, reach))?;
+        let hit = hit?;
+        if !self.holds_below(&hit, down, reach) {
+            return self.ground_beside();
+        }
         self.pose = S::moved(&self.pose, down * hit.until(self.gait.skin).min(reach))?;
         Some(hit)
+    }
+
+    /// The ground that is stood on where something steep beside it is met first on the way down.
+    fn ground_beside(&self) -> Option<Hit<S>> {
+        let cast = S::narrow(-self.gait.up * (OUTLOOK * self.gait.skin));
+        let (length, unit) = (S::wide(cast).length(), S::wide(cast).unit()?);
+        let mut ground: Option<Hit<S>> = None;
+        let rank = |hit: &Hit<S>| (hit.at, slot_of(hit.body));
+        let _ = bodies_along(self.world, (self.shape, &self.pose), cast, &self.filter).visit(|hit| {
+            let hit = Hit::of(&hit, unit, length);
+            if self.holds_below(&hit, unit, 0.0)
+                && ground.as_ref().is_none_or(|known| rank(&hit) < rank(known))
+            {
+                ground = Some(hit);
+            }
+            ControlFlow::Continue(())
+        });
+        ground
     }
 }
 

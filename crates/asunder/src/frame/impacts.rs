@@ -22,7 +22,6 @@ pub(crate) type Found<S> = (u32, f64, u32, Hit<<S as Space>::Key, <S as Space>::
 
 /// Brings the impacts up to date, and forgets the motions.
 pub(super) fn impacts<S: Space>(world: &mut World<S>) {
-    world.impacts.clear();
     if !world.motions.is_empty() && !world.stats.overflow {
         ask(world);
         let World { impacts, scratch, .. } = world;

@@ -24,7 +24,7 @@ impl<S: Space> Touches<S> {
         &self.touches[start..end]
     }
 
-    /// Those of all bullets that have a motion of their own. Cost: linear in the candidates.
+    /// Those of all bullets. Cost: linear in the candidates.
     pub(super) fn gather(world: &mut World<S>) {
         let Self { mut slots, mut touches, mut found } =
             core::mem::replace(&mut world.scratch.touches, Self::NONE);
@@ -32,10 +32,8 @@ impl<S: Space> Touches<S> {
         for candidate in &world.candidates {
             let (a, b) = candidate.keys;
             for (bullet, is_a) in [(a, true), (b, false)] {
-                let slot = slot_of(bullet);
-                let goes = world.motions.of(slot).is_some();
-                if goes && world.bodies.get(bullet).is_some_and(|body| body.bullet) {
-                    found.extend(shown(world, candidate, is_a).map(|touch| (slot, touch)));
+                if world.bodies.get(bullet).is_some_and(|body| body.bullet) {
+                    found.extend(shown(world, candidate, is_a).map(|touch| (slot_of(bullet), touch)));
                 }
             }
         }

@@ -64,7 +64,11 @@ impl Touched<'_> {
         };
         // Inner edges of ground that is touched have the normals of its faces.
         let has_inner_edges = passing.is_on_ground && self.manifolds.is_some();
-        if !has_inner_edges && passing.is_flush_with(self.touches.iter().filter_map(Touch3::axis)) {
+        let is_endless = parts.iter().any(|it| matches!(it.shape, Shape3::HalfSpace(_)));
+        if !has_inner_edges
+            && !is_endless
+            && passing.is_flush_with(self.touches.iter().filter_map(Touch3::axis))
+        {
             return Lies::Level;
         }
         let Some(manifolds) = self.manifolds else { return Lies::Ahead };
