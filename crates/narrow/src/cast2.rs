@@ -131,7 +131,8 @@ impl Pair2<'_> {
     /// Parts of chains and of compounds that touch at the start are no answer, and neither is what is level with
     /// them. Level is what lies no more than a 64th of the body's thickness away from it at the start, along the normal
     /// that it is met with, and no deeper than that 64th at the end, beyond what the motion goes into what is touched
-    /// anyway; and, of a compound, what is flush with what it touches. The thickness is the radius of a ball in the
+    /// anyway; and, of a compound, what is flush with what it touches, as long as it is never deeper below that than
+    /// half of its thickness. The thickness is the radius of a ball in the
     /// body's middle. So a ball on a level's floor, pressed to it by its weight, runs over the floor's vertices, and into
     /// the level's walls, steps and ramps. A motion that sinks a body into its floor by all its thickness leads it under
     /// what stands there.
