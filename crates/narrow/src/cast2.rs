@@ -165,8 +165,7 @@ impl Pair2<'_> {
     ///
     /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A is
     /// never deeper below that than half of that thickness: who is stuck deeper is led over nothing. Half-spaces are flush with
-    /// nothing. An axis that is not of length
-    /// 1 counts for nothing. Cost: as the next impact; where there is one, another search.
+    /// nothing. An axis that is not of length 1 counts for nothing. Cost: as the next impact; where there is one, another search.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rect, Shape2, glam::Vec2};

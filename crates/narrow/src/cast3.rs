@@ -49,10 +49,10 @@ impl Pair3<'_> {
     /// When A, moved by this displacement in metres, first touches B, which stands; nothing where it never does.
     ///
     /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most
-    /// 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds, save where the displacement is so long or the
-    /// bodies so far from the origin that f64 has no nearer place. A miss is certain too. Shapes that pass each
-    /// other within `error` may be told as an impact; those that part from each other are not, however near they are, so that
-    /// what a cast has brought to another may leave it.
+    /// 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds, save
+    /// where the displacement is so long or the bodies so far from the origin that f64 has no nearer place. A miss is
+    /// certain too. Shapes that pass each other within `error` may be told as an impact; those that part from each other
+    /// are not, however near they are, so that what a cast has brought to another may leave it.
     ///
     /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal
     /// with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own,
@@ -165,8 +165,7 @@ impl Pair3<'_> {
     ///
     /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A is
     /// never deeper below that than half of that thickness: who is stuck deeper is led over nothing. Half-spaces are flush with
-    /// nothing. An axis that is not of length
-    /// 1 counts for nothing. Cost: as the next impact; where there is one, another search.
+    /// nothing. An axis that is not of length 1 counts for nothing. Cost: as the next impact; where there is one, another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::Vec3};

@@ -25,8 +25,9 @@
 //! has lists of its own, and begins with waiting for each of them. What is kept to be moved along in a box of its own: pyramids
 //! 8 % slower, hulls faster. What is kept fetched six pairs ahead: nothing, hulls 10 % slower; it is not one wait that counts,
 //! but how much there is to read. By the processor's own instruction, while its pair is chosen, a heap of boxes at rest is 1.02 times as
-//! fast and pyramids 1.00 to 1.03 (Zen 5, 2026-11-24): not worth code that is unsafe. Leaving out pairs that are still apart without a branch halved what a simulated processor
-//! predicted wrongly, and saved no time (heaps -2 to +2 %, pyramids 2 to 5 % slower, hulls 5 % faster).
+//! fast and pyramids 1.00 to 1.03 (Zen 5, 2026-11-24): not worth code that is unsafe. Leaving out pairs that are still apart
+//! without a branch halved what a simulated processor predicted wrongly, and saved no time (heaps -2 to +2 %, pyramids 2 to 5 %
+//! slower, hulls 5 % faster).
 //!
 //! Kernels here and below shun `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the time
 //! of such a frame and half of a sweep's; by default they are not, and nothing is gained.
