@@ -59,6 +59,17 @@ impl Yard {
     }
 }
 
+/// Whether a wall is met that lies at a share of the way; fails where anything else is told.
+fn meets_wall<K: PartialEq>(seed: u128, told: Option<(K, f64)>, (wall, expected): (K, f64)) -> bool {
+    let Some((other, fraction)) = told else {
+        assert!(expected > 1.0 - 1e-5, "{seed}: through the wall at {expected}");
+        return false;
+    };
+    assert!(other == wall, "{seed}: stopped by a tile at {fraction}, {expected}");
+    assert!((fraction - expected).abs() < 1e-5, "{seed}: {fraction}, not {expected}");
+    true
+}
+
 #[test]
 fn who_sinks_into_a_tile_is_led_over_the_next_and_into_the_wall() {
     let (mut walls, mut free) = (0, 0);
@@ -85,14 +96,7 @@ fn who_sinks_into_a_tile_is_led_over_the_next_and_into_the_wall() {
         let cast = cast.map(|hit| (hit.body, hit.fraction));
         let expected = (WALL - ahead - start.x) / way.x;
         for told in [hit, cast] {
-            let Some((other, fraction)) = told else {
-                assert!(expected > 1.0 - 1e-5, "{seed}: through the wall at {expected}");
-                free += 1;
-                continue;
-            };
-            assert!(other == yard.wall, "{seed}: stopped by a tile at {fraction}, {expected}");
-            assert!((fraction - expected).abs() < 1e-5, "{seed}: {fraction}, not {expected}");
-            walls += 1;
+            if meets_wall(seed, told, (yard.wall, expected)) { walls += 1 } else { free += 1 }
         }
     }
     assert!(walls > 800 && free > 800, "{walls} {free}");
@@ -142,14 +146,7 @@ fn who_sinks_into_a_tile_of_the_plane_is_led_over_the_next_and_into_the_wall() {
         let cast = cast.map(|hit| (hit.body, hit.fraction));
         let expected = (WALL - ahead - start.x) / way.x;
         for told in [hit, cast] {
-            let Some((other, fraction)) = told else {
-                assert!(expected > 1.0 - 1e-5, "{seed}: through the wall at {expected}");
-                free += 1;
-                continue;
-            };
-            assert!(other == wall, "{seed}: stopped by a tile at {fraction}, {expected}");
-            assert!((fraction - expected).abs() < 1e-5, "{seed}: {fraction}, not {expected}");
-            walls += 1;
+            if meets_wall(seed, told, (wall, expected)) { walls += 1 } else { free += 1 }
         }
     }
     assert!(walls > 1500 && free > 1500, "{walls} {free}");

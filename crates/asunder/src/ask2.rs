@@ -412,7 +412,8 @@ impl World<Plane> {
 
     /// What a moved shape runs into next, as [`World::cast_shape`] tells it, where what it touches at the start is passed over:
     /// along a floor to the wall, though both be one body. What counts as level with what is touched,
-    /// [`Pair2::next_impact`](crate::Pair2::next_impact) says. It passes whichever way the shape goes: into the floor as well.
+    /// [`Pair2::next_impact`](crate::Pair2::next_impact) says, and of other bodies, as the tiles of a floor,
+    /// [`next_impact_beside`](crate::Pair2::next_impact_beside). It passes whichever way the shape goes: into the floor as well.
     ///
     /// ```
     /// use asunder::{Chain, Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};

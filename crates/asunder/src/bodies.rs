@@ -100,13 +100,8 @@ impl<S: Space> World<S> {
         Ok(before)
     }
 
-    /// Without this, bodies that are reshaped again and again before an update would be noted each time.
     fn note_reshaped(&mut self, slot: u32) {
-        if self.reshaped.len() >= 2 * self.keys.len() {
-            self.reshaped.sort_unstable();
-            self.reshaped.dedup();
-        }
-        self.reshaped.push(slot);
+        note_slot(&mut self.reshaped, slot, self.keys.len());
     }
 
     /// Changes what is neither shape nor pose. Its pairs are asked about anew, since whom it meets, and how, may be
@@ -141,4 +136,14 @@ impl<S: Space> World<S> {
             self.dirty.push(slot);
         }
     }
+}
+
+/// Adds one of so many slots to a list of some, in which it may be already: those that come again and again before an update take no
+/// room each time.
+pub(crate) fn note_slot(list: &mut Vec<u32>, slot: u32, slots: usize) {
+    if list.len() >= 2 * slots {
+        list.sort_unstable();
+        list.dedup();
+    }
+    list.push(slot);
 }

@@ -59,9 +59,7 @@ impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
     pub fn other(&self, body: K) -> Option<K> {
         other_of((self.a, self.b), body)
     }
-}
 
-impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
     /// Which way normals point, as this body sees it: 1 for `a`, from which they point to the other body, -1 for `b`, and 0 for
     /// whoever else.
     ///

@@ -1,5 +1,6 @@
 //! This frame's motions: what a body is about to do, so that an update can say what it will run into.
 
+use crate::bodies::note_slot;
 use crate::collider::Collider;
 use crate::space::{BodyKey2, BodyKey3, Space};
 use crate::world::{StaleKey, World, slot_of};
@@ -101,12 +102,7 @@ impl<S: Space> Motions<S> {
             self.of_slot.resize(index + 1, None);
         }
         if self.of_slot[index].replace(motion).is_none() {
-            // Bodies that are replaced again and again before an update would be noted each time.
-            if self.slots.len() >= 2 * self.of_slot.len() {
-                self.slots.sort_unstable();
-                self.slots.dedup();
-            }
-            self.slots.push(slot);
+            note_slot(&mut self.slots, slot, self.of_slot.len());
         }
     }
 }

@@ -128,7 +128,8 @@ impl World<Volume> {
 
     /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the
     /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them; of a level in one piece,
-    /// whose floor it touches, the walls are: see [`Pair3::next_impact`](crate::Pair3::next_impact).
+    /// whose floor it touches, the walls are: see [`Pair3::next_impact`](crate::Pair3::next_impact). What is flush with what it touches,
+    /// as the next tile of a floor, is passed over: [`next_impact_beside`](crate::Pair3::next_impact_beside).
     pub fn impacts(&self) -> &[Hit3] {
         &self.impacts
     }

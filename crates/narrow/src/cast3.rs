@@ -130,10 +130,9 @@ impl Pair3<'_> {
     /// them. Level is what lies no more than a 64th of the body's thickness away from it at the start, along the normal
     /// that it is met with, and no deeper than that 64th at the end, beyond what the motion goes into what is touched
     /// anyway; and, of a compound, what is flush with what it touches, as long as it is never deeper below that than
-    /// half of its thickness. The thickness is the radius of a ball in the
-    /// body's middle. So a ball on a level's floor, pressed to it by its weight, runs over the floor's seams, and into
-    /// the level's walls, steps and ramps. A motion that sinks a body into its floor by all its thickness leads it under
-    /// what stands there.
+    /// half of its thickness. The thickness is the radius of a ball in the body's middle. So a ball on a level's floor,
+    /// pressed to it by its weight, runs over the floor's seams, and into the level's walls, steps and ramps. A motion
+    /// that sinks a body into its floor by all its thickness leads it under what stands there.
     ///
     /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at the
     /// start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as half a

@@ -47,6 +47,8 @@ pub(crate) struct Passing<'p, V> {
     pub(crate) thickness: f64,
     /// Whether one is ground, whose inner edges have the normals of its faces.
     pub(crate) is_on_ground: bool,
+    /// Whether one is a half-space, which reaches along its own normal alone.
+    pub(crate) is_endless: bool,
     /// Their gap along an axis at the start.
     pub(crate) gap: &'p dyn Fn(V) -> f64,
     /// By how much that gap closes, to where it is least.
@@ -55,24 +57,28 @@ pub(crate) struct Passing<'p, V> {
 }
 
 impl<V: Copy> Passing<'_, V> {
-    /// Classifies a meeting along a unit axis, given the normals and separations of the contacts between the two bodies.
-    pub(crate) fn lies(&self, normal: V, touched: impl Iterator<Item = (V, f64)> + Clone) -> Lies {
-        if !self.is_on_ground && touched.clone().any(|it| self.is_flush(it)) {
+    /// Classifies a meeting along a unit axis, given the normals and separations of the contacts between the two bodies, where they
+    /// touch, and of all that A touches.
+    pub(crate) fn lies(
+        &self,
+        normal: V,
+        touched: Option<impl Iterator<Item = (V, f64)> + Clone>,
+        beside: impl Iterator<Item = (V, f64)>,
+    ) -> Lies {
+        let has_inner_edges = self.is_on_ground && touched.is_some();
+        let may_be_flush = !self.is_endless && !has_inner_edges;
+        if may_be_flush && beside.chain(touched.clone().into_iter().flatten()).any(|it| self.is_flush(it)) {
             return Lies::Level;
         }
+        let Some(mut touched) = touched else { return Lies::Ahead };
         let slack = NEXT_LEVEL * self.thickness;
         if (self.gap)(normal) > slack {
             return Lies::Ahead;
         }
         let into = (self.closing)(normal);
         let anyway = |axis: V| (self.closing)(axis).max(0.0) * (self.dot)(axis, normal).max(0.0);
-        let is_level = into <= slack || touched.into_iter().any(|(axis, _)| into - anyway(axis) <= slack);
+        let is_level = into <= slack || touched.any(|(axis, _)| into - anyway(axis) <= slack);
         if is_level { Lies::Level } else { Lies::Across }
-    }
-
-    /// Whether it is flush with what the body touches beside both.
-    pub(crate) fn is_flush_with(&self, mut touches: impl Iterator<Item = (V, f64)>) -> bool {
-        touches.any(|it| self.is_flush(it))
     }
 
     /// Whether it stands up no higher than a contact, and no further down than the body reaches, which in the end is no deeper below

@@ -3,7 +3,7 @@
 use super::answer::Met;
 use super::filter::Filter;
 use super::space::{Asked, Enter, Meet, Near, Posed};
-use super::walk::{Along, Around, Asks, Over, Question};
+use super::walk::{Along, Around, Asks, Over, Question, with_kept};
 use crate::collider::Collider;
 use crate::space::RunsInto;
 use crate::world::World;
@@ -78,7 +78,8 @@ pub(crate) fn first_ahead<S: Asked>(
 ) -> Option<Meet<S>> {
     // Who runs into nothing stands wherever it likes.
     let first = bodies_ahead((world, filter), at, displacement, &[]).first()?;
-    S::with_touches(|touches| {
+    with_kept(S::kept_touches(), |touches| {
+        touches.clear();
         let bounds = S::bounds(at.0, at.1, 0.0);
         let _ = boxes_over(world, &bounds, filter).visit(|Met(key)| {
             if let Some(body) = world.bodies.get(key).filter(|body| !body.sensor) {

@@ -1,7 +1,6 @@
 //! What the narrow phase says of one body: for the plane, and for space.
 
 use super::answer::{CastAnswer, NearAnswer, RayAnswer};
-use super::walk::with_kept;
 use crate::collider::Collider;
 use crate::space::{Plane, Space, Volume};
 use asunder_broad::Cast;
@@ -11,6 +10,7 @@ use asunder_geometry::{
 };
 use asunder_narrow::{Impact2, Impact3, Pair2, Pair3, Touch2, Touch3, cast_ray2, cast_ray3};
 use core::cell::Cell;
+use std::thread::LocalKey;
 
 thread_local! {
     static TOUCHES2: Cell<Vec<Touch2>> = const { Cell::new(Vec::new()) };
@@ -35,8 +35,8 @@ pub(crate) trait Asked: Space {
     fn overlaps(at: Posed<'_, Self>, body: &Collider<Self>) -> bool;
     /// Appends what the body is to a shape that overlaps it.
     fn add_touches(at: Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Self::Touch>);
-    /// Hands out an empty list, and takes its memory back: who asks every frame allocates nothing.
-    fn with_touches<R>(ask: impl FnOnce(&mut Vec<Self::Touch>) -> R) -> R;
+    /// A list that a thread keeps: who asks every frame allocates nothing.
+    fn kept_touches() -> &'static LocalKey<Cell<Vec<Self::Touch>>>;
     /// How near the body is.
     fn near(at: Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self>;
     /// A ray, for boxes.
@@ -82,11 +82,8 @@ impl Asked for Plane {
         Pair2::new(shape, pose, &body.shape, &body.pose).add_touches(to);
     }
 
-    fn with_touches<R>(ask: impl FnOnce(&mut Vec<Touch2>) -> R) -> R {
-        with_kept(&TOUCHES2, |touches| {
-            touches.clear();
-            ask(touches)
-        })
+    fn kept_touches() -> &'static LocalKey<Cell<Vec<Touch2>>> {
+        &TOUCHES2
     }
 
     fn near((shape, pose): Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self> {
@@ -182,11 +179,8 @@ impl Asked for Volume {
         Pair3::new(shape, pose, &body.shape, &body.pose).add_touches(to);
     }
 
-    fn with_touches<R>(ask: impl FnOnce(&mut Vec<Touch3>) -> R) -> R {
-        with_kept(&TOUCHES3, |touches| {
-            touches.clear();
-            ask(touches)
-        })
+    fn kept_touches() -> &'static LocalKey<Cell<Vec<Touch3>>> {
+        &TOUCHES3
     }
 
     fn near((shape, pose): Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self> {

@@ -67,21 +67,14 @@ impl Touched<'_> {
         let passing = Passing {
             thickness: self.thickness(pieces),
             is_on_ground: self.are_ground != [false; 2],
+            is_endless: pieces.iter().any(|it| matches!(it.shape, Shape2::HalfPlane(_))),
             gap: &|axis| first.gap(axis, 0.0),
             closing: &closing,
             dot: DVec2::dot,
         };
-        // Inner edges of ground that is touched have the normals of its faces.
-        let has_inner_edges = passing.is_on_ground && self.manifolds.is_some();
-        let is_endless = pieces.iter().any(|it| matches!(it.shape, Shape2::HalfPlane(_)));
-        if !has_inner_edges
-            && !is_endless
-            && passing.is_flush_with(self.touches.iter().filter_map(Touch2::axis))
-        {
-            return Lies::Level;
-        }
-        let Some(manifolds) = self.manifolds else { return Lies::Ahead };
-        passing.lies(normal, manifolds.iter().map(|it| (it.normal.as_dvec2(), it.separation.into())))
+        let touch = |it: &Manifold2| (it.normal.as_dvec2(), it.separation.into());
+        let touched = self.manifolds.map(|manifolds| manifolds.iter().map(touch));
+        passing.lies(normal, touched, self.touches.iter().filter_map(Touch2::axis))
     }
 
     /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.
