@@ -3,11 +3,16 @@
 use super::{EMPTY, IS_BOX, IS_LEAF, MOST_DEPTH, Rows, Sides, Tree, WIDTH};
 use crate::aabb::{Aabb3, Bounds};
 use crate::outward::{round_down, round_up};
+use arrayvec::ArrayVec;
 use core::ops::ControlFlow;
 use glam::{DVec3, Vec3};
 
 /// What waits while another is looked at: all but one of each node that stands above it.
 const STACK: usize = WIDTH * (MOST_DEPTH + 1);
+
+/// Boxes that wait, each with its place in the order. Not an array, which is written all over before it is used: of a ray on 20,000
+/// triangles that was 4 % of the time (AMD EPYC, Zen 5, 2026-11-25).
+type Stack = ArrayVec<(f32, u32), STACK>;
 
 /// Three roundings to f32 stand between a corner and a time, and five between corners and the square of a distance,
 /// of at most 2^-24 each.
@@ -46,11 +51,9 @@ impl Tree {
         }
         let ([a, b, c], [d, e, f]) = bounds.corners();
         let one: Sides = [a, b, c, d, e, f];
-        let mut stack = [self.root; STACK];
-        let mut waiting = 1;
-        while waiting > 0 {
-            waiting -= 1;
-            let slot = stack[waiting];
+        let mut stack = ArrayVec::<u32, STACK>::new();
+        stack.push(self.root);
+        while let Some(slot) = stack.pop() {
             if slot & IS_LEAF != 0 {
                 let leaf = &self.leaves[(slot & !IS_LEAF) as usize];
                 let mut hits = overlapping(&leaf.sides(), &one);
@@ -67,8 +70,7 @@ impl Tree {
                 let slot = node.slots[hits.trailing_zeros() as usize % WIDTH];
                 hits &= hits - 1;
                 if slot & IS_BOX == 0 {
-                    stack[waiting] = slot;
-                    waiting += 1;
+                    stack.push(slot);
                 } else {
                     visitor(slot & !IS_BOX, None)?;
                 }
@@ -93,12 +95,10 @@ impl Tree {
         if self.root == EMPTY {
             return;
         }
-        let mut stack = [(0.0_f32, self.root); STACK];
-        let mut waiting = 1;
+        let mut stack = Stack::new();
+        stack.push((0.0_f32, self.root));
         let mut found = Found::default();
-        'next: while waiting > 0 {
-            waiting -= 1;
-            let (place, mut slot) = stack[waiting];
+        'next: while let Some((place, mut slot)) = stack.pop() {
             // A limit below zero ends here.
             if place > limit {
                 continue;
@@ -118,22 +118,23 @@ impl Tree {
                 if bits == 0 {
                     continue 'next;
                 }
-                let bottom = waiting;
+                let bottom = stack.len();
                 while bits & (bits - 1) != 0 {
                     let lane = bits.trailing_zeros() as usize / 8 % WIDTH;
                     bits &= bits - 1;
                     let place = found.places[lane];
-                    insert(&mut stack, [bottom, waiting], (place, first | slots[lane]));
-                    waiting += 1;
+                    insert(&mut stack, bottom, (place, first | slots[lane]));
                 }
                 // The last of them: on with it at once, where it is the nearest.
                 let lane = bits.trailing_zeros() as usize / 8 % WIDTH;
                 let place = found.places[lane];
                 slot = first | slots[lane];
-                if waiting > bottom && stack[waiting - 1].0 <= place {
-                    let nearest = stack[waiting - 1].1;
-                    insert(&mut stack, [bottom, waiting - 1], (place, slot));
-                    slot = nearest;
+                if let Some(&(nearest, first)) = stack[bottom..].last()
+                    && nearest <= place
+                {
+                    stack.pop();
+                    insert(&mut stack, bottom, (place, slot));
+                    slot = first;
                 }
             }
             let place = (slot & !IS_BOX) as usize;
@@ -149,8 +150,9 @@ impl Tree {
 
 /// Puts a box among those between two heights of a stack. The nearest goes on top; of equals, the one in the earlier place.
 #[inline(always)]
-fn insert(stack: &mut [(f32, u32); STACK], [bottom, top]: [usize; 2], one: (f32, u32)) {
-    let mut at = top;
+fn insert(stack: &mut Stack, bottom: usize, one: (f32, u32)) {
+    let mut at = stack.len();
+    stack.push(one);
     while at > bottom && stack[at - 1].0 <= one.0 {
         stack[at] = stack[at - 1];
         at -= 1;
