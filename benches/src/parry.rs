@@ -1,6 +1,6 @@
 //! Our types as parry3d's.
 
-use asunder_geometry::{Aabb3, Pose3, Shape3};
+use asunder_geometry::{Aabb3, Part3, Pose3, Shape3};
 use glam::Vec3;
 use parry3d::bounding_volume::Aabb;
 use parry3d::math::Pose;
@@ -55,8 +55,12 @@ impl Shapes {
             Shape3::TriMesh(mesh) => {
                 SharedShape::trimesh(mesh.vertices().to_vec(), mesh.triangles().to_vec()).ok()?
             }
+            Shape3::Compound(compound) => {
+                let part = |part: &Part3| Some((pose(part.pose()), self.convert(part.shape())?));
+                SharedShape::compound(compound.parts().iter().map(part).collect::<Option<_>>()?)
+            }
             // No scene here has one.
-            Shape3::Compound(_) | Shape3::HeightField(_) => return None,
+            Shape3::HeightField(_) => return None,
         };
         if is_dear {
             self.known.push((shape.clone(), converted.clone()));

@@ -49,6 +49,7 @@
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
 //! - [`shapes`]: every kind of shape against every other: separations, points, compounds, boxes, refusals, worlds
+//! - [`many_parts`]: compounds of many parts say what the same parts say in compounds of few
 //! - [`shapes_peer`]: parry3d says the same of every kind of shape that it has
 //! - [`theory`]: the textbook's own examples
 //! - [`peer`]: parry3d says the same on 160,000 pairs
@@ -106,6 +107,7 @@ mod index;
 mod invariance;
 mod leaving;
 mod manifolds;
+mod many_parts;
 mod mass;
 mod motions;
 mod oracles;

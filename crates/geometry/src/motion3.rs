@@ -216,6 +216,20 @@ impl Turn3 {
         self.axis
     }
 
+    /// How far the end of an arm of unit length is from where it started, at most and at any fraction: twice the sine of half
+    /// the angle, 2 for half a turn.
+    ///
+    /// ```
+    /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};
+    /// let quarter = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 1.0, 0.0, 1.0))?.turn(&Pose3::IDENTITY);
+    /// assert!(quarter.chord() >= 2_f64.sqrt() && quarter.chord() < 1.4143);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn chord(&self) -> f64 {
+        2.0 * self.sine * ROUNDED_UP
+    }
+
     /// The quaternion x, y, z, w at a fraction from 0 to 1, not normalised: its length is between 0.7 and 1.
     #[inline]
     fn quaternion_at(&self, fraction: f64) -> [f64; 4] {

@@ -35,7 +35,7 @@ use crate::answer::{Manifold3, Separation3};
 use crate::ground3::OnGround;
 use crate::impact3::Impact3;
 use crate::level::Lies;
-use crate::pair3::{Pair3, Part, for_parts};
+use crate::pair3::{Pair3, Part, for_parts_in};
 use crate::touch::Touch3;
 use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -101,8 +101,8 @@ impl Pair3<'_> {
     /// poses from it may overlap by that rounding just before the fraction, and at the fraction are at most `error`
     /// apart with it. Where many steps lead no nearer, as for shapes that graze each other while they turn, the
     /// fraction is that of the last step, and `error` the gap that is left there. Cost: a few distances; several
-    /// times those of a [`cast`](Self::cast) while turning; of compounds, for every pair of parts whose swept
-    /// bounding spheres meet.
+    /// times those of a [`cast`](Self::cast) while turning; of compounds, for every pair of parts whose bounding
+    /// spheres meet on the way.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::{Quat, Vec3}};
@@ -233,12 +233,14 @@ impl Pair3<'_> {
         let mut is_asked = false;
         let whole_b = Part::whole(self.shape_b, &passage.bases[1]);
         let is_many = matches!(self.shape_b, Shape3::Compound(_));
-        let overlaps = for_parts(self.shape_a, &passage.bases[0], |a| {
+        let beside_b = || passage.region(0, self.shape_a, &whole_b);
+        let overlaps = for_parts_in(self.shape_a, &passage.bases[0], beside_b, |a| {
             let until = first.map_or(1.0, |known| known.fraction);
             if is_many && passage.stretch([&a, &whole_b], until).is_none() {
                 return false;
             }
-            for_parts(self.shape_b, &passage.bases[1], |b| {
+            let beside_a = || passage.region(1, self.shape_b, &a);
+            for_parts_in(self.shape_b, &passage.bases[1], beside_a, |b| {
                 let until = first.map_or(1.0, |known| known.fraction);
                 let Some(stretch) = passage.stretch([&a, &b], until) else { return false };
                 let met = match part_end(passage, [a, b], &stretch, until) {

@@ -48,6 +48,7 @@
 //! ```
 #![deny(missing_docs)]
 
+mod among;
 mod answer;
 mod batch;
 mod cast2;

@@ -2,10 +2,11 @@
 
 mod compounds;
 mod ground;
+mod part;
 
+use crate::among::{MANY, Region2};
 use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2, Tier, Verdict};
 use crate::batch::{Met, beyond};
-use crate::exact::Site2;
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::points::ContactPoints;
@@ -14,8 +15,11 @@ use crate::polygon::manifold::Touch;
 use crate::polygon::measure::{Asked, Near, Probe};
 use crate::polygon::outline::Turn;
 use crate::polygon::quick::Bodies;
+use crate::precision::round_down;
+use crate::whole2::part_count;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
+use part::{Part, for_parts, for_parts_in};
 
 /// Two posed shapes in the plane, ready to be asked about each other.
 ///
@@ -53,17 +57,6 @@ pub struct Pair2<'a> {
     turn_b: Turn,
     /// B's position less A's.
     between: DVec2,
-}
-
-/// A convex part of a body, as the body stands.
-#[derive(Clone, Copy)]
-struct Part<'a> {
-    index: u32,
-    shape: &'a Shape2,
-    /// Where it is in its compound; a shape that is none is its own only part.
-    local: Option<&'a Pose2>,
-    /// Its bounding circle's centre less the body's position, in world axes.
-    center: DVec2,
 }
 
 /// Two convex parts in the frame of the pair, and the way back from there.
@@ -189,6 +182,10 @@ impl<'a> Pair2<'a> {
     /// The closest points of shapes that do not overlap; nothing where they do. Cost: as the separation without a
     /// limit.
     pub fn distance(&self) -> Option<Closest2> {
+        // Of what overlaps, how deep each part is would be found out for nothing.
+        if self.has_many_parts() && self.overlaps() {
+            return None;
+        }
         let (place, near) = self.nearest(f64::INFINITY).ok()?;
         let [on_a, on_b] = near.closest?;
         Some(Closest2 {
@@ -290,11 +287,19 @@ impl<'a> Pair2<'a> {
         let mut least = Least::within(limit);
         let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
-        for_parts(self.shape_a, &self.turn_a, |a| {
+        let mut within = limit;
+        if self.has_many_parts() {
+            within = within.min(self.no_further_than());
+            least.give_up(round_down(within));
+        }
+        let beside_b = || self.around_b(&whole_b, within);
+        for_parts_in(self.shape_a, &self.turn_a, beside_b, |a| {
             if least.passes_over(gap(&a, &whole_b)) {
                 return false;
             }
-            for_parts(self.shape_b, &self.turn_b, |b| {
+            let within = within.min(least.reach());
+            let beside_a = || self.around_a(&a, within);
+            for_parts_in(self.shape_b, &self.turn_b, beside_a, |b| {
                 if !least.passes_over(gap(&a, &b)) {
                     let parts = self.parts(a, b);
                     let asked = Asked { limit: least.reach(), hint: Hint::NONE, points: false };
@@ -327,10 +332,40 @@ impl<'a> Pair2<'a> {
             return ask(&self.parts(Part::whole(self.shape_a, &self.turn_a), whole_b));
         }
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
-        for_parts(self.shape_a, &self.turn_a, |a| {
-            !is_far(&a, &whole_b)
-                && for_parts(self.shape_b, &self.turn_b, |b| !is_far(&a, &b) && ask(&self.parts(a, b)))
+        let beside_b = || self.around_b(&whole_b, within);
+        for_parts_in(self.shape_a, &self.turn_a, beside_b, |a| {
+            let beside_a = || self.around_a(&a, within);
+            let ask = |b| !is_far(&a, &b) && ask(&self.parts(a, b));
+            !is_far(&a, &whole_b) && for_parts_in(self.shape_b, &self.turn_b, beside_a, ask)
         })
+    }
+
+    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look further.
+    fn no_further_than(&self) -> f64 {
+        let middle_a = self.turn_a.turn(self.shape_a.center().as_dvec2());
+        let b = Part::nearest(self.shape_b, &self.turn_b, middle_a - self.between);
+        let a = Part::nearest(self.shape_a, &self.turn_a, self.between + b.center);
+        let b = Part::nearest(self.shape_b, &self.turn_b, a.center - self.between);
+        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, points: false };
+        match self.parts(a, b).convex.probe(&asked) {
+            Probe::Near(near) => (f64::from(near.separation) + f64::from(near.error)).max(0.0),
+            Probe::Beyond(..) => f64::INFINITY,
+        }
+    }
+
+    /// Where the parts of A are that may be so near to one of B, or to all of B.
+    fn around_b(&self, b: &Part, within: f64) -> Region2 {
+        Region2::ball(self.between + b.center, f64::from(b.shape.outer_radius()) + within)
+    }
+
+    /// The same the other way round.
+    fn around_a(&self, a: &Part, within: f64) -> Region2 {
+        Region2::ball(a.center - self.between, f64::from(a.shape.outer_radius()) + within)
+    }
+
+    /// Whether either is a compound of so many parts that its tree is asked.
+    fn has_many_parts(&self) -> bool {
+        [self.shape_a, self.shape_b].iter().any(|shape| part_count(shape) >= MANY)
     }
 
     /// Whether two convex parts, given with their places in their bodies, overlap, exactly.
@@ -370,36 +405,6 @@ impl<'a> Pair2<'a> {
             Convex::new([a.site(&self.pose_a), b.site(&self.pose_b)], [turn_a, turn_b], offset, summed);
         Parts { place: Place { indices: [a.index, b.index], shifts: [shift_a, shift_b], offset }, convex }
     }
-}
-
-impl<'a> Part<'a> {
-    /// A shape as a part of nothing: a compound by its bounding circle alone.
-    fn whole(shape: &'a Shape2, turn: &Turn) -> Self {
-        let center = turn.turn(shape.center().as_dvec2());
-        Self { index: 0, shape, local: None, center }
-    }
-
-    /// Shape and poses as they were given, for exact questions.
-    fn site(&self, body: &Pose2) -> Site2<'a> {
-        Site2 { shape: self.shape, body: *body, part: self.local }
-    }
-
-    /// Its rotation in the world, and its origin less the body's position.
-    fn placed(&self, body: &Turn) -> (Turn, DVec2) {
-        let Some(pose) = self.local else { return (*body, DVec2::ZERO) };
-        (body.of_part(pose.rotation()), body.turn(pose.position()))
-    }
-}
-
-/// Visits the convex parts of a shape until the visitor says to stop; returns whether it did.
-fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMut(Part<'a>) -> bool) -> bool {
-    let Shape2::Compound(compound) = shape else {
-        return visit(Part::whole(shape, turn));
-    };
-    compound.parts().iter().zip(0..).any(|(part, index)| {
-        let center = turn.turn(part.center());
-        visit(Part { index, shape: part.shape(), local: Some(part.pose()), center })
-    })
 }
 
 impl Parts<'_> {

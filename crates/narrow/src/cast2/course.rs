@@ -93,6 +93,9 @@ pub(super) fn meeting(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Optio
     if radii == f64::INFINITY {
         return Some([0.0, end]);
     }
+    if stretch.is_turning() && passes_by(stretch, pieces) {
+        return None;
+    }
     // By the time that B's centre is as far beyond as it was before, all is over: what is longer is not rounded.
     radii += stretch.lost(0.0) + 32.0 * f64::EPSILON * (sum(stretch.offset) + sum(offset) + radii);
     let (velocity, towards) = (stretch.velocity, offset.dot(stretch.velocity));
@@ -111,6 +114,20 @@ pub(super) fn meeting(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Optio
     let half = ((radii * radii - beside) / squared).sqrt();
     let (first, last) = ((nearest - half).max(0.0), (nearest + half).min(end));
     (first <= last).then_some([first, last])
+}
+
+/// Whether circles that hold both parts, about where they are when a stretch begins, pass each other for certain: who turns a little
+/// is not all around its body.
+fn passes_by(stretch: &Stretch, pieces: [&Piece; 2]) -> bool {
+    let center = |i: usize| stretch.spins[i].turn_at(0.0).turn(pieces[i].center);
+    let offset = stretch.offset + (center(1) - center(0));
+    let held = |i: usize| pieces[i].outer + stretch.spins[i].chord() * pieces[i].center.length();
+    let radii = (held(0) + held(1)) * (1.0 + 1e-6)
+        + stretch.lost(1.0)
+        + 1e-6 * (sum(pieces[0].center) + sum(pieces[1].center));
+    let velocity = stretch.velocity;
+    let nearest = (offset.dot(velocity) / velocity.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (offset - velocity * nearest).length_squared() > radii * radii
 }
 
 /// The longest step within `rest` that leaves something for certain, or one that leaves little of what there is, `over`.

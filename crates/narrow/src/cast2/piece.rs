@@ -1,7 +1,9 @@
 //! The convex parts of a body, as a cast sees them: where they are in the body, and how far they reach.
 
+use super::stretch::Stretch;
+use crate::among::{MANY, Region2, in_order};
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Aabb2, Pose2, Shape2};
+use asunder_geometry::{Aabb2, Part2, Pose2, Shape2};
 
 /// A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
 const STRETCH: f64 = 1.0 + 4.0 * f32::EPSILON as f64;
@@ -38,6 +40,10 @@ impl<'a> Piece<'a> {
         Self { index: 0, shape: chain, local: None, center, outer, arm: 0.0 }
     }
 
+    fn of(part: &'a Part2, index: u32) -> Self {
+        Self::new(part.shape(), part.center(), Some(part.pose()), index)
+    }
+
     fn new(shape: &'a Shape2, center: DVec2, local: Option<&'a Pose2>, index: u32) -> Self {
         let radius = f64::from(shape.outer_radius());
         let core = if radius < f64::INFINITY { radius - f64::from(shape.radius()) } else { 0.0 };
@@ -56,6 +62,49 @@ pub(super) fn for_pieces<'a>(shape: &'a Shape2, mut visit: impl FnMut(&Piece<'a>
         return visit(&Piece::whole(shape));
     };
     for (part, index) in compound.parts().iter().zip(0..) {
-        visit(&Piece::new(part.shape(), part.center(), Some(part.pose()), index));
+        visit(&Piece::of(part, index));
     }
+}
+
+/// As [`for_pieces`], in the same order, but for those of a compound of many that certainly do not meet a piece of the other body
+/// within a stretch: pieces of A (0), or of B (1).
+pub(super) fn for_pieces_beside<'a>(
+    (shape, which): (&'a Shape2, usize),
+    stretch: &Stretch,
+    other: &Piece,
+    mut visit: impl FnMut(&Piece<'a>),
+) {
+    if let Shape2::Compound(compound) = shape
+        && compound.parts().len() >= MANY
+    {
+        let region = region(stretch, which, &Piece::whole(shape), other);
+        if region.is_bounded() {
+            in_order(
+                |find| region.walk(compound, find),
+                |index| {
+                    if let Some(part) = compound.parts().get(index as usize) {
+                        visit(&Piece::of(part, index));
+                    }
+                    false
+                },
+            );
+            return;
+        }
+    }
+    for_pieces(shape, visit);
+}
+
+/// Where the pieces of a body are when a stretch begins, in its own axes, that may meet a piece of the other.
+fn region(stretch: &Stretch, which: usize, body: &Piece, other: &Piece) -> Region2 {
+    let (own, others) = (&stretch.spins[which], &stretch.spins[1 - which]);
+    let center = others.turn_at(0.0).turn(other.center);
+    let (from, way) = match which {
+        0 => (stretch.offset + center, -stretch.velocity),
+        _ => (center - stretch.offset, stretch.velocity),
+    };
+    // Where they are after that, they are no further from where they were than a chord.
+    let turned = others.chord() * other.center.length() + own.chord() * (body.center.length() + body.outer);
+    let turn = own.turn_at(0.0);
+    let radius = other.outer + turned + stretch.lost(1.0);
+    Region2 { from: turn.turn_back(from), way: turn.turn_back(way), radius }
 }

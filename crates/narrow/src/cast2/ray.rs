@@ -14,11 +14,12 @@
 mod ground;
 
 use super::sum;
+use crate::among::MANY;
 use crate::exact::{Site2, holds2};
 use crate::impact2::RayHit2;
 use crate::polygon::outline::{Outline, Turn, is_searched};
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Circle, Pose2, Ray2, Shape2};
+use asunder_geometry::{Circle, Compound2, Pose2, Ray2, Shape2};
 
 /// Roundings of a coordinate of the ray seen from the shape, in units of 2^-52 of all that is added up: two
 /// rotations and two quotients of 8 units of 2^-53 at most, differences, and the projection.
@@ -30,8 +31,8 @@ const ROUNDINGS: f64 = 16.0;
 /// Whether it starts inside is exact; then the distance is 0 and the normal is against the ray. Of a compound, the
 /// part that it enters first; one that it starts inside of before any other. Of a chain, the segment that it crosses
 /// first, from its front if the chain is one-sided, with the normal against the ray. Cost: 30 to 80 ns for a shape of few
-/// vertices, the logarithm of the vertices for a polygon of many, the number of parts for a compound, the segments whose
-/// boxes it meets for a chain; some
+/// vertices, the logarithm of the vertices for a polygon of many, the parts for a compound, or the logarithm of many and those
+/// whose boxes it meets, the segments whose boxes it meets for a chain; some
 /// microseconds where the origin lies on the outline up to rounding.
 ///
 /// ```
@@ -56,28 +57,45 @@ pub fn cast_ray2(shape: &Shape2, pose: &Pose2, ray: &Ray2, limit: f64) -> Option
     let Shape2::Compound(compound) = shape else {
         return Asked { shape, pose, part: None, index: 0, ray }.answer(&beam, limit);
     };
+    into_parts(compound, (pose, ray), &beam, limit)
+}
+
+/// The nearest of a compound's parts: of few one after the other, of many in the order in which it meets their boxes.
+fn into_parts(
+    compound: &Compound2,
+    (pose, ray): (&Pose2, &Ray2),
+    beam: &Beam,
+    limit: f64,
+) -> Option<RayHit2> {
     let mut first: Option<RayHit2> = None;
-    for (part, index) in compound.parts().iter().zip(0..) {
+    let mut offer = |index: u32| {
         let reach = first.map_or(limit, |first| first.distance);
-        if beam.misses(part.center(), f64::from(part.shape().outer_radius()), reach) {
-            continue;
-        }
-        let local = part.pose();
-        let origin = local.transform_back(beam.origin);
-        let Some(seen) =
-            Beam::new(origin, local.turn_back(beam.direction), beam.summed + sum(local.position()))
-        else {
-            continue;
+        let Some(hit) = compound.parts().get(index as usize).and_then(|part| {
+            if beam.misses(part.center(), f64::from(part.shape().outer_radius()), reach) {
+                return None;
+            }
+            let local = part.pose();
+            let origin = local.transform_back(beam.origin);
+            let seen =
+                Beam::new(origin, local.turn_back(beam.direction), beam.summed + sum(local.position()))?;
+            Asked { shape: part.shape(), pose, part: Some(local), index, ray }.answer(&seen, reach)
+        }) else {
+            return reach;
         };
-        let asked = Asked { shape: part.shape(), pose, part: Some(local), index, ray };
-        let Some(hit) = asked.answer(&seen, reach) else { continue };
-        if hit.inside {
-            return Some(hit);
-        }
-        if first.is_none_or(|first| hit.distance < first.distance) {
-            first = Some(hit);
-        }
+        // Of equals, the first; and what it starts inside of before all.
+        let place = |hit: &RayHit2| (!hit.inside, hit.distance, hit.part);
+        first = Some(first.filter(|known| place(known) <= place(&hit)).unwrap_or(hit));
+        first.map_or(limit, |known| known.distance)
+    };
+    if compound.parts().len() < MANY {
+        (0..).zip(compound.parts()).for_each(|(index, _)| {
+            offer(index);
+        });
+        return first;
     }
+    let size = f64::from(compound.outer_radius()) + sum(compound.center().as_dvec2());
+    let grown = (16.0 * f64::from(f32::EPSILON) * (sum(beam.origin) + size)) as f32;
+    compound.visit_along(beam.origin, beam.direction, grown, limit, offer);
     first
 }
 

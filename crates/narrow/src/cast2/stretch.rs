@@ -176,6 +176,11 @@ impl Spin {
         Self { from, change, speed, swerve, rounding: ROTATION_ROUNDING }
     }
 
+    /// How far an arm of unit length goes at most, by poses whose rotations are rounded to f32.
+    pub(super) fn chord(&self) -> f64 {
+        self.change.length() + 4.0 * self.rounding
+    }
+
     /// The rotation at a time: the stored one of a body that does not turn, else of unit length.
     #[inline]
     pub(super) fn turn_at(&self, at: f64) -> Turn {

@@ -1,5 +1,6 @@
 //! How two bodies move past each other, and how two of their parts stand at any moment of it.
 
+use crate::among::Region3;
 use crate::pair3::{Pair3, Part};
 use crate::polyhedron::closest::Placed;
 use crate::polyhedron::half_space::Plane;
@@ -22,6 +23,11 @@ pub(super) struct Passage {
     /// What rounding the positions of moved bodies may add to a gap.
     pub(super) rounding: f64,
 }
+
+/// For how many steps spheres are followed that turn with their bodies, and what share of their radii apart they count as met: what
+/// follows asks the parts themselves.
+const MAX_LOOKS: u32 = 12;
+const NEAR_ENOUGH: f64 = 1.0 / 64.0;
 
 /// Two convex parts of moving bodies.
 pub(super) struct Course<'a> {
@@ -139,7 +145,62 @@ impl Passage {
             }
         };
         let ((from, radius_a), (to, radius_b)) = (sphere(0), sphere(1));
-        Stretch::of_spheres([from, to, self.between], radius_a + radius_b, self.drift, until)
+        let stretch = Stretch::of_spheres([from, to, self.between], radius_a + radius_b, self.drift, until)?;
+        (self.is_straight() || self.may_meet(parts, until)).then_some(stretch)
+    }
+
+    /// Whether the bounding spheres of two parts may meet until a fraction, by what they do while their bodies turn: from where they
+    /// are, on to where they may meet at the earliest (as `advance`, of spheres).
+    fn may_meet(&self, parts: [&Part; 2], until: f64) -> bool {
+        let arms = parts.map(|part| part.center.length());
+        let local = |i: usize| self.bases[i].turn_back(parts[i].center);
+        let locals = [local(0), local(1)];
+        let center = |i: usize, fraction: f64| match self.turns[i] {
+            Some(turn) => turn.basis_at(fraction).turn(locals[i]),
+            None => parts[i].center,
+        };
+        let speed = |i: usize| self.turns[i].map_or(0.0, |turn| turn.top_speed() * arms[i]);
+        let fastest = self.drift.length() + speed(0) + speed(1);
+        let radii: f64 = parts.iter().map(|part| f64::from(part.shape.outer_radius())).sum();
+        // Rotations of poses are rounded to f32.
+        let turned = 2.0 * f64::from(f32::EPSILON) * (arms[0] + arms[1]);
+        let reach = radii + arms[0] + arms[1] + length(self.between) + length(self.drift);
+        let near = radii + self.rounding + turned + 64.0 * f64::EPSILON * reach;
+        let mut fraction = 0.0;
+        for _ in 0..MAX_LOOKS {
+            let apart = self.between_at(fraction) + (center(1, fraction) - center(0, fraction));
+            let gap = apart.length() - near;
+            if gap > fastest * (until - fraction) {
+                return false;
+            }
+            if gap.is_nan() || gap < radii * NEAR_ENOUGH {
+                break;
+            }
+            fraction += gap / fastest;
+        }
+        true
+    }
+
+    /// That of a ball about where a part's bounding sphere is at the start, which holds it at any time while its body turns.
+    fn swept_radius(&self, i: usize, part: &Part) -> f64 {
+        f64::from(part.shape.outer_radius()) + self.chord(i) * part.center.length()
+    }
+
+    /// How far an arm of unit length of a body goes while it turns, by poses whose rotations are rounded to f32.
+    fn chord(&self, i: usize) -> f64 {
+        self.turns[i].map_or(0.0, |turn| turn.chord() + 2.0 * f64::from(f32::EPSILON))
+    }
+
+    /// Where the parts of a body are, at the start, that may meet a part of the other, or all of it, on the way: parts of A
+    /// (0), or of B (1).
+    pub(super) fn region(&self, i: usize, body: &Shape3, other: &Part) -> Region3 {
+        let (from, way) = match i {
+            0 => (self.between + other.center, -self.drift),
+            _ => (other.center - self.between, self.drift),
+        };
+        let arm = f64::from(body.outer_radius()) + body.center().as_dvec3().length();
+        let turned = if arm.is_finite() { self.chord(i) * arm } else { 0.0 };
+        Region3 { from, way, radius: self.swept_radius(1 - i, other) + turned + self.rounding }
     }
 }
 

@@ -8,7 +8,7 @@
 //! triangle            where it meets the plane, and on which side of three edges                       (planes)
 //! what is rounded, segments, flat hulls, triangles seen edge on:
 //!                     the ray as a point that moves                                                    (advance)
-//! compound            the nearest of its parts
+//! compound            the nearest of its parts; of many, nearest box first
 //! mesh, height field  the nearest of its triangles                                                     (ground)
 //! ```
 //! All in f64. Only whether the origin is inside is asked of exact arithmetic, where it lies within rounding of the
@@ -30,6 +30,7 @@ mod round;
 
 use super::advance::{End, advance};
 use super::passage::{Course, Fineness, Passage, length};
+use crate::among::MANY;
 use crate::exact::{self, Site3};
 use crate::impact3::RayHit3;
 use crate::pair3::{Pair3, Part, for_parts};
@@ -100,7 +101,7 @@ pub fn cast_ray3(shape: &Shape3, pose: &Pose3, ray: &Ray3, limit: f64) -> Option
     let way = ray.direction().as_dvec3();
     let cast =
         Cast { shape, pose, ray, way, squared: way.length_squared(), from: ray.origin() - pose.position() };
-    let mut limit = if limit.is_nan() { f64::INFINITY } else { limit.max(0.0) };
+    let limit = if limit.is_nan() { f64::INFINITY } else { limit.max(0.0) };
     if let Shape3::Sphere(sphere) = shape {
         let radius = f64::from(sphere.radius());
         let meeting = round::sphere(&cast.line(DVec3::ZERO, radius), radius);
@@ -114,19 +115,7 @@ pub fn cast_ray3(shape: &Shape3, pose: &Pose3, ray: &Ray3, limit: f64) -> Option
         let meeting = cast.meeting(shape, &basis, DVec3::ZERO, limit);
         return cast.answer(meeting, limit, || Part::whole(shape, &basis));
     }
-    let mut first: Option<RayHit3> = None;
-    for_parts(shape, &basis, |part| {
-        let (axes, shift) = part.placed(&basis);
-        let meeting = cast.meeting(part.shape, &axes, shift, limit);
-        let Some(hit) = cast.answer(meeting, limit, || part) else { return false };
-        // Of equals, the first.
-        if first.is_none_or(|known| hit.distance < known.distance) {
-            limit = hit.distance;
-            first = Some(RayHit3 { part: part.index, ..hit });
-        }
-        hit.inside
-    });
-    first
+    cast.over_parts(&basis, limit)
 }
 
 /// One ray, one body.
@@ -148,6 +137,39 @@ impl<'a> Cast<'a> {
         // A subtraction, a rotation of a part or two, and the ray's direction to where it passes.
         let doubt = 64.0 * f64::EPSILON * (length(self.from) + length(shift) + size);
         Line { origin: self.from - shift, way: self.way, squared: self.squared, doubt }
+    }
+
+    /// The nearest of a compound's parts: of few one after the other, of many in the order in which it meets their boxes.
+    fn over_parts(&self, basis: &Basis3, limit: f64) -> Option<RayHit3> {
+        let mut first: Option<RayHit3> = None;
+        let mut offer = |part: Part<'a>| {
+            let within = first.map_or(limit, |known| known.distance);
+            let (axes, shift) = part.placed(basis);
+            let meeting = self.meeting(part.shape, &axes, shift, within);
+            let hit = self.answer(meeting, within, || part).map(|hit| RayHit3 { part: part.index, ..hit });
+            // Of equals, the first.
+            let is_first = |hit: &RayHit3| {
+                first.is_none_or(|known| (hit.distance, hit.part) < (known.distance, known.part))
+            };
+            first = hit.filter(is_first).or(first);
+            first.map_or(limit, |known| known.distance)
+        };
+        let Shape3::Compound(compound) = self.shape else { return None };
+        if compound.parts().len() < MANY {
+            for_parts(self.shape, basis, |part| {
+                offer(part);
+                false
+            });
+            return first;
+        }
+        let size = f64::from(self.shape.outer_radius()) + length(self.shape.center().as_dvec3());
+        let grown = (256.0 * f64::EPSILON * (length(self.from) + size)) as f32;
+        let (from, way) = (basis.turn_back(self.from), basis.turn_back(self.way));
+        compound.visit_along(from, way, grown, limit, |index| match compound.parts().get(index as usize) {
+            Some(part) => offer(Part::of(part, index, basis)),
+            None => limit,
+        });
+        first
     }
 
     /// Where it meets a convex shape, by its axes and its origin less the body's position.

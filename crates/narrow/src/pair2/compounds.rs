@@ -1,6 +1,6 @@
 //! Contacts of compounds in the plane, with what the last frame left.
 
-use super::{Pair2, Part, for_parts};
+use super::{Pair2, Part, for_parts_in};
 use crate::answer::Manifold2;
 use crate::batch::Met;
 use crate::feature::Hint;
@@ -27,7 +27,9 @@ impl Pair2<'_> {
         // Where none is due, the middles part more pairs of parts than a direction that has failed.
         let due = sought.filter(|&(_, is_due)| is_due);
         let (from, is_due) = due.unwrap_or_else(|| (wholes.towards_b(), false));
-        let is_worth_it = is_due || is_many([self.shape_a, self.shape_b].map(part_count));
+        // Of many parts a tree leaves out more, for less than their projections.
+        let is_worth_it =
+            !self.has_many_parts() && (is_due || is_many([self.shape_a, self.shape_b].map(part_count)));
         let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
             return (Hint::towards(from.extend(0.0)), Err(0.0));
@@ -35,12 +37,14 @@ impl Pair2<'_> {
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
         let (mut kept, mut touch) = (Kept::new(asked.hint), None);
-        for_parts(self.shape_a, &self.turn_a, |a| {
+        let beside_b = || self.around_b(&whole_b, asked.limit);
+        for_parts_in(self.shape_a, &self.turn_a, beside_b, |a| {
             let shadow = shadow.as_ref().map(|(shadow, _)| shadow);
             if shadow.is_some_and(|shadow| shadow.parts_from_whole(a.index)) || is_far(&a, &whole_b) {
                 return false;
             }
-            for_parts(self.shape_b, &self.turn_b, |b| {
+            let beside_a = || self.around_a(&a, asked.limit);
+            for_parts_in(self.shape_b, &self.turn_b, beside_a, |b| {
                 if shadow.is_some_and(|shadow| shadow.parts(a.index, b.index)) || is_far(&a, &b) {
                     return false;
                 }

@@ -1,6 +1,6 @@
 //! Contacts of compounds in space, with what the last frame left.
 
-use super::{Pair3, Part, for_parts};
+use super::{Pair3, Part, for_parts_in};
 use crate::batch::Met;
 use crate::feature::Hint;
 use crate::kept::Kept;
@@ -30,7 +30,9 @@ impl Pair3<'_> {
         // Where none is due, the middles part more pairs of parts than a direction that has failed.
         let due = sought.filter(|&(_, is_due)| is_due);
         let (from, is_due) = due.unwrap_or_else(|| (wholes.towards_b(), false));
-        let is_worth_it = is_due || is_many([self.shape_a, self.shape_b].map(part_count));
+        // Of many parts a tree leaves out more, for less than their projections.
+        let is_worth_it =
+            !self.has_many_parts() && (is_due || is_many([self.shape_a, self.shape_b].map(part_count)));
         let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
             return (Hint::towards(bases[0].turn_back(from)), Err(0.0));
@@ -38,24 +40,35 @@ impl Pair3<'_> {
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
         let (mut kept, mut touch) = (Kept::new(asked.hint), None);
-        for_parts(self.shape_a, &bases[0], |a| {
-            let shadow = shadow.as_ref().map(|(shadow, _)| shadow);
-            if shadow.is_some_and(|shadow| shadow.parts_from_whole(a.index)) || is_far(&a, &whole_b) {
-                return false;
-            }
-            for_parts(self.shape_b, &bases[1], |b| {
-                if shadow.is_some_and(|shadow| shadow.parts(a.index, b.index)) || is_far(&a, &b) {
+        let within = asked.limit;
+        for_parts_in(
+            self.shape_a,
+            &bases[0],
+            || self.around_b(&whole_b, within),
+            |a| {
+                let shadow = shadow.as_ref().map(|(shadow, _)| shadow);
+                if shadow.is_some_and(|shadow| shadow.parts_from_whole(a.index)) || is_far(&a, &whole_b) {
                     return false;
                 }
-                let parts = self.parts(&bases, a, b);
-                let asked = Asked { hint: kept.of(parts.indices), ..asked };
-                if let (hint, Ok(found)) = parts.contact(asked, margin, manifolds) {
-                    touch = Some(touch.unwrap_or(false) || found.overlapping);
-                    kept.offer(parts.indices, hint, found.separation);
-                }
-                false
-            })
-        });
+                for_parts_in(
+                    self.shape_b,
+                    &bases[1],
+                    || self.around_a(&a, within),
+                    |b| {
+                        if shadow.is_some_and(|shadow| shadow.parts(a.index, b.index)) || is_far(&a, &b) {
+                            return false;
+                        }
+                        let parts = self.parts(&bases, a, b);
+                        let asked = Asked { hint: kept.of(parts.indices), ..asked };
+                        if let (hint, Ok(found)) = parts.contact(asked, margin, manifolds) {
+                            touch = Some(touch.unwrap_or(false) || found.overlapping);
+                            kept.offer(parts.indices, hint, found.separation);
+                        }
+                        false
+                    },
+                )
+            },
+        );
         let next = shadow.map_or(from, |(_, next)| next);
         let hint = if touch.is_some() { kept.hint() } else { asked.hint.seeking(bases[0].turn_back(next)) };
         (hint, touch.ok_or(0.0))

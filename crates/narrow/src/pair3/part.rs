@@ -1,8 +1,9 @@
 //! Convex parts of bodies.
 
+use crate::among::{MANY, Region3, in_order};
 use crate::exact::Site3;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Basis3, Pose3, Shape3};
+use asunder_geometry::{Aabb3, Basis3, Part3, Pose3, Shape3};
 
 /// A convex part of a body, as the body stands.
 #[derive(Clone, Copy)]
@@ -20,6 +21,25 @@ impl<'a> Part<'a> {
     pub(crate) fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
         let center = basis.turn(shape.center().as_dvec3());
         Self { index: 0, shape, local: None, center }
+    }
+
+    /// The part of a shape whose box is nearest to a point, in metres and world axes from the body's position.
+    pub(super) fn nearest(shape: &'a Shape3, basis: &Basis3, point: DVec3) -> Self {
+        let whole = Self::whole(shape, basis);
+        let Shape3::Compound(compound) = shape else { return whole };
+        let point = basis.turn_back(point).as_vec3();
+        let mut nearest = 0;
+        compound.visit_nearest(&Aabb3::new(point, point), f64::INFINITY, |part| {
+            nearest = part;
+            // That is enough.
+            -1.0
+        });
+        compound.parts().get(nearest as usize).map_or(whole, |part| Self::of(part, nearest, basis))
+    }
+
+    pub(crate) fn of(part: &'a Part3, index: u32, basis: &Basis3) -> Self {
+        let center = basis.turn(part.center());
+        Self { index, shape: part.shape(), local: Some(part.pose()), center }
     }
 
     /// Whether its axes are not its body's.
@@ -50,8 +70,26 @@ pub(crate) fn for_parts<'a>(
     let Shape3::Compound(compound) = shape else {
         return visit(Part::whole(shape, basis));
     };
-    compound.parts().iter().zip(0..).any(|(part, index)| {
-        let center = basis.turn(part.center());
-        visit(Part { index, shape: part.shape(), local: Some(part.pose()), center })
-    })
+    compound.parts().iter().zip(0..).any(|(part, index)| visit(Part::of(part, index, basis)))
+}
+
+/// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's
+/// position sees it in world axes.
+pub(crate) fn for_parts_in<'a>(
+    shape: &'a Shape3,
+    basis: &Basis3,
+    region: impl FnOnce() -> Region3,
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
+    if let Shape3::Compound(compound) = shape
+        && compound.parts().len() >= MANY
+    {
+        let Region3 { from, way, radius } = region();
+        let local = Region3 { from: basis.turn_back(from), way: basis.turn_back(way), radius };
+        if local.is_bounded() {
+            let part = |index: u32| Some(Part::of(compound.parts().get(index as usize)?, index, basis));
+            return in_order(|find| local.walk(compound, find), |index| part(index).is_some_and(&mut visit));
+        }
+    }
+    for_parts(shape, basis, visit)
 }

@@ -1,0 +1,267 @@
+//! Several convex parts in the plane under one collider.
+
+use super::{CompoundError, tree_of};
+use crate::aabb::{Aabb2, Aabb3, Bounds};
+use crate::ground::tree::{Line, Near, Tree};
+use crate::outward::{around2, round_up};
+use crate::pose2::Pose2;
+use crate::shape::Shape2;
+use crate::tolerance::{MAX_PARTS, MAX_RADIUS};
+use core::ops::ControlFlow;
+use glam::{DVec2, Vec2, Vec3};
+use std::sync::Arc;
+
+/// Several convex parts in the plane, each posed, that move as one. Clones share the data.
+///
+#[doc = include_str!("../../doc/compound2.svg")]
+///
+/// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its
+/// own; parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a
+/// bounding circle test for each pair of parts, and the cost of the parts that pass; of 16 parts and more, which are looked up
+/// in a tree, the logarithm of their number for each part of the other, and the cost of what is near.
+///
+/// ```
+/// use asunder_geometry::{Circle, Compound2, Pose2, Rect, Shape2, glam::{DVec2, Vec2}};
+/// let head: Shape2 = Circle::new(0.4)?.into();
+/// let body: Shape2 = Rect::from_half_extents(Vec2::new(0.1, 1.0))?.into();
+/// let hammer = Compound2::new([(Pose2::at([0.0, 1.0])?, head), (Pose2::IDENTITY, body)])?;
+/// assert_eq!(hammer.parts().len(), 2);
+/// assert!(hammer.contains(DVec2::new(0.0, 1.4)) && !hammer.contains(DVec2::X));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Compound2 {
+    data: Arc<Data2>,
+    center: Vec2,
+    outer_radius: f32,
+}
+
+#[derive(Debug)]
+struct Data2 {
+    parts: Box<[Part2]>,
+    /// Their boxes, in the compound's axes; flat ones.
+    tree: Tree,
+}
+
+/// A part of a compound in the plane.
+///
+/// ```
+/// use asunder_geometry::{Compound2, Circle, Pose2, Shape2};
+/// let ball: Shape2 = Circle::new(1.0)?.into();
+/// let part = &Compound2::new([(Pose2::IDENTITY, ball.clone())])?.parts()[0].clone();
+/// assert_eq!((part.pose(), part.shape()), (&Pose2::IDENTITY, &ball));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part2 {
+    pose: Pose2,
+    shape: Shape2,
+    center: DVec2,
+}
+
+impl Part2 {
+    fn new(pose: Pose2, shape: Shape2) -> Self {
+        let center = pose.transform(shape.center());
+        Self { pose, shape, center }
+    }
+
+    /// Where the part is in the compound.
+    #[inline]
+    pub const fn pose(&self) -> &Pose2 {
+        &self.pose
+    }
+
+    /// What it is: convex and bounded.
+    #[inline]
+    pub const fn shape(&self) -> &Shape2 {
+        &self.shape
+    }
+
+    /// Centre of its bounding circle, in the compound's axes.
+    #[inline]
+    pub const fn center(&self) -> DVec2 {
+        self.center
+    }
+}
+
+impl Compound2 {
+    /// A compound from its parts and where they are.
+    ///
+    /// # Errors
+    /// No parts, or more than [`MAX_PARTS`]; a part that is a compound, ground or unbounded, or that reaches beyond
+    /// 1e6 m.
+    pub fn new(parts: impl IntoIterator<Item = (Pose2, Shape2)>) -> Result<Self, CompoundError> {
+        let parts: Box<[Part2]> = parts.into_iter().map(|(pose, shape)| Part2::new(pose, shape)).collect();
+        if parts.is_empty() {
+            return Err(CompoundError::NoParts);
+        }
+        if parts.len() > MAX_PARTS {
+            return Err(CompoundError::TooManyParts { count: parts.len() });
+        }
+        let mut boxes = Vec::with_capacity(parts.len());
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for (index, part) in parts.iter().enumerate() {
+            match part.shape {
+                Shape2::Compound(_) => return Err(CompoundError::Nested { index }),
+                Shape2::HalfPlane(_) => return Err(CompoundError::Unbounded { index }),
+                Shape2::Chain(_) => return Err(CompoundError::Ground { index }),
+                _ => {}
+            }
+            let radius = f64::from(part.shape.outer_radius());
+            if part.center().length() + radius > f64::from(MAX_RADIUS) {
+                return Err(CompoundError::TooLarge { index });
+            }
+            let bounds = part.shape.bounds(&part.pose, 0.0);
+            (low, high) = (low.min(bounds.min.as_dvec2()), high.max(bounds.max.as_dvec2()));
+            boxes.push(flat(&bounds));
+        }
+        let center = ((low + high) * 0.5).as_vec2();
+        let reach = |part: &Part2| {
+            // A stored rotation stretches by its length, which is one up to the rounding of f32.
+            let stretched = f64::from(part.shape.outer_radius()) * (1.0 + 2.0 * f64::from(f32::EPSILON));
+            (part.center() - center.as_dvec2()).length() + stretched
+        };
+        let outer = parts.iter().map(reach).fold(0.0, f64::max);
+        let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
+        let tree = tree_of(&boxes);
+        Ok(Self { data: Arc::new(Data2 { parts, tree }), center, outer_radius })
+    }
+
+    /// An address that two compounds have in common exactly when they share their parts; only good while both live. It
+    /// differs from run to run: look up by it, and let no output depend on it.
+    #[cfg(feature = "serde")]
+    #[doc(hidden)]
+    pub fn shared_address(&self) -> usize {
+        Arc::as_ptr(&self.data).addr()
+    }
+
+    /// The parts, in the order given: a manifold's `part_a` and `part_b` count them.
+    #[inline]
+    pub fn parts(&self) -> &[Part2] {
+        &self.data.parts
+    }
+
+    /// Hands every part whose own box overlaps this one, in the compound's axes, to `visitor`, each once, until it breaks
+    /// off. The order is a function of the compound and the box. Cost: logarithmic in the parts, and linear in those that
+    /// are handed over.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
+    /// use core::ops::ControlFlow;
+    /// let ball: Shape2 = Circle::new(0.5)?.into();
+    /// let row = Compound2::new([(Pose2::at([0.0, 0.0])?, ball.clone()), (Pose2::at([2.0, 0.0])?, ball)])?;
+    /// let mut near = vec![];
+    /// let _ = row.visit_near(&Aabb2::new(Vec2::new(1.0, 0.0), Vec2::new(1.5, 0.0)), |part| {
+    ///     near.push(part);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(near, [1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn visit_near(
+        &self,
+        bounds: &Aabb2,
+        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.data.tree.visit_overlapping(&flat(bounds), |part, _| visitor(part))
+    }
+
+    /// Hands every part whose box a ray meets to `visitor`, each once and roughly in the order of meeting, up to a limit that
+    /// `visitor` may lower: it returns the new one.
+    ///
+    /// The ray is given in the compound's axes, in metres, and the limit in lengths of its direction. Boxes are widened by
+    /// `grown` metres, and by more than rounding: none is lost. Nothing is met by what is not finite. Cost: as
+    /// [`visit_near`](Self::visit_near).
+    ///
+    /// ```
+    /// use asunder_geometry::{Circle, Compound2, Pose2, Shape2, glam::DVec2};
+    /// let ball: Shape2 = Circle::new(0.5)?.into();
+    /// let row = Compound2::new([(Pose2::at([0.0, 0.0])?, ball.clone()), (Pose2::at([2.0, 0.0])?, ball)])?;
+    /// let mut met = vec![];
+    /// row.visit_along(DVec2::new(5.0, 0.1), DVec2::NEG_X, 0.0, 10.0, |part| {
+    ///     met.push(part);
+    ///     3.0
+    /// });
+    /// assert_eq!(met, [1], "the other is beyond the limit by then");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_along(
+        &self,
+        from: DVec2,
+        direction: DVec2,
+        grown: f32,
+        limit: f64,
+        mut visitor: impl FnMut(u32) -> f64,
+    ) {
+        if let Some(line) = Line::new(from.extend(0.0), direction.extend(0.0), Vec3::splat(grown)) {
+            self.data.tree.visit_in_order(&line, limit, |part, _| visitor(part));
+        }
+    }
+
+    /// Hands every part whose box is within `limit` metres of this one, in the compound's axes, to `visitor`, each once and
+    /// roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. Cost: as
+    /// [`visit_near`](Self::visit_near).
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
+    /// let ball: Shape2 = Circle::new(0.5)?.into();
+    /// let row = Compound2::new([(Pose2::at([0.0, 0.0])?, ball.clone()), (Pose2::at([2.0, 0.0])?, ball)])?;
+    /// let mut near = vec![];
+    /// row.visit_nearest(&Aabb2::new(Vec2::splat(5.0), Vec2::splat(6.0)), 10.0, |part| {
+    ///     near.push(part);
+    ///     10.0
+    /// });
+    /// assert_eq!(near, [1, 0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_nearest(&self, bounds: &Aabb2, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
+        if let Some(near) = Near::new(&flat(bounds)) {
+            self.data.tree.visit_in_order(&near, limit, |part, _| visitor(part));
+        }
+    }
+
+    /// The centre that the bounding radius is about: the middle of its box.
+    #[inline]
+    pub const fn center(&self) -> Vec2 {
+        self.center
+    }
+
+    /// Bounding radius about [`Compound2::center`], in metres, rounded up.
+    #[inline]
+    pub const fn outer_radius(&self) -> f32 {
+        self.outer_radius
+    }
+
+    /// Whether any part holds a local point, in metres.
+    pub fn contains(&self, point: impl Into<DVec2>) -> bool {
+        let point = point.into();
+        self.parts().iter().any(|part| part.shape.contains(part.pose.transform_back(point)))
+    }
+
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards. Cost: linear in the parts'
+    /// vertices.
+    pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
+        let box_of = |part: &Part2| {
+            let core = part.shape.core();
+            let points = core.vertices().iter().map(|&vertex| part.pose.transform(vertex));
+            // A part far from the compound's origin may come back near it: what its place lost to rounding shows then.
+            let lost =
+                64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
+            around2(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
+        };
+        self.parts().iter().map(box_of).reduce(|one, other| one.union(&other)).unwrap_or(Aabb2::NOTHING)
+    }
+}
+
+impl PartialEq for Compound2 {
+    /// Parts and places alike, in the same order: all else follows.
+    fn eq(&self, other: &Self) -> bool {
+        self.parts() == other.parts()
+    }
+}
+
+/// A box in the plane, as the tree sees it.
+fn flat(bounds: &Aabb2) -> Aabb3 {
+    Aabb3::new(bounds.min.extend(0.0), bounds.max.extend(0.0))
+}

@@ -1,0 +1,259 @@
+//! Several convex parts in space under one collider.
+
+use super::{CompoundError, tree_of};
+use crate::aabb::{Aabb3, Bounds};
+use crate::ground::tree::{Line, Near, Tree};
+use crate::outward::{around3, round_up};
+use crate::pose3::Pose3;
+use crate::shape::Shape3;
+use crate::tolerance::{MAX_PARTS, MAX_RADIUS};
+use core::ops::ControlFlow;
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+
+/// Several convex parts in space, each posed, that move as one. Clones share the data.
+///
+#[doc = include_str!("../../doc/compound3.svg")]
+///
+/// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its
+/// own; parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a
+/// bounding sphere test for each pair of parts, and the cost of the parts that pass; of 16 parts and more, which are looked up
+/// in a tree, the logarithm of their number for each part of the other, and the cost of what is near.
+///
+/// ```
+/// use asunder_geometry::{Compound3, Cuboid, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};
+/// let head: Shape3 = Sphere::new(0.4)?.into();
+/// let body: Shape3 = Cuboid::from_half_extents(Vec3::new(0.1, 1.0, 0.1))?.into();
+/// let hammer = Compound3::new([(Pose3::at([0.0, 1.0, 0.0])?, head), (Pose3::IDENTITY, body)])?;
+/// assert_eq!(hammer.parts().len(), 2);
+/// assert!(hammer.contains(DVec3::new(0.0, 1.4, 0.0)) && !hammer.contains(DVec3::X));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Compound3 {
+    data: Arc<Data3>,
+    center: Vec3,
+    outer_radius: f32,
+}
+
+#[derive(Debug)]
+struct Data3 {
+    parts: Box<[Part3]>,
+    /// Their boxes, in the compound's axes.
+    tree: Tree,
+}
+
+/// A part of a compound in space.
+///
+/// ```
+/// use asunder_geometry::{Compound3, Sphere, Pose3, Shape3};
+/// let ball: Shape3 = Sphere::new(1.0)?.into();
+/// let part = &Compound3::new([(Pose3::IDENTITY, ball.clone())])?.parts()[0].clone();
+/// assert_eq!((part.pose(), part.shape()), (&Pose3::IDENTITY, &ball));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part3 {
+    pose: Pose3,
+    shape: Shape3,
+    center: DVec3,
+}
+
+impl Part3 {
+    fn new(pose: Pose3, shape: Shape3) -> Self {
+        let center = pose.transform(shape.center());
+        Self { pose, shape, center }
+    }
+
+    /// Where the part is in the compound.
+    #[inline]
+    pub const fn pose(&self) -> &Pose3 {
+        &self.pose
+    }
+
+    /// What it is: convex and bounded.
+    #[inline]
+    pub const fn shape(&self) -> &Shape3 {
+        &self.shape
+    }
+
+    /// Centre of its bounding sphere, in the compound's axes.
+    #[inline]
+    pub const fn center(&self) -> DVec3 {
+        self.center
+    }
+}
+
+impl Compound3 {
+    /// A compound from its parts and where they are.
+    ///
+    /// # Errors
+    /// No parts, or more than [`MAX_PARTS`]; a part that is a compound or unbounded, or that reaches beyond 1e6 m.
+    pub fn new(parts: impl IntoIterator<Item = (Pose3, Shape3)>) -> Result<Self, CompoundError> {
+        let parts: Box<[Part3]> = parts.into_iter().map(|(pose, shape)| Part3::new(pose, shape)).collect();
+        if parts.is_empty() {
+            return Err(CompoundError::NoParts);
+        }
+        if parts.len() > MAX_PARTS {
+            return Err(CompoundError::TooManyParts { count: parts.len() });
+        }
+        let mut boxes = Vec::with_capacity(parts.len());
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for (index, part) in parts.iter().enumerate() {
+            match part.shape {
+                Shape3::Compound(_) => return Err(CompoundError::Nested { index }),
+                Shape3::HalfSpace(_) => return Err(CompoundError::Unbounded { index }),
+                Shape3::TriMesh(_) | Shape3::HeightField(_) => return Err(CompoundError::Ground { index }),
+                _ => {}
+            }
+            let radius = f64::from(part.shape.outer_radius());
+            if part.center().length() + radius > f64::from(MAX_RADIUS) {
+                return Err(CompoundError::TooLarge { index });
+            }
+            let bounds = part.shape.bounds(&part.pose, 0.0);
+            (low, high) = (low.min(bounds.min.as_dvec3()), high.max(bounds.max.as_dvec3()));
+            boxes.push(bounds);
+        }
+        let center = ((low + high) * 0.5).as_vec3();
+        let reach = |part: &Part3| {
+            (part.center() - center.as_dvec3()).length() + f64::from(part.shape.outer_radius())
+        };
+        let outer = parts.iter().map(reach).fold(0.0, f64::max);
+        let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
+        let tree = tree_of(&boxes);
+        Ok(Self { data: Arc::new(Data3 { parts, tree }), center, outer_radius })
+    }
+
+    /// An address that two compounds have in common exactly when they share their parts; only good while both live. It
+    /// differs from run to run: look up by it, and let no output depend on it.
+    #[cfg(feature = "serde")]
+    #[doc(hidden)]
+    pub fn shared_address(&self) -> usize {
+        Arc::as_ptr(&self.data).addr()
+    }
+
+    /// The parts, in the order given: a manifold's `part_a` and `part_b` count them.
+    #[inline]
+    pub fn parts(&self) -> &[Part3] {
+        &self.data.parts
+    }
+
+    /// Hands every part whose own box overlaps this one, in the compound's axes, to `visitor`, each once, until it breaks
+    /// off. The order is a function of the compound and the box. Cost: logarithmic in the parts, and linear in those that
+    /// are handed over.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb3, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// use core::ops::ControlFlow;
+    /// let ball: Shape3 = Sphere::new(0.5)?.into();
+    /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball)])?;
+    /// let mut near = vec![];
+    /// let _ = row.visit_near(&Aabb3::new(Vec3::X, Vec3::X * 1.5), |part| {
+    ///     near.push(part);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(near, [1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    pub fn visit_near(
+        &self,
+        bounds: &Aabb3,
+        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.data.tree.visit_overlapping(bounds, |part, _| visitor(part))
+    }
+
+    /// Hands every part whose box a ray meets to `visitor`, each once and roughly in the order of meeting, up to a limit that
+    /// `visitor` may lower: it returns the new one.
+    ///
+    /// The ray is given in the compound's axes, in metres, and the limit in lengths of its direction. Boxes are widened by
+    /// `grown` metres, and by more than rounding: none is lost. Nothing is met by what is not finite. Cost: as
+    /// [`visit_near`](Self::visit_near).
+    ///
+    /// ```
+    /// use asunder_geometry::{Compound3, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};
+    /// let ball: Shape3 = Sphere::new(0.5)?.into();
+    /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball)])?;
+    /// let mut met = vec![];
+    /// row.visit_along(DVec3::new(5.0, 0.1, 0.1), DVec3::NEG_X, 0.0, 10.0, |part| {
+    ///     met.push(part);
+    ///     3.0
+    /// });
+    /// assert_eq!(met, [1], "the other is beyond the limit by then");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_along(
+        &self,
+        from: DVec3,
+        direction: DVec3,
+        grown: f32,
+        limit: f64,
+        mut visitor: impl FnMut(u32) -> f64,
+    ) {
+        if let Some(line) = Line::new(from, direction, Vec3::splat(grown)) {
+            self.data.tree.visit_in_order(&line, limit, |part, _| visitor(part));
+        }
+    }
+
+    /// Hands every part whose box is within `limit` metres of this one, in the compound's axes, to `visitor`, each once and
+    /// roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. Cost: as
+    /// [`visit_near`](Self::visit_near).
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb3, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// let ball: Shape3 = Sphere::new(0.5)?.into();
+    /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball)])?;
+    /// let mut near = vec![];
+    /// row.visit_nearest(&Aabb3::new(Vec3::splat(5.0), Vec3::splat(6.0)), 10.0, |part| {
+    ///     near.push(part);
+    ///     10.0
+    /// });
+    /// assert_eq!(near, [1, 0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_nearest(&self, bounds: &Aabb3, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
+        if let Some(near) = Near::new(bounds) {
+            self.data.tree.visit_in_order(&near, limit, |part, _| visitor(part));
+        }
+    }
+
+    /// The centre that the bounding radius is about: the middle of its box.
+    #[inline]
+    pub const fn center(&self) -> Vec3 {
+        self.center
+    }
+
+    /// Bounding radius about [`Compound3::center`], in metres, rounded up.
+    #[inline]
+    pub const fn outer_radius(&self) -> f32 {
+        self.outer_radius
+    }
+
+    /// Whether any part holds a local point, in metres.
+    pub fn contains(&self, point: impl Into<DVec3>) -> bool {
+        let point = point.into();
+        self.parts().iter().any(|part| part.shape.contains(part.pose.transform_back(point)))
+    }
+
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards. Cost: linear in the parts'
+    /// vertices.
+    pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
+        let box_of = |part: &Part3| {
+            let core = part.shape.core();
+            let points = core.vertices().iter().map(|&vertex| part.pose.transform(vertex));
+            // A part far from the compound's origin may come back near it: what its place lost to rounding shows then.
+            let lost =
+                64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
+            around3(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
+        };
+        self.parts().iter().map(box_of).reduce(|one, other| one.union(&other)).unwrap_or(Aabb3::NOTHING)
+    }
+}
+
+impl PartialEq for Compound3 {
+    /// Parts and places alike, in the same order: all else follows.
+    fn eq(&self, other: &Self) -> bool {
+        self.parts() == other.parts()
+    }
+}

@@ -1,0 +1,109 @@
+//! Which parts of a compound a question is about: of few parts all, of many those that the compound's tree finds.
+//!
+//! What a tree finds comes in its order, and is put in that of the numbers: answers are the same bits as those of a loop over
+//! all parts, of which each asks for itself whether a part is near. The tree only leaves out what none of them would take.
+//!
+//! Cubes of n x n x n balls side by side and rods through them, microseconds a question with a loop and with the tree:
+//! `cargo run --release -p asunder-benches --bin parts`.
+
+use crate::lists::with_list;
+use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
+use asunder_geometry::{Aabb2, Aabb3, Compound2, Compound3, round_down};
+use core::cell::Cell;
+use core::ops::ControlFlow;
+
+/// So many parts, and more, are looked for in the compound's tree.
+pub(crate) const MANY: usize = 16;
+
+thread_local! {
+    /// Lists of parts.
+    static NUMBERS: Cell<Vec<Vec<u32>>> = const { Cell::new(Vec::new()) };
+}
+
+/// Visits what a walk finds in the order of the numbers, until the visitor says to stop; returns whether it did.
+pub(crate) fn in_order(walk: impl FnOnce(&mut dyn FnMut(u32)), mut visit: impl FnMut(u32) -> bool) -> bool {
+    with_list(&NUMBERS, |numbers| {
+        walk(&mut |number| numbers.push(number));
+        numbers.sort_unstable();
+        numbers.iter().any(|&number| visit(number))
+    })
+}
+
+/// Where the parts are that a question is about: within a radius of a point that moves, in metres, as a body's position sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Region<V> {
+    pub(crate) from: V,
+    /// How far it moves.
+    pub(crate) way: V,
+    pub(crate) radius: f64,
+}
+
+pub(crate) type Region2 = Region<DVec2>;
+pub(crate) type Region3 = Region<DVec3>;
+
+impl<V: Default> Region<V> {
+    /// One that does not move.
+    pub(crate) fn ball(from: V, radius: f64) -> Self {
+        Self { from, way: V::default(), radius }
+    }
+
+    /// Half-spaces are everywhere, and so is what has no limit.
+    pub(crate) fn is_bounded(&self) -> bool {
+        self.radius < 1e30
+    }
+}
+
+impl Region2 {
+    /// Hands over every part that may be in it, given in the compound's axes.
+    pub(crate) fn walk(&self, compound: &Compound2, find: &mut dyn FnMut(u32)) {
+        // A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
+        let size = f64::from(compound.outer_radius()) + compound.center().as_dvec2().length();
+        let lost =
+            16.0 * f64::from(f32::EPSILON) * (self.from.length() + self.way.length() + self.radius + size);
+        let grown = up(self.radius + lost);
+        if self.way != DVec2::ZERO {
+            return compound.visit_along(self.from, self.way, grown, 1.0, |part| {
+                find(part);
+                1.0
+            });
+        }
+        let ([low_x, high_x], [low_y, high_y]) = (around(self.from.x, grown), around(self.from.y, grown));
+        let bounds = Aabb2::new(Vec2::new(low_x, low_y), Vec2::new(high_x, high_y));
+        let _ = compound.visit_near(&bounds, |part| {
+            find(part);
+            ControlFlow::Continue(())
+        });
+    }
+}
+
+impl Region3 {
+    /// Hands over every part that may be in it, given in the compound's axes.
+    pub(crate) fn walk(&self, compound: &Compound3, find: &mut dyn FnMut(u32)) {
+        // More than rotations and all sums may have lost.
+        let size = f64::from(compound.outer_radius()) + compound.center().as_dvec3().length();
+        let lost = 256.0 * f64::EPSILON * (self.from.length() + self.way.length() + self.radius + size);
+        let grown = up(self.radius + lost);
+        if self.way != DVec3::ZERO {
+            return compound.visit_along(self.from, self.way, grown, 1.0, |part| {
+                find(part);
+                1.0
+            });
+        }
+        let [x, y, z] = self.from.to_array().map(|center| around(center, grown));
+        let bounds = Aabb3::new(Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]));
+        let _ = compound.visit_near(&bounds, |part| {
+            find(part);
+            ControlFlow::Continue(())
+        });
+    }
+}
+
+/// The smallest f32 that is not below.
+fn up(value: f64) -> f32 {
+    -round_down(-value)
+}
+
+/// A side of a box around a place.
+fn around(center: f64, reach: f32) -> [f32; 2] {
+    [round_down(center - f64::from(reach)), up(center + f64::from(reach))]
+}

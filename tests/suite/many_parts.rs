@@ -1,0 +1,266 @@
+//! Compounds of many parts, which are looked up in a tree, against the same parts in compounds of few, which are asked one after
+//! the other.
+
+mod plane;
+
+use asunder_geometry::glam::{DVec3, Quat, Vec3};
+use asunder_geometry::{
+    Aabb3, Capsule3, Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Ray3, Shape3, Sphere,
+};
+use asunder_narrow::{Impact3, Manifold3, Pair3, Separation3, cast_ray3};
+use asunder_scenes::random::Random;
+use core::ops::ControlFlow;
+
+/// Parts of a compound of few.
+const FEW: usize = 7;
+
+fn part(random: &mut Random) -> Shape3 {
+    let kind = random.below(4);
+    let mut half = || random.range(0.05, 0.6) as f32;
+    match kind {
+        0 => Sphere::new(random.range(0.1, 0.6) as f32).unwrap().into(),
+        1 => Cuboid::from_half_extents(Vec3::new(half(), half(), half())).unwrap().into(),
+        2 => Capsule3::new(Vec3::new(half(), 0.0, 0.0), Vec3::new(-half(), half(), 0.0), 0.2).unwrap().into(),
+        _ => loop {
+            let points: Vec<Vec3> = (0..9).map(|_| (random.direction() * 0.5).as_vec3()).collect();
+            if let Ok(hull) = Hull::from_points(&points) {
+                break hull.into();
+            }
+        },
+    }
+}
+
+fn anywhere(random: &mut Random, reach: f64) -> DVec3 {
+    random.within(DVec3::splat(-reach), DVec3::splat(reach))
+}
+
+/// A body of so many parts, in a room so wide.
+fn parts(random: &mut Random, count: usize, reach: f64) -> Vec<(Pose3, Shape3)> {
+    let mut place = || {
+        let rotation = if random.below(3) == 0 { Quat::IDENTITY } else { random.rotation() };
+        (Pose3::new(anywhere(random, reach), rotation).unwrap(), part(random))
+    };
+    (0..count).map(|_| place()).collect()
+}
+
+/// A body, and the same in pieces, each with the number of its first part.
+struct Body {
+    whole: Shape3,
+    pieces: Vec<(u32, Shape3)>,
+    pose: Pose3,
+}
+
+fn body(parts: &[(Pose3, Shape3)], pose: Pose3) -> Body {
+    let compound = |parts: &[(Pose3, Shape3)]| Shape3::from(Compound3::new(parts.iter().cloned()).unwrap());
+    let pieces = (0..).step_by(FEW).zip(parts.chunks(FEW).map(compound)).collect();
+    Body { whole: compound(parts), pieces, pose }
+}
+
+fn alone(shape: Shape3, pose: Pose3) -> Body {
+    Body { whole: shape.clone(), pieces: vec![(0, shape)], pose }
+}
+
+/// Two bodies, of which the first has many parts, in any order.
+fn bodies(random: &mut Random) -> [Body; 2] {
+    let count = 32 + random.below(60);
+    let far = [DVec3::ZERO, DVec3::new(1e5, -3e4, 2e5)][random.below(2)];
+    let many = parts(random, count, 3.0);
+    let one = body(&many, Pose3::new(far, random.rotation()).unwrap());
+    let at = far + random.direction() * random.range(0.0, 12.0);
+    let pose = Pose3::new(at, random.rotation()).unwrap();
+    let other = match random.below(5) {
+        0 => {
+            let count = 32 + random.below(40);
+            body(&parts(random, count, 2.0), pose)
+        }
+        1 => {
+            let count = 1 + random.below(12);
+            body(&parts(random, count, 2.0), pose)
+        }
+        2 => alone(HalfSpace::new(random.direction().as_vec3()).unwrap().into(), pose),
+        _ => alone(part(random), pose),
+    };
+    if random.below(2) == 0 { [one, other] } else { [other, one] }
+}
+
+/// Everything that two bodies' pieces say of each other.
+fn piecewise<T>([a, b]: &[Body; 2], mut ask: impl FnMut(&Pair3, [u32; 2]) -> T) -> Vec<T> {
+    let mut all = vec![];
+    for (from_a, piece_a) in &a.pieces {
+        for (from_b, piece_b) in &b.pieces {
+            all.push(ask(&Pair3::new(piece_a, &a.pose, piece_b, &b.pose), [*from_a, *from_b]));
+        }
+    }
+    all
+}
+
+fn measured(separation: Separation3) -> Option<(f64, f64)> {
+    match separation {
+        Separation3::Measured(measured) => Some((measured.separation.into(), measured.error.into())),
+        Separation3::AtLeast(_) => None,
+    }
+}
+
+#[test]
+fn a_tree_of_parts_leaves_out_nothing_that_counts() {
+    let mut random = Random::new(8100);
+    let (mut touching, mut apart, mut met) = (0, 0, 0);
+    for round in 0..1500 {
+        let both = bodies(&mut random);
+        let [a, b] = &both;
+        let pair = Pair3::new(&a.whole, &a.pose, &b.whole, &b.pose);
+        let overlaps = piecewise(&both, |pair, _| pair.overlaps()).contains(&true);
+        assert_eq!(pair.overlaps(), overlaps, "{round}");
+
+        // The least of all pieces' separations; at a limit, that or a bound.
+        let all = piecewise(&both, |pair, _| measured(pair.separation(f32::INFINITY)).unwrap());
+        let least = all.iter().fold(f64::INFINITY, |least, (separation, _)| least.min(*separation));
+        let (separation, error) = measured(pair.separation(f32::INFINITY)).unwrap();
+        let largest = all.iter().fold(0.0, |largest: f64, (_, error)| largest.max(*error));
+        assert!((separation - least).abs() <= error + largest, "{round}: {separation} for {least}");
+        assert!(error <= 2.0 * largest + 1e-12, "{round}: {error} for {largest}");
+        let limit = random.range(0.0, 4.0) as f32;
+        match pair.separation(limit) {
+            Separation3::Measured(found) => {
+                assert!((f64::from(found.separation) - least).abs() <= error + largest)
+            }
+            Separation3::AtLeast(bound) => {
+                assert!(f64::from(bound) <= least + largest && least > f64::from(limit) - largest, "{round}");
+            }
+        }
+        if let Some(closest) = pair.distance() {
+            assert!(
+                !overlaps && (closest.distance - separation as f32).abs() <= closest.error + error as f32
+            );
+            apart += 1;
+        }
+
+        // All manifolds, in order, bit for bit.
+        let margin = [0.0, 0.05, 0.5][round % 3];
+        let mut expected: Vec<Manifold3> = vec![];
+        piecewise(&both, |pair, [from_a, from_b]| {
+            expected.extend(pair.manifolds(margin).into_iter().map(|mut manifold| {
+                (manifold.part_a, manifold.part_b) = (manifold.part_a + from_a, manifold.part_b + from_b);
+                manifold
+            }));
+        });
+        expected.sort_by_key(|manifold| (manifold.part_a, manifold.part_b));
+        let found = pair.manifolds(margin);
+        assert_eq!(found.len(), expected.len(), "{round}");
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{round}");
+        }
+        touching += usize::from(!found.is_empty());
+        met += check_motions(&mut random, &both, round);
+    }
+    assert!(touching > 300 && apart > 300 && met > 300, "{touching} {apart} {met}");
+}
+
+/// Casts and impacts of whole bodies come when the first of all pieces' do.
+fn check_motions(random: &mut Random, both: &[Body; 2], round: usize) -> usize {
+    let [a, b] = both;
+    let pair = Pair3::new(&a.whole, &a.pose, &b.whole, &b.pose);
+    let towards = (b.pose.position() - a.pose.position()) * random.range(0.2, 1.5);
+    let drift = towards + anywhere(random, 2.0);
+    let mut motion = || {
+        let far = random.below(2) == 0;
+        let turned = if far { random.rotation() } else { Quat::from_xyzw(0.02, -0.03, 0.01, 1.0) };
+        Motion3::new(DVec3::ZERO, turned).unwrap()
+    };
+    let still = Motion3::STILL;
+    let turning = [motion(), motion()];
+    let slide = Motion3::shift(drift).unwrap();
+    let turned = Motion3::new(drift, turning[0].rotation().unwrap()).unwrap();
+    let beside = Motion3::new(-drift * 0.5, turning[1].rotation().unwrap()).unwrap();
+    let mut met = 0;
+    for motions in
+        [[&slide, &still], [&still, &slide], [&turned, &still], [&slide, &turning[1]], [&turned, &beside]]
+    {
+        let expected: Vec<Impact3> =
+            piecewise(both, |pair, _| pair.impact(motions[0], motions[1])).into_iter().flatten().collect();
+        let first = expected.iter().fold(f64::INFINITY, |first, impact| first.min(impact.fraction));
+        let found = pair.impact(motions[0], motions[1]);
+        let overlap = expected.iter().any(|impact| impact.overlapping);
+        assert_eq!(found.is_some_and(|found| found.overlapping), overlap, "{round}");
+        let at = found.map_or(f64::INFINITY, |found| found.fraction);
+        // A search ends within 1e-6 of the size, where depends on how far it need look.
+        assert!(at == first || (at - first).abs() < 3e-6, "{round}: {at} for {first}");
+        met += usize::from(found.is_some_and(|found| !found.overlapping));
+    }
+    met
+}
+
+#[test]
+fn rays_meet_the_first_of_many_parts() {
+    let mut random = Random::new(8200);
+    let (mut hits, mut inside) = (0, 0);
+    for round in 0..400 {
+        let count = 32 + random.below(100);
+        let far = [DVec3::ZERO, DVec3::new(-4e5, 7.0, 2e4)][round % 2];
+        let body = body(&parts(&mut random, count, 3.0), Pose3::new(far, random.rotation()).unwrap());
+        for _ in 0..20 {
+            let from = far + anywhere(&mut random, 6.0);
+            let towards = far + anywhere(&mut random, 3.0) - from;
+            let way = towards * random.range(0.1, 2.0);
+            let ray = Ray3::new(from, way.as_vec3()).unwrap();
+            let limit = [f64::INFINITY, 1.0][random.below(2)];
+            let each = body.pieces.iter().filter_map(|(first, piece)| {
+                let hit = cast_ray3(piece, &body.pose, &ray, limit)?;
+                Some((
+                    hit.distance,
+                    hit.part + first,
+                    format!("{:?} {} {}", hit.normal, hit.error, hit.inside),
+                ))
+            });
+            let expected = each.min_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+            let found = cast_ray3(&body.whole, &body.pose, &ray, limit);
+            inside += usize::from(found.is_some_and(|hit| hit.inside));
+            hits += usize::from(found.is_some());
+            let told = |hit: asunder_narrow::RayHit3| {
+                (hit.distance, hit.part, format!("{:?} {} {}", hit.normal, hit.error, hit.inside))
+            };
+            assert_eq!(found.map(told), expected, "{round}");
+        }
+    }
+    assert!(hits > 2000 && inside > 50, "{hits} {inside}");
+}
+
+#[test]
+fn walks_over_parts_find_what_a_loop_over_their_boxes_finds() {
+    let mut random = Random::new(8300);
+    for round in 0..200 {
+        let parts = parts(&mut random, 1 + round, 4.0);
+        let compound = Compound3::new(parts.iter().cloned()).unwrap();
+        let boxes: Vec<Aabb3> = parts.iter().map(|(pose, shape)| shape.bounds(pose, 0.0)).collect();
+        let low = anywhere(&mut random, 5.0).as_vec3();
+        let bounds = Aabb3::new(low, low + Vec3::splat([0.0, 0.3, 3.0][round % 3]));
+        let (mut near, mut far) = (vec![], vec![]);
+        let _ = compound.visit_near(&bounds, |part| {
+            near.push(part);
+            ControlFlow::Continue(())
+        });
+        near.sort_unstable();
+        let meets = |part: &u32| boxes[*part as usize].overlaps(&bounds);
+        let expected: Vec<u32> = (0..parts.len() as u32).filter(meets).collect();
+        assert_eq!(near, expected, "{round}");
+        compound.visit_nearest(&bounds, f64::INFINITY, |part| {
+            far.push(part);
+            f64::INFINITY
+        });
+        let gap = |part: u32| {
+            let one = &boxes[part as usize];
+            (one.min - bounds.max).max(bounds.min - one.max).max(Vec3::ZERO).length()
+        };
+        far.sort_unstable();
+        assert_eq!(far, (0..parts.len() as u32).collect::<Vec<_>>(), "{round}");
+        // All that are as near as the nearest, and none that is much further.
+        let least = far.iter().map(|&part| gap(part)).fold(f32::INFINITY, f32::min);
+        let mut nearest = vec![];
+        compound.visit_nearest(&bounds, least.into(), |part| {
+            nearest.push(part);
+            least.into()
+        });
+        assert!(nearest.iter().any(|&part| gap(part) == least), "{round}");
+        assert!(nearest.iter().all(|&part| gap(part) <= least * 1.000_01 + 1e-12), "{round}");
+    }
+}
