@@ -54,22 +54,30 @@ impl<V: Default> Region<V> {
 }
 
 impl Region2 {
+    /// Its radius, and more than rotations and all sums may have lost: a stored rotation stretches by its length, which is one up
+    /// to the rounding of f32; a part has two.
+    fn grown(&self, compound: &Compound2) -> f32 {
+        let size = f64::from(compound.outer_radius()) + compound.center().as_dvec2().length();
+        let lengths = self.from.length() + self.way.length() + self.radius + size;
+        up(self.radius + 16.0 * f64::from(f32::EPSILON) * lengths)
+    }
+
+    /// The box around it where it begins, given in the compound's axes.
+    pub(crate) fn bounds(&self, compound: &Compound2) -> Aabb2 {
+        let grown = self.grown(compound);
+        let [x, y] = self.from.to_array().map(|center| around(center, grown));
+        Aabb2::new(Vec2::new(x[0], y[0]), Vec2::new(x[1], y[1]))
+    }
+
     /// Hands over every part that may be in it, given in the compound's axes.
     pub(crate) fn walk(&self, compound: &Compound2, find: &mut dyn FnMut(u32)) {
-        // A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
-        let size = f64::from(compound.outer_radius()) + compound.center().as_dvec2().length();
-        let lost =
-            16.0 * f64::from(f32::EPSILON) * (self.from.length() + self.way.length() + self.radius + size);
-        let grown = up(self.radius + lost);
         if self.way != DVec2::ZERO {
-            return compound.visit_along(self.from, self.way, grown, 1.0, |part| {
+            return compound.visit_along(self.from, self.way, self.grown(compound), 1.0, |part| {
                 find(part);
                 1.0
             });
         }
-        let ([low_x, high_x], [low_y, high_y]) = (around(self.from.x, grown), around(self.from.y, grown));
-        let bounds = Aabb2::new(Vec2::new(low_x, low_y), Vec2::new(high_x, high_y));
-        let _ = compound.visit_near(&bounds, |part| {
+        let _ = compound.visit_near(&self.bounds(compound), |part| {
             find(part);
             ControlFlow::Continue(())
         });
@@ -77,21 +85,28 @@ impl Region2 {
 }
 
 impl Region3 {
+    /// Its radius, and more than rotations and all sums may have lost.
+    fn grown(&self, compound: &Compound3) -> f32 {
+        let size = f64::from(compound.outer_radius()) + compound.center().as_dvec3().length();
+        up(self.radius + 256.0 * f64::EPSILON * (self.from.length() + self.way.length() + self.radius + size))
+    }
+
+    /// The box around it where it begins, given in the compound's axes.
+    pub(crate) fn bounds(&self, compound: &Compound3) -> Aabb3 {
+        let grown = self.grown(compound);
+        let [x, y, z] = self.from.to_array().map(|center| around(center, grown));
+        Aabb3::new(Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]))
+    }
+
     /// Hands over every part that may be in it, given in the compound's axes.
     pub(crate) fn walk(&self, compound: &Compound3, find: &mut dyn FnMut(u32)) {
-        // More than rotations and all sums may have lost.
-        let size = f64::from(compound.outer_radius()) + compound.center().as_dvec3().length();
-        let lost = 256.0 * f64::EPSILON * (self.from.length() + self.way.length() + self.radius + size);
-        let grown = up(self.radius + lost);
         if self.way != DVec3::ZERO {
-            return compound.visit_along(self.from, self.way, grown, 1.0, |part| {
+            return compound.visit_along(self.from, self.way, self.grown(compound), 1.0, |part| {
                 find(part);
                 1.0
             });
         }
-        let [x, y, z] = self.from.to_array().map(|center| around(center, grown));
-        let bounds = Aabb3::new(Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]));
-        let _ = compound.visit_near(&bounds, |part| {
+        let _ = compound.visit_near(&self.bounds(compound), |part| {
             find(part);
             ControlFlow::Continue(())
         });

@@ -2,9 +2,9 @@
 
 mod compounds;
 mod ground;
+mod nearest;
 mod part;
 
-use crate::among::{MANY, Region2};
 use crate::answer::{Closest2, ContactPoint2, Manifold2, Measured2, Separation2, Tier, Verdict};
 use crate::batch::{Met, beyond};
 use crate::feature::Hint;
@@ -15,8 +15,6 @@ use crate::polygon::manifold::Touch;
 use crate::polygon::measure::{Asked, Near, Probe};
 use crate::polygon::outline::Turn;
 use crate::polygon::quick::Bodies;
-use crate::precision::round_down;
-use crate::whole2::part_count;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 use part::{Part, for_parts, for_parts_in};
@@ -284,36 +282,30 @@ impl<'a> Pair2<'a> {
         if self.has_ground() {
             return self.nearest_on_ground(limit);
         }
-        let mut least = Least::within(limit);
-        let gap = |a: &Part, b: &Part| if self.is_compound() { self.gap(a, b) } else { f64::NEG_INFINITY };
-        let whole_b = Part::whole(self.shape_b, &self.turn_b);
-        let mut within = limit;
-        if self.has_many_parts() {
-            within = within.min(self.no_further_than());
-            least.give_up(round_down(within));
+        if !self.is_compound() {
+            let [a, b] = [Part::whole(self.shape_a, &self.turn_a), Part::whole(self.shape_b, &self.turn_b)];
+            let parts = self.parts(a, b);
+            return match parts.convex.probe(&Asked { limit, hint: Hint::NONE, points: false }) {
+                Probe::Beyond(at_least, _) => Err(at_least),
+                Probe::Near(near) => Ok((parts.place, near)),
+            };
         }
-        let beside_b = || self.around_b(&whole_b, within);
-        for_parts_in(self.shape_a, &self.turn_a, beside_b, |a| {
-            if least.passes_over(gap(&a, &whole_b)) {
-                return false;
-            }
-            let within = within.min(least.reach());
-            let beside_a = || self.around_a(&a, within);
-            for_parts_in(self.shape_b, &self.turn_b, beside_a, |b| {
-                if !least.passes_over(gap(&a, &b)) {
-                    let parts = self.parts(a, b);
-                    let asked = Asked { limit: least.reach(), hint: Hint::NONE, points: false };
-                    match parts.convex.probe(&asked) {
-                        Probe::Beyond(at_least, _) => least.give_up(at_least),
-                        Probe::Near(near) => {
-                            let (separation, error) = (near.separation, near.error);
-                            least.offer((parts.place, near), separation, error);
-                        }
+        let mut least = Least::within(limit);
+        let ask = |least: &mut Least<_>, [a, b]: [Part; 2]| {
+            if !least.passes_over(self.gap(&a, &b)) {
+                let parts = self.parts(a, b);
+                let asked = Asked { limit: least.reach(), hint: Hint::NONE, points: false };
+                match parts.convex.probe(&asked) {
+                    Probe::Beyond(at_least, _) => least.give_up(at_least),
+                    Probe::Near(near) => {
+                        let (separation, error) = (near.separation, near.error);
+                        least.offer((parts.place, near), separation, error);
                     }
                 }
-                false
-            })
-        });
+            }
+            false
+        };
+        self.ask_nearest(&mut least, ask);
         let ((place, mut near), error) = least.finish()?;
         near.error = error;
         Ok((place, near))
@@ -338,34 +330,6 @@ impl<'a> Pair2<'a> {
             let ask = |b| !is_far(&a, &b) && ask(&self.parts(a, b));
             !is_far(&a, &whole_b) && for_parts_in(self.shape_b, &self.turn_b, beside_a, ask)
         })
-    }
-
-    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look further.
-    fn no_further_than(&self) -> f64 {
-        let middle_a = self.turn_a.turn(self.shape_a.center().as_dvec2());
-        let b = Part::nearest(self.shape_b, &self.turn_b, middle_a - self.between);
-        let a = Part::nearest(self.shape_a, &self.turn_a, self.between + b.center);
-        let b = Part::nearest(self.shape_b, &self.turn_b, a.center - self.between);
-        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, points: false };
-        match self.parts(a, b).convex.probe(&asked) {
-            Probe::Near(near) => (f64::from(near.separation) + f64::from(near.error)).max(0.0),
-            Probe::Beyond(..) => f64::INFINITY,
-        }
-    }
-
-    /// Where the parts of A are that may be so near to one of B, or to all of B.
-    fn around_b(&self, b: &Part, within: f64) -> Region2 {
-        Region2::ball(self.between + b.center, f64::from(b.shape.outer_radius()) + within)
-    }
-
-    /// The same the other way round.
-    fn around_a(&self, a: &Part, within: f64) -> Region2 {
-        Region2::ball(a.center - self.between, f64::from(a.shape.outer_radius()) + within)
-    }
-
-    /// Whether either is a compound of so many parts that its tree is asked.
-    fn has_many_parts(&self) -> bool {
-        [self.shape_a, self.shape_b].iter().any(|shape| part_count(shape) >= MANY)
     }
 
     /// Whether two convex parts, given with their places in their bodies, overlap, exactly.

@@ -3,10 +3,10 @@
 mod ball;
 mod balls;
 mod compounds;
+mod nearest;
 mod part;
 mod parts;
 
-use crate::among::{MANY, Region3};
 use crate::answer::{Closest3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::batch::{Met, beyond};
 use crate::feature::Hint;
@@ -17,7 +17,6 @@ use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::placed::Posed;
 use crate::precision::round_down;
 use crate::room::{Deepest, Room, in_place};
-use crate::whole3::part_count;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Pose3, Shape3};
 pub(crate) use part::{Part, for_parts, for_parts_in};
@@ -324,37 +323,24 @@ impl<'a> Pair3<'a> {
         }
         let mut least = Least::within(limit);
         let bases = self.bases();
-        let whole_b = Part::whole(self.shape_b, &bases[1]);
-        let mut within = limit;
-        if self.has_many_parts() {
-            within = within.min(self.no_further_than(&bases));
-            least.give_up(round_down(within));
-        }
-        let beside_b = || self.around_b(&whole_b, within);
-        for_parts_in(self.shape_a, &bases[0], beside_b, |a| {
-            if least.passes_over(self.gap(&a, &whole_b)) {
-                return false;
-            }
-            let within = within.min(least.reach());
-            let beside_a = || self.around_a(&a, within);
-            for_parts_in(self.shape_b, &bases[1], beside_a, |b| {
-                if !least.passes_over(self.gap(&a, &b)) {
-                    let parts = self.parts(&bases, a, b);
-                    let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted };
-                    match parts.convex.probe(asked) {
-                        Probe::Beyond(at_least, _) => least.give_up(at_least),
-                        Probe::Near(near) => {
-                            let (separation, error) = (near.separation, near.error);
-                            // Of what overlaps nobody wants to know the closest points, nor how deep it is elsewhere.
-                            let is_enough = wanted == Wanted::Closest && near.verdict.overlapping;
-                            least.offer((parts, near), separation, error);
-                            return is_enough;
-                        }
+        let ask = |least: &mut Least<_>, [a, b]: [Part<'a>; 2]| {
+            if !least.passes_over(self.gap(&a, &b)) {
+                let parts = self.parts(&bases, a, b);
+                let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted };
+                match parts.convex.probe(asked) {
+                    Probe::Beyond(at_least, _) => least.give_up(at_least),
+                    Probe::Near(near) => {
+                        let (separation, error) = (near.separation, near.error);
+                        // Of what overlaps nobody wants to know the closest points, nor how deep it is elsewhere.
+                        let is_enough = wanted == Wanted::Closest && near.verdict.overlapping;
+                        least.offer((parts, near), separation, error);
+                        return is_enough;
                     }
                 }
-                false
-            })
-        });
+            }
+            false
+        };
+        self.ask_nearest(&bases, &mut least, ask);
         let ((parts, mut near), error) = least.finish()?;
         near.error = error;
         Ok(tell(&parts, &near))
@@ -376,37 +362,9 @@ impl<'a> Pair3<'a> {
         })
     }
 
-    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look further.
-    fn no_further_than(&self, bases: &[Basis3; 2]) -> f64 {
-        let middle_a = bases[0].turn(self.shape_a.center().as_dvec3());
-        let b = Part::nearest(self.shape_b, &bases[1], middle_a - self.between);
-        let a = Part::nearest(self.shape_a, &bases[0], self.between + b.center);
-        let b = Part::nearest(self.shape_b, &bases[1], a.center - self.between);
-        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, wanted: Wanted::Number };
-        match self.parts(bases, a, b).convex.probe(asked) {
-            Probe::Near(near) => (f64::from(near.separation) + f64::from(near.error)).max(0.0),
-            Probe::Beyond(..) => f64::INFINITY,
-        }
-    }
-
-    /// Where the parts of A are that may be so near to one of B, or to all of B.
-    fn around_b(&self, b: &Part, within: f64) -> Region3 {
-        Region3::ball(self.between + b.center, f64::from(b.shape.outer_radius()) + within)
-    }
-
-    /// The same the other way round.
-    fn around_a(&self, a: &Part, within: f64) -> Region3 {
-        Region3::ball(a.center - self.between, f64::from(a.shape.outer_radius()) + within)
-    }
-
     /// Both bodies' axes in the world.
     pub(crate) fn bases(&self) -> [Basis3; 2] {
         [self.pose_a.basis(), self.pose_b.basis()]
-    }
-
-    /// Whether either is a compound of so many parts that its tree is asked.
-    fn has_many_parts(&self) -> bool {
-        [self.shape_a, self.shape_b].iter().any(|shape| part_count(shape) >= MANY)
     }
 
     fn is_compound(&self) -> bool {

@@ -4,7 +4,7 @@ use crate::among::{MANY, Region2, in_order};
 use crate::exact::Site2;
 use crate::polygon::outline::Turn;
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Aabb2, Part2, Pose2, Shape2};
+use asunder_geometry::{Aabb2, Compound2, Part2, Pose2, Shape2};
 
 /// A convex part of a body, as the body stands.
 #[derive(Clone, Copy)]
@@ -63,6 +63,32 @@ pub(super) fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMu
     compound.parts().iter().zip(0..).any(|(part, index)| visit(Part::of(part, index, turn)))
 }
 
+/// A compound of so many parts that its tree is asked.
+pub(super) fn of_many(shape: &Shape2) -> Option<&Compound2> {
+    match shape {
+        Shape2::Compound(compound) if compound.parts().len() >= MANY => Some(compound),
+        _ => None,
+    }
+}
+
+/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up to a limit in
+/// metres that the visitor may lower: it returns the new one.
+pub(super) fn for_nearest_parts<'a>(
+    compound: &'a Compound2,
+    turn: &Turn,
+    Region2 { from, radius, .. }: Region2,
+    limit: f64,
+    mut visit: impl FnMut(Part<'a>) -> f64,
+) {
+    let local = Region2::ball(turn.turn_back(from), radius);
+    // A stored rotation stretches distances, too.
+    let wide = |limit: f64| limit * (1.0 + 4.0 * f64::from(f32::EPSILON));
+    compound.visit_nearest(&local.bounds(compound), wide(limit), |index| {
+        let part = compound.parts().get(index as usize);
+        part.map_or(limit, |part| wide(visit(Part::of(part, index, turn))))
+    });
+}
+
 /// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's
 /// position sees it in world axes.
 pub(super) fn for_parts_in<'a>(
@@ -71,9 +97,7 @@ pub(super) fn for_parts_in<'a>(
     region: impl FnOnce() -> Region2,
     mut visit: impl FnMut(Part<'a>) -> bool,
 ) -> bool {
-    if let Shape2::Compound(compound) = shape
-        && compound.parts().len() >= MANY
-    {
+    if let Some(compound) = of_many(shape) {
         let Region2 { from, way, radius } = region();
         let local = Region2 { from: turn.turn_back(from), way: turn.turn_back(way), radius };
         if local.is_bounded() {

@@ -3,7 +3,7 @@
 use crate::among::{MANY, Region3, in_order};
 use crate::exact::Site3;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Aabb3, Basis3, Part3, Pose3, Shape3};
+use asunder_geometry::{Aabb3, Basis3, Compound3, Part3, Pose3, Shape3};
 
 /// A convex part of a body, as the body stands.
 #[derive(Clone, Copy)]
@@ -73,6 +73,30 @@ pub(crate) fn for_parts<'a>(
     compound.parts().iter().zip(0..).any(|(part, index)| visit(Part::of(part, index, basis)))
 }
 
+/// A compound of so many parts that its tree is asked.
+pub(super) fn of_many(shape: &Shape3) -> Option<&Compound3> {
+    match shape {
+        Shape3::Compound(compound) if compound.parts().len() >= MANY => Some(compound),
+        _ => None,
+    }
+}
+
+/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up to a limit in
+/// metres that the visitor may lower: it returns the new one.
+pub(super) fn for_nearest_parts<'a>(
+    compound: &'a Compound3,
+    basis: &Basis3,
+    Region3 { from, radius, .. }: Region3,
+    limit: f64,
+    mut visit: impl FnMut(Part<'a>) -> f64,
+) {
+    let local = Region3::ball(basis.turn_back(from), radius);
+    compound.visit_nearest(&local.bounds(compound), limit, |index| {
+        let part = compound.parts().get(index as usize);
+        part.map_or(limit, |part| visit(Part::of(part, index, basis)))
+    });
+}
+
 /// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's
 /// position sees it in world axes.
 pub(crate) fn for_parts_in<'a>(
@@ -81,9 +105,7 @@ pub(crate) fn for_parts_in<'a>(
     region: impl FnOnce() -> Region3,
     mut visit: impl FnMut(Part<'a>) -> bool,
 ) -> bool {
-    if let Shape3::Compound(compound) = shape
-        && compound.parts().len() >= MANY
-    {
+    if let Some(compound) = of_many(shape) {
         let Region3 { from, way, radius } = region();
         let local = Region3 { from: basis.turn_back(from), way: basis.turn_back(way), radius };
         if local.is_bounded() {

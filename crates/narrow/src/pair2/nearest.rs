@@ -1,0 +1,81 @@
+//! Which pairs of parts may be near enough, or nearest, in the plane.
+
+use super::Pair2;
+use super::part::{Part, for_nearest_parts, for_parts, for_parts_in, of_many};
+use crate::among::Region2;
+use crate::feature::Hint;
+use crate::least::Least;
+use crate::polygon::measure::{Asked, Probe};
+use crate::precision::round_down;
+
+impl<'a> Pair2<'a> {
+    /// Asks about pairs of parts until it is enough: all that may be as near as the nearest so far.
+    ///
+    /// Of a compound of many parts, those that are nearest to the other come first. Of two such, nobody is further than two that
+    /// are near each other. All others go in order.
+    pub(super) fn ask_nearest<P>(
+        &self,
+        least: &mut Least<P>,
+        mut ask: impl FnMut(&mut Least<P>, [Part<'a>; 2]) -> bool,
+    ) {
+        let whole_b = Part::whole(self.shape_b, &self.turn_b);
+        let mut within = least.reach();
+        // Whom no tree hands over.
+        least.give_up(if self.has_many_parts() { round_down(within) } else { f32::INFINITY });
+        match [self.shape_a, self.shape_b].map(of_many) {
+            [Some(a), None] => {
+                let others = self.around_b(&whole_b, 0.0);
+                return for_nearest_parts(a, &self.turn_a, others, within, |a| {
+                    let is_enough = for_parts(self.shape_b, &self.turn_b, |b| ask(least, [a, b]));
+                    if is_enough { -1.0 } else { least.reach() }
+                });
+            }
+            [None, Some(b)] => {
+                let others = self.around_a(&Part::whole(self.shape_a, &self.turn_a), 0.0);
+                return for_nearest_parts(b, &self.turn_b, others, within, |b| {
+                    let is_enough = for_parts(self.shape_a, &self.turn_a, |a| ask(least, [a, b]));
+                    if is_enough { -1.0 } else { least.reach() }
+                });
+            }
+            [Some(_), Some(_)] => within = within.min(self.no_further_than()),
+            [None, None] => {}
+        }
+        let beside_b = || self.around_b(&whole_b, within);
+        for_parts_in(self.shape_a, &self.turn_a, beside_b, |a| {
+            if least.passes_over(self.gap(&a, &whole_b)) {
+                return false;
+            }
+            let within = within.min(least.reach());
+            let beside_a = || self.around_a(&a, within);
+            for_parts_in(self.shape_b, &self.turn_b, beside_a, |b| ask(least, [a, b]))
+        });
+    }
+
+    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look further.
+    fn no_further_than(&self) -> f64 {
+        let middle_a = self.turn_a.turn(self.shape_a.center().as_dvec2());
+        let b = Part::nearest(self.shape_b, &self.turn_b, middle_a - self.between);
+        let a = Part::nearest(self.shape_a, &self.turn_a, self.between + b.center);
+        let b = Part::nearest(self.shape_b, &self.turn_b, a.center - self.between);
+        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, points: false };
+        match self.parts(a, b).convex.probe(&asked) {
+            Probe::Near(near) => (f64::from(near.separation) + f64::from(near.error)).max(0.0),
+            Probe::Beyond(..) => f64::INFINITY,
+        }
+    }
+
+    /// Where the parts of A are that may be so near to one of B, or to all of B.
+    pub(super) fn around_b(&self, b: &Part, within: f64) -> Region2 {
+        Region2::ball(self.between + b.center, f64::from(b.shape.outer_radius()) + within)
+    }
+
+    /// The same the other way round.
+    pub(super) fn around_a(&self, a: &Part, within: f64) -> Region2 {
+        Region2::ball(a.center - self.between, f64::from(a.shape.outer_radius()) + within)
+    }
+
+    /// Whether either is a compound of so many parts that its tree is asked.
+    pub(super) fn has_many_parts(&self) -> bool {
+        [self.shape_a, self.shape_b].iter().any(|shape| of_many(shape).is_some())
+    }
+}

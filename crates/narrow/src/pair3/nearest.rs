@@ -1,0 +1,83 @@
+//! Which pairs of parts may be near enough, or nearest, in space.
+
+use super::Pair3;
+use super::part::{Part, for_nearest_parts, for_parts, for_parts_in, of_many};
+use crate::among::Region3;
+use crate::feature::Hint;
+use crate::least::Least;
+use crate::polyhedron::convex::{Asked, Probe, Wanted};
+use crate::precision::round_down;
+use asunder_geometry::Basis3;
+
+impl<'a> Pair3<'a> {
+    /// Asks about pairs of parts until it is enough: all that may be as near as the nearest so far.
+    ///
+    /// Of a compound of many parts, those that are nearest to the other come first. Of two such, nobody is further than two that
+    /// are near each other. All others go in order.
+    pub(super) fn ask_nearest<P>(
+        &self,
+        bases: &[Basis3; 2],
+        least: &mut Least<P>,
+        mut ask: impl FnMut(&mut Least<P>, [Part<'a>; 2]) -> bool,
+    ) {
+        let whole_b = Part::whole(self.shape_b, &bases[1]);
+        let mut within = least.reach();
+        // Whom no tree hands over.
+        least.give_up(if self.has_many_parts() { round_down(within) } else { f32::INFINITY });
+        match [self.shape_a, self.shape_b].map(of_many) {
+            [Some(a), None] => {
+                let others = self.around_b(&whole_b, 0.0);
+                return for_nearest_parts(a, &bases[0], others, within, |a| {
+                    let is_enough = for_parts(self.shape_b, &bases[1], |b| ask(least, [a, b]));
+                    if is_enough { -1.0 } else { least.reach() }
+                });
+            }
+            [None, Some(b)] => {
+                let others = self.around_a(&Part::whole(self.shape_a, &bases[0]), 0.0);
+                return for_nearest_parts(b, &bases[1], others, within, |b| {
+                    let is_enough = for_parts(self.shape_a, &bases[0], |a| ask(least, [a, b]));
+                    if is_enough { -1.0 } else { least.reach() }
+                });
+            }
+            [Some(_), Some(_)] => within = within.min(self.no_further_than(bases)),
+            [None, None] => {}
+        }
+        let beside_b = || self.around_b(&whole_b, within);
+        for_parts_in(self.shape_a, &bases[0], beside_b, |a| {
+            if least.passes_over(self.gap(&a, &whole_b)) {
+                return false;
+            }
+            let within = within.min(least.reach());
+            let beside_a = || self.around_a(&a, within);
+            for_parts_in(self.shape_b, &bases[1], beside_a, |b| ask(least, [a, b]))
+        });
+    }
+
+    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look further.
+    fn no_further_than(&self, bases: &[Basis3; 2]) -> f64 {
+        let middle_a = bases[0].turn(self.shape_a.center().as_dvec3());
+        let b = Part::nearest(self.shape_b, &bases[1], middle_a - self.between);
+        let a = Part::nearest(self.shape_a, &bases[0], self.between + b.center);
+        let b = Part::nearest(self.shape_b, &bases[1], a.center - self.between);
+        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, wanted: Wanted::Number };
+        match self.parts(bases, a, b).convex.probe(asked) {
+            Probe::Near(near) => (f64::from(near.separation) + f64::from(near.error)).max(0.0),
+            Probe::Beyond(..) => f64::INFINITY,
+        }
+    }
+
+    /// Where the parts of A are that may be so near to one of B, or to all of B.
+    pub(super) fn around_b(&self, b: &Part, within: f64) -> Region3 {
+        Region3::ball(self.between + b.center, f64::from(b.shape.outer_radius()) + within)
+    }
+
+    /// The same the other way round.
+    pub(super) fn around_a(&self, a: &Part, within: f64) -> Region3 {
+        Region3::ball(a.center - self.between, f64::from(a.shape.outer_radius()) + within)
+    }
+
+    /// Whether either is a compound of so many parts that its tree is asked.
+    pub(super) fn has_many_parts(&self) -> bool {
+        [self.shape_a, self.shape_b].iter().any(|shape| of_many(shape).is_some())
+    }
+}
