@@ -3,8 +3,16 @@
 //! What a tree finds comes in its order, and is put in that of the numbers: answers are the same bits as those of a loop over
 //! all parts, of which each asks for itself whether a part is near. The tree only leaves out what none of them would take.
 //!
-//! Cubes of n x n x n balls side by side and rods through them, microseconds a question with a loop and with the tree:
-//! `cargo run --release -p asunder-benches --bin parts`.
+//! Cubes of so many boxes and balls, a hair from touching; microseconds a question with loops and with trees, `cargo run --release -p
+//! asunder-benches --bin parts` (AMD EPYC, Zen 5, 2026-11-25):
+//!
+//! | parts | 27 | 125 | 1,000 | 3,375 |
+//! |---|---|---|---|---|
+//! | a crate beside them, yes or no | 0.55 to 0.41 | 1.5 to 0.38 | 11 to 0.48 | 39 to 0.53 |
+//! | and how far | 3.5 to 1.6 | 7.1 to 1.8 | 29 to 1.9 | 77 to 2.4 |
+//! | two of them, yes or no | 2.5 to 0.83 | 24 to 1.7 | 840 to 7.4 | 7,200 to 20 |
+//! | and how far | 15 to 4.5 | 133 to 7.3 | 5,200 to 22 | 48,000 to 57 |
+//! | what a ray meets | 1.0 to 0.18 | 4.4 to 0.23 | 34 to 0.27 | 115 to 0.31 |
 
 use crate::lists::with_list;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
