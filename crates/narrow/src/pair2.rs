@@ -17,7 +17,7 @@ use crate::polygon::outline::Turn;
 use crate::polygon::quick::Bodies;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
-use part::{Part, for_parts, for_parts_in};
+use part::{Part, for_parts, for_parts_in, for_parts_near};
 
 /// Two posed shapes in the plane, ready to be asked about each other.
 ///
@@ -325,10 +325,10 @@ impl<'a> Pair2<'a> {
         }
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
         let beside_b = || self.around_b(&whole_b, within);
-        for_parts_in(self.shape_a, &self.turn_a, beside_b, |a| {
+        for_parts_near(self.shape_a, &self.turn_a, beside_b, |a| {
             let beside_a = || self.around_a(&a, within);
             let ask = |b| !is_far(&a, &b) && ask(&self.parts(a, b));
-            !is_far(&a, &whole_b) && for_parts_in(self.shape_b, &self.turn_b, beside_a, ask)
+            !is_far(&a, &whole_b) && for_parts_near(self.shape_b, &self.turn_b, beside_a, ask)
         })
     }
 

@@ -19,6 +19,7 @@ use crate::precision::round_down;
 use crate::room::{Deepest, Room, in_place};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Pose3, Shape3};
+use part::for_parts_near;
 pub(crate) use part::{Part, for_parts, for_parts_in};
 pub(crate) use parts::Parts;
 
@@ -355,10 +356,10 @@ impl<'a> Pair3<'a> {
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
         let beside_b = || self.around_b(&whole_b, within);
-        for_parts_in(self.shape_a, &bases[0], beside_b, |a| {
+        for_parts_near(self.shape_a, &bases[0], beside_b, |a| {
             let beside_a = || self.around_a(&a, within);
             let ask = |b| !is_far(&a, &b) && ask(&self.parts(&bases, a, b));
-            !is_far(&a, &whole_b) && for_parts_in(self.shape_b, &bases[1], beside_a, ask)
+            !is_far(&a, &whole_b) && for_parts_near(self.shape_b, &bases[1], beside_a, ask)
         })
     }
 

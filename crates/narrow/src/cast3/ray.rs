@@ -163,7 +163,8 @@ impl<'a> Cast<'a> {
             return first;
         }
         let size = f64::from(self.shape.outer_radius()) + length(self.shape.center().as_dvec3());
-        let grown = (256.0 * f64::EPSILON * (length(self.from) + size)) as f32;
+        // What is met by steps counts as hit some thousand roundings off, where it all but touches the origin.
+        let grown = (65536.0 * f64::EPSILON * (length(self.from) + size)) as f32;
         let (from, way) = (basis.turn_back(self.from), basis.turn_back(self.way));
         compound.visit_along(from, way, grown, limit, |index| match compound.parts().get(index as usize) {
             Some(part) => offer(Part::of(part, index, basis)),

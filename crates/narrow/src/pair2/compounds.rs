@@ -27,9 +27,12 @@ impl Pair2<'_> {
         // Where none is due, the middles part more pairs of parts than a direction that has failed.
         let due = sought.filter(|&(_, is_due)| is_due);
         let (from, is_due) = due.unwrap_or_else(|| (wholes.towards_b(), false));
-        // Of many parts a tree leaves out more, for less than their projections.
-        let is_worth_it =
-            !self.has_many_parts() && (is_due || is_many([self.shape_a, self.shape_b].map(part_count)));
+        let [a, b] = [self.shape_a, self.shape_b].map(part_count);
+        // Beside few parts, a tree of many tells sooner than all their projections.
+        let is_worth_it = match self.has_many_parts() {
+            true => is_due && a.max(b) <= 8 * a.min(b),
+            false => is_due || is_many([a, b]),
+        };
         let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
             return (Hint::towards(from.extend(0.0)), Err(0.0));

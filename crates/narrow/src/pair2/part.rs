@@ -5,6 +5,7 @@ use crate::exact::Site2;
 use crate::polygon::outline::Turn;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Compound2, Part2, Pose2, Shape2};
+use core::ops::ControlFlow;
 
 /// A convex part of a body, as the body stands.
 #[derive(Clone, Copy)]
@@ -87,6 +88,23 @@ pub(super) fn for_nearest_parts<'a>(
         let part = compound.parts().get(index as usize);
         part.map_or(limit, |part| wide(visit(Part::of(part, index, turn))))
     });
+}
+
+/// As [`for_parts_in`], of a region that does not move, and in any order: the first that is found may be enough.
+pub(super) fn for_parts_near<'a>(
+    shape: &'a Shape2,
+    turn: &Turn,
+    region: impl FnOnce() -> Region2,
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
+    let Some(compound) = of_many(shape) else { return for_parts(shape, turn, visit) };
+    let Region2 { from, radius, .. } = region();
+    let local = Region2::ball(turn.turn_back(from), radius);
+    let visit = |index: u32| match compound.parts().get(index as usize) {
+        Some(part) if visit(Part::of(part, index, turn)) => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    compound.visit_near(&local.bounds(compound), visit).is_break()
 }
 
 /// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's

@@ -1,7 +1,7 @@
 //! Which pairs of parts may be near enough, or nearest, in space.
 
 use super::Pair3;
-use super::part::{Part, for_nearest_parts, for_parts, for_parts_in, of_many};
+use super::part::{Part, for_nearest_parts, for_parts, for_parts_near, of_many};
 use crate::among::Region3;
 use crate::feature::Hint;
 use crate::least::Least;
@@ -13,7 +13,7 @@ impl<'a> Pair3<'a> {
     /// Asks about pairs of parts until it is enough: all that may be as near as the nearest so far.
     ///
     /// Of a compound of many parts, those that are nearest to the other come first. Of two such, nobody is further than two that
-    /// are near each other. All others go in order.
+    /// are near each other. Of compounds of few, all in order.
     pub(super) fn ask_nearest<P>(
         &self,
         bases: &[Basis3; 2],
@@ -43,13 +43,13 @@ impl<'a> Pair3<'a> {
             [None, None] => {}
         }
         let beside_b = || self.around_b(&whole_b, within);
-        for_parts_in(self.shape_a, &bases[0], beside_b, |a| {
+        for_parts_near(self.shape_a, &bases[0], beside_b, |a| {
             if least.passes_over(self.gap(&a, &whole_b)) {
                 return false;
             }
             let within = within.min(least.reach());
             let beside_a = || self.around_a(&a, within);
-            for_parts_in(self.shape_b, &bases[1], beside_a, |b| ask(least, [a, b]))
+            for_parts_near(self.shape_b, &bases[1], beside_a, |b| ask(least, [a, b]))
         });
     }
 

@@ -4,6 +4,7 @@ use crate::among::{MANY, Region3, in_order};
 use crate::exact::Site3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Basis3, Compound3, Part3, Pose3, Shape3};
+use core::ops::ControlFlow;
 
 /// A convex part of a body, as the body stands.
 #[derive(Clone, Copy)]
@@ -95,6 +96,23 @@ pub(super) fn for_nearest_parts<'a>(
         let part = compound.parts().get(index as usize);
         part.map_or(limit, |part| visit(Part::of(part, index, basis)))
     });
+}
+
+/// As [`for_parts_in`], of a region that does not move, and in any order: the first that is found may be enough.
+pub(super) fn for_parts_near<'a>(
+    shape: &'a Shape3,
+    basis: &Basis3,
+    region: impl FnOnce() -> Region3,
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
+    let Some(compound) = of_many(shape) else { return for_parts(shape, basis, visit) };
+    let Region3 { from, radius, .. } = region();
+    let local = Region3::ball(basis.turn_back(from), radius);
+    let visit = |index: u32| match compound.parts().get(index as usize) {
+        Some(part) if visit(Part::of(part, index, basis)) => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    compound.visit_near(&local.bounds(compound), visit).is_break()
 }
 
 /// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's
