@@ -5,7 +5,7 @@ mod plane;
 
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{
-    Aabb3, Capsule3, Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Ray3, Shape3, Sphere,
+    Aabb3, Capsule3, Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Ray3, Segment3, Shape3, Sphere,
 };
 use asunder_narrow::{Impact3, Manifold3, Pair3, Separation3, cast_ray3};
 use asunder_scenes::random::Random;
@@ -263,4 +263,22 @@ fn walks_over_parts_find_what_a_loop_over_their_boxes_finds() {
         assert!(nearest.iter().any(|&part| gap(part) == least), "{round}");
         assert!(nearest.iter().all(|&part| gap(part) <= least * 1.000_01 + 1e-12), "{round}");
     }
+}
+
+/// Segments have no width, and are hit by what passes within rounding: by what comes out of the loop over few parts, too, which
+/// goes on until it is some thousand roundings near.
+#[test]
+fn a_ray_beside_a_segment_meets_it_among_many_as_among_few() {
+    let segment: Shape3 = Segment3::new(Vec3::ZERO, Vec3::X).unwrap().into();
+    let place = |i: u32| Pose3::at([f64::from(i % 4), 0.0, f64::from(i / 4)]).unwrap();
+    let parts: Vec<(Pose3, Shape3)> = (0..16).map(|i| (place(i), segment.clone())).collect();
+    let body = body(&parts, Pose3::IDENTITY);
+    let mut hits = 0;
+    for power in 24..64 {
+        let ray = Ray3::new([0.5, 0.5_f64.powi(power), 0.0], Vec3::Z).unwrap();
+        let hit = |shape| cast_ray3(shape, &body.pose, &ray, 10.0).map(|hit| (hit.part, hit.distance));
+        assert_eq!(hit(&body.whole), hit(&body.pieces[0].1), "{power}");
+        hits += usize::from(hit(&body.whole).is_some());
+    }
+    assert!(hits > 10 && hits < 30, "{hits}");
 }
