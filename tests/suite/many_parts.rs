@@ -7,7 +7,9 @@ use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{
     Aabb3, Capsule3, Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Ray3, Segment3, Shape3, Sphere,
 };
-use asunder_narrow::{Impact3, Manifold3, Pair3, Separation3, cast_ray3};
+use asunder_narrow::{
+    Answer, Batch3, Hint, Impact3, Job3, Manifold3, Pair3, Separation3, cast_ray3, collide3,
+};
 use asunder_scenes::random::Random;
 use core::ops::ControlFlow;
 
@@ -188,6 +190,44 @@ fn check_motions(random: &mut Random, both: &[Body; 2], round: usize) -> usize {
         met += usize::from(found.is_some_and(|found| !found.overlapping));
     }
     met
+}
+
+/// Bodies that drift past each other, with what the frame before left, as a world asks: into each other, out again, and apart, where a
+/// direction that parted them is tried first.
+#[test]
+fn memory_changes_nothing_of_many_parts() {
+    let mut random = Random::new(8150);
+    let (mut touching, mut apart) = (0, 0);
+    for round in 0..60 {
+        let mut both = bodies(&mut random);
+        let step = (both[0].pose.position() - both[1].pose.position()) / 20.0 + random.direction() * 0.05;
+        let (mut hint, mut batch) = (Hint::NONE, Batch3::default());
+        for frame in 0..40 {
+            let moved = both[1].pose.position() + step;
+            both[1].pose = Pose3::new(moved, both[1].pose.rotation()).unwrap();
+            let [a, b] = &both;
+            let (shape_a, pose_a, shape_b, pose_b) = (&a.whole, &a.pose, &b.whole, &b.pose);
+            batch.clear();
+            collide3(
+                &[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.1, hint, sensor: false }],
+                &mut batch,
+            );
+            let each = piecewise(&both, |pair, _| (pair.overlaps(), pair.manifolds(0.1).len()));
+            let (overlaps, count) =
+                each.iter().fold((false, 0), |(any, sum), one| (any || one.0, sum + one.1));
+            match &batch.answers[0] {
+                Answer::Apart { hint: next, .. } => {
+                    assert!(!overlaps && count == 0, "{round} {frame}: {count}");
+                    (hint, apart) = (*next, apart + 1);
+                }
+                Answer::Contact { hint: next, overlapping, manifolds, .. } => {
+                    assert_eq!((*overlapping, manifolds.len()), (overlaps, count), "{round} {frame}");
+                    (hint, touching) = (*next, touching + 1);
+                }
+            }
+        }
+    }
+    assert!(touching > 500 && apart > 500, "{touching} {apart}");
 }
 
 #[test]

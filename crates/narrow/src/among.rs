@@ -1,7 +1,13 @@
 //! Which parts of a compound a question is about: of few parts all, of many those that the compound's tree finds.
 //!
-//! What a tree finds comes in its order, and is put in that of the numbers: answers are the same bits as those of a loop over
-//! all parts, of which each asks for itself whether a part is near. The tree only leaves out what none of them would take.
+//! ```text
+//! yes or no             in the tree's order, until a pair overlaps
+//! how far               nearest parts first; of two of many, those that are no further apart than two that are near each other
+//! contacts              found by the tree, then in the order of the numbers: the same bits as by a loop over all parts
+//! moved bodies          found along the way, then as contacts
+//! rays                  in the order in which boxes are met; of equals, the lowest number
+//! ```
+//! Every pair that is found asks for itself whether it is near, as in a loop: the tree only leaves out what none would take.
 //!
 //! Cubes of so many boxes and balls, a hair from touching; microseconds a question with loops and with trees, `cargo run --release -p
 //! asunder-benches --bin parts` (AMD EPYC, Zen 5, 2026-11-25):

@@ -57,11 +57,11 @@ pub fn cast_ray2(shape: &Shape2, pose: &Pose2, ray: &Ray2, limit: f64) -> Option
     let Shape2::Compound(compound) = shape else {
         return Asked { shape, pose, part: None, index: 0, ray }.answer(&beam, limit);
     };
-    into_parts(compound, (pose, ray), &beam, limit)
+    over_parts(compound, (pose, ray), &beam, limit)
 }
 
 /// The nearest of a compound's parts: of few one after the other, of many in the order in which it meets their boxes.
-fn into_parts(
+fn over_parts(
     compound: &Compound2,
     (pose, ray): (&Pose2, &Ray2),
     beam: &Beam,

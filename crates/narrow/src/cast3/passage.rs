@@ -24,9 +24,10 @@ pub(super) struct Passage {
     pub(super) rounding: f64,
 }
 
-/// For how many steps spheres are followed that turn with their bodies, and what share of their radii apart they count as met: what
-/// follows asks the parts themselves.
+/// For how many steps spheres are followed that turn with their bodies: what follows asks the parts themselves.
 const MAX_LOOKS: u32 = 12;
+
+/// What share of their radii apart such spheres count as met.
 const NEAR_ENOUGH: f64 = 1.0 / 64.0;
 
 /// Two convex parts of moving bodies.

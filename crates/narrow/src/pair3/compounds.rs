@@ -43,35 +43,26 @@ impl Pair3<'_> {
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
         let (mut kept, mut touch) = (Kept::new(asked.hint), None);
-        let within = asked.limit;
-        for_parts_in(
-            self.shape_a,
-            &bases[0],
-            || self.around_b(&whole_b, within),
-            |a| {
-                let shadow = shadow.as_ref().map(|(shadow, _)| shadow);
-                if shadow.is_some_and(|shadow| shadow.parts_from_whole(a.index)) || is_far(&a, &whole_b) {
+        let beside_b = || self.around_b(&whole_b, asked.limit);
+        for_parts_in(self.shape_a, &bases[0], beside_b, |a| {
+            let shadow = shadow.as_ref().map(|(shadow, _)| shadow);
+            if shadow.is_some_and(|shadow| shadow.parts_from_whole(a.index)) || is_far(&a, &whole_b) {
+                return false;
+            }
+            let beside_a = || self.around_a(&a, asked.limit);
+            for_parts_in(self.shape_b, &bases[1], beside_a, |b| {
+                if shadow.is_some_and(|shadow| shadow.parts(a.index, b.index)) || is_far(&a, &b) {
                     return false;
                 }
-                for_parts_in(
-                    self.shape_b,
-                    &bases[1],
-                    || self.around_a(&a, within),
-                    |b| {
-                        if shadow.is_some_and(|shadow| shadow.parts(a.index, b.index)) || is_far(&a, &b) {
-                            return false;
-                        }
-                        let parts = self.parts(&bases, a, b);
-                        let asked = Asked { hint: kept.of(parts.indices), ..asked };
-                        if let (hint, Ok(found)) = parts.contact(asked, margin, manifolds) {
-                            touch = Some(touch.unwrap_or(false) || found.overlapping);
-                            kept.offer(parts.indices, hint, found.separation);
-                        }
-                        false
-                    },
-                )
-            },
-        );
+                let parts = self.parts(&bases, a, b);
+                let asked = Asked { hint: kept.of(parts.indices), ..asked };
+                if let (hint, Ok(found)) = parts.contact(asked, margin, manifolds) {
+                    touch = Some(touch.unwrap_or(false) || found.overlapping);
+                    kept.offer(parts.indices, hint, found.separation);
+                }
+                false
+            })
+        });
         let next = shadow.map_or(from, |(_, next)| next);
         let hint = if touch.is_some() { kept.hint() } else { asked.hint.seeking(bases[0].turn_back(next)) };
         (hint, touch.ok_or(0.0))
