@@ -130,7 +130,7 @@ impl<S: Space> Asker<'_, S> {
     /// A loop of its own, and a short one: bodies and what is kept lie all over memory, and the next ones are fetched while
     /// these are waited for. In one loop with the choice, moving along took 13 to 19 % more samples (2026-11-23).
     /// Tried: the margins of 32 pairs' bodies read ahead, in a loop of its own: boxes at rest 10 % slower, mixed 2 % (AMD EPYC,
-    /// Zen 5, 2026-11-25).
+    /// Zen 4, 2026-11-25).
     fn answer(&self, chunk: &mut Chunk<'_, S>) {
         let Chunk { candidates, answered, settled, .. } = chunk;
         let mut jobs: ArrayVec<S::Job<'_>, JOBS> = ArrayVec::new_const();

@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 const STACK: usize = WIDTH * (MOST_DEPTH + 1);
 
 /// Boxes that wait, each with its place in the order. Not an array, which is written all over before it is used: of a ray on 20,000
-/// triangles that was 4 % of the time (AMD EPYC, Zen 5, 2026-11-25).
+/// triangles that was 4 % of the time (AMD EPYC, Zen 4, 2026-11-25).
 type Stack = ArrayVec<(f32, u32), STACK>;
 
 /// Three roundings to f32 stand between a corner and a time, and five between corners and the square of a distance,
