@@ -22,108 +22,83 @@
 
 use crate::lists::with_list;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
-use asunder_geometry::{Aabb2, Aabb3, Compound2, Compound3, round_down};
+use asunder_geometry::{Aabb2, Aabb3, Compound2, Compound3, Shape2, Shape3, round_down};
 use core::cell::Cell;
-use core::ops::ControlFlow;
 
 /// So many parts, and more, are looked for in the compound's tree.
-pub(crate) const MANY: usize = 16;
+const MANY: usize = 16;
 
 thread_local! {
     /// Lists of parts.
     static NUMBERS: Cell<Vec<Vec<u32>>> = const { Cell::new(Vec::new()) };
 }
 
+/// A compound of so many parts that its tree is asked, in the plane.
+pub(crate) fn many2(shape: &Shape2) -> Option<&Compound2> {
+    match shape {
+        Shape2::Compound(compound) if compound.parts().len() >= MANY => Some(compound),
+        _ => None,
+    }
+}
+
+/// The same in space.
+pub(crate) fn many3(shape: &Shape3) -> Option<&Compound3> {
+    match shape {
+        Shape3::Compound(compound) if compound.parts().len() >= MANY => Some(compound),
+        _ => None,
+    }
+}
+
 /// Visits what a walk finds in the order of the numbers, until the visitor says to stop; returns whether it did.
-pub(crate) fn in_order(walk: impl FnOnce(&mut dyn FnMut(u32)), mut visit: impl FnMut(u32) -> bool) -> bool {
+pub(crate) fn in_order(walk: impl FnOnce(&mut Vec<u32>), mut visit: impl FnMut(u32) -> bool) -> bool {
     with_list(&NUMBERS, |numbers| {
-        walk(&mut |number| numbers.push(number));
+        walk(numbers);
         numbers.sort_unstable();
         numbers.iter().any(|&number| visit(number))
     })
 }
 
-/// Where the parts are that a question is about: within a radius of a point that moves, in metres, as a body's position sees it.
+/// Where the parts are that a question is about: within a radius of a point, in metres, as a body's position sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Region<V> {
-    pub(crate) from: V,
-    /// How far it moves.
-    pub(crate) way: V,
+    pub(crate) center: V,
+    /// Infinite for half-spaces, which are everywhere.
     pub(crate) radius: f64,
 }
 
 pub(crate) type Region2 = Region<DVec2>;
 pub(crate) type Region3 = Region<DVec3>;
 
-impl<V: Default> Region<V> {
-    /// One that does not move.
-    pub(crate) fn ball(from: V, radius: f64) -> Self {
-        Self { from, way: V::default(), radius }
-    }
-
-    /// Half-spaces are everywhere, and so is what has no limit.
-    pub(crate) fn is_bounded(&self) -> bool {
-        self.radius < 1e30
-    }
-}
-
 impl Region2 {
-    /// Its radius, and more than rotations and all sums may have lost: a stored rotation stretches by its length, which is one up
-    /// to the rounding of f32; a part has two.
-    fn grown(&self, compound: &Compound2) -> f32 {
+    /// Its radius while it moves so far, and more than rotations and all sums may have lost: a stored rotation stretches by its
+    /// length, which is one up to the rounding of f32; a part has two.
+    pub(crate) fn grown(&self, way: DVec2, compound: &Compound2) -> f32 {
         let size = f64::from(compound.outer_radius()) + compound.center().as_dvec2().length();
-        let lengths = self.from.length() + self.way.length() + self.radius + size;
+        let lengths = self.center.length() + way.length() + self.radius + size;
         up(self.radius + 16.0 * f64::from(f32::EPSILON) * lengths)
     }
 
-    /// The box around it where it begins, given in the compound's axes.
+    /// The box around it, given in the compound's axes.
     pub(crate) fn bounds(&self, compound: &Compound2) -> Aabb2 {
-        let grown = self.grown(compound);
-        let [x, y] = self.from.to_array().map(|center| around(center, grown));
+        let grown = self.grown(DVec2::ZERO, compound);
+        let [x, y] = self.center.to_array().map(|center| around(center, grown));
         Aabb2::new(Vec2::new(x[0], y[0]), Vec2::new(x[1], y[1]))
-    }
-
-    /// Hands over every part that may be in it, given in the compound's axes.
-    pub(crate) fn walk(&self, compound: &Compound2, find: &mut dyn FnMut(u32)) {
-        if self.way != DVec2::ZERO {
-            return compound.visit_along(self.from, self.way, self.grown(compound), 1.0, |part| {
-                find(part);
-                1.0
-            });
-        }
-        let _ = compound.visit_near(&self.bounds(compound), |part| {
-            find(part);
-            ControlFlow::Continue(())
-        });
     }
 }
 
 impl Region3 {
-    /// Its radius, and more than rotations and all sums may have lost.
-    fn grown(&self, compound: &Compound3) -> f32 {
+    /// Its radius while it moves so far, and more than rotations and all sums may have lost.
+    pub(crate) fn grown(&self, way: DVec3, compound: &Compound3) -> f32 {
         let size = f64::from(compound.outer_radius()) + compound.center().as_dvec3().length();
-        up(self.radius + 256.0 * f64::EPSILON * (self.from.length() + self.way.length() + self.radius + size))
+        let lengths = self.center.length() + way.length() + self.radius + size;
+        up(self.radius + 256.0 * f64::EPSILON * lengths)
     }
 
-    /// The box around it where it begins, given in the compound's axes.
+    /// The box around it, given in the compound's axes.
     pub(crate) fn bounds(&self, compound: &Compound3) -> Aabb3 {
-        let grown = self.grown(compound);
-        let [x, y, z] = self.from.to_array().map(|center| around(center, grown));
+        let grown = self.grown(DVec3::ZERO, compound);
+        let [x, y, z] = self.center.to_array().map(|center| around(center, grown));
         Aabb3::new(Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]))
-    }
-
-    /// Hands over every part that may be in it, given in the compound's axes.
-    pub(crate) fn walk(&self, compound: &Compound3, find: &mut dyn FnMut(u32)) {
-        if self.way != DVec3::ZERO {
-            return compound.visit_along(self.from, self.way, self.grown(compound), 1.0, |part| {
-                find(part);
-                1.0
-            });
-        }
-        let _ = compound.visit_near(&self.bounds(compound), |part| {
-            find(part);
-            ControlFlow::Continue(())
-        });
     }
 }
 

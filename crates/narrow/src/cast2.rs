@@ -58,7 +58,7 @@ use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Motion2, Pose2};
 use beyond::{Touched, with_touched};
 use course::{Course, Touching, meeting};
-use piece::{Piece, for_pieces_beside};
+use piece::{Piece, for_pieces_along};
 pub use ray::cast_ray2;
 use stretch::{Stretch, Travel};
 
@@ -232,11 +232,11 @@ impl Pair2<'_> {
         let whole_b = Piece::whole(self.shape_b);
         let mut first: Option<Impact2> = None;
         let mut end = 1.0;
-        for_pieces_beside((self.shape_a, 0), stretch, &whole_b, |a| {
+        for_pieces_along((self.shape_a, 0), stretch, &whole_b, |a| {
             if meeting(stretch, [a, &whole_b], end).is_none() {
                 return;
             }
-            for_pieces_beside((self.shape_b, 1), stretch, a, |b| {
+            for_pieces_along((self.shape_b, 1), stretch, a, |b| {
                 let touching = Course::new(stretch, [a, b], end).and_then(|course| course.first_touch());
                 // Of equals, the first pair counts.
                 let Some(touching) = touching.filter(|touching| first.is_none() || touching.at < end) else {

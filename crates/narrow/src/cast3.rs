@@ -35,7 +35,7 @@ use crate::answer::{Manifold3, Separation3};
 use crate::ground3::OnGround;
 use crate::impact3::Impact3;
 use crate::level::Lies;
-use crate::pair3::{Pair3, Part, for_parts_in};
+use crate::pair3::{Pair3, Part, for_parts_along};
 use crate::touch::Touch3;
 use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -234,13 +234,13 @@ impl Pair3<'_> {
         let whole_b = Part::whole(self.shape_b, &passage.bases[1]);
         let is_many = matches!(self.shape_b, Shape3::Compound(_));
         let beside_b = || passage.region(0, self.shape_a, &whole_b);
-        let overlaps = for_parts_in(self.shape_a, &passage.bases[0], beside_b, |a| {
+        let overlaps = for_parts_along(self.shape_a, &passage.bases[0], beside_b, |a| {
             let until = first.map_or(1.0, |known| known.fraction);
             if is_many && passage.stretch([&a, &whole_b], until).is_none() {
                 return false;
             }
             let beside_a = || passage.region(1, self.shape_b, &a);
-            for_parts_in(self.shape_b, &passage.bases[1], beside_a, |b| {
+            for_parts_along(self.shape_b, &passage.bases[1], beside_a, |b| {
                 let until = first.map_or(1.0, |known| known.fraction);
                 let Some(stretch) = passage.stretch([&a, &b], until) else { return false };
                 let met = match part_end(passage, [a, b], &stretch, until) {

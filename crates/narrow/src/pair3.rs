@@ -20,7 +20,7 @@ use crate::room::{Deepest, Room, in_place};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Pose3, Shape3};
 use part::for_parts_near;
-pub(crate) use part::{Part, for_parts, for_parts_in};
+pub(crate) use part::{Part, for_parts, for_parts_along};
 pub(crate) use parts::Parts;
 
 /// Two posed shapes in space, ready to be asked about each other.

@@ -183,9 +183,14 @@ fn check_motions(random: &mut Random, both: &[Body; 2], round: usize) -> usize {
     let turned = Motion2::new(drift, turning[0].rotation().unwrap()).unwrap();
     let beside = Motion2::new(-drift * 0.5, turning[1].rotation().unwrap()).unwrap();
     let mut met = 0;
-    for motions in
-        [[&slide, &still], [&still, &slide], [&turned, &still], [&slide, &turning[1]], [&turned, &beside]]
-    {
+    for motions in [
+        [&slide, &still],
+        [&turning[0], &still],
+        [&still, &slide],
+        [&turned, &still],
+        [&slide, &turning[1]],
+        [&turned, &beside],
+    ] {
         let expected: Vec<Impact2> =
             piecewise(both, |pair, _| pair.impact(motions[0], motions[1])).into_iter().flatten().collect();
         let first = expected.iter().fold(f64::INFINITY, |first, impact| first.min(impact.fraction));

@@ -1,7 +1,7 @@
 //! The convex parts of a body, as a cast sees them: where they are in the body, and how far they reach.
 
 use super::stretch::Stretch;
-use crate::among::{MANY, Region2, in_order};
+use crate::among::{Region2, in_order, many2};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Part2, Pose2, Shape2};
 
@@ -68,34 +68,31 @@ pub(super) fn for_pieces<'a>(shape: &'a Shape2, mut visit: impl FnMut(&Piece<'a>
 
 /// As [`for_pieces`], in the same order, but for those of a compound of many that certainly do not meet a piece of the other body
 /// within a stretch: pieces of A (0), or of B (1).
-pub(super) fn for_pieces_beside<'a>(
+pub(super) fn for_pieces_along<'a>(
     (shape, which): (&'a Shape2, usize),
     stretch: &Stretch,
     other: &Piece,
     mut visit: impl FnMut(&Piece<'a>),
 ) {
-    if let Shape2::Compound(compound) = shape
-        && compound.parts().len() >= MANY
-    {
-        let region = region(stretch, which, &Piece::whole(shape), other);
-        if region.is_bounded() {
-            in_order(
-                |find| region.walk(compound, find),
-                |index| {
-                    if let Some(part) = compound.parts().get(index as usize) {
-                        visit(&Piece::of(part, index));
-                    }
-                    false
-                },
-            );
-            return;
-        }
+    let Some(compound) = many2(shape) else { return for_pieces(shape, visit) };
+    let (region, way) = region(stretch, which, &Piece::whole(shape), other);
+    if region.radius.is_infinite() {
+        return for_pieces(shape, visit);
     }
-    for_pieces(shape, visit);
+    let walk = |numbers: &mut Vec<u32>| {
+        compound.visit_along(region.center, way, region.grown(way, compound), 1.0, |index| {
+            numbers.push(index);
+            1.0
+        });
+    };
+    in_order(walk, |index| {
+        visit(&Piece::of(&compound.parts()[index as usize], index));
+        false
+    });
 }
 
-/// Where the pieces of a body are when a stretch begins, in its own axes, that may meet a piece of the other.
-fn region(stretch: &Stretch, which: usize, body: &Piece, other: &Piece) -> Region2 {
+/// Where the pieces of a body are when a stretch begins, in its own axes, that may meet a piece of the other, and how that moves.
+fn region(stretch: &Stretch, which: usize, body: &Piece, other: &Piece) -> (Region2, DVec2) {
     let (own, others) = (&stretch.spins[which], &stretch.spins[1 - which]);
     let center = others.turn_at(0.0).turn(other.center);
     let (from, way) = match which {
@@ -106,5 +103,5 @@ fn region(stretch: &Stretch, which: usize, body: &Piece, other: &Piece) -> Regio
     let turned = others.chord() * other.center.length() + own.chord() * (body.center.length() + body.outer);
     let turn = own.turn_at(0.0);
     let radius = other.outer + turned + stretch.lost(1.0);
-    Region2 { from: turn.turn_back(from), way: turn.turn_back(way), radius }
+    (Region2 { center: turn.turn_back(from), radius }, turn.turn_back(way))
 }

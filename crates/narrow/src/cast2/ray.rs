@@ -14,7 +14,7 @@
 mod ground;
 
 use super::sum;
-use crate::among::MANY;
+use crate::among::many2;
 use crate::exact::{Site2, holds2};
 use crate::impact2::RayHit2;
 use crate::polygon::outline::{Outline, Turn, is_searched};
@@ -57,12 +57,12 @@ pub fn cast_ray2(shape: &Shape2, pose: &Pose2, ray: &Ray2, limit: f64) -> Option
     let Shape2::Compound(compound) = shape else {
         return Asked { shape, pose, part: None, index: 0, ray }.answer(&beam, limit);
     };
-    over_parts(compound, (pose, ray), &beam, limit)
+    over_parts((shape, compound), (pose, ray), &beam, limit)
 }
 
 /// The nearest of a compound's parts: of few one after the other, of many in the order in which it meets their boxes.
 fn over_parts(
-    compound: &Compound2,
+    (shape, compound): (&Shape2, &Compound2),
     (pose, ray): (&Pose2, &Ray2),
     beam: &Beam,
     limit: f64,
@@ -87,8 +87,8 @@ fn over_parts(
         first = Some(first.filter(|known| place(known) <= place(&hit)).unwrap_or(hit));
         first.map_or(limit, |known| known.distance)
     };
-    if compound.parts().len() < MANY {
-        (0..).zip(compound.parts()).for_each(|(index, _)| {
+    if many2(shape).is_none() {
+        (0..compound.parts().len() as u32).for_each(|index| {
             offer(index);
         });
         return first;

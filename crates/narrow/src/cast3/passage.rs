@@ -192,16 +192,16 @@ impl Passage {
         self.turns[i].map_or(0.0, |turn| turn.chord() + 2.0 * f64::from(f32::EPSILON))
     }
 
-    /// Where the parts of a body are, at the start, that may meet a part of the other, or all of it, on the way: parts of A
+    /// Where the parts of a body are, at the start, that may meet a part of the other, or all of it, and how that moves: parts of A
     /// (0), or of B (1).
-    pub(super) fn region(&self, i: usize, body: &Shape3, other: &Part) -> Region3 {
-        let (from, way) = match i {
+    pub(super) fn region(&self, i: usize, body: &Shape3, other: &Part) -> (Region3, DVec3) {
+        let (center, way) = match i {
             0 => (self.between + other.center, -self.drift),
             _ => (other.center - self.between, self.drift),
         };
         let arm = f64::from(body.outer_radius()) + body.center().as_dvec3().length();
         let turned = if arm.is_finite() { self.chord(i) * arm } else { 0.0 };
-        Region3 { from, way, radius: self.swept_radius(1 - i, other) + turned + self.rounding }
+        (Region3 { center, radius: self.swept_radius(1 - i, other) + turned + self.rounding }, way)
     }
 }
 

@@ -30,7 +30,7 @@ mod round;
 
 use super::advance::{End, advance};
 use super::passage::{Course, Fineness, Passage, length};
-use crate::among::MANY;
+use crate::among::many3;
 use crate::exact::{self, Site3};
 use crate::impact3::RayHit3;
 use crate::pair3::{Pair3, Part, for_parts};
@@ -154,22 +154,18 @@ impl<'a> Cast<'a> {
             first = hit.filter(is_first).or(first);
             first.map_or(limit, |known| known.distance)
         };
-        let Shape3::Compound(compound) = self.shape else { return None };
-        if compound.parts().len() < MANY {
+        let Some(compound) = many3(self.shape) else {
             for_parts(self.shape, basis, |part| {
                 offer(part);
                 false
             });
             return first;
-        }
+        };
         let size = f64::from(self.shape.outer_radius()) + length(self.shape.center().as_dvec3());
         // What is met by steps counts as hit some thousand roundings off, where it all but touches the origin.
         let grown = (65536.0 * f64::EPSILON * (length(self.from) + size)) as f32;
         let (from, way) = (basis.turn_back(self.from), basis.turn_back(self.way));
-        compound.visit_along(from, way, grown, limit, |index| match compound.parts().get(index as usize) {
-            Some(part) => offer(Part::of(part, index, basis)),
-            None => limit,
-        });
+        compound.visit_along(from, way, grown, limit, |index| offer(Part::of(compound, index, basis)));
         first
     }
 

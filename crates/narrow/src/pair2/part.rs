@@ -1,10 +1,10 @@
 //! Convex parts of bodies in the plane.
 
-use crate::among::{MANY, Region2, in_order};
+use crate::among::{Region2, in_order, many2};
 use crate::exact::Site2;
 use crate::polygon::outline::Turn;
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Aabb2, Compound2, Part2, Pose2, Shape2};
+use asunder_geometry::{Aabb2, Compound2, Pose2, Shape2};
 use core::ops::ControlFlow;
 
 /// A convex part of a body, as the body stands.
@@ -38,8 +38,7 @@ impl<'a> Part<'a> {
 
     /// The part of a shape whose box is nearest to a point, in metres and world axes from the body's position.
     pub(super) fn nearest(shape: &'a Shape2, turn: &Turn, point: DVec2) -> Self {
-        let whole = Self::whole(shape, turn);
-        let Shape2::Compound(compound) = shape else { return whole };
+        let Shape2::Compound(compound) = shape else { return Self::whole(shape, turn) };
         let point = turn.turn_back(point).as_vec2();
         let mut nearest = 0;
         compound.visit_nearest(&Aabb2::new(point, point), f64::INFINITY, |part| {
@@ -47,12 +46,13 @@ impl<'a> Part<'a> {
             // That is enough.
             -1.0
         });
-        compound.parts().get(nearest as usize).map_or(whole, |part| Self::of(part, nearest, turn))
+        Self::of(compound, nearest, turn)
     }
 
-    fn of(part: &'a Part2, index: u32, turn: &Turn) -> Self {
-        let center = turn.turn(part.center());
-        Self { index, shape: part.shape(), local: Some(part.pose()), center }
+    /// A part of a compound, by its number.
+    fn of(compound: &'a Compound2, index: u32, turn: &Turn) -> Self {
+        let part = &compound.parts()[index as usize];
+        Self { index, shape: part.shape(), local: Some(part.pose()), center: turn.turn(part.center()) }
     }
 }
 
@@ -61,50 +61,7 @@ pub(super) fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMu
     let Shape2::Compound(compound) = shape else {
         return visit(Part::whole(shape, turn));
     };
-    compound.parts().iter().zip(0..).any(|(part, index)| visit(Part::of(part, index, turn)))
-}
-
-/// A compound of so many parts that its tree is asked.
-pub(super) fn of_many(shape: &Shape2) -> Option<&Compound2> {
-    match shape {
-        Shape2::Compound(compound) if compound.parts().len() >= MANY => Some(compound),
-        _ => None,
-    }
-}
-
-/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up to a limit in
-/// metres that the visitor may lower: it returns the new one.
-pub(super) fn for_nearest_parts<'a>(
-    compound: &'a Compound2,
-    turn: &Turn,
-    Region2 { from, radius, .. }: Region2,
-    limit: f64,
-    mut visit: impl FnMut(Part<'a>) -> f64,
-) {
-    let local = Region2::ball(turn.turn_back(from), radius);
-    // A stored rotation stretches distances, too.
-    let wide = |limit: f64| limit * (1.0 + 4.0 * f64::from(f32::EPSILON));
-    compound.visit_nearest(&local.bounds(compound), wide(limit), |index| {
-        let part = compound.parts().get(index as usize);
-        part.map_or(limit, |part| wide(visit(Part::of(part, index, turn))))
-    });
-}
-
-/// As [`for_parts_in`], of a region that does not move, and in any order: the first that is found may be enough.
-pub(super) fn for_parts_near<'a>(
-    shape: &'a Shape2,
-    turn: &Turn,
-    region: impl FnOnce() -> Region2,
-    mut visit: impl FnMut(Part<'a>) -> bool,
-) -> bool {
-    let Some(compound) = of_many(shape) else { return for_parts(shape, turn, visit) };
-    let Region2 { from, radius, .. } = region();
-    let local = Region2::ball(turn.turn_back(from), radius);
-    let visit = |index: u32| match compound.parts().get(index as usize) {
-        Some(part) if visit(Part::of(part, index, turn)) => ControlFlow::Break(()),
-        _ => ControlFlow::Continue(()),
-    };
-    compound.visit_near(&local.bounds(compound), visit).is_break()
+    (0..compound.parts().len() as u32).any(|index| visit(Part::of(compound, index, turn)))
 }
 
 /// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's
@@ -115,13 +72,51 @@ pub(super) fn for_parts_in<'a>(
     region: impl FnOnce() -> Region2,
     mut visit: impl FnMut(Part<'a>) -> bool,
 ) -> bool {
-    if let Some(compound) = of_many(shape) {
-        let Region2 { from, way, radius } = region();
-        let local = Region2 { from: turn.turn_back(from), way: turn.turn_back(way), radius };
-        if local.is_bounded() {
-            let part = |index: u32| Some(Part::of(compound.parts().get(index as usize)?, index, turn));
-            return in_order(|find| local.walk(compound, find), |index| part(index).is_some_and(&mut visit));
-        }
+    let Some(compound) = many2(shape) else { return for_parts(shape, turn, visit) };
+    let bounds = region().turned_back(turn).bounds(compound);
+    let walk = |numbers: &mut Vec<u32>| {
+        let _ = compound.visit_near(&bounds, |index| {
+            numbers.push(index);
+            ControlFlow::Continue(())
+        });
+    };
+    in_order(walk, |index| visit(Part::of(compound, index, turn)))
+}
+
+/// The same in any order: the first that is found may be enough.
+pub(super) fn for_parts_near<'a>(
+    shape: &'a Shape2,
+    turn: &Turn,
+    region: impl FnOnce() -> Region2,
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
+    let Some(compound) = many2(shape) else { return for_parts(shape, turn, visit) };
+    let bounds = region().turned_back(turn).bounds(compound);
+    let is_enough = |index: u32| match visit(Part::of(compound, index, turn)) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    compound.visit_near(&bounds, is_enough).is_break()
+}
+
+/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up to a limit in
+/// metres that the visitor may lower: it returns the new one.
+pub(super) fn for_nearest_parts<'a>(
+    compound: &'a Compound2,
+    turn: &Turn,
+    region: Region2,
+    limit: f64,
+    mut visit: impl FnMut(Part<'a>) -> f64,
+) {
+    let bounds = region.turned_back(turn).bounds(compound);
+    // A stored rotation stretches distances, too.
+    let wide = |limit: f64| limit * (1.0 + 4.0 * f64::from(f32::EPSILON));
+    compound.visit_nearest(&bounds, wide(limit), |index| wide(visit(Part::of(compound, index, turn))));
+}
+
+impl Region2 {
+    /// The same in the body's own axes.
+    fn turned_back(self, turn: &Turn) -> Self {
+        Self { center: turn.turn_back(self.center), ..self }
     }
-    for_parts(shape, turn, visit)
 }

@@ -1,6 +1,7 @@
 //! Contacts of compounds in space, with what the last frame left.
 
-use super::{Pair3, Part, for_parts_in};
+use super::part::for_parts_in;
+use super::{Pair3, Part};
 use crate::batch::Met;
 use crate::feature::Hint;
 use crate::kept::Kept;

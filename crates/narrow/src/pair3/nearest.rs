@@ -1,8 +1,8 @@
 //! Which pairs of parts may be near enough, or nearest, in space.
 
 use super::Pair3;
-use super::part::{Part, for_nearest_parts, for_parts, for_parts_near, of_many};
-use crate::among::Region3;
+use super::part::{Part, for_nearest_parts, for_parts, for_parts_near};
+use crate::among::{Region3, many3};
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::polyhedron::convex::{Asked, Probe, Wanted};
@@ -24,7 +24,7 @@ impl<'a> Pair3<'a> {
         let mut within = least.reach();
         // Whom no tree hands over.
         least.give_up(if self.has_many_parts() { round_down(within) } else { f32::INFINITY });
-        match [self.shape_a, self.shape_b].map(of_many) {
+        match [self.shape_a, self.shape_b].map(many3) {
             [Some(a), None] => {
                 let others = self.around_b(&whole_b, 0.0);
                 return for_nearest_parts(a, &bases[0], others, within, |a| {
@@ -68,16 +68,16 @@ impl<'a> Pair3<'a> {
 
     /// Where the parts of A are that may be so near to one of B, or to all of B.
     pub(super) fn around_b(&self, b: &Part, within: f64) -> Region3 {
-        Region3::ball(self.between + b.center, f64::from(b.shape.outer_radius()) + within)
+        Region3 { center: self.between + b.center, radius: f64::from(b.shape.outer_radius()) + within }
     }
 
     /// The same the other way round.
     pub(super) fn around_a(&self, a: &Part, within: f64) -> Region3 {
-        Region3::ball(a.center - self.between, f64::from(a.shape.outer_radius()) + within)
+        Region3 { center: a.center - self.between, radius: f64::from(a.shape.outer_radius()) + within }
     }
 
     /// Whether either is a compound of so many parts that its tree is asked.
     pub(super) fn has_many_parts(&self) -> bool {
-        [self.shape_a, self.shape_b].iter().any(|shape| of_many(shape).is_some())
+        [self.shape_a, self.shape_b].iter().any(|shape| many3(shape).is_some())
     }
 }

@@ -1,9 +1,9 @@
 //! Convex parts of bodies.
 
-use crate::among::{MANY, Region3, in_order};
+use crate::among::{Region3, in_order, many3};
 use crate::exact::Site3;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Aabb3, Basis3, Compound3, Part3, Pose3, Shape3};
+use asunder_geometry::{Aabb3, Basis3, Compound3, Pose3, Shape3};
 use core::ops::ControlFlow;
 
 /// A convex part of a body, as the body stands.
@@ -26,8 +26,7 @@ impl<'a> Part<'a> {
 
     /// The part of a shape whose box is nearest to a point, in metres and world axes from the body's position.
     pub(super) fn nearest(shape: &'a Shape3, basis: &Basis3, point: DVec3) -> Self {
-        let whole = Self::whole(shape, basis);
-        let Shape3::Compound(compound) = shape else { return whole };
+        let Shape3::Compound(compound) = shape else { return Self::whole(shape, basis) };
         let point = basis.turn_back(point).as_vec3();
         let mut nearest = 0;
         compound.visit_nearest(&Aabb3::new(point, point), f64::INFINITY, |part| {
@@ -35,12 +34,13 @@ impl<'a> Part<'a> {
             // That is enough.
             -1.0
         });
-        compound.parts().get(nearest as usize).map_or(whole, |part| Self::of(part, nearest, basis))
+        Self::of(compound, nearest, basis)
     }
 
-    pub(crate) fn of(part: &'a Part3, index: u32, basis: &Basis3) -> Self {
-        let center = basis.turn(part.center());
-        Self { index, shape: part.shape(), local: Some(part.pose()), center }
+    /// A part of a compound, by its number.
+    pub(crate) fn of(compound: &'a Compound3, index: u32, basis: &Basis3) -> Self {
+        let part = &compound.parts()[index as usize];
+        Self { index, shape: part.shape(), local: Some(part.pose()), center: basis.turn(part.center()) }
     }
 
     /// Whether its axes are not its body's.
@@ -71,15 +71,64 @@ pub(crate) fn for_parts<'a>(
     let Shape3::Compound(compound) = shape else {
         return visit(Part::whole(shape, basis));
     };
-    compound.parts().iter().zip(0..).any(|(part, index)| visit(Part::of(part, index, basis)))
+    (0..compound.parts().len() as u32).any(|index| visit(Part::of(compound, index, basis)))
 }
 
-/// A compound of so many parts that its tree is asked.
-pub(super) fn of_many(shape: &Shape3) -> Option<&Compound3> {
-    match shape {
-        Shape3::Compound(compound) if compound.parts().len() >= MANY => Some(compound),
-        _ => None,
+/// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's
+/// position sees it in world axes.
+pub(super) fn for_parts_in<'a>(
+    shape: &'a Shape3,
+    basis: &Basis3,
+    region: impl FnOnce() -> Region3,
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
+    let Some(compound) = many3(shape) else { return for_parts(shape, basis, visit) };
+    let bounds = region().turned_back(basis).bounds(compound);
+    let walk = |numbers: &mut Vec<u32>| {
+        let _ = compound.visit_near(&bounds, |index| {
+            numbers.push(index);
+            ControlFlow::Continue(())
+        });
+    };
+    in_order(walk, |index| visit(Part::of(compound, index, basis)))
+}
+
+/// The same in any order: the first that is found may be enough.
+pub(super) fn for_parts_near<'a>(
+    shape: &'a Shape3,
+    basis: &Basis3,
+    region: impl FnOnce() -> Region3,
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
+    let Some(compound) = many3(shape) else { return for_parts(shape, basis, visit) };
+    let bounds = region().turned_back(basis).bounds(compound);
+    let is_enough = |index: u32| match visit(Part::of(compound, index, basis)) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    compound.visit_near(&bounds, is_enough).is_break()
+}
+
+/// As [`for_parts_in`], of a region that moves on a way.
+pub(crate) fn for_parts_along<'a>(
+    shape: &'a Shape3,
+    basis: &Basis3,
+    region: impl FnOnce() -> (Region3, DVec3),
+    mut visit: impl FnMut(Part<'a>) -> bool,
+) -> bool {
+    let Some(compound) = many3(shape) else { return for_parts(shape, basis, visit) };
+    let (region, way) = region();
+    if region.radius.is_infinite() {
+        return for_parts(shape, basis, visit);
     }
+    let (local, way) = (region.turned_back(basis), basis.turn_back(way));
+    let walk = |numbers: &mut Vec<u32>| {
+        compound.visit_along(local.center, way, local.grown(way, compound), 1.0, |index| {
+            numbers.push(index);
+            1.0
+        });
+    };
+    in_order(walk, |index| visit(Part::of(compound, index, basis)))
 }
 
 /// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up to a limit in
@@ -87,49 +136,17 @@ pub(super) fn of_many(shape: &Shape3) -> Option<&Compound3> {
 pub(super) fn for_nearest_parts<'a>(
     compound: &'a Compound3,
     basis: &Basis3,
-    Region3 { from, radius, .. }: Region3,
+    region: Region3,
     limit: f64,
     mut visit: impl FnMut(Part<'a>) -> f64,
 ) {
-    let local = Region3::ball(basis.turn_back(from), radius);
-    compound.visit_nearest(&local.bounds(compound), limit, |index| {
-        let part = compound.parts().get(index as usize);
-        part.map_or(limit, |part| visit(Part::of(part, index, basis)))
-    });
+    let bounds = region.turned_back(basis).bounds(compound);
+    compound.visit_nearest(&bounds, limit, |index| visit(Part::of(compound, index, basis)));
 }
 
-/// As [`for_parts_in`], of a region that does not move, and in any order: the first that is found may be enough.
-pub(super) fn for_parts_near<'a>(
-    shape: &'a Shape3,
-    basis: &Basis3,
-    region: impl FnOnce() -> Region3,
-    mut visit: impl FnMut(Part<'a>) -> bool,
-) -> bool {
-    let Some(compound) = of_many(shape) else { return for_parts(shape, basis, visit) };
-    let Region3 { from, radius, .. } = region();
-    let local = Region3::ball(basis.turn_back(from), radius);
-    let visit = |index: u32| match compound.parts().get(index as usize) {
-        Some(part) if visit(Part::of(part, index, basis)) => ControlFlow::Break(()),
-        _ => ControlFlow::Continue(()),
-    };
-    compound.visit_near(&local.bounds(compound), visit).is_break()
-}
-
-/// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's
-/// position sees it in world axes.
-pub(crate) fn for_parts_in<'a>(
-    shape: &'a Shape3,
-    basis: &Basis3,
-    region: impl FnOnce() -> Region3,
-    mut visit: impl FnMut(Part<'a>) -> bool,
-) -> bool {
-    if let Some(compound) = of_many(shape) {
-        let Region3 { from, way, radius } = region();
-        let local = Region3 { from: basis.turn_back(from), way: basis.turn_back(way), radius };
-        if local.is_bounded() {
-            let part = |index: u32| Some(Part::of(compound.parts().get(index as usize)?, index, basis));
-            return in_order(|find| local.walk(compound, find), |index| part(index).is_some_and(&mut visit));
-        }
+impl Region3 {
+    /// The same in the body's own axes.
+    fn turned_back(self, basis: &Basis3) -> Self {
+        Self { center: basis.turn_back(self.center), ..self }
     }
-    for_parts(shape, basis, visit)
 }
