@@ -14,11 +14,11 @@
 //!
 //! | parts | 27 | 125 | 1,000 | 3,375 |
 //! |---|---|---|---|---|
-//! | a crate beside them, yes or no | 0.55 to 0.41 | 1.5 to 0.38 | 11 to 0.48 | 39 to 0.53 |
-//! | and how far | 3.5 to 1.6 | 7.1 to 1.8 | 29 to 1.9 | 77 to 2.4 |
-//! | two of them, yes or no | 2.5 to 0.83 | 24 to 1.7 | 840 to 7.4 | 7,200 to 20 |
-//! | and how far | 15 to 4.5 | 133 to 7.3 | 5,200 to 22 | 48,000 to 57 |
-//! | what a ray meets | 1.0 to 0.18 | 4.4 to 0.23 | 34 to 0.27 | 115 to 0.31 |
+//! | a crate beside them, yes or no | 0.55 to 0.66 | 1.5 to 0.80 | 11 to 0.65 | 39 to 0.52 |
+//! | and how far | 3.5 to 2.3 | 7.1 to 2.4 | 29 to 2.6 | 77 to 2.5 |
+//! | two of them, yes or no | 2.5 to 1.2 | 24 to 2.2 | 840 to 11 | 7,200 to 17 |
+//! | and how far | 15 to 5.5 | 133 to 8.9 | 5,200 to 29 | 48,000 to 47 |
+//! | what a ray meets | 1.0 to 0.37 | 4.4 to 0.31 | 34 to 0.27 | 115 to 0.29 |
 
 use crate::lists::with_list;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
