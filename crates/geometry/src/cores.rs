@@ -281,6 +281,24 @@ impl<'a> Core3<'a> {
         }
     }
 
+    /// The half extents, in metres, if it is the core of a cuboid: corner `i` is on the upper side of axis `k` where bit `k`
+    /// of `i` is set.
+    ///
+    /// ```
+    /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
+    /// let block = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 2.0, 3.0))?);
+    /// assert_eq!(block.core().half_extents(), Some(Vec3::new(1.0, 2.0, 3.0)));
+    /// assert_eq!(block.core().vertices()[0b101], Vec3::new(1.0, -2.0, 3.0));
+    /// # Ok::<(), asunder_geometry::ExtentError>(())
+    /// ```
+    #[inline]
+    pub fn half_extents(&self) -> Option<Vec3> {
+        match &self.0 {
+            Kept::ByHull(_) => None,
+            Kept::Here(few) => few.cuboid,
+        }
+    }
+
     /// How vertices, edges and faces meet.
     #[inline]
     pub fn topology(&self) -> &'a Topology {

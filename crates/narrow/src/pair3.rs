@@ -181,7 +181,7 @@ impl<'a> Pair3<'a> {
             error: near.error,
             normal: parts.basis.turn(near.normal).as_vec3(),
         };
-        match self.nearest(limit, Wanted::Number, measured) {
+        match self.nearest(limit, measured) {
             Ok(measured) => Separation3::Measured(measured),
             Err(at_least) => Separation3::AtLeast(at_least),
         }
@@ -196,23 +196,31 @@ impl<'a> Pair3<'a> {
         if let Some(on) = OnGround::of(self) {
             return self.distance_on(&on);
         }
-        // Their axes say so before they are seen as solids.
-        if self.cuboids().is_some_and(|cuboids| cuboids.overlaps() == Some(true)) {
-            return None;
+        if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.distance()) {
+            return found;
         }
-        let closest = |parts: &Parts, near: &Near| {
-            let [on_a, on_b] = near.closest?;
-            Some(Closest3 {
-                distance: near.separation,
-                error: near.error,
-                normal: parts.basis.turn(near.normal).as_vec3(),
-                anchor_a: parts.anchor_a(on_a),
-                anchor_b: parts.anchor_b(on_b),
-                part_a: parts.indices[0],
-                part_b: parts.indices[1],
-            })
-        };
-        self.nearest(f64::INFINITY, Wanted::Closest, closest).ok()?
+        if !self.is_compound() {
+            return self.wholes().closest(f64::INFINITY).ok()?;
+        }
+        let bases = self.bases();
+        let mut least = Least::within(f64::INFINITY);
+        self.ask_nearest(&bases, &mut least, |least, [a, b]| {
+            if least.passes_over(self.gap(&a, &b)) {
+                return false;
+            }
+            match self.parts(&bases, a, b).closest(least.reach()) {
+                Err(at_least) => least.give_up(at_least),
+                Ok(Some(found)) => least.offer(Some(found), found.distance, found.error),
+                // That is enough.
+                Ok(None) => {
+                    least.offer(None, 0.0, 0.0);
+                    return true;
+                }
+            }
+            false
+        });
+        let (found, error) = least.finish().ok()?;
+        Some(Closest3 { error, ..found? })
     }
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
@@ -308,13 +316,13 @@ impl<'a> Pair3<'a> {
     fn nearest<R>(
         &self,
         limit: f64,
-        wanted: Wanted,
         tell: impl FnOnce(&Parts<'a>, &Near) -> R,
     ) -> Result<R, f32> {
         let gap = self.gap_of_spheres();
         if gap > limit {
             return Err(round_down(gap));
         }
+        let wanted = Wanted::Number;
         if !self.is_compound() {
             let parts = self.wholes();
             return match parts.convex.probe(Asked { limit, hint: Hint::NONE, wanted }) {
@@ -332,10 +340,7 @@ impl<'a> Pair3<'a> {
                     Probe::Beyond(at_least, _) => least.give_up(at_least),
                     Probe::Near(near) => {
                         let (separation, error) = (near.separation, near.error);
-                        // Of what overlaps nobody wants to know the closest points, nor how deep it is elsewhere.
-                        let is_enough = wanted == Wanted::Closest && near.verdict.overlapping;
                         least.offer((parts, near), separation, error);
-                        return is_enough;
                     }
                 }
             }

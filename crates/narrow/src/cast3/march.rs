@@ -27,7 +27,7 @@
 use super::advance::{End, Met};
 use super::passage::{Course, Stretch, length};
 use crate::polyhedron::closest::Placed;
-use crate::polyhedron::simplex::nearest_to_origin;
+use crate::polyhedron::simplex::{Corners, nearest_to_origin};
 use crate::polyhedron::solid::Solid;
 use crate::precision::IN_SPACE;
 use arrayvec::ArrayVec;
@@ -45,7 +45,7 @@ type Corner = ([usize; 2], DVec3);
 /// Corners of the difference that carry its nearest point to the origin, with their shares.
 struct Simplex {
     corners: ArrayVec<Corner, 4>,
-    weights: [f64; 4],
+    weights: [f64; 3],
     nearest: DVec3,
 }
 
@@ -78,7 +78,7 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let enough = if course.radii > 0.0 { course.fineness.gap(doubt) } else { 4.0 * rest };
     let mut axis = (stretch.apart - drift * stretch.from).try_normalize()?;
     let (mut done, mut kept, mut is_rough, mut is_near) = (0.0, None, true, false);
-    let mut simplex = Simplex { corners: ArrayVec::new(), weights: [0.0; 4], nearest: DVec3::ZERO };
+    let mut simplex = Simplex { corners: ArrayVec::new(), weights: [0.0; 3], nearest: DVec3::ZERO };
     // Whether it is certain that they do not touch at the start.
     let mut is_parted = stretch.from > 0.0;
     let mut distance = f64::INFINITY;
@@ -147,18 +147,14 @@ impl Simplex {
         if let Some(corner) = corner {
             self.corners.try_push(corner).ok()?;
         }
-        let mut points = [DVec3::ZERO; 4];
-        for (point, &(_, corner)) in points.iter_mut().zip(&self.corners) {
-            *point = corner - origin;
+        let mut seen = Corners { places: [DVec3::ZERO; 4], count: self.corners.len() };
+        for (place, &(_, corner)) in seen.places.iter_mut().zip(&self.corners) {
+            *place = corner - origin;
         }
-        let nearest = nearest_to_origin(points.get(..self.corners.len())?)?;
-        let known = core::mem::take(&mut self.corners);
-        for (i, corner) in known.into_iter().enumerate() {
-            if nearest.corners >> i & 1 == 1 {
-                self.weights[self.corners.len()] = nearest.weights[i];
-                self.corners.push(corner);
-            }
-        }
+        let nearest = nearest_to_origin(&seen)?;
+        let picks = &nearest.picks[..nearest.count];
+        self.corners = picks.iter().map(|&i| self.corners[i]).collect();
+        self.weights = nearest.weights;
         self.nearest = nearest.point;
         let distance = nearest.point.length();
         (distance > 0.0).then_some(distance)

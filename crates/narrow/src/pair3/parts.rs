@@ -1,11 +1,12 @@
 //! Two convex parts, or whole shapes, in one frame.
 
 use super::{Pair3, Part};
-use crate::answer::ContactPoint3;
+use crate::answer::{Closest3, ContactPoint3};
 use crate::batch::beyond;
 use crate::exact::Site3;
 use crate::feature::Hint;
 use crate::polyhedron::convex::{Asked, Convex, IDENTITY, Near, Probe, Wanted};
+use crate::polyhedron::gap::{Apart, Gap};
 use crate::polyhedron::manifold::Touch;
 use crate::polyhedron::sat::{AxisOf, hint_with};
 use crate::room::Room;
@@ -119,6 +120,30 @@ impl Parts<'_> {
             manifold.plumb(matches!(touch.of, Some(AxisOf::FaceB(_))), self.between);
         }
         touch.of.map_or(near.hint, |of| hint_with(near.hint, of))
+    }
+
+    /// The closest points within a limit, if they have any: those that overlap do not; else by how much they are beyond it.
+    pub(super) fn closest(&self, limit: f64) -> Result<Option<Closest3>, f32> {
+        match self.convex.gap(limit) {
+            Gap::Beyond(at_least) => Err(at_least),
+            Gap::Overlapping => Ok(None),
+            Gap::Apart(apart) => Ok(Some(self.closest_by(&apart))),
+            Gap::Unclear => {
+                match self.convex.probe(Asked { limit, hint: Hint::NONE, wanted: Wanted::Closest }) {
+                    Probe::Beyond(at_least, _) => Err(at_least),
+                    Probe::Near(Near { separation, error, normal, closest, .. }) => Ok(closest
+                        .map(|points| self.closest_by(&Apart { separation, error, normal, points }))),
+                }
+            }
+        }
+    }
+
+    fn closest_by(&self, apart: &Apart) -> Closest3 {
+        let Apart { separation: distance, error, normal, points: [on_a, on_b] } = *apart;
+        let [part_a, part_b] = self.indices;
+        let normal = self.basis.turn(normal).as_vec3();
+        let (anchor_a, anchor_b) = (self.anchor_a(on_a), self.anchor_b(on_b));
+        Closest3 { distance, error, normal, anchor_a, anchor_b, part_a, part_b }
     }
 
     /// From the frame of the pair to a world vector from A's position.

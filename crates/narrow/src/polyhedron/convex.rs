@@ -25,6 +25,7 @@
 //! plane out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
 //! best.
 
+mod apart;
 mod parted;
 mod solids;
 mod told;

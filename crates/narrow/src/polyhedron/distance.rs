@@ -13,8 +13,7 @@
 //! three-dimensional space" (1988). Whatever rounding does to the iteration, both bounds hold for what is returned:
 //! a stall widens the reported error, and nothing else. Cost: a few steps, each linear in the vertices.
 
-use super::simplex::{Nearest, nearest_to_origin};
-use super::solid::Solid;
+use super::simplex::{Corners, Nearest, nearest_of_all, nearest_to_origin};
 use crate::precision::Precision;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
@@ -90,6 +89,14 @@ impl Witness {
     }
 }
 
+/// What the iteration asks of a body: vertices, in the frame of the pair.
+pub(crate) trait Polytope {
+    /// The vertex furthest along a direction of unit length.
+    fn furthest(&self, direction: DVec3) -> usize;
+    /// Where a vertex is.
+    fn point(&self, vertex: usize) -> DVec3;
+}
+
 /// A vertex of A and one of B, and the place of their difference.
 type Vertex = ([usize; 2], DVec3);
 
@@ -100,25 +107,32 @@ enum Grown {
     Nearer,
     /// Nothing new.
     Not,
-    /// The four corners hold the origin.
-    Around([Vertex; 4]),
+    /// The four corners hold the origin: with the new one they are all still here.
+    Around,
 }
 
 /// Corners of the difference A - B that carry its nearest point to the origin so far.
 struct Simplex {
-    corners: ArrayVec<Vertex, 4>,
+    /// Vertices of A and of B.
+    vertices: [[usize; 2]; 4],
+    corners: Corners,
     /// The corners' shares of the nearest point.
-    weights: [f64; 4],
+    weights: [f64; 3],
     nearest: DVec3,
 }
 
 /// Narrows the distance down.
-pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) -> Reached {
+pub(crate) fn distance(
+    a: &impl Polytope,
+    b: &impl Polytope,
+    towards_b: DVec3,
+    until: &Until,
+) -> Reached {
     let precision = until.precision;
     let size = precision.size;
     // The furthest vertex of the difference, and the separation that the direction shows.
     let corner = |direction: DVec3| {
-        let (in_a, in_b) = (a.support(direction).vertex, b.support(-direction).vertex);
+        let (in_a, in_b) = (a.furthest(direction), b.furthest(-direction));
         let place = a.point(in_a) - b.point(in_b);
         (([in_a, in_b], place), -direction.dot(place))
     };
@@ -141,20 +155,20 @@ pub(crate) fn distance(a: &Solid, b: &Solid, towards_b: DVec3, until: &Until) ->
             if length - at_least <= DISTANCE_GAP * size || at_least > until.beyond || length < until.within {
                 break 'steps;
             }
-            if simplex.corners.iter().all(|&(known, _)| known != found.0) && !simplex.corners.is_full() {
-                match simplex.grow(found, length) {
-                    Grown::Nearer => continue 'steps,
-                    Grown::Not => {}
-                    Grown::Around(around) => {
-                        let is_proved = is_around_origin(around.map(|corner| corner.1), precision);
-                        if !is_proved {
-                            simplex.go_to_nearest_face(&around);
-                        }
-                        let (corners, within) =
-                            (around.map(|corner| corner.0).into(), simplex.nearest.length());
-                        let points = simplex.points(a, b);
-                        return Reached::Origin(Close { corners, is_proved, within, points });
+            if simplex.knows(found.0) || simplex.corners.count == 4 {
+                continue;
+            }
+            match simplex.grow(found, length) {
+                Grown::Nearer => continue 'steps,
+                Grown::Not => {}
+                Grown::Around => {
+                    let corners = simplex.vertices.into();
+                    let is_proved = is_around_origin(simplex.corners.places, precision);
+                    if !is_proved {
+                        simplex.go_to_nearest_face(length);
                     }
+                    let (points, within) = (simplex.points(a, b), simplex.nearest.length());
+                    return Reached::Origin(Close { corners, is_proved, within, points });
                 }
             }
         }
@@ -183,66 +197,76 @@ pub(super) fn is_around_origin([a, b, c, d]: [DVec3; 4], precision: &Precision) 
     volumes.iter().all(|&volume| volume > doubt) || volumes.iter().all(|&volume| volume < -doubt)
 }
 
-fn places_of(corners: &[Vertex]) -> ArrayVec<DVec3, 4> {
-    corners.iter().map(|&(_, place)| place).collect()
-}
-
 impl Simplex {
-    fn of(corner: Vertex) -> Self {
-        Self { corners: core::iter::once(corner).collect(), weights: [1.0, 0.0, 0.0, 0.0], nearest: corner.1 }
+    fn of((vertices, place): Vertex) -> Self {
+        Self {
+            vertices: [vertices; 4],
+            corners: Corners { places: [place; 4], count: 1 },
+            weights: [1.0, 0.0, 0.0],
+            nearest: place,
+        }
     }
 
     fn vertices(&self) -> ArrayVec<[usize; 2], 4> {
-        self.corners.iter().map(|&(corner, _)| corner).collect()
+        self.vertices.iter().take(self.corners.count).copied().collect()
+    }
+
+    #[inline(always)]
+    fn knows(&self, vertices: [usize; 2]) -> bool {
+        (0..4).any(|i| self.vertices[i] == vertices && i < self.corners.count)
     }
 
     /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than
     /// `length`.
-    fn grow(&mut self, corner: Vertex, length: f64) -> Grown {
-        let _ = self.corners.try_push(corner);
-        match nearest_to_origin(&places_of(&self.corners)) {
-            Some(nearest) if nearest.point.length_squared() < length * length => {
-                self.keep(&nearest);
-                Grown::Nearer
-            }
-            Some(_) => {
-                self.corners.pop();
-                Grown::Not
-            }
-            None => {
-                // Only four corners hold anything.
-                let around = core::array::from_fn(|i| self.corners[i.min(self.corners.len() - 1)]);
-                self.corners.pop();
-                Grown::Around(around)
-            }
+    #[inline(always)]
+    fn grow(&mut self, (vertices, place): Vertex, length: f64) -> Grown {
+        let new = self.corners.count & 3;
+        (self.vertices[new], self.corners.places[new]) = (vertices, place);
+        self.corners.count = new + 1;
+        let Some(nearest) = nearest_to_origin(&self.corners) else { return Grown::Around };
+        if nearest.point.length_squared() < length * length {
+            self.keep(&nearest);
+            return Grown::Nearer;
         }
+        let nearest = nearest_of_all(&self.corners);
+        if nearest.point.length_squared() < length * length {
+            self.keep(&nearest);
+            return Grown::Nearer;
+        }
+        self.corners.count = new;
+        Grown::Not
     }
 
     /// Leaves out the corners that do not carry the nearest point.
+    #[inline(always)]
     fn keep(&mut self, nearest: &Nearest) {
-        self.nearest = nearest.point;
-        // Where they stay: moved as a whole, they cost as much as the search for the nearest point.
-        let mut kept = 0;
-        for i in 0..self.corners.len() {
-            if nearest.corners >> i & 1 == 1 {
-                self.corners[kept] = self.corners[i];
-                self.weights[kept] = nearest.weights[i];
-                kept += 1;
-            }
+        (self.nearest, self.weights, self.corners.count) = (nearest.point, nearest.weights, nearest.count);
+        // Never from a place that was written: picks ascend.
+        for (to, &from) in nearest.picks.iter().enumerate() {
+            self.vertices[to] = self.vertices[from & 3];
+            self.corners.places[to] = self.corners.places[from & 3];
         }
-        self.corners.truncate(kept);
     }
 
     /// Goes on to the nearest point of the faces of four corners, which hold the origin but for rounding: so much closer than
-    /// the last point was, that what is not proved is told by it.
-    fn go_to_nearest_face(&mut self, around: &[Vertex; 4]) {
+    /// the last point was, that what is not proved is told by it. That was `length` away.
+    fn go_to_nearest_face(&mut self, length: f64) {
+        let around = (self.vertices, self.corners.places);
+        // Until a face is nearer: the point was on that of the first three.
+        self.corners.count = 3;
+        let mut best = length * length;
         for left_out in 0..4 {
-            let corners: ArrayVec<Vertex, 4> = (0..4).filter(|&i| i != left_out).map(|i| around[i]).collect();
-            if let Some(nearest) = nearest_to_origin(&places_of(&corners))
-                && nearest.point.length_squared() < self.nearest.length_squared()
-            {
-                self.corners = corners;
-                self.keep(&nearest);
+            let mut face = Self { vertices: around.0, corners: Corners { places: around.1, count: 3 }, ..*self };
+            let mut to = 0;
+            for i in (0..4).filter(|&i| i != left_out) {
+                (face.vertices[to], face.corners.places[to]) = (around.0[i], around.1[i]);
+                to += 1;
+            }
+            let nearest = nearest_of_all(&face.corners);
+            if nearest.point.length_squared() < best {
+                best = nearest.point.length_squared();
+                face.keep(&nearest);
+                *self = face;
             }
         }
     }
@@ -250,9 +274,10 @@ impl Simplex {
     /// The unit direction to the origin that is square to the simplex: where the origin is all but on it, the
     /// straight one is rounding, and this one tells.
     fn square_to_origin(&self, straight: DVec3) -> DVec3 {
-        let square = match *self.corners.as_slice() {
-            [(_, a), (_, b), (_, c)] => (b - a).cross(c - a),
-            [(_, a), (_, b)] => straight - (b - a) * (straight.dot(b - a) / (b - a).length_squared()),
+        let [a, b, c, _] = self.corners.places;
+        let square = match self.corners.count {
+            3 => (b - a).cross(c - a),
+            2 => straight - (b - a) * (straight.dot(b - a) / (b - a).length_squared()),
             _ => straight,
         };
         let square = square.try_normalize().unwrap_or(straight);
@@ -260,17 +285,17 @@ impl Simplex {
     }
 
     /// The points of A and B that the weights make.
-    fn points(&self, a: &Solid, b: &Solid) -> [DVec3; 2] {
+    fn points(&self, a: &impl Polytope, b: &impl Polytope) -> [DVec3; 2] {
         [self.weighted(a, 0), self.weighted(b, 1)]
     }
 
     /// The point of A or B that the weights make. Of differences from the first corner, and not of the corners: what
     /// the weights' sum lost to rounding shrinks with them.
-    fn weighted(&self, solid: &Solid, which: usize) -> DVec3 {
-        let first = solid.point(self.corners[0].0[which]);
+    fn weighted(&self, body: &impl Polytope, which: usize) -> DVec3 {
+        let first = body.point(self.vertices[0][which]);
         let mut sum = first;
-        for (i, (corner, _)) in self.corners.iter().enumerate() {
-            sum += (solid.point(corner[which]) - first) * self.weights[i];
+        for i in 0..self.corners.count.min(3) {
+            sum += (body.point(self.vertices[i][which]) - first) * self.weights[i];
         }
         sum
     }

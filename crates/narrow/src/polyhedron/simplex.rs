@@ -1,112 +1,164 @@
 //! The point of a simplex that is nearest to the origin.
 //!
-//! The corner that came last is part of what is nearest, or the step brought nothing: of the fourteen faces of a
-//! tetrahedron the seven that hold it are tried. The affine nearest point of a face counts if it lies inside that
-//! face, and the nearest of those wins: no tree of regions, down which rounding could lead a wrong branch. Squared
-//! distances are compared, and the point is made for the winner alone.
+//! The corner that came last is part of what is nearest, or the step brought nothing: of the fifteen faces of a
+//! tetrahedron, itself among them, the eight that hold it can be nearest.
+//!
+//! ```text
+//! four corners    the origin is on the inner side of all faces: inside
+//!                 a triangle with the origin on its outer side and over its inside: that
+//! three corners   the triangle, if the origin is over its inside
+//! else            of the edges from the last corner the one that leads the furthest towards the origin
+//! else            that corner
+//! ```
+//! So the first that fits is taken ([`nearest_to_origin`]). Where the corners are flat but for rounding, that may be the wrong one, and
+//! the iteration comes no nearer: then all that fit are compared ([`nearest_of_all`]), and no branch leads astray.
 
 use asunder_geometry::glam::DVec3;
+
+/// Up to four corners, the last of which came last.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corners {
+    pub(crate) places: [DVec3; 4],
+    pub(crate) count: usize,
+}
 
 /// Which corners of the simplex carry the nearest point, and with what weights (summing to one).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     pub(crate) point: DVec3,
-    /// Bit `i` is set where corner `i` is used.
-    pub(crate) corners: u8,
-    pub(crate) weights: [f64; 4],
+    /// As many as count, ascending.
+    pub(crate) picks: [usize; 3],
+    pub(crate) weights: [f64; 3],
+    pub(crate) count: usize,
+}
+
+/// A face that holds the last corner, by others of its corners and their weights.
+type Found = ([(usize, f64); 2], usize);
+
+impl Corners {
+    #[inline(always)]
+    fn last(&self) -> (usize, DVec3) {
+        let last = (self.count - 1) & 3;
+        (last, self.places[last])
+    }
+
+    /// From the last corner to another.
+    #[inline(always)]
+    fn along(&self, corner: usize) -> DVec3 {
+        self.places[corner] - self.last().1
+    }
+
+    /// The last corner by itself, with others so much of the way to them.
+    #[inline(always)]
+    fn weigh(&self, ([(i, of_i), (j, of_j)], count): Found) -> Nearest {
+        let (new, last) = self.last();
+        match count {
+            0 => Nearest { point: last, picks: [new, 0, 0], weights: [1.0, 0.0, 0.0], count: 1 },
+            1 => {
+                let point = last + self.along(i) * of_i;
+                Nearest { point, picks: [i, new, 0], weights: [of_i, 1.0 - of_i, 0.0], count: 2 }
+            }
+            _ => {
+                let point = last + self.along(i) * of_i + self.along(j) * of_j;
+                Nearest { point, picks: [i, j, new], weights: [of_i, of_j, 1.0 - of_i - of_j], count: 3 }
+            }
+        }
+    }
+
+    /// How much of the edge to another corner leads to its point nearest to the origin, if that lies within it, and by how much
+    /// less far that is than the last corner, squared.
+    #[inline(always)]
+    fn edge(&self, corner: usize) -> Option<(f64, f64)> {
+        let along = self.along(corner);
+        let (down, length) = (-self.last().1.dot(along), along.length_squared());
+        (down > 0.0 && down < length).then(|| (down / length, down * (down / length)))
+    }
+
+    /// The edge that leads the furthest towards the origin, or the last corner.
+    #[inline(always)]
+    fn best_edge(&self) -> Found {
+        let mut best = (0.0, ([(0, 0.0); 2], 0));
+        for corner in 0..self.count - 1 {
+            if let Some((share, gain)) = self.edge(corner)
+                && gain > best.0
+            {
+                best = (gain, ([(corner, share), (0, 0.0)], 1));
+            }
+        }
+        best.1
+    }
+
+    /// The triangle with two other corners and a normal of it, if the origin is over its inside.
+    #[inline(always)]
+    fn triangle(&self, [i, j]: [usize; 2], normal: DVec3) -> Option<Found> {
+        let last = self.last().1;
+        let (to_i, to_j) = (self.along(i), self.along(j));
+        let area = normal.length_squared();
+        let (of_i, of_j) = (to_j.cross(last).dot(normal), last.cross(to_i).dot(normal));
+        let is_over = of_i > 0.0 && of_j > 0.0 && of_i + of_j < area;
+        is_over.then(|| ([(i, of_i / area), (j, of_j / area)], 2))
+    }
 }
 
 /// The nearest point among the faces of one to four corners that the last corner is part of, or nothing where a
 /// tetrahedron holds the origin.
-pub(crate) fn nearest_to_origin(corners: &[DVec3]) -> Option<Nearest> {
-    if let &[a, b, c, d] = corners
-        && holds_origin([a, b, c, d])
-    {
+#[inline]
+pub(crate) fn nearest_to_origin(corners: &Corners) -> Option<Nearest> {
+    let found = match corners.count {
+        ..2 => ([(0, 0.0); 2], 0),
+        2 => corners.best_edge(),
+        3 => {
+            let normal = corners.along(0).cross(corners.along(1));
+            corners.triangle([0, 1], normal).unwrap_or_else(|| corners.best_edge())
+        }
+        _ => of_four(corners)?,
+    };
+    Some(corners.weigh(found))
+}
+
+/// Of a tetrahedron; nothing where the origin is in it.
+#[inline(always)]
+fn of_four(corners: &Corners) -> Option<Found> {
+    const SIDES: [[usize; 2]; 3] = [[0, 1], [1, 2], [0, 2]];
+    let normals = SIDES.map(|[i, j]| corners.along(i).cross(corners.along(j)));
+    let whole = normals[0].dot(corners.along(2));
+    // Of the corners across from the sides, in the origin; times the square of the whole.
+    let share = |side: usize, whole: f64| -normals[side].dot(corners.last().1) * whole;
+    let shares = [share(0, whole), share(1, whole), share(2, -whole)];
+    let is_inside = shares.iter().all(|&share| share > 0.0) && shares.iter().sum::<f64>() < whole * whole;
+    if is_inside {
         return None;
     }
-    let (&last, others) = corners.split_last()?;
-    let new = others.len();
-    let mut best = (last.length_squared(), [(new, 1.0), (new, 0.0), (new, 0.0)]);
-    for (i, &corner) in others.iter().enumerate() {
-        let along = corner - last;
-        let (down, length) = (-last.dot(along), along.length_squared());
-        if down > 0.0 && down < length {
-            let share = down / length;
-            let squared = (last + along * share).length_squared();
-            if squared < best.0 {
-                best = (squared, [(new, 1.0 - share), (i, share), (new, 0.0)]);
+    for n in 0..3 {
+        if shares[n] <= 0.0
+            && let Some(found) = corners.triangle(SIDES[n], normals[n])
+        {
+            return Some(found);
+        }
+    }
+    Some(corners.best_edge())
+}
+
+/// The same with squared distances compared: what is nearest whatever rounding makes of sides.
+#[cold]
+pub(crate) fn nearest_of_all(corners: &Corners) -> Nearest {
+    let mut best = corners.weigh(([(0, 0.0); 2], 0));
+    let mut offer = |found: Found| {
+        let nearest = corners.weigh(found);
+        if nearest.point.length_squared() < best.point.length_squared() {
+            best = nearest;
+        }
+    };
+    for i in 0..corners.count - 1 {
+        if let Some((share, _)) = corners.edge(i) {
+            offer(([(i, share), (0, 0.0)], 1));
+        }
+        for j in i + 1..corners.count - 1 {
+            let normal = corners.along(i).cross(corners.along(j));
+            if let Some(found) = corners.triangle([i, j], normal) {
+                offer(found);
             }
         }
-        for (j, &other) in others.iter().enumerate().skip(i + 1) {
-            let Some([u, v, w]) = triangle_weights(last, corner, other) else { continue };
-            let squared = (last + along * v + (other - last) * w).length_squared();
-            if squared < best.0 {
-                best = (squared, [(new, u), (i, v), (j, w)]);
-            }
-        }
     }
-    Some(weigh(corners, best.1))
-}
-
-fn weigh(corners: &[DVec3], terms: [(usize, f64); 3]) -> Nearest {
-    let first = corners[terms[0].0];
-    let mut nearest = Nearest { point: first, corners: 0, weights: [0.0; 4] };
-    for (i, weight) in terms {
-        if weight > 0.0 {
-            nearest.point += (corners[i] - first) * weight;
-            nearest.corners |= 1 << i;
-            nearest.weights[i] += weight;
-        }
-    }
-    nearest
-}
-
-fn triangle_weights(a: DVec3, b: DVec3, c: DVec3) -> Option<[f64; 3]> {
-    let (to_b, to_c) = (b - a, c - a);
-    let normal = to_b.cross(to_c);
-    let area = normal.length_squared();
-    let (of_b, of_c) = (to_c.cross(a).dot(normal), a.cross(to_b).dot(normal));
-    if of_b > 0.0 && of_c > 0.0 && of_b + of_c < area {
-        let (at_b, at_c) = (of_b / area, of_c / area);
-        Some([1.0 - at_b - at_c, at_b, at_c])
-    } else {
-        None
-    }
-}
-
-fn holds_origin([a, b, c, d]: [DVec3; 4]) -> bool {
-    let volume = |p: DVec3, q: DVec3, r: DVec3, s: DVec3| (q - p).cross(r - p).dot(s - p);
-    let whole = volume(a, b, c, d);
-    let parts = [
-        volume(DVec3::ZERO, b, c, d),
-        volume(a, DVec3::ZERO, c, d),
-        volume(a, b, DVec3::ZERO, d),
-        volume(a, b, c, DVec3::ZERO),
-    ];
-    whole != 0.0 && parts.iter().all(|part| part * whole > 0.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_kind_of_face_can_be_nearest() {
-        let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
-        let far = DVec3::splat(5.0);
-        let nearest = |corners: &[DVec3]| nearest_to_origin(corners).map(|n| (n.point, n.corners));
-        assert_eq!(nearest(&[far, x]), Some((x, 0b10)));
-        assert_eq!(nearest(&[far, x + y, x - y]), Some((x, 0b110)));
-        let third = nearest(&[far, x, y, z]).unwrap();
-        assert!((third.0 - DVec3::splat(1.0 / 3.0)).length() < 1e-15 && third.1 == 0b1110);
-        assert_eq!(nearest(&[x, y, z, DVec3::splat(-1.0)]), None);
-    }
-
-    #[test]
-    fn degenerate_simplices_fall_back_to_their_corners() {
-        let same = [DVec3::X; 4];
-        assert_eq!(nearest_to_origin(&same).map(|n| n.point), Some(DVec3::X));
-        let line = [DVec3::new(1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, 3.0, 0.0)];
-        assert_eq!(nearest_to_origin(&line).map(|n| n.point), Some(DVec3::X));
-    }
+    best
 }

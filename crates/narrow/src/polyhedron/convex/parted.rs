@@ -5,7 +5,7 @@
 //! took three times as long as those. Here f32 lanes bound what they reach; which vertex it is nobody asks.
 
 use super::{Asked, Convex, Probe};
-use crate::polyhedron::solid::bound_of_reach;
+use crate::polyhedron::octets::bound_of_reach;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 

@@ -27,7 +27,6 @@ use crate::polyhedron::sat::{
 use crate::polyhedron::solid::Solid;
 use crate::precision::{at_least, signed};
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::DISTANCE_GAP;
 
 /// How two cores lie, as far as the distance iteration came.
 #[allow(clippy::large_enum_variant, reason = "as Probe")]
@@ -78,13 +77,7 @@ impl Convex<'_> {
                 _ => {}
             }
         }
-        // Nobody need search for a common point of what is apart by far.
-        let apart = if asked.wanted == Wanted::Closest { self.direction_apart() } else { None };
-        let found = match apart {
-            Some(direction) => Found::Nothing(direction),
-            None => portal::search(a, b, beyond, &self.precision),
-        };
-        let reached = match found {
+        let reached = match portal::search(a, b, beyond, &self.precision) {
             Found::Beyond(direction, separation) => return self.beyond(separation, Hint::towards(direction)),
             Found::Overlap if asked.wanted == Wanted::Closest => return self.just_overlapping(),
             Found::Overlap => return self.overlap_by_axes((a, b), hinted),
@@ -100,7 +93,7 @@ impl Convex<'_> {
             Reached::Between(witness) if witness.at_least > beyond => {
                 self.beyond(witness.at_least, Hint::towards(witness.normal))
             }
-            Reached::Between(witness) if self.is_plain(&witness) => {
+            Reached::Between(witness) if witness.is_plain(&self.precision) => {
                 let (verdict, is_gap) = self.conclude_gap(&witness);
                 if !is_gap {
                     let axes = self.all_axes(a, b, f64::NEG_INFINITY);
@@ -165,12 +158,6 @@ impl Convex<'_> {
 
     pub(super) fn beyond(&self, separation: f64, hint: Hint) -> Probe {
         Probe::Beyond(at_least(separation - self.radii, &self.precision), hint)
-    }
-
-    /// Whether the witness points tell everything: their bounds met, and the axis from one to the other is no rounding.
-    fn is_plain(&self, witness: &Witness) -> bool {
-        let size = self.precision.size;
-        !witness.is_close(size) && witness.distance - witness.at_least <= 2.0 * DISTANCE_GAP * size
     }
 
     /// All axes are known, and how the cores lie.
@@ -327,7 +314,7 @@ impl Convex<'_> {
     }
 
     /// The same where the cores' bounding spheres are apart.
-    fn direction_apart(&self) -> Option<DVec3> {
+    pub(super) fn direction_apart(&self) -> Option<DVec3> {
         let between = self.between_centers();
         let apart = between.length();
         (apart > self.precision.size + self.precision.projection()).then(|| between / apart)

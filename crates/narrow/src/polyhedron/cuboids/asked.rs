@@ -1,7 +1,9 @@
 //! The questions of a pair, as two cuboids answer them by themselves; what they cannot settle is left to the general
 //! path.
 
+use super::super::gap::{Apart, Gap};
 use super::super::sat::{hint_of, hint_to, last_of};
+use super::Cuboids;
 use super::contact::Touching;
 use super::eight::Eight;
 use super::placed::{Placed, Posed};
@@ -147,7 +149,8 @@ impl Posed<'_> {
 #[inline(always)]
 fn separation_of(placed: &Placed, limit: f64) -> Option<Separation3> {
     match placed.settle(limit) {
-        Settled::Unclear | Settled::Parted(_) => None,
+        Settled::Unclear => None,
+        Settled::Parted(best) => placed.gap(best.axis(placed).normal, limit),
         Settled::Beyond(axis) => {
             Some(Separation3::AtLeast(at_least(axis.separation - placed.radii, &placed.precision)))
         }
@@ -155,6 +158,23 @@ fn separation_of(placed: &Placed, limit: f64) -> Option<Separation3> {
             let (axis_b, ahead) = (|j| placed.axis_b(j), |j: usize| placed.fifteen.ahead.0[j]);
             let normal = best.normal(&placed.basis, axis_b, placed.offset, ahead);
             Some(measured(&best, normal, placed.radii, &placed.precision))
+        }
+    }
+}
+
+impl Placed {
+    /// The separation of sharp cuboids that this axis parts.
+    #[inline(never)]
+    fn gap(&self, towards: DVec3, limit: f64) -> Option<Separation3> {
+        let Self { half: [half_a, half_b], relative: basis, offset, precision, .. } = *self;
+        let cuboids = Cuboids { half_a, half_b, basis, offset };
+        match cuboids.gap_along(towards, [0.0; 2], limit, &precision) {
+            Gap::Apart(Apart { separation, error, normal, .. }) => {
+                let normal = self.basis.turn(normal).as_vec3();
+                Some(Separation3::Measured(Measured3 { separation, error, normal }))
+            }
+            Gap::Beyond(at_least) => Some(Separation3::AtLeast(at_least)),
+            Gap::Overlapping | Gap::Unclear => None,
         }
     }
 }

@@ -10,6 +10,7 @@
 
 pub(crate) mod asked;
 pub(crate) mod ball;
+mod brick;
 mod contact;
 pub(crate) mod eight;
 mod fifteen;

@@ -1,0 +1,39 @@
+//! Closest points, where nothing else is asked of a pair.
+
+use super::Convex;
+use crate::polyhedron::distance::{Until, distance};
+use crate::polyhedron::gap::Gap;
+use crate::polyhedron::portal::{self, Found};
+use crate::precision::at_least;
+
+impl Convex<'_> {
+    /// What [`Convex::probe`] would say of the closest points of two solids, by the shortest way; that it is unclear, of what is no
+    /// solid, and where they all but touch.
+    pub(crate) fn gap(&self, limit: f64) -> Gap {
+        let radii = [self.shape_a.radius(), self.shape_b.radius()];
+        if let Some(cuboids) = self.cuboids() {
+            return cuboids.gap(radii, limit, &self.precision);
+        }
+        let ([None, None], None) = (self.planes(), self.ball()) else { return Gap::Unclear };
+        let beyond = limit + self.radii + self.precision.projection();
+        self.with_solids(|a, b| {
+            if a.is_slender() && b.is_slender() {
+                return Gap::Unclear;
+            }
+            // Nobody need search for a common point of what is apart by far.
+            let found = match self.direction_apart() {
+                Some(direction) => Found::Nothing(direction),
+                None => portal::search(a, b, beyond, &self.precision),
+            };
+            let towards = match found {
+                Found::Beyond(_, separation) => {
+                    return Gap::Beyond(at_least(separation - self.radii, &self.precision));
+                }
+                Found::Overlap => return Gap::Overlapping,
+                Found::Nothing(direction) => direction,
+            };
+            let until = Until { beyond, ..Until::met(&self.precision) };
+            Gap::of(&distance(a, b, towards, &until), radii, beyond, &self.precision)
+        })
+    }
+}
