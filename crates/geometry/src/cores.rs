@@ -87,7 +87,8 @@ struct Few<'a> {
     /// Half extents of a cuboid, whose edges are made when they are asked for: most pairs never do, and they are large.
     cuboid: Option<Vec3>,
     edge_octets: OnceCell<[EdgeOctet; 2]>,
-    arcs: Held<'a, EdgeArc, 3>,
+    /// Those of a segment or a triangle, as the octets of a cuboid.
+    arcs: OnceCell<[EdgeArc; 3]>,
     center: Vec3,
     inner_radius: f32,
     inner_arm: Vec3,
@@ -224,7 +225,7 @@ impl<'a> Core3<'a> {
     pub fn arcs(&self) -> &[EdgeArc] {
         match &self.0 {
             Kept::ByHull(hull) => hull.arcs(),
-            Kept::Here(few) => few.arcs.as_slice(),
+            Kept::Here(few) => few.arcs(),
         }
     }
 
@@ -329,7 +330,7 @@ impl<'a> Few<'a> {
                     face_octets: Held::Few([FaceOctet::of_cuboid(half)], 1),
                     cuboid: Some(half),
                     edge_octets: OnceCell::new(),
-                    arcs: Held::Many(&CUBE.arcs),
+                    arcs: OnceCell::new(),
                     center: Vec3::ZERO,
                     inner_radius: half.min_element(),
                     inner_arm: longest_arm(half),
@@ -345,6 +346,20 @@ impl<'a> Few<'a> {
         }
     }
 
+    /// A cuboid's are those of all; of what has fewer, up to three are made when they are asked for.
+    fn arcs(&self) -> &[EdgeArc] {
+        if self.cuboid.is_some() {
+            return &CUBE.arcs;
+        }
+        let (edges, normals) = (self.topology.edges().len(), self.normals.as_slice());
+        let arc = |edge: usize| match edge < edges {
+            true => EdgeArc::of(self.vertices.as_slice(), normals, self.topology, edge),
+            false => EdgeArc::NONE,
+        };
+        let arcs = self.arcs.get_or_init(|| [arc(0), arc(1), arc(2)]);
+        arcs.get(..edges).unwrap_or(arcs)
+    }
+
     /// Those of a cuboid; of what has fewer, every edge is looked at.
     fn edge_octets(&self) -> &[EdgeOctet] {
         let Some(half) = self.cuboid else { return &[] };
@@ -356,8 +371,6 @@ impl<'a> Few<'a> {
         let first = vertices.first().copied().unwrap_or(Vec3::ZERO);
         let eight = core::array::from_fn(|i| vertices.get(i).copied().unwrap_or(first));
         let octets = usize::from(!vertices.is_empty());
-        let edges = topology.edges().len();
-        let arc = if edges > 0 { EdgeArc::of(vertices, &[], topology, 0) } else { EdgeArc::NONE };
         Self {
             vertices: Held::Few(eight, vertices.len()),
             vertex_octets: Held::Few([VertexOctet::of_eight(&eight)], octets),
@@ -366,7 +379,7 @@ impl<'a> Few<'a> {
             face_octets: Held::Many(&[]),
             cuboid: None,
             edge_octets: OnceCell::new(),
-            arcs: Held::Few([arc; 3], edges),
+            arcs: OnceCell::new(),
             center: shape.center(),
             inner_radius: beside_center(shape),
             inner_arm: Vec3::ZERO,
@@ -384,7 +397,6 @@ impl<'a> Few<'a> {
             height(a).max(height(b)).max(height(c))
         };
         let heights = [reach(normals[0]), reach(normals[1])];
-        let arc = |edge: usize| EdgeArc::of(&vertices, &normals, topology, edge);
         let faces = FaceOctet::of_flat(normals[0], heights);
         Self {
             vertex_octets: Held::Few([VertexOctet::of_eight(&vertices)], 1),
@@ -394,7 +406,7 @@ impl<'a> Few<'a> {
             face_octets: Held::Few([faces], 1),
             cuboid: None,
             edge_octets: OnceCell::new(),
-            arcs: Held::Few([arc(0), arc(1), arc(2)], 3),
+            arcs: OnceCell::new(),
             center: shape.center(),
             inner_radius: beside_center(shape),
             inner_arm: Vec3::ZERO,

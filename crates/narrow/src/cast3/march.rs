@@ -152,8 +152,11 @@ impl Simplex {
             *place = corner - origin;
         }
         let nearest = nearest_to_origin(&seen)?;
-        let picks = &nearest.picks[..nearest.count];
-        self.corners = picks.iter().map(|&i| self.corners[i]).collect();
+        // Where they stay: picks ascend.
+        for (to, &from) in nearest.picks[..nearest.count].iter().enumerate() {
+            self.corners[to] = self.corners[from];
+        }
+        self.corners.truncate(nearest.count);
         self.weights = nearest.weights;
         self.nearest = nearest.point;
         let distance = nearest.point.length();

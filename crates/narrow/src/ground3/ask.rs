@@ -192,7 +192,7 @@ impl Pair3<'_> {
         // The core's box: a ball's own has corners that are nearer than the ball.
         let radius = f64::from(part.shape.radius());
         on.ground.visit_nearest(&placed.bounds(-radius, part), least.reach() + radius, |number| {
-            let beside = placed.beside(on.ground.corners(number));
+            let beside = placed.narrowed(&placed.beside(on.ground.corners(number)));
             let gap = placed.gap(&beside, least.reach().min(at_most));
             if !least.passes_below(gap, at_most) {
                 at_most = at_most.min(placed.at_most(&beside));

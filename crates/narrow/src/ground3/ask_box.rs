@@ -18,15 +18,23 @@ use asunder_geometry::{Aabb3, Shape3};
 /// Cores of no more vertices are looked at by them, others by their bounding spheres.
 const FEW: usize = 8;
 
+/// What a part is made of, before it is rounded.
+enum Extent {
+    /// All between some points.
+    Points(ArrayVec<DVec3, FEW>),
+    /// A cuboid about the part's origin and along its axes, by its half extents.
+    Cuboid(DVec3),
+}
+
 /// A convex part in the ground's axes: everything within a radius of some points.
 pub(crate) struct Corners {
-    points: ArrayVec<DVec3, FEW>,
+    extent: Extent,
     radius: f64,
     /// The centre of its bounding sphere, which tells the side it is on.
     pub(crate) center: DVec3,
     /// How far the part reaches from there in every direction at least; below zero where it is beside that.
     inner_radius: f64,
-    /// Whether the points are those of the part.
+    /// Whether that is the part, and not a ball around it.
     has_all: bool,
     /// The part's axes and its origin in the ground's.
     axes: [DVec3; 3],
@@ -38,10 +46,13 @@ pub(crate) struct Corners {
 }
 
 /// A triangle beside a part, in the ground's axes.
+#[derive(Clone, Copy)]
 pub(crate) struct Beside {
     corners: [DVec3; 3],
-    /// Its point nearest to the part's centre, up to rounding.
+    /// Its point nearest to the part's centre, or to a point of the part, up to rounding.
     near: DVec3,
+    /// That point.
+    of: Option<DVec3>,
 }
 
 /// What a part and a triangle take up along an axis, in metres from the triangle's first corner.
@@ -76,39 +87,60 @@ impl Corners {
             _ => shape.core().inner_radius(),
         };
         let inner_radius = f64::from(inner_radius) + radius;
-        let points = ArrayVec::new();
+        let extent = Extent::Points(ArrayVec::new());
         let mut corners =
-            Self { points, radius, center, inner_radius, has_all: true, axes, origin, lengths, low, high };
-        let mut add = |vertices: &[Vec3]| {
-            for vertex in vertices {
-                let [x, y, z] = vertex.as_dvec3().to_array();
-                let place = axes[0] * x + axes[1] * y + axes[2] * z + origin;
-                (corners.low, corners.high) = (corners.low.min(place), corners.high.max(place));
-                // Of many, none will do.
-                let _ = corners.points.try_push(place);
-            }
-            vertices.len()
-        };
+            Self { extent, radius, center, inner_radius, has_all: true, axes, origin, lengths, low, high };
         // Of what has few, without all that goes with a core.
-        let count = match shape {
-            Shape3::Cuboid(cuboid) => add(&cuboid.vertices()),
-            Shape3::Sphere(_) => add(&[Vec3::ZERO]),
-            Shape3::Capsule(capsule) => add(&capsule.segment().ends()),
-            Shape3::Triangle(triangle) => add(&triangle.vertices()),
-            _ => add(shape.core().vertices()),
-        };
-        if count > FEW {
-            corners.points.clear();
-            corners.points.push(center);
-            corners.radius = f64::from(shape.outer_radius());
-            corners.has_all = false;
+        match shape {
+            Shape3::Cuboid(cuboid) => corners.hold_cuboid(cuboid.half_extents().as_dvec3()),
+            Shape3::Sphere(_) => corners.hold(&[Vec3::ZERO]),
+            Shape3::Capsule(capsule) => corners.hold(&capsule.segment().ends()),
+            Shape3::Triangle(triangle) => corners.hold(&triangle.vertices()),
+            _ => {
+                let core = shape.core();
+                corners.hold(core.vertices());
+                if core.vertices().len() > FEW {
+                    corners.extent = Extent::Points(core::iter::once(center).collect());
+                    corners.radius = f64::from(shape.outer_radius());
+                    corners.has_all = false;
+                }
+            }
         }
         corners
     }
 
+    fn hold_cuboid(&mut self, half: DVec3) {
+        let [x, y, z] = self.axes;
+        let arm = x.abs() * half.x + y.abs() * half.y + z.abs() * half.z;
+        (self.low, self.high, self.extent) = (self.origin - arm, self.origin + arm, Extent::Cuboid(half));
+    }
+
+    /// Of many, the first: none will do.
+    fn hold(&mut self, vertices: &[Vec3]) {
+        let mut points = ArrayVec::new();
+        for vertex in vertices {
+            let [x, y, z] = vertex.as_dvec3().to_array();
+            let place = self.axes[0] * x + self.axes[1] * y + self.axes[2] * z + self.origin;
+            (self.low, self.high) = (self.low.min(place), self.high.max(place));
+            let _ = points.try_push(place);
+        }
+        self.extent = Extent::Points(points);
+    }
+
+    /// Whether it is a half-space.
+    fn is_endless(&self) -> bool {
+        matches!(&self.extent, Extent::Points(points) if points.is_empty())
+    }
+
+    /// A vector of the ground's axes in the part's.
+    fn own(&self, v: DVec3) -> DVec3 {
+        let [x, y, z] = self.axes;
+        DVec3::new(x.dot(v), y.dot(v), z.dot(v))
+    }
+
     /// The box around it, grown by `reach` metres and rounded outwards. Everything, for a half-space.
     pub(crate) fn bounds(&self, reach: f64, part: &Part) -> Aabb3 {
-        if self.points.is_empty() {
+        if self.is_endless() {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
         }
         grown_around([self.low, self.high], f64::from(part.shape.radius()) + reach, self.lengths)
@@ -117,41 +149,64 @@ impl Corners {
     /// A triangle as it lies beside the part: what all bounds start from.
     pub(crate) fn beside(&self, corners: [Vec3; 3]) -> Beside {
         let corners = corners.map(|corner| corner.as_dvec3());
-        Beside { corners, near: nearest(self.center, corners) }
+        Beside { corners, near: nearest(self.center, corners), of: None }
+    }
+
+    /// A triangle's point that is nearest to the point of a cuboid that is nearest to the one before, and so nearer, up to rounding.
+    pub(crate) fn narrowed(&self, beside: &Beside) -> Beside {
+        let &Beside { corners, near, of } = beside;
+        let Extent::Cuboid(half) = self.extent else { return *beside };
+        if of.is_some() {
+            return *beside;
+        }
+        let [x, y, z] = self.axes;
+        let held = self.own(near - self.origin).clamp(-half, half);
+        let of = self.origin + (x * held.x + y * held.y + z * held.z);
+        Beside { corners, near: nearest(of, corners), of: Some(of) }
     }
 
     /// A lower bound on the separation from a triangle; zero or less where nothing shows one. What shows more than is
     /// asked for comes first.
-    pub(crate) fn gap(&self, &Beside { corners, near }: &Beside, wanted: f64) -> f64 {
+    pub(crate) fn gap(&self, beside: &Beside, wanted: f64) -> f64 {
+        let corners = beside.corners;
         let [a, b, c] = corners;
         let from_plane = (b - a).cross(c - a).try_normalize().map(|axis| self.along(axis, corners).gap());
         let shown = from_plane.unwrap_or(f64::NEG_INFINITY);
         if shown > wanted {
             return shown;
         }
-        let towards = (near - self.center).try_normalize();
+        let Beside { near, of, .. } = self.narrowed(beside);
+        let towards = (near - of.unwrap_or(self.center)).try_normalize();
         towards.map_or(shown, |axis| shown.max(self.along(axis, corners).gap()))
     }
 
     /// An upper bound on the separation from a triangle: the way from its point nearest to the part's centre to the sphere
-    /// inside the part, or from the part's corner nearest to that point. Infinite for a half-space.
+    /// inside the part, or from the part's point, of others than cuboids the corner, nearest to that point. Infinite for a half-space.
     pub(crate) fn at_most(&self, beside: &Beside) -> f64 {
-        let &Beside { corners, near } = beside;
+        let &Beside { corners, near, of } = beside;
         let mut least = self.gap_of_ball(beside);
-        if self.has_all {
-            let away = |point: &DVec3| (*point - near).length_squared();
-            let point =
-                self.points.iter().reduce(|one, other| if away(other) < away(one) { other } else { one });
-            let Some(&point) = point else { return f64::INFINITY };
-            least = least.min((nearest(point, corners) - point).length() - self.radius);
+        let away = |point: &DVec3| (*point - near).length_squared();
+        match (of, &self.extent) {
+            (Some(point), _) => least = least.min((near - point).length() - self.radius),
+            (None, Extent::Points(points)) if self.has_all => {
+                let nearer = |one, other| if away(other) < away(one) { other } else { one };
+                let Some(&point) = points.iter().reduce(nearer) else { return f64::INFINITY };
+                least = least.min((nearest(point, corners) - point).length() - self.radius);
+            }
+            _ => {}
         }
         // Both points are points of the shapes up to rounding.
         least.max(0.0) + self.doubt_beside(corners[0])
     }
 
-    /// Whether the sphere inside the part certainly holds a point of a triangle.
+    /// Whether the sphere inside the part, or the cuboid that it is, certainly holds a point of a triangle.
     pub(crate) fn holds_some(&self, beside: &Beside) -> bool {
-        self.gap_of_ball(beside) < -self.doubt_beside(beside.corners[0])
+        let doubt = self.doubt_beside(beside.corners[0]);
+        let within = match self.extent {
+            Extent::Cuboid(half) => (half - self.own(beside.near - self.origin).abs()).min_element(),
+            Extent::Points(_) => f64::NEG_INFINITY,
+        };
+        within > doubt || self.gap_of_ball(beside) < -doubt
     }
 
     /// How far a triangle is from the sphere inside the part, in metres.
@@ -167,15 +222,17 @@ impl Corners {
     /// How far the part reaches along a unit axis, in metres from the ground's origin; without end for a half-space. Cost:
     /// linear in the vertices.
     pub(crate) fn top(&self, part: &Part, axis: DVec3) -> f64 {
-        let highest = if self.points.is_empty() {
-            f64::INFINITY
-        } else if self.has_all {
-            self.points.iter().fold(f64::NEG_INFINITY, |top, point| top.max(axis.dot(*point)))
-        } else {
-            let own = DVec3::new(self.axes[0].dot(axis), self.axes[1].dot(axis), self.axes[2].dot(axis));
-            let core = part.shape.core();
-            let heights = core.vertices().iter().map(|vertex| own.dot(vertex.as_dvec3()));
-            axis.dot(self.origin) + heights.fold(f64::NEG_INFINITY, f64::max)
+        let highest = match &self.extent {
+            Extent::Cuboid(half) => axis.dot(self.origin) + self.own(axis).abs().dot(*half),
+            Extent::Points(points) if points.is_empty() => f64::INFINITY,
+            Extent::Points(points) if self.has_all => {
+                points.iter().fold(f64::NEG_INFINITY, |top, point| top.max(axis.dot(*point)))
+            }
+            Extent::Points(_) => {
+                let (own, core) = (self.own(axis), part.shape.core());
+                let heights = core.vertices().iter().map(|vertex| own.dot(vertex.as_dvec3()));
+                axis.dot(self.origin) + heights.fold(f64::NEG_INFINITY, f64::max)
+            }
         };
         highest + f64::from(part.shape.radius())
     }
@@ -198,7 +255,8 @@ impl Corners {
     }
 
     /// Whether it passes a triangle by while it is moved, for certain.
-    pub(crate) fn passes(&self, &Beside { corners, near }: &Beside, way: DVec3) -> bool {
+    pub(crate) fn passes(&self, beside: &Beside, way: DVec3) -> bool {
+        let corners = beside.corners;
         let [a, b, c] = corners;
         // Any axis proves what all corners show along it; so it need not be the normal to the last bit.
         let Some(normal) = (b - a).cross(c - a).try_normalize() else { return false };
@@ -209,7 +267,7 @@ impl Corners {
         if above > 0.0 || below > 0.0 {
             return true;
         }
-        let towards = near - self.center;
+        let towards = beside.near - self.center;
         let aside = towards - way * (towards.dot(way) / way.length_squared());
         let Some(axis) = aside.try_normalize() else { return false };
         self.along(axis, corners).gap() > axis.dot(way).abs() + doubt
@@ -219,12 +277,20 @@ impl Corners {
     #[inline]
     fn along(&self, axis: DVec3, [a, b, c]: [DVec3; 3]) -> Along {
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
-        for &point in &self.points {
-            let height = axis.dot(point - a);
-            from = if height < from { height } else { from };
-            to = if height > to { height } else { to };
+        match &self.extent {
+            Extent::Cuboid(half) => {
+                let (middle, arm) = (axis.dot(self.origin - a), self.own(axis).abs().dot(*half));
+                (from, to) = (middle - arm, middle + arm);
+            }
+            Extent::Points(points) => {
+                for &point in points {
+                    let height = axis.dot(point - a);
+                    from = if height < from { height } else { from };
+                    to = if height > to { height } else { to };
+                }
+            }
         }
-        if self.points.is_empty() {
+        if self.is_endless() {
             (from, to) = (to, from);
         }
         let [on_b, on_c] = [axis.dot(b - a), axis.dot(c - a)];

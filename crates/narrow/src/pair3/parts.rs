@@ -131,8 +131,10 @@ impl Parts<'_> {
             Gap::Unclear => {
                 match self.convex.probe(Asked { limit, hint: Hint::NONE, wanted: Wanted::Closest }) {
                     Probe::Beyond(at_least, _) => Err(at_least),
-                    Probe::Near(Near { separation, error, normal, closest, .. }) => Ok(closest
-                        .map(|points| self.closest_by(&Apart { separation, error, normal, points }))),
+                    Probe::Near(Near { separation, error, normal, closest, .. }) => {
+                        Ok(closest
+                            .map(|points| self.closest_by(&Apart { separation, error, normal, points })))
+                    }
                 }
             }
         }

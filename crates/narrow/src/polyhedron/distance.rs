@@ -122,12 +122,7 @@ struct Simplex {
 }
 
 /// Narrows the distance down.
-pub(crate) fn distance(
-    a: &impl Polytope,
-    b: &impl Polytope,
-    towards_b: DVec3,
-    until: &Until,
-) -> Reached {
+pub(crate) fn distance(a: &impl Polytope, b: &impl Polytope, towards_b: DVec3, until: &Until) -> Reached {
     let precision = until.precision;
     let size = precision.size;
     // The furthest vertex of the difference, and the separation that the direction shows.
@@ -256,7 +251,8 @@ impl Simplex {
         self.corners.count = 3;
         let mut best = length * length;
         for left_out in 0..4 {
-            let mut face = Self { vertices: around.0, corners: Corners { places: around.1, count: 3 }, ..*self };
+            let mut face =
+                Self { vertices: around.0, corners: Corners { places: around.1, count: 3 }, ..*self };
             let mut to = 0;
             for i in (0..4).filter(|&i| i != left_out) {
                 (face.vertices[to], face.corners.places[to]) = (around.0[i], around.1[i]);

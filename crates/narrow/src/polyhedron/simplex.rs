@@ -162,3 +162,108 @@ pub(crate) fn nearest_of_all(corners: &Corners) -> Nearest {
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numbers::Numbers;
+
+    fn corners(places: &[DVec3]) -> Corners {
+        let mut corners = Corners { places: [DVec3::ZERO; 4], count: places.len() };
+        corners.places[..places.len()].copy_from_slice(places);
+        corners
+    }
+
+    /// Of any face, by another method: the least squares of its weights, and nothing where one is not positive.
+    fn nearest_of_face(places: &[DVec3]) -> Option<f64> {
+        let first = places[0];
+        let edges: Vec<DVec3> = places[1..].iter().map(|&place| place - first).collect();
+        // Gram-Schmidt, and back.
+        let mut rest = -first;
+        let (mut axes, mut shares) = (Vec::<DVec3>::new(), Vec::new());
+        for &edge in &edges {
+            let axis =
+                axes.iter().fold(edge, |axis, known| axis - *known * axis.dot(*known)).try_normalize()?;
+            let share = rest.dot(axis);
+            rest -= axis * share;
+            axes.push(axis);
+            shares.push(share);
+        }
+        let mut weights = vec![0.0; edges.len()];
+        for i in (0..edges.len()).rev() {
+            let others: f64 = (i + 1..edges.len()).map(|j| weights[j] * edges[j].dot(axes[i])).sum();
+            weights[i] = (shares[i] - others) / edges[i].dot(axes[i]);
+        }
+        let is_inside = weights.iter().all(|&weight| weight >= 0.0) && weights.iter().sum::<f64>() <= 1.0;
+        is_inside.then(|| rest.length())
+    }
+
+    /// Of all faces.
+    fn distance(places: &[DVec3]) -> f64 {
+        let faces = (1_usize..1 << places.len()).map(|face| {
+            (0..places.len()).filter(|i| face >> i & 1 == 1).map(|i| places[i]).collect::<Vec<_>>()
+        });
+        faces.filter_map(|face| nearest_of_face(&face)).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn each_kind_of_face_can_be_nearest() {
+        let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+        let far = DVec3::splat(5.0);
+        let nearest = |places: &[DVec3]| {
+            nearest_to_origin(&corners(places)).map(|it| (it.point, it.picks[..it.count].to_vec()))
+        };
+        assert_eq!(nearest(&[far, x]), Some((x, vec![1])));
+        assert_eq!(nearest(&[far, x + y, x - y]), Some((x, vec![1, 2])));
+        let (point, picks) = nearest(&[far, x, y, z]).unwrap();
+        assert!((point - DVec3::splat(1.0 / 3.0)).length() < 1e-15 && picks == [1, 2, 3]);
+        assert_eq!(nearest(&[x, y, z, DVec3::splat(-1.0)]), None);
+    }
+
+    #[test]
+    fn degenerate_simplices_fall_back_to_their_corners() {
+        let same = corners(&[DVec3::X; 4]);
+        assert_eq!(nearest_to_origin(&same).map(|it| it.point), Some(DVec3::X));
+        assert_eq!(nearest_of_all(&same).point, DVec3::X);
+        let line = [DVec3::new(1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, 3.0, 0.0)];
+        assert_eq!(nearest_to_origin(&corners(&line)).map(|it| it.point), Some(DVec3::X));
+        assert_eq!(nearest_of_all(&corners(&line)).point, DVec3::X);
+    }
+
+    #[test]
+    fn the_first_that_fits_is_the_nearest_and_that_of_all_faces() {
+        let mut numbers = Numbers::new(31);
+        let (mut kinds, mut inside, mut beside) = ([0; 5], 0, 0);
+        for round in 0..40_000 {
+            let count = 1 + round % 4;
+            // Flat ones among them, and some around the origin.
+            let flat = DVec3::new(1.0, 1.0, [1.0, 1e-2][round / 4 % 2]);
+            let away = DVec3::new(0.3, 0.2, 0.4) * (round / 8 % 3) as f64;
+            let places: Vec<DVec3> = (0..count).map(|_| numbers.vector() * flat + away).collect();
+            let (truth, without) = (distance(&places), distance(&places[..count - 1]));
+            let corners = corners(&places);
+            let Some(nearest) = nearest_to_origin(&corners) else {
+                assert!(count == 4 && truth < 1e-12, "round {round}: {truth}");
+                inside += 1;
+                continue;
+            };
+            let weighed = (0..nearest.count).map(|i| places[nearest.picks[i]] * nearest.weights[i]);
+            let sum: f64 = nearest.weights[..nearest.count].iter().sum();
+            assert!((weighed.sum::<DVec3>() - nearest.point).length() < 1e-12 && (sum - 1.0).abs() < 1e-12);
+            // Where the last corner brought nothing, nobody asks.
+            if count > 1 && truth >= without * (1.0 - 1e-9) {
+                beside += 1;
+                continue;
+            }
+            assert!((nearest.point.length() - truth).abs() < 1e-9, "round {round}: {nearest:?} for {truth}");
+            assert!(nearest.picks[..nearest.count].contains(&(count - 1)), "round {round}");
+            let of_all = nearest_of_all(&corners).point;
+            assert!((of_all - nearest.point).length() < 1e-9, "round {round}: {of_all} for {nearest:?}");
+            kinds[nearest.count] += 1;
+        }
+        assert!(
+            kinds[1..=3].iter().all(|&count| count > 1000) && inside > 100 && beside > 1000,
+            "{kinds:?}, {inside}, {beside}"
+        );
+    }
+}

@@ -18,10 +18,6 @@ pub(crate) struct Solid<'a> {
     pub(super) vertex_octets: &'a [VertexOctet],
     pub(crate) topology: &'a Topology,
     normals: &'a [DVec3],
-    heights: &'a [f64],
-    pub(super) face_octets: &'a [FaceOctet],
-    /// In the shape's own axes, in the order of the topology's edges.
-    pub(super) arcs: &'a [EdgeArc],
     pub(super) basis: Basis3,
     /// Whether the frame of the pair is this solid's own, so that nothing needs turning.
     is_home: bool,
@@ -58,9 +54,6 @@ impl<'a> Solid<'a> {
             vertex_octets: core.vertex_octets(),
             topology: core.topology(),
             normals: core.normals(),
-            heights: core.heights(),
-            face_octets: core.face_octets(),
-            arcs: core.arcs(),
             is_home: position == DVec3::ZERO && basis.x == DVec3::X && basis.y == DVec3::Y,
             is_cuboid: core.half_extents().is_some(),
             basis,
@@ -83,6 +76,18 @@ impl<'a> Solid<'a> {
     #[inline(always)]
     fn back(&self, v: DVec3) -> DVec3 {
         if self.is_home { v } else { self.basis.turn_back(v) }
+    }
+
+    /// The edges on the Gauss map, in the shape's own axes and in the order of the topology's edges.
+    #[inline]
+    pub(super) fn arcs(&self) -> &'a [EdgeArc] {
+        self.core.arcs()
+    }
+
+    /// The faces eight by eight.
+    #[inline]
+    pub(super) fn face_octets(&self) -> &'a [FaceOctet] {
+        self.core.face_octets()
     }
 
     /// The edges eight by eight, by the faces beside them.
@@ -283,7 +288,7 @@ impl<'a> Solid<'a> {
         const LEAST: f32 = ALIGNED_FACES as f32 - 1e-6;
         let along = Along::new(self.back(direction));
         let looks = |faces: &FaceOctet| lanes_from(along.dot([&faces.x, &faces.y, &faces.z]), LEAST) != 0;
-        self.face_octets.iter().any(looks)
+        self.face_octets().iter().any(looks)
     }
 
     /// [`Solid::support`] by its definition.
@@ -335,7 +340,7 @@ impl<'a> Solid<'a> {
     /// How far the shape reaches along the outward normal of one of its faces, in the frame of the pair.
     #[inline]
     pub(crate) fn face_reach(&self, face: usize, normal: DVec3) -> f64 {
-        self.heights[face] + normal.dot(self.position)
+        self.core.heights()[face] + normal.dot(self.position)
     }
 
     /// Least and greatest projection on an axis. Cost: linear in the vertices.

@@ -38,11 +38,11 @@ impl Posed<'_> {
             return Some(true);
         }
         let placed = self.placed();
-        let (top, doubt) = (placed.fifteen.top(), placed.closed_form());
-        if top - placed.radii > doubt {
-            return Some(false);
+        match placed.fifteen.overlap(&placed.precision) {
+            // Their radii may close the gap.
+            Some(false) if placed.fifteen.top() - placed.radii <= placed.closed_form() => None,
+            told => told,
         }
-        (top < -doubt).then_some(true)
     }
 
     /// The separation within a limit; nothing where it takes more than the axes.

@@ -8,7 +8,7 @@
 //! No vertices and no faces are put together for it: what is furthest along a direction has its signs, and a corner is three signs.
 
 use super::Cuboids;
-use super::fifteen::{Fifteen, closed_form};
+use super::fifteen::Fifteen;
 use super::placed::{Posed, Size};
 use crate::answer::Closest3;
 use crate::polyhedron::distance::{Polytope, Until, distance};
@@ -112,14 +112,11 @@ impl Cuboids {
             self.offset / apart
         } else {
             let fifteen = self.fifteen();
-            let (top, doubt) = (fifteen.top(), closed_form(precision));
-            if top < -doubt {
-                return Gap::Overlapping;
+            match fifteen.overlap(precision) {
+                Some(true) => return Gap::Overlapping,
+                Some(false) => self.best_face(&fifteen),
+                None => return Gap::Unclear,
             }
-            if top <= doubt {
-                return Gap::Unclear;
-            }
-            self.best_face(&fifteen)
         };
         self.gap_along(towards, radii, limit, precision)
     }
@@ -157,5 +154,83 @@ impl Cuboids {
             }
         }
         if axis.dot(self.offset) < 0.0 { -axis } else { axis }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polyhedron::distance::{Reached, Witness};
+    use crate::polyhedron::sat::tests::{Random, convex};
+    use asunder_geometry::glam::Vec3;
+    use asunder_geometry::{Cuboid, Pose3, Shape3};
+
+    #[test]
+    fn bricks_are_the_solids_that_cuboids_are() {
+        let mut random = Random(0xB41C_0E5E_77A1);
+        let (mut apart, mut overlapping, mut unclear) = (0, 0, 0);
+        for case in 0..20_000_u64 {
+            let size = [1e-4, 1.0, 1e4][case as usize % 3];
+            let round = if case % 5 == 0 { 0.2 * size } else { 0.0 };
+            let shapes = [0, 1].map(|_| {
+                let half = (random.vector().abs() + Vec3::splat(0.1)) * size;
+                Shape3::from(Cuboid::from_half_extents(half).unwrap().rounded(round).unwrap())
+            });
+            let pose_a = Pose3::new(random.vector() * 100.0, random.turn(case / 2)).unwrap();
+            let away = random.vector().normalize_or(Vec3::X) * size * (4.0 * random.number().abs());
+            let turned = if case % 4 == 0 { pose_a.rotation() } else { random.turn(case) };
+            let pose_b = Pose3::new(pose_a.shifted(away).unwrap().position(), turned).unwrap();
+            let pair = convex(&shapes[0], pose_a, &shapes[1], pose_b);
+            // The same by vertices.
+            let reached = pair.with_solids(|a, b| {
+                let towards = pair.offset.try_normalize().unwrap_or(DVec3::X);
+                distance(a, b, towards, &Until::met(&pair.precision))
+            });
+            match (pair.gap(f64::INFINITY), reached) {
+                (Gap::Apart(apart_by), Reached::Between(Witness { distance, at_least, .. })) => {
+                    let radii = f64::from(shapes[0].radius()) + f64::from(shapes[1].radius());
+                    let (told, error) = (f64::from(apart_by.separation), f64::from(apart_by.error));
+                    assert!(
+                        told + error >= at_least - radii && told - error <= distance - radii,
+                        "case {case}"
+                    );
+                    let [on_a, on_b] = apart_by.points;
+                    assert!(((on_b - on_a).length() - told).abs() <= error, "case {case}");
+                    assert!(((on_b - on_a).normalize() - apart_by.normal).length() < 1e-5, "case {case}");
+                    apart += 1;
+                }
+                (Gap::Overlapping, Reached::Origin(_)) => overlapping += 1,
+                (Gap::Overlapping, Reached::Between(witness)) => {
+                    assert!(witness.at_least <= f64::from(2.0 * round), "case {case}");
+                    overlapping += 1;
+                }
+                (Gap::Unclear, _) => unclear += 1,
+                _ => panic!("case {case}"),
+            }
+        }
+        assert!(apart > 5000 && overlapping > 3000 && unclear < 100, "{apart}, {overlapping}, {unclear}");
+    }
+
+    #[test]
+    fn a_limit_ends_the_search_with_a_bound() {
+        let mut random = Random(0x11A7_0F0F);
+        let mut beyond = 0;
+        for case in 0..3000_u64 {
+            let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE).unwrap());
+            let away = random.vector().normalize_or(Vec3::X) * 3.7;
+            let pose_b = Pose3::new(away, random.turn(case)).unwrap();
+            let pair = convex(&cube, Pose3::IDENTITY, &cube, pose_b);
+            let Gap::Apart(Apart { separation, error, .. }) = pair.gap(f64::INFINITY) else { continue };
+            match pair.gap(f64::from(separation) * 0.8) {
+                Gap::Beyond(at_least) => {
+                    assert!(at_least >= separation * 0.8 * (1.0 - 1e-6), "case {case}");
+                    assert!(at_least <= separation + error, "case {case}");
+                    beyond += 1;
+                }
+                _ => panic!("case {case}"),
+            }
+            assert!(matches!(pair.gap(f64::from(separation) * 1.2), Gap::Apart(_)), "case {case}");
+        }
+        assert!(beyond > 1000, "{beyond}");
     }
 }

@@ -110,6 +110,33 @@ impl Fifteen {
         greater(faces, edges)
     }
 
+    /// Whether the cores overlap, by no axis that is not one of theirs or two edges' that are not parallel up to rounding; nothing
+    /// where rounding might have told.
+    #[inline(always)]
+    pub(super) fn overlap(&self, precision: &Precision) -> Option<bool> {
+        let (top, doubt) = (self.top(), closed_form(precision));
+        if top > doubt {
+            return Some(false);
+        }
+        if top < -doubt {
+            return Some(true);
+        }
+        // Axes of parallel edges are of no length, and say nothing: boxes on a grid have three of them or more.
+        let (mut top, mut least) = (f64::NEG_INFINITY, 0.0_f64);
+        for n in 0..6 {
+            top = top.max(if n < 3 { self.faces_a[n] } else { self.faces_b.0[n - 3] });
+        }
+        for n in 0..9 {
+            let (scaled, squared) = self.edge_pair(n);
+            if squared > PARALLEL_EDGES * PARALLEL_EDGES {
+                top = top.max(scaled);
+            } else {
+                least = least.max(precision.of_parallel_edges(squared));
+            }
+        }
+        (top < -doubt - least).then_some(true)
+    }
+
     /// The axis that parts the cores by more than `limit` metres for certain: 0 to 2 for A's faces, 3 to 5 for B's,
     /// from 6 for edge pairs; -1 where there is none. Of faces the best one counts.
     ///

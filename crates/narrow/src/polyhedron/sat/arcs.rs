@@ -91,12 +91,12 @@ pub(super) fn for_edge_pairs(
     let mut few = ArrayVec::<EdgeArc, FEW>::new_const();
     if edges_a.len().max(edges_b.len()) <= FEW {
         let basis = basis_of(a, b);
-        few.extend(edges_b.iter().map(|&edge| turned_arc(&b.arcs[edge as usize], &basis)));
+        few.extend(edges_b.iter().map(|&edge| turned_arc(&b.arcs()[edge as usize], &basis)));
     } else {
         add_turned(a, (b, edges_b), &mut octets);
     }
     for &edge_a in edges_a {
-        let arc_a = &a.arcs[edge_a as usize];
+        let arc_a = &a.arcs()[edge_a as usize];
         let half_edge_a = a.topology.edges()[edge_a as usize].into();
         for (first, chunk) in (0..).step_by(8).zip(edges_b.chunks(8)) {
             let crossing = match octets.get(first / 8) {
@@ -126,7 +126,7 @@ pub(super) fn for_many_edge_pairs(
     let mut caps: ArrayVec<CapOctet, { MAX_EDGES.div_ceil(64) }> = ArrayVec::new_const();
     caps.extend(octets.chunks(8).map(|eight| CapOctet::new(eight.iter().map(ArcOctet::cap))));
     for &edge_a in edges_a {
-        let arc_a = &a.arcs[edge_a as usize];
+        let arc_a = &a.arcs()[edge_a as usize];
         let half_edge_a = a.topology.edges()[edge_a as usize].into();
         let cap = Cap::of_arc(arc_a);
         for (first, caps) in (0..).step_by(8).zip(&caps) {
@@ -176,7 +176,7 @@ fn add_turned(a: &Solid, (b, edges_b): (&Solid, &[u16]), octets: &mut ArcOctets)
     for chunk in edges_b.chunks(8).take(octets.capacity()) {
         let mut octet = ArcOctet::NONE;
         for (i, &edge) in chunk.iter().enumerate() {
-            octet.set(i, &b.arcs[edge as usize]);
+            octet.set(i, &b.arcs()[edge as usize]);
         }
         octets.push(octet.turned(&basis));
     }
@@ -272,7 +272,7 @@ mod tests {
             let poses = [case, case / 4].map(|kind| Pose3::new(random.vector(), random.turn(kind)).unwrap());
             let (shape_a, shape_b) = (random.hull(case), random.hull(case / 3));
             convex(&shape_a, poses[0], &shape_b, poses[1]).with_solids(|a, b| {
-                let [all_a, all_b] = [a, b].map(|solid| (0..solid.arcs.len() as u16).collect::<Vec<_>>());
+                let [all_a, all_b] = [a, b].map(|solid| (0..solid.arcs().len() as u16).collect::<Vec<_>>());
                 let pairs_of = |edges_a: &[u16], edges_b: &[u16]| {
                     let mut pairs = Vec::new();
                     for_edge_pairs((a, edges_a), (b, edges_b), |pair, _| pairs.push(pair));
@@ -334,7 +334,7 @@ mod tests {
             pair.with_solids(|a, b| {
                 // Any part of the edges, so that places and numbers differ.
                 let some = |solid: &Solid, from: usize| -> Vec<u16> {
-                    (0..solid.arcs.len() as u16).skip(from).step_by(1 + case as usize % 3).collect()
+                    (0..solid.arcs().len() as u16).skip(from).step_by(1 + case as usize % 3).collect()
                 };
                 let (edges_a, edges_b) = (some(a, case as usize % 2), some(b, case as usize % 4));
                 let mut kept = Vec::new();

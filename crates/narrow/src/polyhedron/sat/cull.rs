@@ -73,7 +73,7 @@ impl<'a, 'b> Sight<'a, 'b> {
     /// The face that the other's centre is furthest over; of equals the first.
     pub(super) fn highest(&mut self) -> Option<usize> {
         let mut top = [f32::NEG_INFINITY; 8];
-        for faces in self.solid.face_octets.iter().take(MAX_OCTETS) {
+        for faces in self.solid.face_octets().iter().take(MAX_OCTETS) {
             let over = self.sphere.over(faces);
             for (i, top) in top.iter_mut().enumerate() {
                 *top = if over[i] > *top { over[i] } else { *top };
@@ -115,7 +115,7 @@ impl<'a, 'b> Sight<'a, 'b> {
             if open == NONE_OPEN {
                 continue;
             }
-            let faces = &self.solid.face_octets[place];
+            let faces = &self.solid.face_octets()[place];
             open = self.closed_by_points(open, |ball| above(&ball.over(faces), ball.least(separation)));
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
                 let (vertex, next) = visit(8 * place + i);
@@ -134,7 +134,7 @@ impl<'a, 'b> Sight<'a, 'b> {
     /// The middle of a half circle is told by none of its ends: flat solids keep all of their edges.
     pub(super) fn edges(&mut self, separation: f64, into: &mut ArrayVec<u16, MAX_EDGES>) {
         if self.solid.face_count() <= 2 {
-            into.extend((0..self.solid.arcs.len() as u16).take(MAX_EDGES));
+            into.extend((0..self.solid.arcs().len() as u16).take(MAX_EDGES));
             return;
         }
         // Lanes, until it is known which are left.
@@ -150,7 +150,7 @@ impl<'a, 'b> Sight<'a, 'b> {
             self.look_closer(separation, into);
         }
         // Of fewer, lanes are numbers.
-        if self.solid.arcs.len() >= EdgeOctet::SORTED_FROM {
+        if self.solid.arcs().len() >= EdgeOctet::SORTED_FROM {
             for edge in into {
                 let lane = *edge as usize;
                 *edge = self.solid.edge_octets()[lane / 8].numbers[lane % 8];
@@ -175,7 +175,7 @@ impl<'a, 'b> Sight<'a, 'b> {
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
                 // Of shapes so symmetric that all are as good, none is settled.
                 if asked < FEW || 8 * in_vain < 7 * asked {
-                    let middle = self.solid.arcs[octet.numbers[i] as usize].middle;
+                    let middle = self.solid.arcs()[octet.numbers[i] as usize].middle;
                     let middle = self.solid.turned(middle.as_dvec3().normalize_or_zero());
                     self.add(self.other.rough_support(-middle).0.vertex);
                     open = both(open, self.points[0].rises(octet, separation));

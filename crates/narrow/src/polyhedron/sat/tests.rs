@@ -7,8 +7,9 @@ mod proofs;
 use super::*;
 use crate::exact::Site3;
 use crate::polyhedron::convex::Convex;
+use crate::polyhedron::distance::Polytope;
 use asunder_geometry::glam::{Quat, Vec3};
-use asunder_geometry::{Capsule3, Hull, Pose3, Shape3, Triangle3};
+use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, Triangle3};
 
 /// xorshift, for cases without a dependency.
 pub(crate) struct Random(pub(crate) u64);
@@ -213,6 +214,7 @@ fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
                     let (lanes, definition) = (solid.support(direction), solid.support_one_by_one(direction));
                     assert_eq!(lanes.vertex, definition.vertex, "case {case}");
                     assert_eq!(lanes.reach.to_bits(), definition.reach.to_bits(), "case {case}");
+                    assert_eq!(solid.furthest(direction), definition.vertex, "case {case}");
                     // In f32 alone: a bound that no vertex is beyond, and a vertex that is no further below it than
                     // told.
                     for length in [1.0, 1e-18, 1e18] {
@@ -234,4 +236,32 @@ fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
         });
     }
     assert!(ties > 10_000 && rough_only > 100, "{ties}, {rough_only}");
+}
+
+#[test]
+fn what_is_furthest_of_few_vertices_is_as_far_as_the_one_found_one_by_one() {
+    let mut random = Random(0x2545_F491_4F6C_DD1D);
+    let mut corners = [0; 8];
+    for case in 0..3000_u64 {
+        let half = (random.vector().abs() + Vec3::splat(0.1)) * [1e-4, 1.0, 1e4][case as usize % 3];
+        let cuboid = Shape3::from(Cuboid::from_half_extents(half).unwrap());
+        let [a, b, c] = [random.vector(), random.vector(), random.vector()];
+        let triangle = Shape3::from(Triangle3::new(a, b, c).unwrap());
+        let poses = [0, 1].map(|_| Pose3::new(random.vector() * 1e3, random.turn(case / 2)).unwrap());
+        convex(&cuboid, poses[0], &triangle, poses[1]).with_solids(|a, b| {
+            for solid in [a, b] {
+                let faces = (0..solid.face_count()).map(|face| solid.normal(face));
+                for direction in faces.chain([random.vector().as_dvec3().normalize(), DVec3::X]) {
+                    let definition = solid.support_one_by_one(direction).reach.to_bits();
+                    assert_eq!(solid.support(direction).reach.to_bits(), definition, "case {case}");
+                    let (rough, excess) = solid.rough_support(direction);
+                    assert_eq!((rough.reach.to_bits(), excess), (definition, 0.0), "case {case}");
+                    let vertex = solid.furthest(direction);
+                    assert_eq!(vertex, solid.support(direction).vertex, "case {case}");
+                    corners[vertex] += 1;
+                }
+            }
+        });
+    }
+    assert!(corners.iter().all(|&count| count > 300), "{corners:?}");
 }

@@ -37,7 +37,7 @@ fn normals_beside(solid: &Solid) -> Vec<[DVec3; 2]> {
 
 /// The lane of each edge.
 fn lanes_of_edges(solid: &Solid) -> Vec<usize> {
-    let mut lanes = vec![usize::MAX; solid.arcs.len()];
+    let mut lanes = vec![usize::MAX; solid.arcs().len()];
     let numbers = solid.edge_octets().iter().flat_map(|octet| octet.numbers);
     for (lane, number) in numbers.enumerate().take(lanes.len()) {
         lanes[number as usize] = lane;
@@ -96,7 +96,7 @@ fn a_sphere_leaves_out_no_face_and_no_edge_that_may_show_enough() {
                 for face in 0..solid.face_count() {
                     let possible = most(solid, solid.normal(face), sphere);
                     let is_open = |separation: f64| {
-                        let over = ball.over(&solid.face_octets[face / 8]);
+                        let over = ball.over(&solid.face_octets()[face / 8]);
                         above(&over, ball.least(separation))[face % 8] != 0
                     };
                     assert!(is_open(possible), "case {case}, face {face}: {possible} of {sphere:?}");
