@@ -78,8 +78,29 @@ impl Witness {
     }
 }
 
-/// Corners of the difference A - B in use: their vertices, their places, their shares of the nearest point.
-type Simplex = ArrayVec<([usize; 2], DVec2, f64), 3>;
+/// Vertices of A and of B, and the place of their difference.
+type Vertex = ([usize; 2], DVec2);
+
+/// Corners of the difference A - B that carry its nearest point to the origin so far.
+#[derive(Clone, Copy)]
+struct Simplex {
+    vertices: [[usize; 2]; 3],
+    places: [DVec2; 3],
+    count: usize,
+    /// The second corner's share of the nearest point.
+    share: f64,
+    nearest: DVec2,
+}
+
+/// What a corner more made of a simplex.
+enum Grown {
+    /// Its nearest point came nearer.
+    Nearer,
+    /// Nothing new.
+    Not,
+    /// The three corners hold the origin: they are all still here.
+    Around,
+}
 
 /// Narrows the distance down.
 pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until) -> Reached {
@@ -87,21 +108,21 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
     let size = precision.size;
     // Steps grow ever shorter: the last corner, or one beside it, most often is the next.
     let corner = |direction: DVec2, near: Option<[usize; 2]>| {
-        let in_a = a.support_near(direction, near.map(|near| near[0])).vertex;
-        let in_b = b.support_near(-direction, near.map(|near| near[1])).vertex;
-        ([in_a, in_b], a.point(in_a) - b.point(in_b), 1.0)
+        let in_a = a.furthest_near(direction, near.map(|near| near[0]));
+        let in_b = b.furthest_near(-direction, near.map(|near| near[1]));
+        ([in_a, in_b], a.point(in_a) - b.point(in_b))
     };
-    let mut simplex = Simplex::new();
-    simplex.push(corner(towards_b, None));
-    let mut last = simplex[0].0;
-    let mut v = simplex[0].1;
-    let (mut at_least, mut normal) = (f64::NEG_INFINITY, towards_b);
+    let mut simplex = Simplex::of(corner(towards_b, None));
+    let mut last = simplex.vertices[0];
+    let (mut at_least, mut normal) = (-towards_b.dot(simplex.nearest), towards_b);
     'steps: for _ in 0..MAX_STEPS {
-        let length = v.length();
+        let length = simplex.nearest.length();
         if length <= f64::EPSILON * size {
-            return Reached::Origin(Close { corners: vertices(&simplex), is_proved: false, within: length });
+            return Reached::Origin(Close { corners: simplex.corners(), is_proved: false, within: length });
         }
-        for direction in to_origin(&simplex, v) {
+        let straight = simplex.nearest / -length;
+        for direction in [Some(straight), None] {
+            let direction = direction.unwrap_or_else(|| simplex.square_to_origin(straight));
             let found = corner(direction, Some(last));
             last = found.0;
             let bound = -direction.dot(found.1);
@@ -111,34 +132,25 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
             if length - at_least <= DISTANCE_GAP * size || at_least > until.beyond || length < until.within {
                 break 'steps;
             }
-            if simplex.iter().all(|known| known.0 != found.0) && !simplex.is_full() {
-                let mut wider = simplex.clone();
-                wider.push(found);
-                let Some((nearest, place)) = nearest_to_origin(&wider) else {
-                    let is_proved = is_around_origin(&wider, precision);
+            if simplex.knows(found.0) || simplex.count == 3 {
+                continue;
+            }
+            match simplex.grow(found, length) {
+                Grown::Nearer => continue 'steps,
+                Grown::Not => {}
+                Grown::Around => {
+                    let (corners, is_proved) =
+                        (simplex.corners(), is_around_origin(simplex.places, precision));
                     // Its border is as near as any point may be that it really holds.
-                    let border = nearest_on_border(&wider).map_or(length, |(_, place)| place.length());
-                    let within = length.min(border);
-                    return Reached::Origin(Close { corners: vertices(&wider), is_proved, within });
-                };
-                if place.length() < length {
-                    (simplex, v) = (nearest, place);
-                    continue 'steps;
+                    let within = length.min(simplex.border());
+                    return Reached::Origin(Close { corners, is_proved, within });
                 }
             }
         }
         break;
     }
-    // Weighted differences from the first corner, and not weighted corners: what the weights' sum lost shrinks with
-    // them.
-    let weighted = |outline: &Outline, which: usize| {
-        let first = outline.point(simplex[0].0[which]);
-        let offsets =
-            simplex.iter().map(|(vertices, _, weight)| (outline.point(vertices[which]) - first) * *weight);
-        first + offsets.sum::<DVec2>()
-    };
-    let (point_a, point_b) = (weighted(a, 0), weighted(b, 1));
-    let corners = vertices(&simplex);
+    let (point_a, point_b) = (simplex.weighted(a, 0), simplex.weighted(b, 1));
+    let corners = simplex.corners();
     let distance = (point_b - point_a).length();
     let mut witness = Witness { distance, at_least, normal, across: normal, point_a, point_b, corners };
     if !witness.is_close(size) {
@@ -147,62 +159,104 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
     Reached::Between(witness)
 }
 
-fn vertices(simplex: &Simplex) -> ArrayVec<[usize; 2], 3> {
-    simplex.iter().map(|&(vertices, ..)| vertices).collect()
-}
-
 /// Whether three corners hold the origin for certain: the areas that it spans with each side have one sign.
 ///
 /// A corner is off by at most `projection` in each coordinate, so that an area of corners no longer than m is off by
 /// less than 4 m of that, and by less than 4 roundings of m^2.
-fn is_around_origin(simplex: &Simplex, precision: &Precision) -> bool {
-    let [a, b, c] = simplex.as_slice() else { return false };
-    let longest = simplex.iter().map(|corner| corner.1.abs().element_sum()).fold(0.0, f64::max);
+fn is_around_origin(places @ [a, b, c]: [DVec2; 3], precision: &Precision) -> bool {
+    let longest = places.iter().map(|place| place.abs().element_sum()).fold(0.0, f64::max);
     let doubt = longest * (4.0 * precision.projection() + 2.0 * f64::EPSILON * longest);
-    let areas = [a.1.perp_dot(b.1), b.1.perp_dot(c.1), c.1.perp_dot(a.1)];
+    let areas = [a.perp_dot(b), b.perp_dot(c), c.perp_dot(a)];
     areas.iter().all(|&area| area > doubt) || areas.iter().all(|&area| area < -doubt)
 }
 
-/// Unit directions from the nearest point to the origin: straight, and square to the simplex, as in space.
-fn to_origin(simplex: &Simplex, nearest: DVec2) -> [DVec2; 2] {
-    let straight = -nearest.normalize();
-    let square = match *simplex.as_slice() {
-        [(_, a, _), (_, b, _)] => (b - a).perp().try_normalize().unwrap_or(straight),
-        _ => straight,
-    };
-    [straight, if square.dot(straight) < 0.0 { -square } else { square }]
-}
-
-/// The corners that carry the nearest point, and that point; nothing where a triangle holds the origin.
-fn nearest_to_origin(simplex: &Simplex) -> Option<(Simplex, DVec2)> {
-    if let [a, b, c] = simplex.as_slice() {
-        let sides = [a.1.perp_dot(b.1), b.1.perp_dot(c.1), c.1.perp_dot(a.1)];
-        if sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0) {
-            return None;
-        }
+/// How much of the way from one corner to another leads to its point nearest to the origin, held to the way, and that point. Of corners
+/// in one place, the first.
+#[inline(always)]
+fn nearest_between(from: DVec2, to: DVec2) -> (f64, DVec2) {
+    let along = to - from;
+    let (down, length) = (-from.dot(along), along.length_squared());
+    match down {
+        _ if down <= 0.0 || length == 0.0 => (0.0, from),
+        _ if down >= length => (1.0, to),
+        _ => (down / length, from + along * (down / length)),
     }
-    nearest_on_border(simplex)
 }
 
-/// The same of the corners and the sides between them.
-fn nearest_on_border(simplex: &Simplex) -> Option<(Simplex, DVec2)> {
-    let mut best: Option<(Simplex, DVec2)> = None;
-    let mut offer = |corners: Simplex| {
-        let first = corners[0].1;
-        let place = first + corners.iter().map(|&(_, point, weight)| (point - first) * weight).sum::<DVec2>();
-        if best.as_ref().is_none_or(|(_, known)| place.length_squared() < known.length_squared()) {
-            best = Some((corners, place));
-        }
-    };
-    for (i, &(vertices, point, _)) in simplex.iter().enumerate() {
-        offer(core::iter::once((vertices, point, 1.0)).collect());
-        for &(other_vertices, other, _) in &simplex[i + 1..] {
-            let along = other - point;
-            let t = -point.dot(along) / along.length_squared();
-            if t > 0.0 && t < 1.0 {
-                offer([(vertices, point, 1.0 - t), (other_vertices, other, t)].into_iter().collect());
+impl Simplex {
+    fn of((vertices, place): Vertex) -> Self {
+        Self { vertices: [vertices; 3], places: [place; 3], count: 1, share: 0.0, nearest: place }
+    }
+
+    fn corners(&self) -> ArrayVec<[usize; 2], 3> {
+        self.vertices.iter().take(self.count).copied().collect()
+    }
+
+    #[inline(always)]
+    fn knows(&self, vertices: [usize; 2]) -> bool {
+        (0..3).any(|i| self.vertices[i] == vertices && i < self.count)
+    }
+
+    /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than `length`.
+    ///
+    /// That is on a side which ends in the new corner, or the step brought nothing.
+    #[inline(always)]
+    fn grow(&mut self, (vertices, place): Vertex, length: f64) -> Grown {
+        let [a, b, _] = self.places;
+        let from_a = nearest_between(a, place);
+        let (mut kept, mut best) = (0, from_a);
+        if self.count == 2 {
+            let areas = [a.perp_dot(b), b.perp_dot(place), place.perp_dot(a)];
+            if areas.iter().all(|&area| area > 0.0) || areas.iter().all(|&area| area < 0.0) {
+                (self.vertices[2], self.places[2], self.count) = (vertices, place, 3);
+                return Grown::Around;
+            }
+            let from_b = nearest_between(b, place);
+            if from_b.1.length_squared() < from_a.1.length_squared() {
+                (kept, best) = (1, from_b);
             }
         }
+        let (share, nearest) = best;
+        let is_nearer = nearest.length() < length;
+        if !is_nearer {
+            return Grown::Not;
+        }
+        (self.share, self.nearest) = (share, nearest);
+        if share == 1.0 {
+            (self.vertices[0], self.places[0], self.count) = (vertices, place, 1);
+            return Grown::Nearer;
+        }
+        (self.vertices[0], self.places[0]) = (self.vertices[kept], self.places[kept]);
+        (self.vertices[1], self.places[1]) = (vertices, place);
+        self.count = if share == 0.0 { 1 } else { 2 };
+        Grown::Nearer
     }
-    best
+
+    /// The unit direction to the origin that is square to the simplex, as in space.
+    fn square_to_origin(&self, straight: DVec2) -> DVec2 {
+        let [a, b, _] = self.places;
+        let square = if self.count == 2 { (b - a).perp().try_normalize() } else { None };
+        let square = square.unwrap_or(straight);
+        if square.dot(straight) < 0.0 { -square } else { square }
+    }
+
+    /// How far its sides are from the origin.
+    fn border(&self) -> f64 {
+        let [a, b, c] = self.places;
+        [(a, b), (b, c), (c, a)]
+            .map(|(from, to)| nearest_between(from, to).1.length())
+            .into_iter()
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// The point of A or B that the shares make. A weighted difference from the first corner, and not weighted corners: what the
+    /// weights' sum lost shrinks with it.
+    #[inline(always)]
+    fn weighted(&self, outline: &Outline, which: usize) -> DVec2 {
+        let first = outline.point(self.vertices[0][which]);
+        match self.count {
+            2 => first + (outline.point(self.vertices[1][which]) - first) * self.share,
+            _ => first,
+        }
+    }
 }

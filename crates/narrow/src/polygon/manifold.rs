@@ -61,7 +61,7 @@ impl Touch {
 ///
 /// An axis that only nearly is the best may have its deepest point clipped away, because what touches lies just beside
 /// its edge. Then the best axis is asked in its place, and in a gap, the witness points.
-#[inline]
+#[inline(always)]
 pub(crate) fn touch(
     [a, b]: [&impl Placed; 2],
     axes: &Axes,

@@ -10,6 +10,7 @@
 //! ```
 //! What each trick buys stands above its kernel; the definition of the best axis is `sat::plain`.
 
+pub(crate) mod apart;
 pub(crate) mod convex;
 pub(crate) mod distance;
 mod few;

@@ -104,6 +104,15 @@ pub(crate) fn is_searched(shape: &Shape2) -> bool {
     matches!(shape, Shape2::Polygon(polygon) if polygon.vertices().len() > FEW_VERTICES)
 }
 
+/// The corner of a rectangle that is furthest along a direction in its own axes; of those that tie, the lowest.
+#[inline(always)]
+fn corner_along(local: DVec2) -> usize {
+    let (is_above, is_level) = (local.y > 0.0, local.x == 0.0);
+    let is_right = (local.x > 0.0) | (is_above & is_level);
+    // Counter-clockwise from the lower left.
+    usize::from(is_right ^ is_above) | usize::from(is_above) << 1
+}
+
 impl<'a> Outline<'a> {
     pub(crate) fn new(shape: &Shape2, core: &'a Core2<'a>, turn: Turn, position: DVec2) -> Self {
         let extremes = match shape {
@@ -199,7 +208,20 @@ impl<'a> Outline<'a> {
     #[inline]
     pub(crate) fn support_near(&self, direction: DVec2, near: Option<usize>) -> Support {
         let local = self.turn.turn_back(direction);
-        let vertex = match &self.extremes {
+        let vertex = self.furthest_local(local, near);
+        Support { vertex, reach: local.dot(self.vertices[vertex].as_dvec2()) + direction.dot(self.position) }
+    }
+
+    /// That vertex alone.
+    #[inline]
+    pub(super) fn furthest_near(&self, direction: DVec2, near: Option<usize>) -> usize {
+        self.furthest_local(self.turn.turn_back(direction), near)
+    }
+
+    #[inline]
+    fn furthest_local(&self, local: DVec2, near: Option<usize>) -> usize {
+        match &self.extremes {
+            None if self.half.is_some() => corner_along(local),
             None => self.furthest(local),
             Some(extremes) => {
                 // Edges from one extreme vertex to the next look into one quadrant, in order of their angles.
@@ -211,8 +233,7 @@ impl<'a> Outline<'a> {
                 };
                 self.climb_near(from, self.edges_between(from, to), local, near)
             }
-        };
-        Support { vertex, reach: local.dot(self.vertices[vertex].as_dvec2()) + direction.dot(self.position) }
+        }
     }
 
     /// As [`climb_local`](Self::climb_local), beginning at a vertex where it is one of those.

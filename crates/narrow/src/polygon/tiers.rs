@@ -173,7 +173,8 @@ impl Convex<'_> {
     }
 }
 
-fn unit(direction: DVec2) -> DVec2 {
+/// A direction of unit length; any, of none.
+pub(super) fn unit(direction: DVec2) -> DVec2 {
     direction.try_normalize().unwrap_or(DVec2::X)
 }
 
