@@ -5,6 +5,7 @@
 //! all edges of few, side by side                       few
 //! many: a search over directions                       search
 //! in a gap that no edge's normal measures: GJK         distance
+//! closest points alone: that, and no edges             apart
 //! yes or no, where f64 cannot tell: integers           tiers
 //! what it means: number, error, sign, points           measure, manifold
 //! ```

@@ -12,6 +12,8 @@
 //!                                   in a gap, the closest points               (distance)
 //!                                   in overlap, faces and edge pairs           (sat)
 //! ```
+//! Where nothing but closest points is wanted, neither axes nor features are asked for                  (apart).
+//!
 //! Whether they overlap is settled in three tiers, each asked only where the one before cannot tell:
 //!
 //! ```text

@@ -253,10 +253,8 @@ impl Simplex {
         for left_out in 0..4 {
             let mut face =
                 Self { vertices: around.0, corners: Corners { places: around.1, count: 3 }, ..*self };
-            let mut to = 0;
-            for i in (0..4).filter(|&i| i != left_out) {
+            for (to, i) in (0..4).filter(|&i| i != left_out).enumerate() {
                 (face.vertices[to], face.corners.places[to]) = (around.0[i], around.1[i]);
-                to += 1;
             }
             let nearest = nearest_of_all(&face.corners);
             if nearest.point.length_squared() < best {
