@@ -27,7 +27,7 @@
 use super::advance::{End, Met};
 use super::passage::{Course, Stretch, length};
 use crate::polyhedron::closest::Placed;
-use crate::polyhedron::simplex::{Corners, nearest_to_origin};
+use crate::polyhedron::simplex::{Corners, nearest_of_all, nearest_to_origin};
 use crate::polyhedron::solid::Solid;
 use crate::precision::IN_SPACE;
 use arrayvec::ArrayVec;
@@ -103,7 +103,9 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
             continue;
         }
         let before = distance;
-        distance = simplex.grow((!is_known).then_some(corner), drift * done)?;
+        // Where the origin has moved, nothing need be nearer than it was.
+        let nearer_than = if step > 0.0 { f64::INFINITY } else { distance };
+        distance = simplex.grow((!is_known).then_some(corner), drift * done, nearer_than)?;
         let is_within = distance - course.radii <= enough;
         match kept {
             Some(axis) if is_within && course.radii == 0.0 => {
@@ -142,8 +144,9 @@ impl March<'_> {
 
 impl Simplex {
     /// Takes one corner more, and leaves out those that do not carry the point nearest to where the origin has
-    /// moved to. How far that is; nothing where it is among them.
-    fn grow(&mut self, corner: Option<Corner>, origin: DVec3) -> Option<f64> {
+    /// moved to. How far that is; nothing where it is among them. All faces are compared where the first that fits is not
+    /// `nearer_than` so many metres, or where no corner came: then the last need not be part of what is nearest.
+    fn grow(&mut self, corner: Option<Corner>, origin: DVec3, nearer_than: f64) -> Option<f64> {
         if let Some(corner) = corner {
             self.corners.try_push(corner).ok()?;
         }
@@ -151,7 +154,11 @@ impl Simplex {
         for (place, &(_, corner)) in seen.places.iter_mut().zip(&self.corners) {
             *place = corner - origin;
         }
-        let nearest = nearest_to_origin(&seen)?;
+        let mut nearest = nearest_to_origin(&seen)?;
+        let is_nearer = nearest.point.length() < nearer_than;
+        if corner.is_none() || !is_nearer {
+            nearest = nearest_of_all(&seen);
+        }
         // Where they stay: picks ascend.
         for (to, &from) in nearest.picks[..nearest.count].iter().enumerate() {
             self.corners[to] = self.corners[from];

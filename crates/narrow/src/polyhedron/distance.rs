@@ -236,7 +236,7 @@ impl Simplex {
     #[inline(always)]
     fn keep(&mut self, nearest: &Nearest) {
         (self.nearest, self.weights, self.corners.count) = (nearest.point, nearest.weights, nearest.count);
-        // Never from a place that was written: picks ascend.
+        // Of those that count never from a place that was written: picks ascend.
         for (to, &from) in nearest.picks.iter().enumerate() {
             self.vertices[to] = self.vertices[from & 3];
             self.corners.places[to] = self.corners.places[from & 3];

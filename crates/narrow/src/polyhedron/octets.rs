@@ -8,7 +8,7 @@ use asunder_geometry::VertexOctet;
 use asunder_geometry::glam::{DVec3, Vec3};
 use wide::f32x8;
 
-/// Vertices up to which projections are kept, and not made twice.
+/// Octets of vertices up to which projections are kept, and not made twice.
 const KEPT: usize = 4;
 
 /// A direction of any length in f32, in all lanes.
@@ -109,6 +109,7 @@ impl Along {
     /// Which of up to 32 vertices come to `least`: a bit each, the first the lowest.
     #[inline(always)]
     pub(super) fn those_from(&self, octets: &[VertexOctet], least: f32) -> u32 {
+        debug_assert!(octets.len() <= 4, "each has a bit");
         let mut near = 0;
         for (place, octet) in octets.iter().take(4).enumerate() {
             near |= lanes_from(self.project(octet), least) << (8 * place);
