@@ -151,7 +151,7 @@ impl Pair3<'_> {
     /// let pair = Pair3::new(&ball, &on_floor, &yard, &Pose3::IDENTITY);
     /// assert!(pair.impact(&kick, &still).is_some_and(|impact| impact.overlapping), "with the floor");
     /// let wall = pair.next_impact(&kick, &still).ok_or("the wall is in the way")?;
-    /// assert!(wall.normal == Vec3::X && (wall.fraction * 20.0 - 4.4).abs() < 1e-4);
+    /// assert!(wall.normal.abs_diff_eq(Vec3::X, 1e-6) && (wall.fraction * 20.0 - 4.4).abs() < 1e-4);
     /// assert_eq!(pair.next_impact(&Motion3::shift([4.0, -0.1, 0.0])?, &still), None);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
