@@ -196,8 +196,8 @@ impl<'a> Pair3<'a> {
         if let Some(on) = OnGround::of(self) {
             return self.distance_on(&on);
         }
-        if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.distance()) {
-            return found;
+        if let Some(cuboids) = self.cuboids() {
+            return cuboids.distance().unwrap_or_else(|| self.wholes().look_closer(f64::INFINITY).ok()?);
         }
         if !self.is_compound() {
             return self.wholes().closest(f64::INFINITY).ok()?;

@@ -185,7 +185,8 @@ impl Corners {
     }
 
     /// An upper bound on the separation from a triangle: the way from its point nearest to the part's centre to the sphere
-    /// inside the part, or from the part's point, of others than cuboids the corner, nearest to that point. Infinite for a half-space.
+    /// inside the part, or from a cuboid's point where the two are narrowed, else from the part's corner nearest to that point. Infinite for a
+    /// half-space.
     pub(crate) fn at_most(&self, beside: &Beside) -> f64 {
         let &Beside { corners, near, of } = beside;
         let mut least = self.gap_of_ball(beside);
@@ -286,6 +287,8 @@ impl Corners {
                 let (middle, arm) = (axis.dot(self.origin - a), self.own(axis).abs().dot(*half));
                 (from, to) = (middle - arm, middle + arm);
             }
+            // A half-space takes up everything.
+            Extent::Points(points) if points.is_empty() => (from, to) = (to, from),
             Extent::Points(points) => {
                 for &point in points {
                     let height = axis.dot(point - a);
@@ -293,9 +296,6 @@ impl Corners {
                     to = if height > to { height } else { to };
                 }
             }
-        }
-        if self.is_endless() {
-            (from, to) = (to, from);
         }
         let [on_b, on_c] = [axis.dot(b - a), axis.dot(c - a)];
         let doubt = self.radius + 128.0 * f64::EPSILON * (self.lengths + a.abs().element_sum());

@@ -128,14 +128,16 @@ impl Parts<'_> {
             Gap::Beyond(at_least) => Err(at_least),
             Gap::Overlapping => Ok(None),
             Gap::Apart(apart) => Ok(Some(self.closest_by(&apart))),
-            Gap::Unclear => {
-                match self.convex.probe(Asked { limit, hint: Hint::NONE, wanted: Wanted::Closest }) {
-                    Probe::Beyond(at_least, _) => Err(at_least),
-                    Probe::Near(Near { separation, error, normal, closest, .. }) => {
-                        Ok(closest
-                            .map(|points| self.closest_by(&Apart { separation, error, normal, points })))
-                    }
-                }
+            Gap::Unclear => self.look_closer(limit),
+        }
+    }
+
+    /// The same where the shortest way does not tell.
+    pub(super) fn look_closer(&self, limit: f64) -> Result<Option<Closest3>, f32> {
+        match self.convex.probe(Asked { limit, hint: Hint::NONE, wanted: Wanted::Closest }) {
+            Probe::Beyond(at_least, _) => Err(at_least),
+            Probe::Near(Near { separation, error, normal, closest, .. }) => {
+                Ok(closest.map(|points| self.closest_by(&Apart { separation, error, normal, points })))
             }
         }
     }

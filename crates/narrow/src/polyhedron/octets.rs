@@ -8,8 +8,8 @@ use asunder_geometry::VertexOctet;
 use asunder_geometry::glam::{DVec3, Vec3};
 use wide::f32x8;
 
-/// Octets of vertices up to which projections are kept, and not made twice.
-const KEPT: usize = 4;
+/// Octets whose lanes have a bit each in a word of 32. Of so many projections are kept, and not made twice.
+pub(super) const IN_A_WORD: usize = 4;
 
 /// A direction of any length in f32, in all lanes.
 #[derive(Clone, Copy)]
@@ -81,10 +81,10 @@ impl Along {
     /// The one vertex whose projection comes to the greatest but for what both may be off by, of up to 32; nothing where there are more.
     #[inline(always)]
     pub(super) fn only(&self, octets: &[VertexOctet], extent: f32) -> Option<usize> {
-        if octets.len() > KEPT {
+        if octets.len() > IN_A_WORD {
             return None;
         }
-        let mut kept = [f32x8::splat(f32::NEG_INFINITY); KEPT];
+        let mut kept = [f32x8::splat(f32::NEG_INFINITY); IN_A_WORD];
         let mut top = kept[0];
         for (reach, octet) in kept.iter_mut().zip(octets) {
             *reach = self.project(octet);
@@ -109,9 +109,9 @@ impl Along {
     /// Which of up to 32 vertices come to `least`: a bit each, the first the lowest.
     #[inline(always)]
     pub(super) fn those_from(&self, octets: &[VertexOctet], least: f32) -> u32 {
-        debug_assert!(octets.len() <= 4, "each has a bit");
+        debug_assert!(octets.len() <= IN_A_WORD, "each lane has a bit");
         let mut near = 0;
-        for (place, octet) in octets.iter().take(4).enumerate() {
+        for (place, octet) in octets.iter().take(IN_A_WORD).enumerate() {
             near |= lanes_from(self.project(octet), least) << (8 * place);
         }
         near

@@ -1,7 +1,7 @@
 //! A shape as the kernels see it: stored vertices, and how they stand in the frame of the pair.
 
 use super::distance::Polytope;
-use super::octets::{Along, lanes_from};
+use super::octets::{Along, IN_A_WORD, lanes_from};
 use crate::counted::count_step;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::ALIGNED_FACES;
@@ -241,11 +241,11 @@ impl<'a> Solid<'a> {
     /// Visits the vertices whose lanes come to `least`, ascending.
     #[inline(always)]
     pub(super) fn for_vertices_from(&self, along: &Along, least: f32, mut visit: impl FnMut(usize, Vec3)) {
-        for (chunk, octets) in self.vertex_octets.chunks(4).enumerate() {
+        for (chunk, octets) in self.vertex_octets.chunks(IN_A_WORD).enumerate() {
             let mut near = along.those_from(octets, least);
             // Most often one. Which it is nobody can guess: no branch asks.
             while near != 0 {
-                let vertex = 32 * chunk + near.trailing_zeros() as usize;
+                let vertex = 8 * IN_A_WORD * chunk + near.trailing_zeros() as usize;
                 near &= near - 1;
                 // Places past the last vertex are not vertices.
                 let Some(&point) = self.vertices.get(vertex) else { break };

@@ -38,11 +38,7 @@ impl Posed<'_> {
             return Some(true);
         }
         let placed = self.placed();
-        match placed.fifteen.overlap(&placed.precision) {
-            // Their radii may close the gap.
-            Some(false) if placed.fifteen.top() - placed.radii <= placed.closed_form() => None,
-            told => told,
-        }
+        placed.fifteen.overlap(placed.radii, &placed.precision)
     }
 
     /// The separation within a limit; nothing where it takes more than the axes.

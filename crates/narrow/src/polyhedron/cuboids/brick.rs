@@ -112,7 +112,8 @@ impl Cuboids {
             self.offset / apart
         } else {
             let fifteen = self.fifteen();
-            match fifteen.overlap(precision) {
+            // Of the cores: how wide a gap is that radii close, the points tell.
+            match fifteen.overlap(0.0, precision) {
                 Some(true) => return Gap::Overlapping,
                 Some(false) => self.best_face(&fifteen),
                 None => return Gap::Unclear,

@@ -110,16 +110,19 @@ impl Fifteen {
         greater(faces, edges)
     }
 
-    /// Whether the cores overlap, by no axis that is not one of theirs or two edges' that are not parallel up to rounding; nothing
-    /// where rounding might have told.
+    /// Whether cuboids overlap that are rounded by so many metres together; nothing where rounding might have told, or only their
+    /// radii close the gap.
     #[inline(always)]
-    pub(super) fn overlap(&self, precision: &Precision) -> Option<bool> {
+    pub(super) fn overlap(&self, radii: f64, precision: &Precision) -> Option<bool> {
         let (top, doubt) = (self.top(), closed_form(precision));
-        if top > doubt {
+        if top - radii > doubt {
             return Some(false);
         }
         if top < -doubt {
             return Some(true);
+        }
+        if top > doubt {
+            return None;
         }
         // Axes of parallel edges are of no length, and say nothing: boxes on a grid have three of them or more.
         let (mut top, mut least) = (f64::NEG_INFINITY, 0.0_f64);
