@@ -58,16 +58,7 @@ impl<S: Space> World<S> {
     /// Cost: a call a candidate for [`Hooks::pair`]; a call a contact and a copy of its manifolds for
     /// [`Hooks::contact`].
     pub fn update_with(&mut self, hooks: &Hooks<'_, S>) {
-        self.stats = Stats { bodies: self.bodies.len(), ..Stats::default() };
-        // Of a hook that panics, nothing of last update's is left to be taken for this one's.
-        self.impacts.clear();
-        self.stats.refit = self.timed(refit::refit);
-        self.stats.sweep = self.timed(|world| sweep::sweep(world, hooks));
-        self.stats.collide = self.timed(collide::collide);
-        self.stats.merge = self.timed(merge::merge);
-        self.stats.report = self.timed(report::report);
-        self.stats.hooks = self.timed(|world| edit_contacts(world, hooks));
-        self.stats.impacts = self.timed(impacts::impacts);
+        S::advance(self, hooks);
     }
 
     fn timed(&mut self, stage: impl FnOnce(&mut Self)) -> Duration {
@@ -75,4 +66,18 @@ impl<S: Space> World<S> {
         stage(self);
         start.elapsed()
     }
+}
+
+/// The stages, one after the other.
+pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
+    world.stats = Stats { bodies: world.bodies.len(), ..Stats::default() };
+    // Of a hook that panics, nothing of last update's is left to be taken for this one's.
+    world.impacts.clear();
+    world.stats.refit = world.timed(refit::refit);
+    world.stats.sweep = world.timed(|world| sweep::sweep(world, hooks));
+    world.stats.collide = world.timed(collide::collide);
+    world.stats.merge = world.timed(merge::merge);
+    world.stats.report = world.timed(report::report);
+    world.stats.hooks = world.timed(|world| edit_contacts(world, hooks));
+    world.stats.impacts = world.timed(impacts::impacts);
 }

@@ -136,10 +136,21 @@ impl<S: Space> Debug for Hooks<'_, S> {
 }
 
 /// What a contact hook made of the manifolds: of each record, where its own end.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Edited<S: Space> {
     manifolds: Vec<S::Manifold>,
     ends: Vec<u32>,
+}
+
+impl<S: Space> Clone for Edited<S> {
+    fn clone(&self) -> Self {
+        Self { manifolds: self.manifolds.clone(), ends: self.ends.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.manifolds.clone_from(&source.manifolds);
+        self.ends.clone_from(&source.ends);
+    }
 }
 
 impl<S: Space> Edited<S> {

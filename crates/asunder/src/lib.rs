@@ -63,6 +63,7 @@ mod character;
 mod clock;
 mod collider;
 mod contact;
+mod copy;
 mod debug;
 mod event;
 mod frame;

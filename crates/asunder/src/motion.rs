@@ -45,12 +45,23 @@ pub type Hit2 = Hit<BodyKey2, Impact2>;
 pub type Hit3 = Hit<BodyKey3, Impact3>;
 
 /// The motions that the next update will see.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Motions<S: Space> {
     /// By slot; shorter than the slots where the last ones have none.
     of_slot: Vec<Option<S::Motion>>,
     /// Slots that have one, or had one and lost it with their body.
     slots: Vec<u32>,
+}
+
+impl<S: Space> Clone for Motions<S> {
+    fn clone(&self) -> Self {
+        Self { of_slot: self.of_slot.clone(), slots: self.slots.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.of_slot.clone_from(&source.of_slot);
+        self.slots.clone_from(&source.slots);
+    }
 }
 
 impl<S: Space> Motions<S> {

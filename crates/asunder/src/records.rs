@@ -22,12 +22,23 @@ pub(crate) fn chunk_of(pairs: usize) -> usize {
 }
 
 /// Contacts in pair order. Each has a number, ascending: its chunk's, times [`CHUNK`], and its place there.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Records<K> {
     /// The least pair that a chunk may hold, of each in use. The first holds what is before it, too.
     firsts: Vec<PairId>,
     /// Those of no use are empty, and kept for their memory.
     chunks: Vec<Vec<Record<K>>>,
+}
+
+impl<K: Clone> Clone for Records<K> {
+    fn clone(&self) -> Self {
+        Self { firsts: self.firsts.clone(), chunks: self.chunks.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.firsts.clone_from(&source.firsts);
+        self.chunks.clone_from(&source.chunks);
+    }
 }
 
 impl<K> Records<K> {

@@ -1,7 +1,7 @@
 //! Things that keep their place while others come and go.
 
 /// A list with free places; places are handed out from the last that was given up.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Slab<T> {
     items: Vec<T>,
     vacant: Vec<u32>,
@@ -9,6 +9,17 @@ pub(crate) struct Slab<T> {
 
 /// The place of nothing.
 pub(crate) const NOWHERE: u32 = u32::MAX;
+
+impl<T: Clone> Clone for Slab<T> {
+    fn clone(&self) -> Self {
+        Self { items: self.items.clone(), vacant: self.vacant.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.items.clone_from(&source.items);
+        self.vacant.clone_from(&source.vacant);
+    }
+}
 
 impl<T> Slab<T> {
     pub(crate) const fn new() -> Self {

@@ -1,6 +1,10 @@
 //! What differs between the plane and space: types, `bounds` and `collide`. All else is written once.
 
 use crate::collider::Collider;
+use crate::copy::copy;
+use crate::frame::advance;
+use crate::hooks::Hooks;
+use crate::world::World;
 use asunder_geometry::{Aabb2, Aabb3, Bounds, Motion2, Motion3, Pose2, Pose3, Shape2, Shape3};
 use asunder_narrow::{
     Answer, Batch, Batch2, Batch3, Hint, Impact2, Impact3, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3,
@@ -114,6 +118,15 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     type Job<'a>: Send + Sync;
 
+    /// One frame. Not generic where it is defined, so that it is compiled with this crate, and optimised as this crate is:
+    /// a game that calls [`World::update`] would else compile all of it anew, and in a debug build run it unoptimised.
+    #[doc(hidden)]
+    fn advance(world: &mut World<Self>, hooks: &Hooks<'_, Self>);
+
+    /// Makes one world what another is; not generic for the same reason.
+    #[doc(hidden)]
+    fn copy(from: &World<Self>, to: &mut World<Self>);
+
     /// Whether two poses are equal in every bit.
     #[doc(hidden)]
     fn same_bits(one: &Self::Pose, other: &Self::Pose) -> bool;
@@ -217,6 +230,14 @@ impl Space for Plane {
     type Impact = Impact2;
     type Touch = Touch2;
     type Job<'a> = Job2<'a>;
+
+    fn advance(world: &mut World<Self>, hooks: &Hooks<'_, Self>) {
+        advance(world, hooks);
+    }
+
+    fn copy(from: &World<Self>, to: &mut World<Self>) {
+        copy(from, to);
+    }
 
     fn same_bits(one: &Pose2, other: &Pose2) -> bool {
         one.same_bits(other)
@@ -330,6 +351,14 @@ impl Space for Volume {
     type Impact = Impact3;
     type Touch = Touch3;
     type Job<'a> = Job3<'a>;
+
+    fn advance(world: &mut World<Self>, hooks: &Hooks<'_, Self>) {
+        advance(world, hooks);
+    }
+
+    fn copy(from: &World<Self>, to: &mut World<Self>) {
+        copy(from, to);
+    }
 
     fn same_bits(one: &Pose3, other: &Pose3) -> bool {
         one.same_bits(other)

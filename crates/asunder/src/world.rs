@@ -50,7 +50,7 @@ impl core::error::Error for StaleKey {}
 /// needs, empty slots of bodies aside. In a scene that goes on as it did, an update allocates nothing, if it is called inside a thread pool
 /// (`rayon::ThreadPool::install`) or the feature `parallel` is off; from outside, rayon takes a block for its queue
 /// now and then.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct World<S: Space> {
     pub(crate) bodies: SlotMap<S::Key, Collider<S>>,
     /// Key of the body in each slot; null where the slot is empty.
@@ -144,11 +144,32 @@ impl<S: Space> Scratch<S> {
     }
 }
 
-/// Nothing but what the sweep knows of last update's boxes: a clone is made every frame by games that go back in time, and all
-/// else is a fifth of a world.
-impl<S: Space> Clone for Scratch<S> {
+impl<S: Space> Clone for World<S> {
+    /// A world with an equal future.
     fn clone(&self) -> Self {
-        Self::with(self.sweep.clone())
+        let mut copy = Self::new();
+        copy.clone_from(self);
+        copy
+    }
+
+    /// The same in the memory of a world that is no longer wanted: what a game that keeps its last frames, and goes back to one
+    /// of them, does every frame.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Sphere, World3};
+    /// let (mut world, mut kept) = (World3::new(), World3::new());
+    /// for _ in 0..60 {
+    ///     world.insert(Collider3::new(Sphere::new(1.0)?));
+    ///     world.update();
+    ///     kept.clone_from(&world);
+    /// }
+    /// world.clear();
+    /// world.clone_from(&kept);
+    /// assert_eq!((world.len(), world.contacts().len()), (60, 60 * 59 / 2));
+    /// # Ok::<(), asunder::RadiusError>(())
+    /// ```
+    fn clone_from(&mut self, source: &Self) {
+        S::copy(source, self);
     }
 }
 

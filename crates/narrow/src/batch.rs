@@ -5,7 +5,7 @@ use crate::feature::Hint;
 use crate::precision::round_down;
 
 /// Answers to a batch of jobs, and the manifolds they refer to. Keep one between frames: it is scratch memory.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Batch<M> {
     /// One answer a job, in order.
     pub answers: Vec<Answer>,
@@ -26,6 +26,17 @@ pub(crate) type Met = Result<bool, f32>;
 #[inline]
 pub(crate) fn beyond(at_least: f64, reach: f64) -> f32 {
     round_down(at_least - reach).max(0.0)
+}
+
+impl<M: Clone> Clone for Batch<M> {
+    fn clone(&self) -> Self {
+        Self { answers: self.answers.clone(), manifolds: self.manifolds.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.answers.clone_from(&source.answers);
+        self.manifolds.clone_from(&source.manifolds);
+    }
 }
 
 impl<M> Default for Batch<M> {

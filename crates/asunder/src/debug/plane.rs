@@ -24,6 +24,10 @@ impl World<Plane> {
     /// # Ok::<(), asunder::ExtentError>(())
     /// ```
     pub fn debug_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec2, DVec2, DebugLine)) {
+        self.draw(options, line);
+    }
+
+    fn draw(&self, options: &DebugOptions, line: &mut dyn FnMut(DVec2, DVec2, DebugLine)) {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let what = DebugLine::of(body);
@@ -50,7 +54,7 @@ impl World<Plane> {
         }
     }
 
-    fn contact_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec2, DVec2, DebugLine)) {
+    fn contact_lines(&self, options: &DebugOptions, line: &mut dyn FnMut(DVec2, DVec2, DebugLine)) {
         let length = f64::from(options.length);
         for contact in self.contacts() {
             let Some((a, b)) = self.get(contact.a).zip(self.get(contact.b)) else { continue };

@@ -31,6 +31,10 @@ impl World<Volume> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn debug_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec3, DVec3, DebugLine)) {
+        self.draw(options, line);
+    }
+
+    fn draw(&self, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3, DebugLine)) {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let what = DebugLine::of(body);
@@ -56,7 +60,7 @@ impl World<Volume> {
         }
     }
 
-    fn contact_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec3, DVec3, DebugLine)) {
+    fn contact_lines(&self, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3, DebugLine)) {
         let length = f64::from(options.length);
         for contact in self.contacts() {
             let Some((a, b)) = self.get(contact.a).zip(self.get(contact.b)) else { continue };

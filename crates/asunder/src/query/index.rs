@@ -217,6 +217,11 @@ impl<S: Space> Clone for Boxes<S> {
     fn clone(&self) -> Self {
         Self::default()
     }
+
+    /// Nor has it any use for what is known of other bodies, but for the memory.
+    fn clone_from(&mut self, _: &Self) {
+        self.forget();
+    }
 }
 
 impl<S: Space> fmt::Debug for Boxes<S> {

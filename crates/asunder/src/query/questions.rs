@@ -3,7 +3,7 @@
 use super::answer::Met;
 use super::filter::Filter;
 use super::space::{Asked, Enter, Meet, Near, Posed};
-use super::walk::{Along, Around, Asks, Over, Question, with_kept};
+use super::walk::{Asks, Question, Reach, with_kept};
 use crate::collider::Collider;
 use crate::space::RunsInto;
 use crate::world::World;
@@ -20,9 +20,9 @@ pub(crate) fn boxes_over<'q, S: Asked>(
     world: &'q World<S>,
     bounds: &S::Aabb,
     filter: &'q Filter<'q, S>,
-) -> Question<'q, S, Over<S::Aabb>, impl Asks<S, Met<S::Key>>> {
+) -> Question<'q, S, impl Asks<S, Met<S::Key>>> {
     let ask = |key, _: &_| Some(Met(key));
-    Question { world, filter, reach: Over(*bounds), limit: 0.0, ask }
+    Question { world, filter, reach: Reach::Over(*bounds), limit: 0.0, ask }
 }
 
 /// Which bodies overlap a shape.
@@ -30,9 +30,9 @@ pub(crate) fn bodies_over<'q, S: Asked>(
     world: &'q World<S>,
     at: Posed<'q, S>,
     filter: &'q Filter<'q, S>,
-) -> Question<'q, S, Over<S::Aabb>, impl Asks<S, Met<S::Key>>> {
+) -> Question<'q, S, impl Asks<S, Met<S::Key>>> {
     let ask = move |key, body: &_| S::overlaps(at, body).then_some(Met(key));
-    Question { world, filter, reach: Over(S::bounds(at.0, at.1, 0.0)), limit: 0.0, ask }
+    Question { world, filter, reach: Reach::Over(S::bounds(at.0, at.1, 0.0)), limit: 0.0, ask }
 }
 
 /// Which bodies are near a shape.
@@ -41,9 +41,9 @@ pub(crate) fn bodies_near<'q, S: Asked>(
     at: Posed<'q, S>,
     within: f32,
     filter: &'q Filter<'q, S>,
-) -> Question<'q, S, Around<S::Aabb>, impl Asks<S, Near<S>>> {
+) -> Question<'q, S, impl Asks<S, Near<S>>> {
     let ask = move |key, body: &_| Some(S::near(at, key, body));
-    let reach = Around(S::bounds(at.0, at.1, 0.0));
+    let reach = Reach::Around(S::bounds(at.0, at.1, 0.0));
     Question { world, filter, reach, limit: limit_of(within.into()), ask }
 }
 
@@ -53,10 +53,10 @@ pub(crate) fn bodies_along_ray<'q, S: Asked>(
     ray: &'q S::Ray,
     limit: f64,
     filter: &'q Filter<'q, S>,
-) -> Question<'q, S, Along, impl Asks<S, Enter<S>>> {
+) -> Question<'q, S, impl Asks<S, Enter<S>>> {
     let limit = limit_of(limit);
     let ask = move |key, body: &_| S::enter(ray, limit, key, body);
-    Question { world, filter, reach: Along(S::along_ray(ray)), limit, ask }
+    Question { world, filter, reach: Reach::Along(S::along_ray(ray)), limit, ask }
 }
 
 /// Which bodies a moved shape meets.
@@ -65,7 +65,7 @@ pub(crate) fn bodies_along<'q, S: Asked>(
     at: Posed<'q, S>,
     displacement: S::Vector,
     filter: &'q Filter<'q, S>,
-) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
+) -> Question<'q, S, impl Asks<S, Meet<S>>> {
     moved((world, filter), at, displacement, move |body| S::meet(at, displacement, body))
 }
 
@@ -100,7 +100,7 @@ fn bodies_ahead<'q, S: Asked>(
     at: Posed<'q, S>,
     displacement: S::Vector,
     touches: &'q [S::Touch],
-) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
+) -> Question<'q, S, impl Asks<S, Meet<S>>> {
     // From one end of all that there is to the other and further, which is further than one motion leads: then each goes half
     // of the way to meet the other.
     let share = (2.0 * tolerance::MAX_POSITION / S::longest(displacement)).min(1.0);
@@ -123,10 +123,10 @@ fn moved<'q, S: Asked>(
     at: Posed<'q, S>,
     displacement: S::Vector,
     meet: impl Fn(&Collider<S>) -> Option<(f64, S::Impact)>,
-) -> Question<'q, S, Along, impl Asks<S, Meet<S>>> {
+) -> Question<'q, S, impl Asks<S, Meet<S>>> {
     let ask = move |key, body: &Collider<S>| {
         meet(body).map(|(fraction, impact)| S::met(fraction, &impact, key, body))
     };
-    let reach = Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
+    let reach = Reach::Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
     Question { world, filter, reach, limit: 1.0, ask }
 }

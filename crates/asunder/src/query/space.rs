@@ -1,8 +1,10 @@
 //! What the narrow phase says of one body: for the plane, and for space.
 
 use super::answer::{CastAnswer, NearAnswer, RayAnswer};
+use super::walk::{Reach, visit_slots};
 use crate::collider::Collider;
 use crate::space::{Plane, Space, Volume};
+use crate::world::World;
 use asunder_broad::Cast;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder_geometry::{
@@ -10,6 +12,7 @@ use asunder_geometry::{
 };
 use asunder_narrow::{Impact2, Impact3, Pair2, Pair3, Touch2, Touch3, cast_ray2, cast_ray3};
 use core::cell::Cell;
+use core::ops::ControlFlow;
 use std::thread::LocalKey;
 
 thread_local! {
@@ -29,6 +32,13 @@ pub(crate) trait Asked: Space {
     /// A ray.
     type Ray: Copy;
 
+    /// Hands the slots of all bodies whose boxes are within reach, up to a limit, to a visitor, until it breaks off, each with
+    /// whether its box is in a tree. Not generic where it is defined, for the reason of [`Space::advance`].
+    fn visit_slots(
+        world: &World<Self>,
+        within: (&Reach<Self::Aabb>, f64),
+        look: &mut dyn FnMut(u32, bool) -> ControlFlow<()>,
+    ) -> ControlFlow<()>;
     /// A point as a shape; nothing if no pose can be there.
     fn point(at: Self::Point) -> Option<(Self::Shape, Self::Pose)>;
     /// Whether the body shares a point with the shape; exact.
@@ -69,6 +79,14 @@ impl Asked for Plane {
     type Vector = Vec2;
     type Point = DVec2;
     type Ray = Ray2;
+
+    fn visit_slots(
+        world: &World<Self>,
+        within: (&Reach<Self::Aabb>, f64),
+        look: &mut dyn FnMut(u32, bool) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        visit_slots(world, within, look)
+    }
 
     fn point(at: DVec2) -> Option<(Shape2, Pose2)> {
         Some((Circle::POINT.into(), Pose2::at(at).ok()?))
@@ -166,6 +184,14 @@ impl Asked for Volume {
     type Vector = Vec3;
     type Point = DVec3;
     type Ray = Ray3;
+
+    fn visit_slots(
+        world: &World<Self>,
+        within: (&Reach<Self::Aabb>, f64),
+        look: &mut dyn FnMut(u32, bool) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        visit_slots(world, within, look)
+    }
 
     fn point(at: DVec3) -> Option<(Shape3, Pose3)> {
         Some((Sphere::POINT.into(), Pose3::at(at).ok()?))

@@ -2,40 +2,25 @@
 
 use super::answer::{Met, Ranked};
 use super::filter::Filter;
+use super::space::Asked;
 use crate::collider::Collider;
 use crate::space::Space;
 use crate::world::{World, slot_of};
-use asunder_broad::{Cast, Found, Index, Queue, least_distance};
+use asunder_broad::{Cast, Index, Queue, least_distance};
 use asunder_geometry::Bounds;
 use core::cell::Cell;
 use core::ops::ControlFlow;
 use std::thread::LocalKey;
 
 /// Which boxes a question is about.
-pub(crate) trait Reach<B: Bounds> {
-    /// At what distance a box is met, at least, if it is within the limit.
-    fn meets(&self, bounds: &B, limit: f64) -> Option<f64>;
-
-    /// Hands all boxes within the limit to the visitor, until it breaks off.
-    fn visit(
-        &self,
-        index: &Index<B>,
-        limit: f64,
-        visitor: impl FnMut(u32) -> ControlFlow<()>,
-    ) -> ControlFlow<()>;
-
-    /// Hands boxes to the visitor, nearest first; what it returns is the limit from then on.
-    fn in_order(&self, index: &Index<B>, limit: f64, visitor: impl FnMut(u32) -> f64);
+pub(crate) enum Reach<B> {
+    /// Those that overlap a box.
+    Over(B),
+    /// Those that a ray or a moved box crosses.
+    Along(Cast),
+    /// Those near a box.
+    Around(B),
 }
-
-/// Those that overlap a box.
-pub(crate) struct Over<B>(pub(super) B);
-
-/// Those that a ray or a moved box crosses.
-pub(crate) struct Along(pub(super) Cast);
-
-/// Those near a box.
-pub(crate) struct Around<B>(pub(super) B);
 
 thread_local! {
     /// Scratch memory of whoever asks on this thread. A question within a question finds none, and gets its own.
@@ -54,72 +39,74 @@ pub(super) fn with_kept<T: Default, R>(
     answer
 }
 
-impl<B: Bounds> Reach<B> for Over<B> {
-    fn meets(&self, bounds: &B, _: f64) -> Option<f64> {
-        self.0.overlaps(bounds).then_some(0.0)
-    }
-
-    fn visit(
-        &self,
-        index: &Index<B>,
-        _: f64,
-        visitor: impl FnMut(u32) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        index.visit_overlapping(&self.0, visitor)
-    }
-
-    fn in_order(&self, index: &Index<B>, _: f64, mut visitor: impl FnMut(u32) -> f64) {
-        let _ = index.visit_overlapping(&self.0, |number| {
-            if visitor(number) < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-    }
-}
-
-impl<B: Bounds> Reach<B> for Along {
+impl<B: Bounds> Reach<B> {
+    /// At what distance a box is met, at least, if it is within the limit.
     fn meets(&self, bounds: &B, limit: f64) -> Option<f64> {
-        self.0.meets(bounds, limit)
+        match self {
+            Self::Over(this) => this.overlaps(bounds).then_some(0.0),
+            Self::Along(cast) => cast.meets(bounds, limit),
+            Self::Around(this) => least_distance(this, bounds).filter(|&distance| distance <= limit),
+        }
     }
 
+    /// Hands all boxes within the limit to the visitor, until it breaks off.
     fn visit(
         &self,
         index: &Index<B>,
         limit: f64,
         mut visitor: impl FnMut(u32) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        index.visit_crossed(&self.0, limit, |found| visitor(found.number))
+        match self {
+            Self::Over(this) => index.visit_overlapping(this, visitor),
+            Self::Along(cast) => index.visit_crossed(cast, limit, |found| visitor(found.number)),
+            Self::Around(_) => {
+                let mut flow = ControlFlow::Continue(());
+                self.in_order(index, limit, |number| {
+                    flow = visitor(number);
+                    if flow.is_break() { -1.0 } else { limit }
+                });
+                flow
+            }
+        }
     }
 
+    /// Hands boxes to the visitor, nearest first; what it returns is the limit from then on.
     fn in_order(&self, index: &Index<B>, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
-        with_kept(&QUEUE, |queue| {
-            index.crossed_in_order(&self.0, limit, queue, |found: Found| visitor(found.number));
-        });
+        match self {
+            // All are as near.
+            Self::Over(this) => {
+                let _ = index.visit_overlapping(this, |number| {
+                    if visitor(number) < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                });
+            }
+            Self::Along(cast) => with_kept(&QUEUE, |queue| {
+                index.crossed_in_order(cast, limit, queue, |found| visitor(found.number))
+            }),
+            Self::Around(this) => with_kept(&QUEUE, |queue| {
+                index.nearest_in_order(this, limit, queue, |found| visitor(found.number))
+            }),
+        }
     }
 }
 
-impl<B: Bounds> Reach<B> for Around<B> {
-    fn meets(&self, bounds: &B, limit: f64) -> Option<f64> {
-        least_distance(&self.0, bounds).filter(|&distance| distance <= limit)
+/// Hands the slots of all bodies whose boxes are within reach to a visitor, until it breaks off, each with whether its box is
+/// in a tree. What [`Asked::visit_slots`] is made of.
+pub(super) fn visit_slots<S: Space>(
+    world: &World<S>,
+    (reach, limit): (&Reach<S::Aabb>, f64),
+    look: &mut dyn FnMut(u32, bool) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let sight = world.sight();
+    for &slot in sight.recent() {
+        look(slot, false)?;
     }
-
-    fn visit(
-        &self,
-        index: &Index<B>,
-        limit: f64,
-        mut visitor: impl FnMut(u32) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let mut flow = ControlFlow::Continue(());
-        self.in_order(index, limit, |number| {
-            flow = visitor(number);
-            if flow.is_break() { -1.0 } else { limit }
-        });
-        flow
+    for branch in sight.trees() {
+        reach.visit(branch.tree, limit, |number| match branch.slot(number) {
+            Some(slot) => look(slot, true),
+            None => ControlFlow::Continue(()),
+        })?;
     }
-
-    fn in_order(&self, index: &Index<B>, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
-        with_kept(&QUEUE, |queue| {
-            index.nearest_in_order(&self.0, limit, queue, |found: Found| visitor(found.number));
-        });
-    }
+    ControlFlow::Continue(())
 }
 
 /// What the narrow phase says of a body, if it is an answer.
@@ -128,16 +115,16 @@ pub(crate) trait Asks<S: Space, A>: Fn(S::Key, &Collider<S>) -> Option<A> {}
 impl<S: Space, A, F: Fn(S::Key, &Collider<S>) -> Option<A>> Asks<S, A> for F {}
 
 /// A question to all bodies that a filter lets pass.
-pub(crate) struct Question<'q, S: Space, R, F> {
+pub(crate) struct Question<'q, S: Space, F> {
     pub(super) world: &'q World<S>,
     pub(super) filter: &'q Filter<'q, S>,
-    pub(super) reach: R,
+    pub(super) reach: Reach<S::Aabb>,
     /// Nothing that is further is an answer.
     pub(super) limit: f64,
     pub(super) ask: F,
 }
 
-impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, R, F> {
+impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, F> {
     /// The answer of a body, if it is within a limit that may be nearer by now. Where a box from a tree was met already, the
     /// body's exact box is looked at after the narrow phase, which refuses more of them.
     fn answer(&self, slot: u32, limit: f64, is_from_tree: bool) -> Option<A> {
@@ -190,21 +177,14 @@ impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Opti
 
     /// Hands all answers to a visitor, in no promised order, until it breaks off.
     pub(crate) fn visit(&self, mut visitor: impl FnMut(A) -> ControlFlow<()>) -> ControlFlow<()> {
-        let mut look = |slot: u32, is_from_tree: bool| match self.answer(slot, self.limit, is_from_tree) {
+        S::visit_slots(self.world, (&self.reach, self.limit), &mut |slot, is_from_tree| match self.answer(
+            slot,
+            self.limit,
+            is_from_tree,
+        ) {
             Some(answer) => visitor(answer),
             None => ControlFlow::Continue(()),
-        };
-        let sight = self.world.sight();
-        for &slot in sight.recent() {
-            look(slot, false)?;
-        }
-        for branch in sight.trees() {
-            self.reach.visit(branch.tree, self.limit, |number| match branch.slot(number) {
-                Some(slot) => look(slot, true),
-                None => ControlFlow::Continue(()),
-            })?;
-        }
-        ControlFlow::Continue(())
+        })
     }
 
     /// Replaces `into` by all answers, by their rank.
@@ -221,7 +201,7 @@ impl<S: Space, R: Reach<S::Aabb>, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Opti
     }
 }
 
-impl<S: Space, R: Reach<S::Aabb>, F: Fn(S::Key, &Collider<S>) -> Option<Met<S::Key>>> Question<'_, S, R, F> {
+impl<S: Asked, F: Fn(S::Key, &Collider<S>) -> Option<Met<S::Key>>> Question<'_, S, F> {
     /// Replaces `into` by the bodies found, by their slots.
     pub(crate) fn keys(&self, into: &mut Vec<S::Key>) {
         into.clear();
