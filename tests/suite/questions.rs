@@ -23,7 +23,7 @@ struct Seen {
 /// A life: bodies come and go, move alone and in crowds, and questions come at any time.
 fn live<S: Questioned>(seed: u128, steps: usize, room: f64, shift: f64) -> Seen {
     let mut random = Random::new(seed);
-    let mut world = World::<S>::new();
+    let (mut world, mut copy) = (World::<S>::new(), World::new());
     let (mut keys, mut gone, mut seen) = (Vec::new(), Vec::new(), Seen::default());
     for step in 0..steps {
         match random.below(12) {
@@ -71,6 +71,8 @@ fn live<S: Questioned>(seed: u128, steps: usize, room: f64, shift: f64) -> Seen 
             assert_eq!(visited(&world, &asked, filter), found, "visitors are told the same");
             // A clone has no trees yet: the history of this world's changes nothing.
             assert_eq!(answers(&world.clone(), &asked, filter), found, "a clone answers the same");
+            copy.clone_from(&world);
+            assert_eq!(answers(&copy, &asked, filter), found, "so does one that was asked of others before");
             seen.asked += 1;
             seen.overlaps += found.over.len() + found.holding.len();
             seen.met += found.rays.len() + found.casts.len();

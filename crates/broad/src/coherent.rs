@@ -17,8 +17,8 @@ mod rest;
 
 use crate::columns::Column;
 use crate::pair::{PairId, TooManyPairs};
-use crate::sweep::Sweep;
 use crate::sweep::order::Order;
+use crate::sweep::{Admit, Sweep, keep};
 use asunder_geometry::Bounds;
 use rest::Rest;
 
@@ -67,6 +67,9 @@ pub(crate) const FEW: usize = 5;
 /// Looking up so many movers costs about as much as sweeping one box of all.
 const IDLE_A_BOX: usize = 2;
 
+/// Pairs that are asked about at a time.
+const AT_ONCE: usize = 1024;
+
 impl<B: Bounds> Default for CoherentSweep<B> {
     fn default() -> Self {
         Self::new()
@@ -109,6 +112,18 @@ impl<B: Bounds> CoherentSweep<B> {
         limit: usize,
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
+        self.update_by(boxes, moved, &|pairs| keep(pairs, &admit), limit, pairs)
+    }
+
+    /// The same, asking about many pairs at a time.
+    pub(crate) fn update_by(
+        &mut self,
+        boxes: &[B],
+        moved: &[u32],
+        admit: &Admit,
+        limit: usize,
+        pairs: &mut Vec<PairId>,
+    ) -> Result<(), TooManyPairs> {
         let new = boxes.len().saturating_sub(self.known);
         let few = (moved.len() + new) * FEW <= boxes.len() && boxes.len() >= self.known;
         let were = self.movers.len();
@@ -127,7 +142,7 @@ impl<B: Bounds> CoherentSweep<B> {
         }
         pairs.clear();
         let room = limit.checked_sub(self.kept.len()).ok_or(TooManyPairs { limit })?;
-        if !self.pairs_of_movers(boxes, &admit, room).map_err(|_| TooManyPairs { limit })? {
+        if !self.pairs_of_movers(boxes, admit, room).map_err(|_| TooManyPairs { limit })? {
             return self.sweep_all(boxes, few, admit, limit, pairs);
         }
         self.order.sort(&mut self.fresh, boxes.len());
@@ -188,7 +203,7 @@ impl<B: Bounds> CoherentSweep<B> {
         &mut self,
         boxes: &[B],
         keep: bool,
-        admit: impl Fn(u32, u32) -> bool + Sync,
+        admit: &Admit,
         limit: usize,
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
@@ -196,7 +211,7 @@ impl<B: Bounds> CoherentSweep<B> {
         self.known = boxes.len();
         self.idle = 0;
         self.movers.clear();
-        self.sweep.pairs(boxes, admit, limit, pairs)?;
+        self.sweep.pairs_by(boxes, admit, limit, pairs)?;
         if keep && let Some((grid, columns)) = self.sweep.put_together() {
             self.rest.settle(boxes, grid, columns);
             self.kept.clear();
@@ -207,33 +222,50 @@ impl<B: Bounds> CoherentSweep<B> {
     }
 
     /// The pairs of which one box moved at least, in no order; or false, if a sweep of all costs less.
-    fn pairs_of_movers(
-        &mut self,
-        boxes: &[B],
-        admit: &(impl Fn(u32, u32) -> bool + Sync),
-        limit: usize,
-    ) -> Result<bool, TooManyPairs> {
+    fn pairs_of_movers(&mut self, boxes: &[B], admit: &Admit, limit: usize) -> Result<bool, TooManyPairs> {
         let Self { movers, moving, among, fresh, .. } = self;
         moving.clear();
         moving.extend(movers.iter().map(|&place| boxes[place as usize]));
-        let place = |mover: u32| movers[mover as usize];
         fresh.clear();
+        let mut found = Gathered { pairs: fresh, admitted: 0, admit, limit };
         // First what may turn out to be too much: then nobody has been asked about any pair yet.
-        if let Some(sorted) = self.sweep.whole() {
-            let has_met = self.rest.meet(sorted, boxes, movers, |pair| {
-                if admit(pair.a, pair.b) {
-                    fresh.push(pair);
-                }
-                fresh.len() <= limit
-            });
-            if !has_met {
-                return Ok(false);
-            }
+        if let Some(sorted) = self.sweep.whole()
+            && !self.rest.meet(sorted, boxes, movers, &mut found)
+        {
+            return Ok(false);
         }
+        found.sift();
         let room = limit.checked_sub(fresh.len()).ok_or(TooManyPairs { limit })?;
-        self.sweep_of_movers.pairs(moving, |a, b| admit(place(a), place(b)), room, among)?;
+        let place = |mover: u32| movers[mover as usize];
+        let admits = |a: u32, b: u32| admit(&mut [PairId { a: place(a), b: place(b) }]) == 1;
+        self.sweep_of_movers.pairs(moving, admits, room, among)?;
         fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
         Ok(true)
+    }
+}
+
+/// Pairs that come one by one, and are asked about many at a time.
+struct Gathered<'a> {
+    pairs: &'a mut Vec<PairId>,
+    /// So many of them have been asked about.
+    admitted: usize,
+    admit: &'a Admit<'a>,
+    limit: usize,
+}
+
+impl Gathered<'_> {
+    /// Takes one in; false where there are too many.
+    #[inline]
+    fn take(&mut self, pair: PairId) -> bool {
+        self.pairs.push(pair);
+        self.pairs.len() < self.admitted + AT_ONCE || self.sift()
+    }
+
+    /// Asks about those that are left; false where there are too many.
+    fn sift(&mut self) -> bool {
+        self.admitted += (self.admit)(&mut self.pairs[self.admitted..]);
+        self.pairs.truncate(self.admitted);
+        self.admitted <= self.limit
     }
 }
 

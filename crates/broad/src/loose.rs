@@ -26,6 +26,7 @@
 use crate::coherent::{CoherentSweep, FEW};
 use crate::columns::Column;
 use crate::pair::{PairId, TooManyPairs};
+use crate::sweep::{Admit, keep};
 use asunder_geometry::Bounds;
 
 #[cfg(test)]
@@ -147,13 +148,12 @@ impl<B: Bounds> LooseSweep<B> {
         limit: usize,
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
-        // By reference all the way down: kernels are compiled once for each filter.
-        let admit = &admit;
+        let admit: &Admit = &|pairs| keep(pairs, &admit);
         let outcome = if self.finds_near(boxes, &moved, admit) {
             tell(&self.near, boxes, pairs);
             if pairs.len() > limit { Err(TooManyPairs { limit }) } else { Ok(()) }
         } else {
-            self.sweep.update(boxes, moved.places, admit, limit, pairs)
+            self.sweep.update_by(boxes, moved.places, admit, limit, pairs)
         };
         self.told = pairs.len();
         if outcome.is_err() {
@@ -177,12 +177,7 @@ impl<B: Bounds> LooseSweep<B> {
     }
 
     /// Brings the pairs of loose boxes up to date; or says that boxes are to be swept as they are.
-    fn finds_near<C: Fn(u32) -> bool>(
-        &mut self,
-        boxes: &[B],
-        moved: &Moved<'_, C>,
-        admit: &(impl Fn(u32, u32) -> bool + Sync),
-    ) -> bool {
+    fn finds_near<C: Fn(u32) -> bool>(&mut self, boxes: &[B], moved: &Moved<'_, C>, admit: &Admit) -> bool {
         let do_many = moved.places.len() * FEW > boxes.len();
         match self.state {
             State::Boxes { .. } if !do_many => false,
@@ -208,7 +203,7 @@ impl<B: Bounds> LooseSweep<B> {
     }
 
     /// Looks up who has left their loose boxes, if these last; gives all others, if they were worth it.
-    fn go_on(&mut self, boxes: &[B], frames: usize, admit: &(impl Fn(u32, u32) -> bool + Sync)) -> bool {
+    fn go_on(&mut self, boxes: &[B], frames: usize, admit: &Admit) -> bool {
         let (sweep, look) = (self.cost_of_sweep(), self.cost_of_look());
         let is_worn = !self.strays.is_empty() && self.sweep.is_worn(self.strays.len());
         if 2 * look <= sweep && !is_worn {
@@ -248,7 +243,7 @@ impl<B: Bounds> LooseSweep<B> {
     }
 
     /// Gives all boxes loose ones, and sweeps these.
-    fn loosen(&mut self, boxes: &[B], admit: &(impl Fn(u32, u32) -> bool + Sync)) -> bool {
+    fn loosen(&mut self, boxes: &[B], admit: &Admit) -> bool {
         self.loose.resize(boxes.len(), B::NOTHING);
         self.widths.resize(boxes.len(), 0.0);
         for (place, now) in boxes.iter().enumerate() {
@@ -294,7 +289,7 @@ impl<B: Bounds> LooseSweep<B> {
     }
 
     /// Gives the few that have left theirs others, and looks these up.
-    fn look_up(&mut self, boxes: &[B], admit: &(impl Fn(u32, u32) -> bool + Sync)) -> bool {
+    fn look_up(&mut self, boxes: &[B], admit: &Admit) -> bool {
         if self.strays.is_empty() {
             return true;
         }
@@ -303,7 +298,7 @@ impl<B: Bounds> LooseSweep<B> {
             self.give(place as usize, &boxes[place as usize]);
         }
         let most = 2 * self.told + boxes.len();
-        let is_known = self.sweep.update(&self.loose, &strays, admit, most, &mut self.near).is_ok();
+        let is_known = self.sweep.update_by(&self.loose, &strays, admit, most, &mut self.near).is_ok();
         self.strays = strays;
         is_known || self.tighten()
     }

@@ -23,6 +23,9 @@ mod sealed {
 pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Sealed + 'static {
     /// Number of axes.
     const AXES: usize;
+    /// The same boxes, of the type that they are: for what is compiled once for each, and not again wherever it is called.
+    #[doc(hidden)]
+    fn list(boxes: &[Self]) -> BoxList<'_>;
     /// A box that overlaps nothing, itself included.
     const NOTHING: Self;
     /// Least and greatest coordinate on an axis below [`Bounds::AXES`], in metres.
@@ -43,6 +46,16 @@ pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Se
     fn encloses(&self, other: &Self) -> bool;
     /// The box with all bounds moved outwards by so many metres, each rounded once.
     fn widened(&self, metres: f32) -> Self;
+}
+
+/// Boxes of either dimension.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum BoxList<'a> {
+    /// Of the plane.
+    Plane(&'a [Aabb2]),
+    /// Of space.
+    Space(&'a [Aabb3]),
 }
 
 /// A closed axis-aligned box in the plane, in metres.
@@ -141,6 +154,10 @@ impl Aabb3 {
 }
 
 impl Bounds for Aabb2 {
+    fn list(boxes: &[Self]) -> BoxList<'_> {
+        BoxList::Plane(boxes)
+    }
+
     const AXES: usize = 2;
     const NOTHING: Self = Self { min: Vec2::INFINITY, max: Vec2::NEG_INFINITY };
 
@@ -176,6 +193,10 @@ impl Bounds for Aabb2 {
 }
 
 impl Bounds for Aabb3 {
+    fn list(boxes: &[Self]) -> BoxList<'_> {
+        BoxList::Space(boxes)
+    }
+
     const AXES: usize = 3;
     const NOTHING: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 

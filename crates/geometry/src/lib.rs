@@ -44,6 +44,8 @@ mod topology;
 mod triangle;
 mod vertex;
 
+#[doc(hidden)]
+pub use aabb::BoxList;
 pub use aabb::{Aabb2, Aabb3, Bounds};
 pub use chain::{Chain, ChainError, Run};
 pub use circle::Circle;

@@ -32,6 +32,8 @@ pub(super) struct Twins<S: Stage> {
     world: World<S>,
     /// Those that the world was cloned or restored from: they must say what it says.
     originals: Vec<World<S>>,
+    /// One that follows no longer, and has another past by now.
+    left: Option<World<S>>,
     model: NaiveWorld<S>,
     keys: Vec<S::Key>,
     is_to_the_bit: bool,
@@ -45,6 +47,7 @@ impl<S: Stage> Twins<S> {
         Self {
             world: World::new(),
             originals: Vec::new(),
+            left: None,
             model: NaiveWorld::default(),
             keys: Vec::new(),
             is_to_the_bit: false,
@@ -113,7 +116,16 @@ impl<S: Stage> Twins<S> {
                 assert_eq!(changed, was_there, "a stale key changes nobody");
             }
             Operation::Motion { body, seed } => self.set_motion(body, seed),
-            Operation::Clone => self.go_on_with(self.world.clone()),
+            Operation::Clone => {
+                let world = match self.left.take() {
+                    Some(mut left) => {
+                        left.clone_from(&self.world);
+                        left
+                    }
+                    None => self.world.clone(),
+                };
+                self.go_on_with(world);
+            }
             Operation::Restore => {
                 let text = S::text(&self.world);
                 self.go_on_with(S::restored(&text).unwrap_or_else(|error| panic!("{error}")));
@@ -226,7 +238,7 @@ impl<S: Stage> Twins<S> {
     /// The world that was is left beside the one that it became.
     fn go_on_with(&mut self, world: World<S>) {
         if self.originals.len() >= MOST_FOLLOWERS {
-            self.originals.remove(1);
+            self.left = Some(self.originals.remove(1));
         }
         self.originals.push(core::mem::replace(&mut self.world, world));
         self.followers += 1;

@@ -1,5 +1,6 @@
 //! Boxes at rest, in the columns of the sweep that met them first.
 
+use super::Gathered;
 use crate::columns::codes::Codes;
 use crate::columns::grid::Grid;
 use crate::columns::{Columns, Stretch, begins, owned};
@@ -119,18 +120,17 @@ impl<B: Bounds> Rest<B> {
         core::mem::replace(&mut self.states[place], State::Moves) != State::Moves
     }
 
-    /// Hands over each pair of a mover and a box at rest that overlap, until told to stop. Returns false, and has handed
+    /// Hands over each pair of a mover and a box at rest that overlap, until there are too many. Returns false, and has handed
     /// over none, if there is so much to look at that a sweep of all boxes costs less.
     pub(super) fn meet(
         &mut self,
         (grid, columns): (&Grid, &Columns),
         boxes: &[B],
         movers: &[u32],
-        mut visit: impl FnMut(PairId) -> bool,
+        found: &mut Gathered,
     ) -> bool {
         let Self { states, longest, far, strips, asked, starts, order } = self;
         let longest = *longest;
-        let visitor = &mut visit;
         let asking = Asking {
             grid,
             columns,
@@ -142,7 +142,7 @@ impl<B: Bounds> Rest<B> {
             asked,
             starts,
             order,
-            visit: visitor,
+            found: &mut *found,
         };
         match widest(asking) {
             Looked::AtAll if !far.is_empty() => {}
@@ -151,7 +151,7 @@ impl<B: Bounds> Rest<B> {
         }
         for &mover in movers {
             let flow = far.visit_overlapping(&boxes[mover as usize], |place| {
-                let goes_on = states[place as usize] == State::Moves || visit(PairId::new(mover, place));
+                let goes_on = states[place as usize] == State::Moves || found.take(PairId::new(mover, place));
                 if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             });
             if flow.is_break() {
@@ -174,7 +174,7 @@ enum Looked {
 ///
 /// First where to look, for all of them; then there, in the order of the columns: what one mover has brought from
 /// far memory, the next one finds at hand.
-struct Asking<'a, B, F> {
+struct Asking<'a, 'g, B> {
     grid: &'a Grid,
     columns: &'a Columns,
     strips: &'a Strips,
@@ -185,15 +185,15 @@ struct Asking<'a, B, F> {
     asked: &'a mut Vec<(u32, Codes, Stretch)>,
     starts: &'a mut Vec<PairId>,
     order: &'a mut Order,
-    visit: &'a mut F,
+    found: &'a mut Gathered<'g>,
 }
 
-impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
+impl<B: Bounds> Kernel for Asking<'_, '_, B> {
     type Output = Looked;
 
     #[inline(always)]
     fn run<W: Width>(self, width: W) -> Looked {
-        let Self { grid, columns, strips, boxes, movers, states, longest, asked, starts, order, visit } =
+        let Self { grid, columns, strips, boxes, movers, states, longest, asked, starts, order, found } =
             self;
         asked.clear();
         let (mut cost, most) = (0, MOST_A_BOX * boxes.len());
@@ -224,7 +224,7 @@ impl<B: Bounds, F: FnMut(PairId) -> bool> Kernel for Asking<'_, B, F> {
                 let (place, _, is_ours) = owned(entries[index].place, stretch.home);
                 if is_ours && states[place as usize] == State::Rests && goes_on {
                     let overlap = !is_close || boxes[mover as usize].overlaps(&boxes[place as usize]);
-                    goes_on = !overlap || visit(PairId::new(mover, place));
+                    goes_on = !overlap || found.take(PairId::new(mover, place));
                 }
             });
             if !goes_on {

@@ -7,7 +7,6 @@ use super::trial::{Way, way};
 use crate::columns::codes::{Entry, may_overlap};
 use crate::columns::grid::{Grid, Over};
 use crate::columns::{ColumnEntries, Columns, Fill, PLACE};
-use crate::pair::PairId;
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::{ControlFlow, Range};
@@ -123,22 +122,17 @@ impl Scratch {
 }
 
 /// Some columns of boxes that were sorted in one or more parts.
-pub(super) struct Level<'a, 'q, B, A, S, const NESTED: bool> {
+pub(super) struct Level<'a, 'q, B, const NESTED: bool> {
     pub(super) parts: &'a [Columns],
     pub(super) grid: &'a Grid,
     pub(super) range: Range<usize>,
-    pub(super) question: &'a mut Question<'q, B, A, S>,
+    pub(super) question: &'a mut Question<'q, B>,
     pub(super) scratch: &'a mut Scratch,
     /// If these are columns of a column: what its boxes are called outside, and how deep it is.
     pub(super) around: (Option<&'a Names<'a>>, usize),
 }
 
-impl<B, A, S, const NESTED: bool> Kernel for Level<'_, '_, B, A, S, NESTED>
-where
-    B: Bounds,
-    A: Fn(u32, u32) -> bool,
-    S: FnMut(&[PairId]) -> ControlFlow<()>,
-{
+impl<B: Bounds, const NESTED: bool> Kernel for Level<'_, '_, B, NESTED> {
     type Output = ControlFlow<()>;
 
     #[inline(always)]
@@ -190,18 +184,13 @@ where
 
 impl Nested {
     /// Sweeps a column in columns, by fresh statistics; not if they promise too little.
-    fn sweep<B, A, S>(
+    fn sweep<B: Bounds>(
         &mut self,
         (column, around): (&ColumnEntries<'_>, &Grid),
         (full, over): (usize, Over),
-        question: &mut Question<'_, B, A, S>,
+        question: &mut Question<'_, B>,
         (outer, depth): (Option<&Names<'_>>, usize),
-    ) -> Option<ControlFlow<()>>
-    where
-        B: Bounds,
-        A: Fn(u32, u32) -> bool,
-        S: FnMut(&[PairId]) -> ControlFlow<()>,
-    {
+    ) -> Option<ControlFlow<()>> {
         let Self { columns, members, scratch } = self;
         let boxes = question.boxes;
         let pick = |entry: &Entry| boxes[outermost(entry.place & PLACE, outer) as usize];
@@ -223,7 +212,7 @@ impl Nested {
         members.clear();
         members.extend(column.entries.iter().map(|entry| entry.place));
         let names = Names { members, outer };
-        let level = Level::<_, _, _, true> {
+        let level = Level::<_, true> {
             parts: core::slice::from_ref(columns),
             grid: &grid,
             range: 0..grid.count(),

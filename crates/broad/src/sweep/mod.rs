@@ -63,6 +63,7 @@
 //! than what is around them, columns of columns as deep as they go take 0.8 times as long up to 300,000. Needles stay
 //! beyond their budget: a logarithm an axis is what they cost. The machine was under load, both ways in turns.
 
+mod compiled;
 mod crowd;
 pub(crate) mod level;
 pub(crate) mod order;
@@ -85,7 +86,22 @@ use core::ops::ControlFlow;
 use crowd::{Crowd, may_be_crowded};
 use level::{Level, Scratch};
 use segments::Slab;
-use settle::Question;
+use settle::{Question, Sink};
+
+/// Who may pair, asked about many pairs at a time: moves those that are admitted to the front, and says how many there are.
+pub(crate) type Admit<'f> = dyn Fn(&mut [PairId]) -> usize + Sync + 'f;
+
+/// What asks about one pair at a time as one that asks about many.
+pub(crate) fn keep(pairs: &mut [PairId], admit: impl Fn(u32, u32) -> bool) -> usize {
+    let mut admitted = 0;
+    for place in 0..pairs.len() {
+        let pair = pairs[place];
+        // Written down in any case: no branch that nobody can guess.
+        pairs[admitted] = pair;
+        admitted += usize::from(admit(pair.a, pair.b));
+    }
+    admitted
+}
 
 /// All overlapping pairs of boxes. Keep one between frames: a steady scene then allocates nothing.
 ///
@@ -146,18 +162,30 @@ impl Sweep {
         limit: usize,
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
+        self.pairs_by(boxes, &|pairs| keep(pairs, &admit), limit, pairs)
+    }
+
+    /// The same, asking about many pairs at a time.
+    pub(crate) fn pairs_by<B: Bounds>(
+        &mut self,
+        boxes: &[B],
+        admit: &Admit,
+        limit: usize,
+        pairs: &mut Vec<PairId>,
+    ) -> Result<(), TooManyPairs> {
         #[cfg(feature = "parallel")]
         if boxes.len() >= threads::MANY_BOXES && rayon::current_num_threads() > 1 {
             let boxes = &boxes[..boxes.len().min(MOST_BOXES)];
             self.grid = None;
-            return self.team.pairs(boxes, &admit, limit, pairs);
+            return compiled::pairs(&mut self.team, boxes, (admit, limit), pairs);
         }
         pairs.clear();
-        let outcome = self.batches(boxes, &admit, &mut |found: &[PairId]| {
-            if found.len() > limit - pairs.len() {
+        let outcome = compiled::batches(self, boxes, &mut |found| {
+            let admitted = admit(found);
+            if admitted > limit - pairs.len() {
                 return ControlFlow::Break(());
             }
-            pairs.extend_from_slice(found);
+            pairs.extend_from_slice(&found[..admitted]);
             ControlFlow::Continue(())
         });
         if outcome.is_break() {
@@ -176,15 +204,14 @@ impl Sweep {
         admit: impl Fn(u32, u32) -> bool + Sync,
         mut visitor: impl FnMut(PairId) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        self.batches(boxes, &admit, &mut |pairs: &[PairId]| pairs.iter().try_for_each(|&pair| visitor(pair)))
+        compiled::batches(self, boxes, &mut |pairs| {
+            let admitted = keep(pairs, &admit);
+            pairs[..admitted].iter().try_for_each(|&pair| visitor(pair))
+        })
     }
 
-    fn batches<B: Bounds>(
-        &mut self,
-        boxes: &[B],
-        admit: &impl Fn(u32, u32) -> bool,
-        sink: &mut impl FnMut(&[PairId]) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
+    /// Hands over all overlapping pairs, many at a time. On one thread.
+    fn batches<B: Bounds>(&mut self, boxes: &[B], sink: &mut Sink) -> ControlFlow<()> {
         let boxes = &boxes[..boxes.len().min(MOST_BOXES)];
         #[cfg(feature = "parallel")]
         self.team.forget();
@@ -193,13 +220,13 @@ impl Sweep {
         let grid = Grid::for_boxes(boxes.len(), Over::All, pick);
         let grid = widest(Fill { columns, grid, count: boxes.len(), pick });
         self.grid = Some(grid);
-        let question = &mut Question { boxes, admit, sink };
+        let question = &mut Question { boxes, sink };
         if may_be_crowded(boxes.len(), columns.len(), &grid)
             && Crowd::of(columns, &grid).is_worth_segments(boxes.len(), &grid)
         {
             return question.ask_all(&mut scratch.segments, (grid.sweep, Slab::ALL));
         }
-        let level = Level::<_, _, _, false> {
+        let level = Level::<_, false> {
             parts: core::slice::from_ref(columns),
             grid: &grid,
             range: 0..grid.count(),

@@ -1,4 +1,4 @@
-//! Hits to pairs: whose they are, where codes cannot tell, and whether the caller wants them.
+//! Hits to pairs: whose they are, and where codes cannot tell.
 
 use super::rows::{HITS, Hit, LANES};
 use super::segments::{Item, Segments, Slab, axes_from};
@@ -51,19 +51,17 @@ fn outside(mut one: u32, mut other: u32, names: Option<&Names<'_>>) -> (u32, u32
     (one, other, is_ours)
 }
 
-/// What a sweep asks and whom it tells.
-pub(super) struct Question<'a, B, A, S> {
+/// Where pairs go, many at a time, in memory that it may use: so who wants which of them costs kernels nothing, and none is
+/// compiled anew for whoever asks.
+pub(super) type Sink<'s> = dyn FnMut(&mut [PairId]) -> ControlFlow<()> + 's;
+
+/// Which boxes are swept, and who is told.
+pub(super) struct Question<'a, B> {
     pub(super) boxes: &'a [B],
-    pub(super) admit: &'a A,
-    pub(super) sink: &'a mut S,
+    pub(super) sink: &'a mut Sink<'a>,
 }
 
-impl<B, A, S> Question<'_, B, A, S>
-where
-    B: Bounds,
-    A: Fn(u32, u32) -> bool,
-    S: FnMut(&[PairId]) -> ControlFlow<()>,
-{
+impl<B: Bounds> Question<'_, B> {
     /// Hands over the pairs of some hits.
     #[inline(always)]
     pub(super) fn answer<const NESTED: bool>(
@@ -77,16 +75,10 @@ where
         self.hand(count, pairs)
     }
 
-    /// Hands over the first pairs, so far as they are admitted.
+    /// Hands over the first pairs.
     #[inline(always)]
     fn hand(&mut self, count: usize, pairs: &mut Pairs) -> ControlFlow<()> {
-        let mut admitted = 0;
-        for place in 0..count.min(PAIRS) {
-            let pair = pairs[place];
-            pairs[admitted] = pair;
-            admitted += usize::from((self.admit)(pair.a, pair.b));
-        }
-        (self.sink)(&pairs[..admitted])
+        (self.sink)(&mut pairs[..count.min(PAIRS)])
     }
 
     /// Hits to pairs that this column owns; returns how many.

@@ -13,6 +13,7 @@
 //! Which part, group or range a thread works at changes nothing: the ranges follow each other in the list, and each
 //! is sorted.
 
+use super::Admit;
 use super::crowd::{Crowd, may_be_crowded};
 use super::level::{Level, Scratch};
 use super::order::Order;
@@ -102,8 +103,7 @@ impl Team {
     pub(super) fn pairs<B: Bounds>(
         &mut self,
         boxes: &[B],
-        admit: &(impl Fn(u32, u32) -> bool + Sync),
-        limit: usize,
+        (admit, limit): (&Admit, usize),
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
         let threads = rayon::current_num_threads().min(boxes.len() / BOXES_EACH).max(1);
@@ -250,24 +250,23 @@ impl Group {
         &mut self,
         (parts, grid): (&[Columns], &Grid),
         slab: Option<Slab>,
-        (boxes, admit): (&[B], &impl Fn(u32, u32) -> bool),
+        (boxes, admit): (&[B], &Admit),
         (total, limit): (&AtomicUsize, usize),
     ) {
         let Self { columns, scratch, found, counts, .. } = self;
         found.clear();
-        let mut sink = |pairs: &[PairId]| {
-            found.extend_from_slice(pairs);
-            let all = total.fetch_add(pairs.len(), Ordering::Relaxed) + pairs.len();
+        let mut sink = |pairs: &mut [PairId]| {
+            let admitted = admit(pairs);
+            found.extend_from_slice(&pairs[..admitted]);
+            let all = total.fetch_add(admitted, Ordering::Relaxed) + admitted;
             if all > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let range = columns.clone();
-        let question = &mut Question { boxes, admit, sink: &mut sink };
+        let question = &mut Question { boxes, sink: &mut sink };
         // Broken off only where there are too many pairs, which the total says.
         let _ = match slab {
             Some(slab) => question.ask_all(&mut scratch.segments, (grid.sweep, slab)),
-            None => {
-                widest(Level::<_, _, _, false> { parts, grid, range, question, scratch, around: (None, 0) })
-            }
+            None => widest(Level::<_, false> { parts, grid, range, question, scratch, around: (None, 0) }),
         };
         counts.clear();
         counts.resize(BINS, 0);
