@@ -58,18 +58,6 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    /// Moves every body whose key is fresh.
-    pub(crate) fn move_bodies(
-        &mut self,
-        poses: impl IntoIterator<Item = (S::Key, S::Pose)>,
-    ) -> Result<(), StaleKey> {
-        let mut outcome = Ok(());
-        for (key, pose) in poses {
-            outcome = self.move_body(key, pose).and(outcome);
-        }
-        outcome
-    }
-
     /// Gives a body another shape, and forgets what was learnt with the one before. What becomes ground is fixed, and stays
     /// so.
     pub(crate) fn reshape_body(&mut self, key: S::Key, shape: S::Shape) -> Result<(), StaleKey> {

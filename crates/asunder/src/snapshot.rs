@@ -84,9 +84,7 @@ impl<S: Saved> World<S> {
     /// share, and equal ones, are in it once. Cost: a copy of all bodies and contacts, and a pass over all their
     /// numbers.
     pub fn snapshot(&self) -> Snapshot<S> {
-        let content = Content::of(self);
-        let checksum = digest::digest(&content);
-        Snapshot { content, checksum }
+        S::save(self)
     }
 
     /// The world that a snapshot was taken of: equal keys, contacts and events, and an equal future, that of new
@@ -96,12 +94,24 @@ impl<S: Saved> World<S> {
     /// # Errors
     /// Data that no snapshot has. A file that was damaged or made up is refused, or gives a world that works.
     pub fn restore(snapshot: &Snapshot<S>) -> Result<Self, SnapshotError> {
-        let Snapshot { content, checksum } = snapshot;
-        let world = restore::world_of(content)?;
-        let found = digest::digest(content);
-        if found != *checksum {
-            return Err(SnapshotError::Checksum { stored: *checksum, found });
-        }
-        Ok(world)
+        S::restore(snapshot)
     }
+}
+
+/// What [`World::snapshot`] gives.
+fn save<S: Saved>(world: &World<S>) -> Snapshot<S> {
+    let content = Content::of(world);
+    let checksum = digest::digest(&content);
+    Snapshot { content, checksum }
+}
+
+/// What [`World::restore`] gives.
+fn restored<S: Saved>(snapshot: &Snapshot<S>) -> Result<World<S>, SnapshotError> {
+    let Snapshot { content, checksum } = snapshot;
+    let world = restore::world_of(content)?;
+    let found = digest::digest(content);
+    if found != *checksum {
+        return Err(SnapshotError::Checksum { stored: *checksum, found });
+    }
+    Ok(world)
 }

@@ -69,7 +69,7 @@ impl World<Volume> {
 
     /// Adds many bodies, in this order, and returns their keys.
     pub fn insert_many(&mut self, colliders: impl IntoIterator<Item = Collider3>) -> Vec<BodyKey3> {
-        colliders.into_iter().map(|collider| self.insert_body(collider)).collect()
+        colliders.into_iter().map(|collider| self.insert(collider)).collect()
     }
 
     /// Takes a body out and returns it; nothing for a stale key. Contacts of it that had begun end at the next update.
@@ -106,7 +106,11 @@ impl World<Volume> {
     /// # Errors
     /// A stale key among them; all the others are moved.
     pub fn set_poses(&mut self, poses: impl IntoIterator<Item = (BodyKey3, Pose3)>) -> Result<(), StaleKey> {
-        self.move_bodies(poses)
+        let mut outcome = Ok(());
+        for (key, pose) in poses {
+            outcome = self.set_pose(key, pose).and(outcome);
+        }
+        outcome
     }
 
     /// Says what a body is about to do in this frame: the next update looks ahead that far, and then forgets it.

@@ -205,7 +205,10 @@ impl Shape2 {
     /// Whether the closed shape holds a local point, in metres (`Vec2`, `DVec2`). Nothing holds a NaN. Cost: linear in
     /// the vertices; of a chain, in those near it.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
-        let point = point.into();
+        self.holds(point.into())
+    }
+
+    fn holds(&self, point: DVec2) -> bool {
         match self {
             Self::Circle(circle) => circle.contains(point),
             Self::Capsule(capsule) => capsule.contains(point),
@@ -221,7 +224,10 @@ impl Shape2 {
     /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first
     /// vertex. Nothing for a half-plane, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec2>) -> Option<DVec2> {
-        let direction = direction.into();
+        self.furthest_along(direction.into())
+    }
+
+    fn furthest_along(&self, direction: DVec2) -> Option<DVec2> {
         // By its largest component first: squares of very long and very short ones leave the range of f64.
         let along = (direction / direction.abs().max_element()).try_normalize()?;
         if let Self::Chain(chain) = self {
@@ -319,7 +325,10 @@ impl Shape3 {
     /// Whether the closed shape holds a local point, in metres (`Vec3`, `DVec3`). Nothing holds a NaN. Cost: linear in
     /// the vertices.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
-        let point = point.into();
+        self.holds(point.into())
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
         match self {
             Self::Sphere(sphere) => sphere.contains(point),
             Self::Capsule(capsule) => capsule.contains(point),
@@ -337,7 +346,10 @@ impl Shape3 {
     /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first
     /// vertex. Nothing for a half-space, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec3>) -> Option<DVec3> {
-        let direction = direction.into();
+        self.furthest_along(direction.into())
+    }
+
+    fn furthest_along(&self, direction: DVec3) -> Option<DVec3> {
         // By its largest component first: squares of very long and very short ones leave the range of f64.
         let along = (direction / direction.abs().max_element()).try_normalize()?;
         if let Self::Compound(compound) = self {

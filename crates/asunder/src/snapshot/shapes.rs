@@ -4,9 +4,11 @@
 //! data by its place in a table; any other shape they keep themselves. A compound's parts may share data with other
 //! bodies too.
 
+use super::Snapshot;
 use super::digest::digest;
 use super::error::SnapshotError;
 use crate::space::{Plane, Space, Volume};
+use crate::world::World;
 use asunder_geometry::{
     Chain, Compound2, Compound3, HeightField, Hull, Polygon, Pose2, Pose3, RadiusError, Shape2, Shape3,
     TriMesh,
@@ -37,6 +39,14 @@ pub trait Saved:
     + PartialEq
     + Debug
 {
+    /// A snapshot of a world; not generic where it is defined, for the reason of [`Space::advance`].
+    #[doc(hidden)]
+    fn save(world: &World<Self>) -> Snapshot<Self>;
+
+    /// The world of a snapshot.
+    #[doc(hidden)]
+    fn restore(snapshot: &Snapshot<Self>) -> Result<World<Self>, SnapshotError>;
+
     /// A hull or a polygon.
     #[doc(hidden)]
     type Polytope: Plain;
@@ -230,6 +240,14 @@ impl Saved for Plane {
 
     const BALL: &'static str = "Circle";
 
+    fn save(world: &World<Self>) -> Snapshot<Self> {
+        super::save(world)
+    }
+
+    fn restore(snapshot: &Snapshot<Self>) -> Result<World<Self>, SnapshotError> {
+        super::restored(snapshot)
+    }
+
     fn polytope(shape: &Shape2) -> Option<(Polygon, usize, f32)> {
         let Shape2::Polygon(polygon) = shape else { return None };
         let sharp = polygon.clone().rounded(0.0).ok()?;
@@ -279,6 +297,14 @@ impl Saved for Volume {
     type Ground = SpaceGround;
 
     const BALL: &'static str = "Sphere";
+
+    fn save(world: &World<Self>) -> Snapshot<Self> {
+        super::save(world)
+    }
+
+    fn restore(snapshot: &Snapshot<Self>) -> Result<World<Self>, SnapshotError> {
+        super::restored(snapshot)
+    }
 
     fn polytope(shape: &Shape3) -> Option<(Hull, usize, f32)> {
         let Shape3::Hull(hull) = shape else { return None };

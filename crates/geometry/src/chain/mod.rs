@@ -84,7 +84,7 @@ impl Chain {
     /// A vertex that is not finite or more than 1e6 m from the origin; fewer than two, or more than
     /// [`MAX_CHAIN_VERTICES`].
     pub fn open(vertices: impl IntoIterator<Item = Vec2>) -> Result<Self, ChainError> {
-        Self::new(vertices, false)
+        Self::new(&mut vertices.into_iter(), false)
     }
 
     /// A polyline that leads from its last vertex back to its first, in metres.
@@ -94,10 +94,10 @@ impl Chain {
     /// # Errors
     /// As [`Chain::open`], and fewer than three vertices.
     pub fn closed(vertices: impl IntoIterator<Item = Vec2>) -> Result<Self, ChainError> {
-        Self::new(vertices, true)
+        Self::new(&mut vertices.into_iter(), true)
     }
 
-    fn new(given: impl IntoIterator<Item = Vec2>, is_closed: bool) -> Result<Self, ChainError> {
+    fn new(given: &mut dyn Iterator<Item = Vec2>, is_closed: bool) -> Result<Self, ChainError> {
         let (vertices, dropped) = kept(given, is_closed)?;
         let (low, high) = (
             vertices.iter().fold(Vec2::INFINITY, |low, &vertex| low.min(vertex)).as_dvec2(),
@@ -294,8 +294,7 @@ fn segment_count(vertices: usize, is_closed: bool) -> usize {
 }
 
 /// The vertices that are vertices, and how many others there were.
-fn kept(given: impl IntoIterator<Item = Vec2>, is_closed: bool) -> Result<(Vec<Vec2>, usize), ChainError> {
-    let given = given.into_iter();
+fn kept(given: &mut dyn Iterator<Item = Vec2>, is_closed: bool) -> Result<(Vec<Vec2>, usize), ChainError> {
     let mut vertices: Vec<Vec2> = Vec::with_capacity(given.size_hint().0.min(MAX_CHAIN_VERTICES));
     let mut dropped = 0;
     let repeats = |one: Vec2, other: Vec2| Segment2::between([one, other]).outer_radius() < MIN_RADIUS;

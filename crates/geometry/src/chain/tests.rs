@@ -37,7 +37,7 @@ fn a_box_finds_the_segments_that_a_search_of_all_finds_in_ascending_order() {
         [(2, false), (3, true), (5, false), (9, true), (64, false), (1001, true), (1000, false)]
     {
         let vertices = wild(count);
-        let chain = Chain::new(vertices.iter().copied(), is_closed).unwrap();
+        let chain = Chain::new(&mut vertices.iter().copied(), is_closed).unwrap();
         for i in 0..200 {
             let low = Vec2::new(noise(3 * i) * count as f32 * 0.5, noise(3 * i + 1) * 4.0 - 0.5);
             let bounds = Aabb2::new(low, low + Vec2::new(noise(3 * i + 2) * 4.0, noise(5 * i)));
@@ -92,7 +92,7 @@ fn a_million_segments_are_found_in_no_more_steps_than_their_logarithm_takes() {
 #[test]
 fn the_nearest_found_is_the_nearest_of_all() {
     for is_closed in [false, true] {
-        let chain = Chain::new(wild(700), is_closed).unwrap();
+        let chain = Chain::new(&mut wild(700).into_iter(), is_closed).unwrap();
         for i in 0..300 {
             let point =
                 DVec2::new(f64::from(noise(i)) * 400.0 - 20.0, f64::from(noise(i + 999)) * 30.0 - 15.0);

@@ -91,7 +91,10 @@ impl Compound2 {
     /// No parts, or more than [`MAX_PARTS`]; a part that is a compound, ground or unbounded, or that reaches beyond
     /// 1e6 m.
     pub fn new(parts: impl IntoIterator<Item = (Pose2, Shape2)>) -> Result<Self, CompoundError> {
-        let parts: Box<[Part2]> = parts.into_iter().map(|(pose, shape)| Part2::new(pose, shape)).collect();
+        Self::of(parts.into_iter().map(|(pose, shape)| Part2::new(pose, shape)).collect())
+    }
+
+    fn of(parts: Box<[Part2]>) -> Result<Self, CompoundError> {
         if parts.is_empty() {
             return Err(CompoundError::NoParts);
         }

@@ -90,7 +90,10 @@ impl Compound3 {
     /// # Errors
     /// No parts, or more than [`MAX_PARTS`]; a part that is a compound or unbounded, or that reaches beyond 1e6 m.
     pub fn new(parts: impl IntoIterator<Item = (Pose3, Shape3)>) -> Result<Self, CompoundError> {
-        let parts: Box<[Part3]> = parts.into_iter().map(|(pose, shape)| Part3::new(pose, shape)).collect();
+        Self::of(parts.into_iter().map(|(pose, shape)| Part3::new(pose, shape)).collect())
+    }
+
+    fn of(parts: Box<[Part3]>) -> Result<Self, CompoundError> {
         if parts.is_empty() {
             return Err(CompoundError::NoParts);
         }
