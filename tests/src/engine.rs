@@ -35,6 +35,8 @@ pub enum Change<S: Space> {
     Owner(Option<u64>),
     /// `World::set_bullet`.
     Bullet(bool),
+    /// `World::set_margin`.
+    Margin(f32),
     /// `World::replace`.
     Replace(Collider<S>),
 }
@@ -44,7 +46,7 @@ impl<S: Engine> Change<S> {
     pub fn random(random: &mut Random) -> Self {
         let groups = [0b01, 0b10, 0b11, u32::MAX];
         let mut body = S::random_body(random, 1.6);
-        match random.below(20) {
+        match random.below(22) {
             0..4 => Self::Shape(S::shape_of(&body).clone()),
             4..6 => {
                 Self::Layers(Layers { member_of: random.pick(&groups), collides_with: random.pick(&groups) })
@@ -58,6 +60,7 @@ impl<S: Engine> Change<S> {
             15 => Self::Fixed(random.below(2) == 0),
             16 => Self::Owner(Some(random.below(4) as u64).filter(|&owner| owner < 3)),
             17 => Self::Bullet(random.below(2) == 0),
+            18..20 => Self::Margin(body.get_margin()),
             _ => {
                 // A body is given back as it was; the model knows none that sleep or are disabled.
                 body = body.user_data(random.below(1 << 20) as u64);
@@ -245,6 +248,7 @@ impl Engine for Volume {
             Change::Fixed(fixed) => world.set_fixed(key, fixed),
             Change::Owner(owner) => world.set_owner(key, owner),
             Change::Bullet(bullet) => world.set_bullet(key, bullet),
+            Change::Margin(margin) => return world.set_margin(key, margin).is_ok(),
             Change::Replace(body) => world.replace(key, body).map(|_| ()),
         };
         done.is_ok()
@@ -437,6 +441,7 @@ impl Engine for Plane {
             Change::Fixed(fixed) => world.set_fixed(key, fixed),
             Change::Owner(owner) => world.set_owner(key, owner),
             Change::Bullet(bullet) => world.set_bullet(key, bullet),
+            Change::Margin(margin) => return world.set_margin(key, margin).is_ok(),
             Change::Replace(body) => world.replace(key, body).map(|_| ()),
         };
         done.is_ok()

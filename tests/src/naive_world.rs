@@ -197,6 +197,10 @@ impl<S: Judged> NaiveWorld<S> {
             Change::Bullet(bullet) => {
                 *body = S::with_traits(body, Traits { bullet: *bullet, ..Traits::of(body) });
             }
+            Change::Margin(margin) => {
+                let with = body.clone().margin(*margin);
+                *body = with.expect("a body had it");
+            }
             Change::Replace(other) => {
                 if S::shape_of(body) != S::shape_of(other) {
                     self.reshaped.insert(slot);

@@ -1,6 +1,7 @@
 //! What a body is to the engine: shape, pose, and whom it may meet.
 
 use crate::space::{Plane, Space, Volume};
+use crate::world::StaleKey;
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 
 /// Which groups a body is in, and which it meets. Two bodies pair only if each is in a group that the other meets.
@@ -89,6 +90,42 @@ impl core::fmt::Display for MarginError {
 }
 
 impl core::error::Error for MarginError {}
+
+/// Why [`World3::set_margin`](crate::World3::set_margin) changed nothing.
+///
+/// ```
+/// use asunder::{Collider3, MarginError, SetMarginError, Sphere, World3};
+/// let mut world = World3::new();
+/// let ball = world.insert(Collider3::new(Sphere::new(1.0)?));
+/// assert_eq!(world.set_margin(ball, -1.0), Err(SetMarginError::Margin(MarginError { value: -1.0 })));
+/// world.remove(ball);
+/// assert_eq!(world.set_margin(ball, 0.1), Err(SetMarginError::Stale));
+/// # Ok::<(), asunder::RadiusError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SetMarginError {
+    /// The key's body is gone.
+    Stale,
+    /// No body can have that margin.
+    Margin(MarginError),
+}
+
+impl core::fmt::Display for SetMarginError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Stale => StaleKey.fmt(f),
+            Self::Margin(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for SetMarginError {}
+
+/// A margin as it was given, if it can be one, in metres.
+pub(crate) fn checked_margin(margin: f32) -> Result<f32, MarginError> {
+    let is_margin = (0.0..=asunder_geometry::tolerance::MAX_RADIUS).contains(&margin);
+    if is_margin { Ok(margin) } else { Err(MarginError { value: margin }) }
+}
 
 /// A body to be: what [`World3::insert`](crate::World3::insert) takes, and what `get` shows.
 ///
@@ -267,10 +304,7 @@ impl<S: Space> Collider<S> {
     /// # Errors
     /// What is not finite, below zero, or above 1e6.
     pub fn margin(mut self, margin: f32) -> Result<Self, MarginError> {
-        if !(0.0..=asunder_geometry::tolerance::MAX_RADIUS).contains(&margin) {
-            return Err(MarginError { value: margin });
-        }
-        self.margin = margin;
+        self.margin = checked_margin(margin)?;
         Ok(self)
     }
 

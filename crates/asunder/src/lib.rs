@@ -99,7 +99,7 @@ pub use asunder_narrow::{
 pub use character::{
     Freed, Freed2, Freed3, Obstacle, Obstacle2, Obstacle3, Slide, Slide2, Slide3, Walk, Walk2, Walk3,
 };
-pub use collider::{Collider, Collider2, Collider3, Layers, MarginError};
+pub use collider::{Collider, Collider2, Collider3, Layers, MarginError, SetMarginError};
 pub use contact::{Contact, Contact2, Contact3};
 pub use debug::{DebugLine, DebugOptions};
 pub use event::{Event, Event2, Event3};

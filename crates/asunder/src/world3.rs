@@ -1,6 +1,6 @@
 //! The world in space: the engine's face, in plain types.
 
-use crate::collider::{Collider3, Layers};
+use crate::collider::{Collider3, Layers, SetMarginError, checked_margin};
 use crate::contact::Contact3;
 use crate::event::Event3;
 use crate::motion::Hit3;
@@ -295,6 +295,28 @@ impl World<Volume> {
     /// ```
     pub fn set_owner(&mut self, key: BodyKey3, owner: Option<u64>) -> Result<(), StaleKey> {
         self.change_body(key, |body| body.owner = owner)
+    }
+
+    /// Gives a body another margin, in metres: [`Collider::margin`](crate::Collider::margin).
+    ///
+    /// # Errors
+    /// A stale key, or what no body can have as a margin.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Pose3, Sphere, World3};
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let (a, b) = (world.insert(ball.clone()), world.insert(ball.at(Pose3::at([2.05, 0.0, 0.0])?)));
+    /// world.update();
+    /// assert!(world.contact(a, b).is_none());
+    /// world.set_margin(a, 0.1)?;
+    /// world.update();
+    /// assert!(world.contact(a, b).is_some_and(|contact| !contact.overlapping));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_margin(&mut self, key: BodyKey3, margin: f32) -> Result<(), SetMarginError> {
+        let margin = checked_margin(margin).map_err(SetMarginError::Margin)?;
+        self.change_body(key, |body| body.margin = margin).map_err(|StaleKey| SetMarginError::Stale)
     }
 
     /// Says whether the next updates tell what a body runs into in its motions: [`Collider::bullet`](crate::Collider::bullet).
