@@ -42,7 +42,8 @@ impl core::error::Error for StaleKey {}
 
 /// A world of bodies in one dimension; use it as [`World2`](crate::World2) or [`World3`](crate::World3).
 ///
-/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future.
+/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future. No type for serde itself: what is stored
+/// is a snapshot.
 ///
 /// Memory, beside the shapes' own data: at most 450 bytes a body and 1,600 a candidate pair in space, 400 and 1,300
 /// in the plane; and 1,200 for each manifold beyond one a pair, which bodies on ground and compounds have. That is of the most

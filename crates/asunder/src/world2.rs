@@ -138,7 +138,7 @@ impl World<Plane> {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update, by time; nothing for a stale key. Cost: the logarithm of all
+    /// What one bullet ran into at the last update, by time; nothing for a stale key, for what is no bullet, or had no motion. Cost: the logarithm of all
     /// impacts.
     ///
     /// ```

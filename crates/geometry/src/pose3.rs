@@ -42,10 +42,16 @@ impl core::fmt::Display for PoseError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::PositionNotFinite { axis, value } => {
-                write!(f, "position {value} on axis {axis} is not finite: check the step that made it")
+                write!(
+                    f,
+                    "position or displacement {value} on axis {axis} is not finite: check the step that made it"
+                )
             }
             Self::PositionTooFar { axis, value } => {
-                write!(f, "position {value} m on axis {axis} is beyond {MAX_POSITION} m: move the origin")
+                write!(
+                    f,
+                    "position or displacement {value} m on axis {axis} is beyond {MAX_POSITION} m: move the origin"
+                )
             }
             Self::RotationNotFinite { component, value } => {
                 write!(f, "rotation component {component} is {value}: check the step that made it")

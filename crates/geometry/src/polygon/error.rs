@@ -91,7 +91,10 @@ impl core::fmt::Display for PolygonError {
             Self::Collinear => write!(f, "all points lie on one line"),
             Self::Clockwise => write!(f, "the vertices wind clockwise: reverse their order"),
             Self::Concave { vertex } => {
-                write!(f, "the outline turns inwards at vertex {vertex}: use Polygon::hull_of, or split it")
+                write!(
+                    f,
+                    "the outline turns inwards at vertex {vertex}: use Polygon::hull_of, or decompose it into a Compound2"
+                )
             }
             Self::WindsRepeatedly => {
                 write!(f, "the outline runs around more than once: use Polygon::hull_of")

@@ -242,7 +242,7 @@ fn content_faults_name_their_path_in_the_plane() {
         (
             "[3, 0]",
             "[3, 2e9]",
-            "bodies[1].position: position 2000000000 m on axis 1 is beyond 1000000000 m: move the origin",
+            "bodies[1].position: position or displacement 2000000000 m on axis 1 is beyond 1000000000 m: move the origin",
         ),
         ("0.25", "1e200", "bodies[1].rotation: 1e200 is more than an f32 can hold"),
         ("0.25", "[0, 0, 0, 1]", "bodies[1].rotation: one number belongs here"),
