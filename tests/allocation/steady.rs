@@ -2,7 +2,7 @@
 
 use crate::asked::Asker;
 use asunder::glam::{DVec3, Quat, Vec3};
-use asunder::{Collider3, Cuboid, Hooks, Plane, Pose3, TriMesh, Volume, World, World3};
+use asunder::{Collider3, Cuboid, Hooks, Plane, Pose3, Space, TriMesh, Volume, World, World3};
 use asunder_scenes::terrain::Terrain;
 use asunder_scenes::worlds::WorldScene;
 use asunder_tests::cases::Random;
@@ -108,7 +108,7 @@ fn nor_do_contacts_with_a_level() {
                 (world.insert(body), pose, normal.any_orthonormal_vector())
             })
             .collect();
-        let mut taken = 0;
+        let (mut taken, mut kept) = (0, Kept::new());
         for frame in 0..3 * CYCLE {
             let turn = frame % CYCLE;
             let way = 2e-4 * f64::from(turn.min(CYCLE - turn));
@@ -117,12 +117,58 @@ fn nor_do_contacts_with_a_level() {
                 world.set_pose(*key, pose.shifted(*along * way).unwrap()).unwrap();
             }
             world.update();
+            kept.keep(frame, &mut world);
             taken = if frame < 2 * CYCLE { 0 } else { taken + allocations() - before };
         }
         assert!(world.stats().manifolds >= bodies.len());
         taken
     });
     assert_eq!(taken, 0);
+}
+
+/// The last frames, as a game keeps them that goes back now and then.
+struct Kept<S: Space>([World<S>; 3]);
+
+impl<S: Space> Kept<S> {
+    fn new() -> Self {
+        Self([World::new(), World::new(), World::new()])
+    }
+
+    /// Writes a frame over the oldest; every fifth frame the world goes back to what is the oldest then.
+    fn keep(&mut self, frame: u32, world: &mut World<S>) {
+        self.0[frame as usize % 3].clone_from(world);
+        if frame % 5 == 4 {
+            world.clone_from(&self.0[(frame as usize + 1) % 3]);
+        }
+    }
+}
+
+fn kept_cycle<S: Recording>(scene: WorldScene, count: usize) -> u64 {
+    counted(1, || {
+        let (mut recorded, mut kept) = (Recorded::<S>::new(scene, count), Kept::new());
+        let mut taken = 0;
+        for frame in 0..6 * CYCLE {
+            let before = allocations();
+            recorded.pose(frame % CYCLE);
+            recorded.world.update();
+            kept.keep(frame, &mut recorded.world);
+            taken = if frame < 5 * CYCLE { 0 } else { taken + allocations() - before };
+        }
+        assert!(kept.0.iter().all(|kept| kept.stats().contacts > 0), "{}", scene.name());
+        taken
+    })
+}
+
+#[test]
+fn nor_do_frames_that_are_kept() {
+    for scene in
+        [WorldScene::ManyPyramids, WorldScene::Mixed, WorldScene::MostlyStatic, WorldScene::ConvexPile]
+    {
+        assert_eq!(kept_cycle::<Volume>(scene, count(scene)), 0, "{}", scene.name());
+    }
+    for scene in [WorldScene::ManyPyramids, WorldScene::Mixed] {
+        assert_eq!(kept_cycle::<Plane>(scene, 1805), 0, "{} in the plane", scene.name());
+    }
 }
 
 #[test]

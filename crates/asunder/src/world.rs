@@ -48,7 +48,7 @@ impl core::error::Error for StaleKey {}
 /// Memory, beside the shapes' own data: at most 450 bytes a body and 1,600 a candidate pair in space, 400 and 1,300
 /// in the plane; and 1,200 for each manifold beyond one a pair, which bodies on ground and compounds have. That is of the most
 /// bodies, pairs and manifolds that there have been: a world gives nothing back, but a clone of it takes no more than it
-/// needs, empty slots of bodies aside. In a scene that goes on as it did, an update allocates nothing, if it is called inside a thread pool
+/// needs, empty slots of bodies aside, and one that is written over another, by `clone_from`, takes nothing that the other has. In a scene that goes on as it did, an update allocates nothing, if it is called inside a thread pool
 /// (`rayon::ThreadPool::install`) or the feature `parallel` is off; from outside, rayon takes a block for its queue
 /// now and then.
 #[derive(Debug)]

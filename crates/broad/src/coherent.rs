@@ -16,6 +16,7 @@
 mod rest;
 
 use crate::columns::Column;
+use crate::copied::copied;
 use crate::pair::{PairId, TooManyPairs};
 use crate::sweep::order::Order;
 use crate::sweep::{Admit, Sweep, keep};
@@ -40,7 +41,7 @@ use rest::Rest;
 /// assert_eq!(pairs, [PairId { a: 7, b: 20 }]);
 /// # Ok::<(), asunder_broad::TooManyPairs>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct CoherentSweep<B> {
     /// Of all boxes; its columns stay.
     sweep: Sweep,
@@ -60,6 +61,9 @@ pub struct CoherentSweep<B> {
     fresh: Vec<PairId>,
     order: Order,
 }
+
+copied!(CoherentSweep<B>, for B, { sweep, rest, is_kept, known, movers, kept, idle }
+    but { sweep_of_movers, moving, among, fresh, order });
 
 /// Where more than one box of so many moves, all are swept.
 pub(crate) const FEW: usize = 5;
@@ -81,7 +85,7 @@ impl<B: Bounds> CoherentSweep<B> {
     pub fn new() -> Self {
         Self {
             sweep: Sweep::new(),
-            rest: Rest::new(),
+            rest: Rest::default(),
             is_kept: false,
             known: 0,
             movers: Vec::new(),

@@ -18,6 +18,7 @@
 
 mod coherent;
 mod columns;
+mod copied;
 mod index;
 mod loose;
 mod pair;

@@ -25,6 +25,7 @@
 
 use crate::coherent::{CoherentSweep, FEW};
 use crate::columns::Column;
+use crate::copied::copied;
 use crate::pair::{PairId, TooManyPairs};
 use crate::sweep::{Admit, keep};
 use asunder_geometry::Bounds;
@@ -62,7 +63,7 @@ pub struct Moved<'a, C> {
 /// }
 /// # Ok::<(), asunder_broad::TooManyPairs>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct LooseSweep<B> {
     sweep: CoherentSweep<B>,
     state: State,
@@ -81,6 +82,8 @@ pub struct LooseSweep<B> {
     /// What loose boxes have cost since all got theirs, in nanoseconds.
     spent: usize,
 }
+
+copied!(LooseSweep<B>, for B, { sweep, state, patience, loose, widths, near, strays, told, spent } but {});
 
 /// What is swept.
 #[derive(Clone, Copy, Debug, PartialEq)]

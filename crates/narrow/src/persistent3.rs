@@ -48,9 +48,22 @@ use solids::Solids;
 /// assert!(!persistent.carry_on([&pose_a, &gone], &mut moved), "too far: it must be made anew");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Persistent3(Kind);
+
+impl Clone for Persistent3 {
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        match (&mut self.0, &source.0) {
+            (Kind::Grounded(own), Kind::Grounded(source)) => own.clone_from(source),
+            (own, source) => *own = source.clone(),
+        }
+    }
+}
 
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

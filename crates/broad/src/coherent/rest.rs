@@ -4,6 +4,7 @@ use super::Gathered;
 use crate::columns::codes::Codes;
 use crate::columns::grid::Grid;
 use crate::columns::{Columns, Stretch, begins, owned};
+use crate::copied::copied;
 use crate::index::Index;
 use crate::pair::PairId;
 use crate::sweep::order::Order;
@@ -24,7 +25,7 @@ enum State {
 }
 
 /// Boxes at rest.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Rest<B> {
     states: Vec<State>,
     /// Bins that any box but those that reach far reaches beyond its first.
@@ -37,6 +38,8 @@ pub(super) struct Rest<B> {
     starts: Vec<PairId>,
     order: Order,
 }
+
+copied!(Rest<B>, for B, { states, longest, far, strips } but { asked, starts, order });
 
 /// Bins that are counted one by one.
 const BINS: usize = 32;
@@ -51,8 +54,8 @@ const MOST_A_BOX: usize = 1024;
 /// What a column counts as that a mover reaches, in candidates: so that there are at most four for every box.
 const A_STRETCH: usize = 256;
 
-impl<B: Bounds> Rest<B> {
-    pub(super) fn new() -> Self {
+impl<B: Bounds> Default for Rest<B> {
+    fn default() -> Self {
         Self {
             states: Vec::new(),
             longest: 0,
@@ -63,7 +66,9 @@ impl<B: Bounds> Rest<B> {
             order: Order::default(),
         }
     }
+}
 
+impl<B: Bounds> Rest<B> {
     pub(super) fn bytes(&self) -> usize {
         self.states.capacity()
             + self.far.bytes()

@@ -7,6 +7,7 @@ mod shown;
 
 pub use shown::Column;
 
+use crate::copied::copied;
 use crate::sweep::trial::note;
 use crate::width::{Kernel, Width};
 use asunder_geometry::Bounds;
@@ -16,7 +17,7 @@ use grid::{Grid, Reach};
 
 /// Entries of boxes, column by column, in each by the bin of the minimum on the sweep axis. A box has an entry in
 /// every column that it reaches.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Columns {
     /// Every box once, in the order in which it came; in place of its place, where its entry in the first column it
     /// reaches goes.
@@ -29,6 +30,8 @@ pub(crate) struct Columns {
     /// Entries that were counted, boxes that are none among them.
     counted: usize,
 }
+
+copied!(Columns, { records, straddlers, ends, entries, counted } but {});
 
 impl Columns {
     /// The entries of a column, and where its bins end, counted from `start`.

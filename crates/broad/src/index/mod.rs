@@ -49,6 +49,7 @@ pub use queue::Queue;
 pub use reach::Found;
 pub use single::least_distance;
 
+use crate::copied::copied;
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::marker::PhantomData;
@@ -69,13 +70,15 @@ use node::{Node, Sides, WIDTH};
 /// index.overlapping(&Aabb2::new(Vec2::new(0.5, 0.0), Vec2::new(2.0, 0.0)), &mut found);
 /// assert_eq!(found, [0, 1, 2], "closed sets: touching counts");
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Index<B> {
     nodes: Vec<Node>,
     items: Vec<order::Item>,
     scratch: order::Scratch,
     bounds: PhantomData<B>,
 }
+
+copied!(Index<B>, for B, { nodes, items } but { scratch, bounds });
 
 /// Nodes that wait while another is looked at: all but one of each that stands above it.
 const STACK: usize = (WIDTH - 1) * build::MOST_DEPTH + WIDTH;

@@ -79,6 +79,7 @@ pub(crate) mod wide;
 
 use crate::columns::grid::{Grid, Over};
 use crate::columns::{Column, Columns, Fill, MOST_BOXES};
+use crate::copied::copied;
 use crate::pair::{PairId, TooManyPairs};
 use crate::width::widest;
 use asunder_geometry::Bounds;
@@ -130,7 +131,7 @@ pub(crate) fn keep(pairs: &mut [PairId], admit: impl Fn(u32, u32) -> bool) -> us
 /// assert_eq!(count, 3);
 /// # Ok::<(), asunder_broad::TooManyPairs>(())
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Sweep {
     columns: Columns,
     /// How the last sweep sorted the boxes.
@@ -140,6 +141,8 @@ pub struct Sweep {
     #[cfg(feature = "parallel")]
     team: threads::Team,
 }
+
+copied!(Sweep, { columns, grid, #[cfg(feature = "parallel")] team } but { scratch, order });
 
 impl Sweep {
     /// A sweep without scratch memory yet.

@@ -4,6 +4,7 @@ use super::trial::note;
 use crate::columns::ColumnEntries;
 use crate::columns::codes::{Codes, Entry};
 use crate::columns::grid::Grid;
+use crate::copied::copied;
 use crate::width::Width;
 use core::ops::Range;
 
@@ -11,10 +12,12 @@ use core::ops::Range;
 pub(crate) const LANES: usize = 16;
 
 /// Boxes of one column, least first along the sweep axis, as rows of codes.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Strips {
     strips: [Vec<i16>; 6],
 }
+
+copied!(Strips, { strips } but {});
 
 /// A box, and up to sixteen that it may overlap.
 #[derive(Clone, Copy, Debug, Default)]

@@ -21,6 +21,7 @@ use super::segments::{Item, Key, Slab, axes_from, in_order};
 use super::settle::Question;
 use crate::columns::Columns;
 use crate::columns::grid::{Grid, Over};
+use crate::copied::copied;
 use crate::pair::{PairId, TooManyPairs};
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
@@ -46,7 +47,7 @@ const RANGES: usize = 64;
 const BINS: usize = 1024;
 
 /// What the threads keep between sweeps.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Team {
     /// How the last sweep sorted the boxes, if it was a team's.
     grid: Option<Grid>,
@@ -57,8 +58,10 @@ pub(super) struct Team {
     cuts: Vec<Key>,
 }
 
+copied!(Team, { grid, parts } but { groups, orders, cuts });
+
 /// Columns that one thread sweeps in one go.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 struct Group {
     columns: Range<usize>,
     scratch: Scratch,

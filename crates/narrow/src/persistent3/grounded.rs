@@ -49,7 +49,7 @@ fn most_loss(radius: f32) -> f32 {
 }
 
 /// The manifolds of a body of one part on ground, and how it stood when they were made.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Grounded {
     memory: Memory,
@@ -68,7 +68,7 @@ pub(super) struct Grounded {
 }
 
 /// The manifolds, what holds the points of each, and what shows that the two overlap; nothing where they do not.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Memory {
     manifolds: Vec<Manifold3>,
@@ -83,6 +83,34 @@ const MOST_SEAMS: usize = 80;
 
 /// Manifolds of most bodies: for so many there is room from the start.
 const MANY: usize = 6;
+
+impl Clone for Grounded {
+    fn clone(&self) -> Self {
+        let &Self { ref memory, is_ground_b, is_ball, cost, margin, reach, arm, poses } = self;
+        Self { memory: memory.clone(), is_ground_b, is_ball, cost, margin, reach, arm, poses }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let mut memory = core::mem::take(&mut self.memory);
+        memory.clone_from(&source.memory);
+        let &Self { memory: _, is_ground_b, is_ball, cost, margin, reach, arm, poses } = source;
+        *self = Self { memory, is_ground_b, is_ball, cost, margin, reach, arm, poses };
+    }
+}
+
+impl Clone for Memory {
+    fn clone(&self) -> Self {
+        let Self { manifolds, grips, witness } = self;
+        Self { manifolds: manifolds.clone(), grips: grips.clone(), witness: witness.clone() }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        let Self { manifolds, grips, witness } = source;
+        self.manifolds.clone_from(manifolds);
+        self.grips.clone_from(grips);
+        self.witness.clone_from(witness);
+    }
+}
 
 impl Memory {
     fn clear(&mut self) {
