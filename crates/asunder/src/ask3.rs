@@ -84,7 +84,7 @@ impl World<Volume> {
     pub fn overlapping_point(&self, point: impl Into<DVec3>, filter: &Filter3<'_>, into: &mut Vec<BodyKey3>) {
         into.clear();
         if let Some((shape, pose)) = Volume::point(point.into()) {
-            bodies_over(self, (&shape, &pose), filter).keys(into);
+            self.overlapping((&shape, &pose), filter, into);
         }
     }
 
@@ -180,7 +180,7 @@ impl World<Volume> {
     /// ```
     pub fn closest(&self, point: impl Into<DVec3>, within: f32, filter: &Filter3<'_>) -> Option<NearAnswer3> {
         let (shape, pose) = Volume::point(point.into())?;
-        bodies_near(self, (&shape, &pose), within, filter).first()
+        self.closest_to_shape((&shape, &pose), within, filter)
     }
 
     /// All bodies within a distance of a point, as [`World::closest`] tells of the first.
@@ -207,7 +207,7 @@ impl World<Volume> {
     ) {
         into.clear();
         if let Some((shape, pose)) = Volume::point(point.into()) {
-            bodies_near(self, (&shape, &pose), within, filter).all(into);
+            self.within_shape((&shape, &pose), within, filter, into);
         }
     }
 

@@ -53,5 +53,6 @@ pub(crate) fn copy<S: Space>(from: &World<S>, to: &mut World<S>) {
     to.impacts.clone_from(impacts);
     to.by_second.clone_from(by_second);
     to.stats = *stats;
+    // All else there is memory, and of no influence on anything.
     to.scratch.sweep.clone_from(&scratch.sweep);
 }

@@ -40,9 +40,9 @@
 //! the same name, `asunder::Pose3`. Who writes a world of their own finds jobs, batches and hints in `asunder_narrow`.
 //!
 //! # Debug builds
-//! Of a game they run its dependencies unoptimised, and this one twenty times slower than it need be, unless the game's Cargo.toml
-//! says otherwise: `[profile.dev.package."*"]` with `opt-level = 3`. Frames and questions are compiled with this crate then, and not
-//! with the game.
+//! Of a game they run its dependencies unoptimised, and this one twenty times slower than it need be, unless the game's
+//! Cargo.toml says otherwise: `[profile.dev.package."*"]` with `opt-level = 3`. Frames and questions are compiled with this
+//! crate, and not with the game, visitors of questions aside.
 //!
 //! # How sure the answers are
 //! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches
@@ -54,8 +54,8 @@
 //! they overlap.
 //!
 //! # Feature flags
-//! - `parallel` (default): refit, sweep, collide and impacts on rayon's threads. Every output is bit-equal with and without. A world of some
-//!   hundred bodies is as fast without.
+//! - `parallel` (default): refit, sweep, collide and impacts on rayon's threads. Every output is bit-equal with and without. A
+//!   world of some hundred bodies is as fast without.
 //! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and
 //!   serde's traits for bodies, shapes, poses, rays, keys, events and manifolds. What comes in is checked as by the
 //!   constructors.

@@ -106,7 +106,7 @@ fn save<S: Saved>(world: &World<S>) -> Snapshot<S> {
 }
 
 /// What [`World::restore`] gives.
-fn restored<S: Saved>(snapshot: &Snapshot<S>) -> Result<World<S>, SnapshotError> {
+fn restore<S: Saved>(snapshot: &Snapshot<S>) -> Result<World<S>, SnapshotError> {
     let Snapshot { content, checksum } = snapshot;
     let world = restore::world_of(content)?;
     let found = digest::digest(content);

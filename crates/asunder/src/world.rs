@@ -48,9 +48,9 @@ impl core::error::Error for StaleKey {}
 /// Memory, beside the shapes' own data: at most 450 bytes a body and 1,600 a candidate pair in space, 400 and 1,300
 /// in the plane; and 1,200 for each manifold beyond one a pair, which bodies on ground and compounds have. That is of the most
 /// bodies, pairs and manifolds that there have been: a world gives nothing back, but a clone of it takes no more than it
-/// needs, empty slots of bodies aside, and one that is written over another, by `clone_from`, takes nothing that the other has. In a scene that goes on as it did, an update allocates nothing, if it is called inside a thread pool
+/// needs, empty slots of bodies aside. In a scene that goes on as it did, an update allocates nothing, if it is called inside a thread pool
 /// (`rayon::ThreadPool::install`) or the feature `parallel` is off; from outside, rayon takes a block for its queue
-/// now and then.
+/// now and then. Nor does a world that is written over another by `clone_from`, in such a scene.
 #[derive(Debug)]
 pub struct World<S: Space> {
     pub(crate) bodies: SlotMap<S::Key, Collider<S>>,
@@ -122,9 +122,9 @@ pub(crate) struct Scratch<S: Space> {
 }
 
 impl<S: Space> Scratch<S> {
-    fn with(sweep: LooseSweep<S::Aabb>) -> Self {
+    fn new() -> Self {
         Self {
-            sweep,
+            sweep: LooseSweep::new(),
             pairs: Vec::new(),
             spare: S::Spare::default(),
             settled: Vec::new(),
@@ -206,7 +206,7 @@ impl<S: Space> World<S> {
             impacts: Vec::new(),
             by_second: Vec::new(),
             stats: Stats::default(),
-            scratch: Scratch::with(LooseSweep::new()),
+            scratch: Scratch::new(),
         }
     }
 

@@ -138,8 +138,8 @@ impl World<Plane> {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update, by time; nothing for a stale key, for what is no bullet, or had no motion. Cost: the logarithm of all
-    /// impacts.
+    /// What one bullet ran into at the last update, by time; nothing for a stale key, for what is no bullet, or had no
+    /// motion. Cost: the logarithm of all impacts.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Motion2, Pose2, World2};
@@ -303,7 +303,7 @@ impl World<Plane> {
     /// A stale key, or what no body can have as a margin.
     ///
     /// ```
-    /// use asunder::{Collider2, Pose2, Circle, World2};
+    /// use asunder::{Circle, Collider2, Pose2, World2};
     /// let mut world = World2::new();
     /// let ball = Collider2::new(Circle::new(1.0)?);
     /// let (a, b) = (world.insert(ball.clone()), world.insert(ball.at(Pose2::at([2.05, 0.0])?)));

@@ -138,8 +138,8 @@ impl World<Volume> {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update, by time; nothing for a stale key, for what is no bullet, or had no motion. Cost: the logarithm of all
-    /// impacts.
+    /// What one bullet ran into at the last update, by time; nothing for a stale key, for what is no bullet, or had no
+    /// motion. Cost: the logarithm of all impacts.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Motion3, Pose3, World3};

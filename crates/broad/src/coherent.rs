@@ -294,21 +294,4 @@ fn merge(kept: &[PairId], fresh: &[PairId], into: &mut Vec<PairId>) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_merge_is_the_sorted_union() {
-        let pairs = |step: u32, count: u32| -> Vec<PairId> {
-            (0..count).map(|i| PairId { a: i * step / 7, b: 100 + i * step }).collect()
-        };
-        for (kept, fresh) in [(0, 0), (0, 5), (5, 0), (1, 1), (400, 3), (3, 400), (400, 400)] {
-            let (kept, fresh) = (pairs(3, kept), pairs(5, fresh));
-            let mut merged = vec![PairId { a: 9, b: 10 }];
-            merge(&kept, &fresh, &mut merged);
-            let mut sorted = [kept, fresh].concat();
-            sorted.sort_unstable();
-            assert_eq!(merged, sorted);
-        }
-    }
-}
+mod tests;

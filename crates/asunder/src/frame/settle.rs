@@ -25,7 +25,7 @@ struct Met {
 }
 
 /// What a chunk hands over: what is everybody's is made of it when all chunks are done.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Settled<S: Space> {
     /// What is done about each pair.
     pub(super) ways: Vec<Way>,
@@ -41,7 +41,7 @@ pub(crate) struct Settled<S: Space> {
 }
 
 /// What is told of a chunk's records without reading them again: they are large, and far away by then.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Tally {
     /// The second body of each.
     pub(super) seconds: Vec<u32>,

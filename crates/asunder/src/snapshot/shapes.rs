@@ -245,7 +245,7 @@ impl Saved for Plane {
     }
 
     fn restore(snapshot: &Snapshot<Self>) -> Result<World<Self>, SnapshotError> {
-        super::restored(snapshot)
+        super::restore(snapshot)
     }
 
     fn polytope(shape: &Shape2) -> Option<(Polygon, usize, f32)> {
@@ -303,7 +303,7 @@ impl Saved for Volume {
     }
 
     fn restore(snapshot: &Snapshot<Self>) -> Result<World<Self>, SnapshotError> {
-        super::restored(snapshot)
+        super::restore(snapshot)
     }
 
     fn polytope(shape: &Shape3) -> Option<(Hull, usize, f32)> {

@@ -6,7 +6,7 @@ use super::node::Sides;
 pub(super) type Item = u64;
 
 /// Scratch memory of the sort.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Scratch {
     others: Vec<Item>,
     counts: Vec<u32>,

@@ -12,7 +12,7 @@ use asunder_geometry::Bounds;
 use core::ops::{ControlFlow, Range};
 
 /// Scratch memory of a thread.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Scratch {
     strips: Strips,
     /// A column of several parts, put together.
@@ -23,7 +23,7 @@ pub(super) struct Scratch {
 }
 
 /// What a column that is too full is swept with.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 struct Nested {
     columns: Columns,
     members: Vec<u32>,

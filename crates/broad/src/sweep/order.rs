@@ -9,7 +9,7 @@
 use crate::pair::PairId;
 
 /// Scratch memory of the sort.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Order {
     keys: [Vec<u64>; 2],
     counts: Vec<u32>,

@@ -21,7 +21,6 @@ use super::segments::{Item, Key, Slab, axes_from, in_order};
 use super::settle::Question;
 use crate::columns::Columns;
 use crate::columns::grid::{Grid, Over};
-use crate::copied::copied;
 use crate::pair::{PairId, TooManyPairs};
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
@@ -58,7 +57,21 @@ pub(super) struct Team {
     cuts: Vec<Key>,
 }
 
-copied!(Team, { grid, parts } but { groups, orders, cuts });
+impl Clone for Team {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    /// What the last sweep left, if it was a team's; all else is memory.
+    fn clone_from(&mut self, source: &Self) {
+        self.grid = source.grid;
+        if source.grid.is_some() {
+            self.parts.clone_from(&source.parts);
+        }
+    }
+}
 
 /// Columns that one thread sweeps in one go.
 #[derive(Debug, Default)]

@@ -105,7 +105,7 @@ pub(super) fn worth(boxes: usize) -> usize {
 const CANDIDATES_A_NODE: usize = 12;
 
 /// Two copies of the boxes of a sweep.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Segments {
     spans: Vec<Item>,
     points: Vec<Item>,
