@@ -177,3 +177,45 @@ fn sweeps_that_are_written_over_others_go_on_alike() {
         }
     }
 }
+
+/// Boxes that tremble stay in their loose ones for many frames, and so do their pairs.
+#[test]
+fn loose_boxes_that_are_written_over_others_go_on_alike() {
+    let homes = |count: usize| MovingBoxes::new(BoxScene::Pile, count, 3).boxes;
+    let trembling = |homes: &[Aabb3], frame: usize| -> Vec<Aabb3> {
+        let by = |i: usize| Vec3::splat(1e-3 * ((i * 7 + frame * 5) % 3) as f32);
+        homes.iter().enumerate().map(|(i, home)| Aabb3::new(home.min + by(i), home.max + by(i))).collect()
+    };
+    let play = |sweep: &mut LooseSweep<Aabb3>, homes: &[Aabb3], frames: core::ops::Range<usize>| {
+        let places: Vec<u32> = (0..homes.len() as u32).collect();
+        let mut pairs = Vec::new();
+        for frame in frames {
+            let boxes = trembling(homes, frame);
+            let moved = Moved { places: &places, has_changed: |_| false };
+            sweep.update(&boxes, moved, admit, usize::MAX, &mut pairs).unwrap();
+            assert!(pairs == all_of(&boxes, admit), "frame {frame}");
+        }
+    };
+    for frames in 1..20 {
+        let (homes, others) = (homes(500), homes(800));
+        let (mut one, mut other) = (LooseSweep::new(), LooseSweep::new());
+        play(&mut one, &homes, 0..frames);
+        play(&mut other, &others, 0..12);
+        other.clone_from(&one);
+        play(&mut other, &homes, frames..frames + 6);
+    }
+}
+
+/// Columns that several threads sorted are in parts.
+#[cfg(feature = "parallel")]
+#[test]
+fn what_a_team_swept_is_written_over_others() {
+    rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap().install(|| {
+        let one = Past::new(BoxScene::Gas, 6000, 2);
+        for (scene, count) in [(BoxScene::Static5, 300), (BoxScene::Gas, 7000)] {
+            let mut copy = one.written_over(Past::new(scene, count, 2));
+            assert!(one.swept.columns().eq(copy.swept.columns()) && one.swept.columns().count() > 1);
+            copy.go_on(2);
+        }
+    });
+}
