@@ -142,16 +142,7 @@ pub(crate) struct Edited<S: Space> {
     ends: Vec<u32>,
 }
 
-impl<S: Space> Clone for Edited<S> {
-    fn clone(&self) -> Self {
-        Self { manifolds: self.manifolds.clone(), ends: self.ends.clone() }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.manifolds.clone_from(&source.manifolds);
-        self.ends.clone_from(&source.ends);
-    }
-}
+asunder_geometry::copied!(Edited<S>, for [S: Space], { manifolds, ends } but {});
 
 impl<S: Space> Edited<S> {
     /// From a list a record.

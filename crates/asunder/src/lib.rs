@@ -40,7 +40,7 @@
 //! the same name, `asunder::Pose3`. Who writes a world of their own finds jobs, batches and hints in `asunder_narrow`.
 //!
 //! # Debug builds
-//! Of a game they run its dependencies unoptimised, and this one twenty times slower than it need be, unless the game's
+//! Of a game they run its dependencies unoptimised, and this one tens of times slower than it need be, unless the game's
 //! Cargo.toml says otherwise: `[profile.dev.package."*"]` with `opt-level = 3`. Frames and questions are compiled with this
 //! crate, and not with the game, visitors of questions aside.
 //!

@@ -53,16 +53,7 @@ pub(crate) struct Motions<S: Space> {
     slots: Vec<u32>,
 }
 
-impl<S: Space> Clone for Motions<S> {
-    fn clone(&self) -> Self {
-        Self { of_slot: self.of_slot.clone(), slots: self.slots.clone() }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.of_slot.clone_from(&source.of_slot);
-        self.slots.clone_from(&source.slots);
-    }
-}
+asunder_geometry::copied!(Motions<S>, for [S: Space], { of_slot, slots } but {});
 
 impl<S: Space> Motions<S> {
     pub(crate) const NONE: Self = Self { of_slot: Vec::new(), slots: Vec::new() };

@@ -30,16 +30,7 @@ pub(crate) struct Records<K> {
     chunks: Vec<Vec<Record<K>>>,
 }
 
-impl<K: Clone> Clone for Records<K> {
-    fn clone(&self) -> Self {
-        Self { firsts: self.firsts.clone(), chunks: self.chunks.clone() }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.firsts.clone_from(&source.firsts);
-        self.chunks.clone_from(&source.chunks);
-    }
-}
+asunder_geometry::copied!(Records<K>, for [K: Clone], { firsts, chunks } but {});
 
 impl<K> Records<K> {
     pub(crate) const fn new() -> Self {

@@ -10,16 +10,7 @@ pub(crate) struct Slab<T> {
 /// The place of nothing.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
-impl<T: Clone> Clone for Slab<T> {
-    fn clone(&self) -> Self {
-        Self { items: self.items.clone(), vacant: self.vacant.clone() }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.items.clone_from(&source.items);
-        self.vacant.clone_from(&source.vacant);
-    }
-}
+asunder_geometry::copied!(Slab<T>, for [T: Clone], { items, vacant } but {});
 
 impl<T> Slab<T> {
     pub(crate) const fn new() -> Self {

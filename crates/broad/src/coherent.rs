@@ -16,7 +16,6 @@
 mod rest;
 
 use crate::columns::Column;
-use crate::copied::copied;
 use crate::pair::{PairId, TooManyPairs};
 use crate::sweep::order::Order;
 use crate::sweep::{Admit, Sweep, keep};
@@ -62,7 +61,7 @@ pub struct CoherentSweep<B> {
     order: Order,
 }
 
-copied!(CoherentSweep<B>, for B, { sweep, rest, is_kept, known, movers, kept, idle }
+asunder_geometry::copied!(CoherentSweep<B>, for [B: Bounds], { sweep, rest, is_kept, known, movers, kept, idle }
     but { sweep_of_movers, moving, among, fresh, order });
 
 /// Where more than one box of so many moves, all are swept.
@@ -85,7 +84,7 @@ impl<B: Bounds> CoherentSweep<B> {
     pub fn new() -> Self {
         Self {
             sweep: Sweep::new(),
-            rest: Rest::default(),
+            rest: Rest::new(),
             is_kept: false,
             known: 0,
             movers: Vec::new(),

@@ -18,7 +18,6 @@
 
 mod coherent;
 mod columns;
-mod copied;
 mod index;
 mod loose;
 mod pair;

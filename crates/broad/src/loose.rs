@@ -25,7 +25,6 @@
 
 use crate::coherent::{CoherentSweep, FEW};
 use crate::columns::Column;
-use crate::copied::copied;
 use crate::pair::{PairId, TooManyPairs};
 use crate::sweep::{Admit, keep};
 use asunder_geometry::Bounds;
@@ -83,7 +82,7 @@ pub struct LooseSweep<B> {
     spent: usize,
 }
 
-copied!(LooseSweep<B>, for B, { sweep, state, patience, loose, widths, near, strays, told, spent } but {});
+asunder_geometry::copied!(LooseSweep<B>, for [B: Bounds], { sweep, state, patience, loose, widths, near, strays, told, spent } but {});
 
 /// What is swept.
 #[derive(Clone, Copy, Debug, PartialEq)]

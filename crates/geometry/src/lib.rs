@@ -12,6 +12,7 @@ mod aabb;
 mod chain;
 mod circle;
 mod compound;
+mod copied;
 mod cores;
 mod cuboid;
 mod decompose;

@@ -28,16 +28,7 @@ pub(crate) fn beyond(at_least: f64, reach: f64) -> f32 {
     round_down(at_least - reach).max(0.0)
 }
 
-impl<M: Clone> Clone for Batch<M> {
-    fn clone(&self) -> Self {
-        Self { answers: self.answers.clone(), manifolds: self.manifolds.clone() }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        self.answers.clone_from(&source.answers);
-        self.manifolds.clone_from(&source.manifolds);
-    }
-}
+asunder_geometry::copied!(Batch<M>, for [M: Clone], { answers, manifolds } but {});
 
 impl<M> Default for Batch<M> {
     fn default() -> Self {

@@ -205,19 +205,10 @@ impl<'a> Pair3<'a> {
         let bases = self.bases();
         let mut least = Least::within(f64::INFINITY);
         self.ask_nearest(&bases, &mut least, |least, [a, b]| {
-            if least.passes_over(self.gap(&a, &b)) {
-                return false;
+            !least.passes_over(self.gap(&a, &b)) && {
+                let found = self.parts(&bases, a, b).closest(least.reach());
+                least.hear(found, |found| [found.distance, found.error])
             }
-            match self.parts(&bases, a, b).closest(least.reach()) {
-                Err(at_least) => least.give_up(at_least),
-                Ok(Some(found)) => least.offer(Some(found), found.distance, found.error),
-                // That is enough.
-                Ok(None) => {
-                    least.offer(None, 0.0, 0.0);
-                    return true;
-                }
-            }
-            false
         });
         let (found, error) = least.finish().ok()?;
         Some(Closest3 { error, ..found? })

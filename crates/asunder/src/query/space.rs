@@ -1,7 +1,7 @@
 //! What the narrow phase says of one body: for the plane, and for space.
 
 use super::answer::{CastAnswer, NearAnswer, RayAnswer};
-use super::walk::{Reach, visit_slots};
+use super::walk::{Look, Reach, visit_slots};
 use crate::collider::Collider;
 use crate::space::{Plane, Space, Volume};
 use crate::world::World;
@@ -37,7 +37,7 @@ pub(crate) trait Asked: Space {
     fn visit_slots(
         world: &World<Self>,
         within: (&Reach<Self::Aabb>, f64),
-        look: &mut dyn FnMut(u32, bool) -> ControlFlow<()>,
+        look: &mut Look,
     ) -> ControlFlow<()>;
     /// A point as a shape; nothing if no pose can be there.
     fn point(at: Self::Point) -> Option<(Self::Shape, Self::Pose)>;
@@ -83,7 +83,7 @@ impl Asked for Plane {
     fn visit_slots(
         world: &World<Self>,
         within: (&Reach<Self::Aabb>, f64),
-        look: &mut dyn FnMut(u32, bool) -> ControlFlow<()>,
+        look: &mut Look,
     ) -> ControlFlow<()> {
         visit_slots(world, within, look)
     }
@@ -188,7 +188,7 @@ impl Asked for Volume {
     fn visit_slots(
         world: &World<Self>,
         within: (&Reach<Self::Aabb>, f64),
-        look: &mut dyn FnMut(u32, bool) -> ControlFlow<()>,
+        look: &mut Look,
     ) -> ControlFlow<()> {
         visit_slots(world, within, look)
     }

@@ -89,12 +89,15 @@ impl<B: Bounds> Reach<B> {
     }
 }
 
+/// Looks at the body in a slot; whether its box is in a tree.
+pub(crate) type Look<'l> = dyn FnMut(u32, bool) -> ControlFlow<()> + 'l;
+
 /// Hands the slots of all bodies whose boxes are within reach to a visitor, until it breaks off, each with whether its box is
 /// in a tree. What [`Asked::visit_slots`] is made of.
 pub(super) fn visit_slots<S: Space>(
     world: &World<S>,
     (reach, limit): (&Reach<S::Aabb>, f64),
-    look: &mut dyn FnMut(u32, bool) -> ControlFlow<()>,
+    look: &mut Look,
 ) -> ControlFlow<()> {
     let sight = world.sight();
     for &slot in sight.recent() {

@@ -4,7 +4,6 @@ use super::Gathered;
 use crate::columns::codes::Codes;
 use crate::columns::grid::Grid;
 use crate::columns::{Columns, Stretch, begins, owned};
-use crate::copied::copied;
 use crate::index::Index;
 use crate::pair::PairId;
 use crate::sweep::order::Order;
@@ -39,7 +38,7 @@ pub(super) struct Rest<B> {
     order: Order,
 }
 
-copied!(Rest<B>, for B, { states, longest, far, strips } but { asked, starts, order });
+asunder_geometry::copied!(Rest<B>, for [B: Bounds], { states, longest, far, strips } but { asked, starts, order });
 
 /// Bins that are counted one by one.
 const BINS: usize = 32;
@@ -54,8 +53,8 @@ const MOST_A_BOX: usize = 1024;
 /// What a column counts as that a mover reaches, in candidates: so that there are at most four for every box.
 const A_STRETCH: usize = 256;
 
-impl<B: Bounds> Default for Rest<B> {
-    fn default() -> Self {
+impl<B: Bounds> Rest<B> {
+    pub(super) fn new() -> Self {
         Self {
             states: Vec::new(),
             longest: 0,
@@ -66,9 +65,6 @@ impl<B: Bounds> Default for Rest<B> {
             order: Order::default(),
         }
     }
-}
-
-impl<B: Bounds> Rest<B> {
     pub(super) fn bytes(&self) -> usize {
         self.states.capacity()
             + self.far.bytes()

@@ -7,7 +7,6 @@ mod shown;
 
 pub use shown::Column;
 
-use crate::copied::copied;
 use crate::sweep::trial::note;
 use crate::width::{Kernel, Width};
 use asunder_geometry::Bounds;
@@ -31,7 +30,7 @@ pub(crate) struct Columns {
     counted: usize,
 }
 
-copied!(Columns, { records, straddlers, ends, entries, counted } but {});
+asunder_geometry::copied!(Columns, { records, straddlers, ends, entries, counted } but {});
 
 impl Columns {
     /// The entries of a column, and where its bins end, counted from `start`.

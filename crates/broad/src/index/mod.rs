@@ -49,7 +49,6 @@ pub use queue::Queue;
 pub use reach::Found;
 pub use single::least_distance;
 
-use crate::copied::copied;
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::marker::PhantomData;
@@ -78,7 +77,7 @@ pub struct Index<B> {
     bounds: PhantomData<B>,
 }
 
-copied!(Index<B>, for B, { nodes, items } but { scratch, bounds });
+asunder_geometry::copied!(Index<B>, for [B: Bounds], { nodes, items } but { scratch, bounds });
 
 /// Nodes that wait while another is looked at: all but one of each that stands above it.
 const STACK: usize = (WIDTH - 1) * build::MOST_DEPTH + WIDTH;

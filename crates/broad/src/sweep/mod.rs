@@ -79,7 +79,6 @@ pub(crate) mod wide;
 
 use crate::columns::grid::{Grid, Over};
 use crate::columns::{Column, Columns, Fill, MOST_BOXES};
-use crate::copied::copied;
 use crate::pair::{PairId, TooManyPairs};
 use crate::width::widest;
 use asunder_geometry::Bounds;
@@ -142,7 +141,7 @@ pub struct Sweep {
     team: threads::Team,
 }
 
-copied!(Sweep, { columns, grid, #[cfg(feature = "parallel")] team } but { scratch, order });
+asunder_geometry::copied!(Sweep, { columns, grid, #[cfg(feature = "parallel")] team } but { scratch, order });
 
 impl Sweep {
     /// A sweep without scratch memory yet.

@@ -4,7 +4,6 @@ use super::trial::note;
 use crate::columns::ColumnEntries;
 use crate::columns::codes::{Codes, Entry};
 use crate::columns::grid::Grid;
-use crate::copied::copied;
 use crate::width::Width;
 use core::ops::Range;
 
@@ -17,7 +16,7 @@ pub(crate) struct Strips {
     strips: [Vec<i16>; 6],
 }
 
-copied!(Strips, { strips } but {});
+asunder_geometry::copied!(Strips, { strips } but {});
 
 /// A box, and up to sixteen that it may overlap.
 #[derive(Clone, Copy, Debug, Default)]

@@ -26,18 +26,10 @@ impl Pair2<'_> {
         }
         let mut least = Least::within(f64::INFINITY);
         self.ask_nearest(&mut least, |least, [a, b]| {
-            if !least.passes_over(self.gap(&a, &b)) {
-                match self.parts(a, b).closest(least.reach()) {
-                    Err(at_least) => least.give_up(at_least),
-                    Ok(Some(found)) => least.offer(Some(found), found.distance, found.error),
-                    // That is enough.
-                    Ok(None) => {
-                        least.offer(None, 0.0, 0.0);
-                        return true;
-                    }
-                }
+            !least.passes_over(self.gap(&a, &b)) && {
+                let found = self.parts(a, b).closest(least.reach());
+                least.hear(found, |found| [found.distance, found.error])
             }
-            false
         });
         let (found, error) = least.finish().ok()?;
         Some(Closest2 { error, ..found? })

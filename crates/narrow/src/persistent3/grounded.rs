@@ -84,33 +84,9 @@ const MOST_SEAMS: usize = 80;
 /// Manifolds of most bodies: for so many there is room from the start.
 const MANY: usize = 6;
 
-impl Clone for Grounded {
-    fn clone(&self) -> Self {
-        let &Self { ref memory, is_ground_b, is_ball, cost, margin, reach, arm, poses } = self;
-        Self { memory: memory.clone(), is_ground_b, is_ball, cost, margin, reach, arm, poses }
-    }
+asunder_geometry::copied!(Grounded, { memory, is_ground_b, is_ball, cost, margin, reach, arm, poses } but {});
 
-    fn clone_from(&mut self, source: &Self) {
-        let mut memory = core::mem::take(&mut self.memory);
-        memory.clone_from(&source.memory);
-        let &Self { memory: _, is_ground_b, is_ball, cost, margin, reach, arm, poses } = source;
-        *self = Self { memory, is_ground_b, is_ball, cost, margin, reach, arm, poses };
-    }
-}
-
-impl Clone for Memory {
-    fn clone(&self) -> Self {
-        let Self { manifolds, grips, witness } = self;
-        Self { manifolds: manifolds.clone(), grips: grips.clone(), witness: witness.clone() }
-    }
-
-    fn clone_from(&mut self, source: &Self) {
-        let Self { manifolds, grips, witness } = source;
-        self.manifolds.clone_from(manifolds);
-        self.grips.clone_from(grips);
-        self.witness.clone_from(witness);
-    }
-}
+asunder_geometry::copied!(Memory, { manifolds, grips, witness } but {});
 
 impl Memory {
     fn clear(&mut self) {
