@@ -51,11 +51,28 @@ pub(crate) fn search(a: &Solid, b: &Solid, beyond: f64, precision: &Precision) -
     let direction = -inside / apart;
     let mut look =
         Look { a, b, doubt: precision.projection(), direction, separation: 0.0, left: MAX_VERTICES };
-    match look.through(inside, precision) {
-        Some(true) => Found::Overlap,
+    match look.through(inside) {
+        Some(Some(corners)) if is_around_origin(corners, precision) => Found::Overlap,
         None if look.separation > beyond => Found::Beyond(look.unit(), look.separation),
         _ => Found::Nothing(look.unit()),
     }
+}
+
+/// Four points of the difference around the origin; nothing where none are found beyond rounding, or the solids have no
+/// inside to look from. Cost: a few support searches.
+pub(super) fn around(a: &Solid, b: &Solid, precision: &Precision) -> Option<[DVec3; 4]> {
+    let (mut inside, radius) = (a.center() - b.center(), a.inner_radius + b.inner_radius);
+    let has_inside = a.inner_radius > 0.0 && b.inner_radius > 0.0;
+    if !has_inside {
+        return None;
+    }
+    // From what is all but the origin there is no ray; all of the sphere about it is as good.
+    if inside.length() < 0.5 * radius {
+        inside.x += (0.5 * radius).copysign(inside.x);
+    }
+    let (doubt, direction) = (precision.projection(), -inside.try_normalize()?);
+    let mut look = Look { a, b, doubt, direction, separation: 0.0, left: MAX_VERTICES };
+    look.through(inside)?.filter(|&corners| is_around_origin(corners, precision))
 }
 
 /// Looks for vertices of the difference, one after the other.
@@ -94,9 +111,9 @@ impl Look<'_, '_> {
         (self.separation <= self.doubt).then(|| self.a.point(in_a.vertex) - self.b.point(in_b.vertex))
     }
 
-    /// Follows the ray from a point inside. True once the origin is found inside; nothing, or false, as long as that
-    /// is open.
-    fn through(&mut self, inside: DVec3, precision: &Precision) -> Option<bool> {
+    /// Follows the ray from a point inside, to corners that are around the origin up to rounding. Nothing as long as
+    /// that is open, of either kind.
+    fn through(&mut self, inside: DVec3) -> Option<Option<[DVec3; 4]>> {
         let mut one = self.along(self.direction)?;
         let mut two = self.along(one.cross(inside))?;
         let mut square = (one - inside).cross(two - inside);
@@ -118,12 +135,12 @@ impl Look<'_, '_> {
         loop {
             let outwards = (two - one).cross(three - one);
             if outwards.dot(one) >= 0.0 {
-                return Some(is_around_origin([inside, one, two, three], precision));
+                return Some(Some([inside, one, two, three]));
             }
             let beyond = self.along(outwards)?;
             if (beyond - three).dot(outwards) <= 0.0 {
                 // The portal lies on the surface of M, short of the origin by less than rounding.
-                return Some(false);
+                return Some(None);
             }
             // Which side of the plane through the ray and the new vertex each corner lies on.
             let across = beyond.cross(inside);

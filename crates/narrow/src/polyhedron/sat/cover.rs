@@ -206,8 +206,11 @@ impl Plane {
 
     /// The facet's corners as seen against the normal, counter-clockwise: the sides of both features, by the way they lead.
     fn difference(&self, (a, b): (&Solid, &Solid), facet: &Facet) -> Option<Corners> {
-        let of_a = from_lowest(facet.of_a.iter().map(|&vertex| self.flat(a.point(vertex))));
-        let of_b = from_lowest(facet.of_b.iter().map(|&vertex| -self.flat(b.point(vertex))));
+        let (mut of_a, mut of_b) = (Corners::new_const(), Corners::new_const());
+        of_a.extend(facet.of_a.iter().map(|&vertex| self.flat(a.point(vertex))));
+        of_b.extend(facet.of_b.iter().map(|&vertex| -self.flat(b.point(vertex))));
+        from_lowest(&mut of_a);
+        from_lowest(&mut of_b);
         let (mut i, mut j, mut sum) = (0, 0, Corners::new());
         let side = |list: &Corners, i: usize| list[(i + 1) % list.len()] - list[i % list.len()];
         let sides = |list: &Corners| if list.len() > 1 { list.len() } else { 0 };
@@ -231,9 +234,8 @@ fn is_first([one, other]: [DVec2; 2]) -> bool {
     }
 }
 
-/// The corners of a convex polygon counter-clockwise, from the lowest on.
-fn from_lowest(corners: impl Iterator<Item = DVec2>) -> Corners {
-    let mut list: Corners = corners.take(MOST_CORNERS).collect();
+/// Puts the corners of a convex polygon counter-clockwise, from the lowest on.
+fn from_lowest(list: &mut Corners) {
     let area: f64 = (2..list.len()).map(|i| (list[i - 1] - list[0]).perp_dot(list[i] - list[0])).sum();
     if area < 0.0 {
         list.reverse();
@@ -245,7 +247,6 @@ fn from_lowest(corners: impl Iterator<Item = DVec2>) -> Corners {
         }
     }
     list.rotate_left(lowest);
-    list
 }
 
 impl Disc {

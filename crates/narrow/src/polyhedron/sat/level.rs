@@ -78,9 +78,11 @@ impl Level {
     /// is furthest out there.
     pub(super) fn in_difference(&self, (solid, face): (&Solid, usize), outward: DVec3, other: &Solid) -> f64 {
         // Each is turned once, and asked for once a side of the other.
-        let corners: ArrayVec<DVec3, MAX_HULL_VERTICES> =
-            solid.topology.face_vertices(face).map(|vertex| solid.point(vertex)).collect();
-        let own: ArrayVec<DVec3, MOST> = self.points(other).collect();
+        // Filled where they stay: collected, all the room that there is would be copied.
+        let mut corners = ArrayVec::<DVec3, MAX_HULL_VERTICES>::new_const();
+        corners.extend(solid.topology.face_vertices(face).map(|vertex| solid.point(vertex)));
+        let mut own = ArrayVec::<DVec3, MOST>::new_const();
+        own.extend(self.points(other));
         let mut least = f64::INFINITY;
         // Seen from the face's side the feature's sides go the other way around.
         let (on_face, on_own) =
@@ -110,7 +112,8 @@ impl Level {
         if self.vertices.len() + corners.len() > MOST_CUT {
             return None;
         }
-        let mut left: ArrayVec<DVec3, MOST_CUT> = self.points(other).collect();
+        let mut left = ArrayVec::<DVec3, MOST_CUT>::new_const();
+        left.extend(self.points(other));
         let mut whole = ArrayVec::new_const();
         for (from, inwards) in sides(corners.map(|vertex| solid.point(vertex)), outward) {
             // Most sides cut nothing away.

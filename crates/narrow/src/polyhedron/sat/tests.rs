@@ -2,6 +2,7 @@
 
 mod across;
 mod cost;
+mod expand;
 mod proofs;
 
 use super::*;

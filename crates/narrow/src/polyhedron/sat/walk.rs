@@ -123,6 +123,16 @@ impl Hinted {
     }
 }
 
+/// The facet that a direction all but looks along, as one that is near to the nearest does.
+pub(super) fn facet_along(
+    solids: (&Solid, &Solid),
+    direction: DVec3,
+    precision: &Precision,
+) -> Option<Hinted> {
+    let first = face_towards(solids, direction, precision)?;
+    first.walked(solids, precision).or(Some(first))
+}
+
 /// The face that looks most nearly along a direction, of those at the vertices that are furthest along it.
 fn face_towards((a, b): (&Solid, &Solid), direction: DVec3, precision: &Precision) -> Option<Hinted> {
     let (mut most, mut best) = (f64::NEG_INFINITY, None);

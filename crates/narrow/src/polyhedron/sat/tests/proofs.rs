@@ -22,7 +22,7 @@ fn sign(bit: i32) -> f32 {
 }
 
 /// The best axis by projecting every vertex on every normal and on every cross product.
-fn exhaustive(a: &Solid, b: &Solid) -> f64 {
+pub(super) fn exhaustive(a: &Solid, b: &Solid) -> f64 {
     let projected = |normal: DVec3| b.project(normal).0 - a.project(normal).1;
     let of_a = (0..a.face_count()).map(|face| projected(a.normal(face)));
     let of_b = (0..b.face_count()).map(|face| projected(-b.normal(face)));
@@ -44,7 +44,7 @@ fn every_axis(a: &Solid, b: &Solid, stride: usize) -> Vec<AxisOf> {
 const DEPTHS: [f64; 4] = [1e-6, 1e-3, 0.01, 0.02];
 
 /// A pair that overlaps by so much, B somewhere about A, or lies anywhere near.
-fn placed(random: &mut Random, shapes: [&Shape3; 2], case: u64) -> [Pose3; 2] {
+pub(super) fn placed(random: &mut Random, shapes: [&Shape3; 2], case: u64) -> [Pose3; 2] {
     let turns = [random.turn(case / 2), random.turn(case / 3)];
     let posed =
         |at: DVec3| [(DVec3::ZERO, turns[0]), (at, turns[1])].map(|(at, turn)| Pose3::new(at, turn).unwrap());

@@ -1,0 +1,88 @@
+//! What a growing polytope tells of a depth is true, whatever was known before.
+
+use super::proofs::{exhaustive, placed};
+use super::*;
+use crate::polyhedron::sat::expand::{Nearest, nearest};
+
+/// Rings of so many corners at some heights, and how wide they are there: prisms, frustums, cones, drums.
+fn rimmed(random: &mut Random, sides: usize) -> Shape3 {
+    let step = Quat::from_xyzw(0.0, (core::f32::consts::PI / sides as f32).min(1.0), 0.0, 1.0).normalize();
+    let around: Vec<Vec3> =
+        (0..sides).scan(Vec3::X, |at, _| Some(core::mem::replace(at, step * *at))).collect();
+    let high = 0.2 + random.number().abs();
+    let upper = [1.0, 1.0, 0.7, 0.0][(random.number().abs() * 4.0) as usize % 4];
+    let ring = |wide: f32, y: f32| around.iter().map(move |at| at * wide + Vec3::Y * y).collect::<Vec<_>>();
+    let middle = if upper == 1.0 && high > 0.7 { ring(1.2, 0.0) } else { Vec::new() };
+    let points = [ring(1.0, -high), ring(upper, high), middle].concat();
+    Hull::from_points(&points).unwrap().into()
+}
+
+fn shape(random: &mut Random, case: u64) -> Shape3 {
+    match case % 4 {
+        0 => random.hull(case / 4),
+        1 => random.round_hull(5 + case as usize % 40),
+        _ => rimmed(random, 3 + case as usize % 20),
+    }
+}
+
+#[test]
+fn depths_are_bounded_from_both_sides_whatever_was_known() {
+    let mut random = Random(0x60BE_E2BE_E120_FC15);
+    let (mut told, mut asked, mut settled) = (0, 0, 0);
+    for case in 0..900_u64 {
+        let (shape_a, shape_b) = (shape(&mut random, case), shape(&mut random, case / 3));
+        let [pose_a, pose_b] = placed(&mut random, [&shape_a, &shape_b], case);
+        let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
+        pair.with_solids(|a, b| {
+            let depth = -exhaustive(a, b);
+            let rounding = 2.0 * pair.precision.projection();
+            let even = 64.0 * pair.precision.projection();
+            for known in [f64::INFINITY, 1.5 * depth, depth, 0.7 * depth] {
+                let Some(Nearest { at_least, direction }) = nearest((a, b), (known, even), &pair.precision)
+                else {
+                    continue;
+                };
+                assert!(at_least <= depth + rounding, "case {case}: {at_least}, and it is {depth}");
+                match direction {
+                    Some(direction) => {
+                        let shown = a.project(direction).1 - b.project(direction).0;
+                        let is_unit = (direction.length() - 1.0).abs() < 1e-12;
+                        assert!(
+                            is_unit && shown <= at_least + even + rounding,
+                            "case {case}: {shown}, {at_least}"
+                        );
+                    }
+                    None => assert!(at_least >= known - even, "case {case}: {at_least}, known {known}"),
+                }
+                told += usize::from(direction.is_some());
+                settled += usize::from(direction.is_none());
+            }
+            // Flat hulls have no inside, and what overlaps by less than rounding is left alone.
+            asked += 4 * usize::from(a.inner_radius > 0.05 && b.inner_radius > 0.05 && depth > 1e-5);
+        });
+    }
+    assert!(asked > 2000 && (told + settled) * 100 > asked * 90, "{told} and {settled} of {asked}");
+    assert!(told > 500 && settled > 500, "{told} and {settled} of {asked}");
+}
+
+#[test]
+fn the_best_axis_of_hulls_with_large_faces_is_that_of_all_axes() {
+    let mut random = Random(0x3C79_AC49_2BA7_B653);
+    let (mut by_edges, mut by_faces) = (0, 0);
+    for case in 0..150_u64 {
+        let (shape_a, shape_b) = (rimmed(&mut random, 16), rimmed(&mut random, 14 + case as usize % 6));
+        let [pose_a, pose_b] = placed(&mut random, [&shape_a, &shape_b], 5 * case);
+        let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
+        pair.with_solids(|a, b| {
+            let axes = pair.all_axes(a, b, f64::NEG_INFINITY);
+            let (best, truth) = (axes.best(), exhaustive(a, b));
+            let error = f64::from(pair.precision.of_separation(best.separation, axes.short()));
+            assert!((best.separation - truth).abs() <= error, "case {case}: {best:?}, {truth}");
+            assert!(error < 1e-6, "case {case}: {error}");
+            let shown = b.project(best.normal).0 - a.project(best.normal).1;
+            assert!((best.separation - shown).abs() <= pair.precision.projection(), "case {case}: {shown}");
+            if matches!(best.of, AxisOf::Edges(..)) { by_edges += 1 } else { by_faces += 1 }
+        });
+    }
+    assert!(by_edges > 20 && by_faces > 20, "{by_edges} by edges, {by_faces} by faces");
+}
