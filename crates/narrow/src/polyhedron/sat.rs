@@ -80,7 +80,7 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 pub(crate) use axes::{Axes, Axis, AxisOf};
 use cross::{Cross, EdgeAt};
-use cull::Sight;
+use cull::{Heights, Sight};
 pub(crate) use facet::in_polygon;
 pub(crate) use hinted::{Hinted, hint_of, hint_to, hint_with, last_of};
 pub(crate) use walk::Ended;
@@ -127,7 +127,8 @@ impl Search<'_> {
 
 /// The best axis of each kind.
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
-    let mut sights = [Sight::new(a, b), Sight::new(b, a)];
+    let (mut over_a, mut over_b) = (Heights::new_const(), Heights::new_const());
+    let mut sights = [Sight::new(a, b, &mut over_a), Sight::new(b, a, &mut over_b)];
     let mut found = Found::new(search);
     let first = found.by_first_faces(&mut sights, search);
     // One that shows no more than last frame's, which led nowhere, is no better a start.
@@ -147,7 +148,8 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
 
 /// The same of faces alone, for solids that a gap parts.
 pub(crate) fn face_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
-    let mut sights = [Sight::new(a, b), Sight::new(b, a)];
+    let (mut over_a, mut over_b) = (Heights::new_const(), Heights::new_const());
+    let mut sights = [Sight::new(a, b, &mut over_a), Sight::new(b, a, &mut over_b)];
     let mut found = Found::new(search);
     let first = found.by_first_faces(&mut sights, search);
     found.by_faces(&mut sights, &first, search);

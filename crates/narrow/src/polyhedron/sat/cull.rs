@@ -36,13 +36,16 @@ const POINTS: usize = 8;
 /// So many edges are handed on as they are: looking at one costs as much as its arc against some thirty others.
 const FEW: usize = 32;
 
+/// How far a sphere lies over each face of a solid, eight by eight.
+pub(super) type Heights = ArrayVec<[f32; 8], MAX_OCTETS>;
+
 /// What a solid's faces and edges see of the other solid.
 pub(super) struct Sight<'a, 'b> {
     pub(super) solid: &'a Solid<'b>,
     pub(super) other: &'a Solid<'b>,
     sphere: Ball,
-    /// How far the sphere lies over each face.
-    over: ArrayVec<[f32; 8], MAX_OCTETS>,
+    /// How far the sphere lies over each face. It stays where it is: moved with the rest, all its room would be copied.
+    over: &'a mut Heights,
     /// The one that told last comes first.
     points: ArrayVec<Ball, POINTS>,
     /// The place that was last given away.
@@ -65,9 +68,9 @@ type Open = [u32; 8];
 const NONE_OPEN: Open = [0; 8];
 
 impl<'a, 'b> Sight<'a, 'b> {
-    pub(super) fn new(solid: &'a Solid<'b>, other: &'a Solid<'b>) -> Self {
+    pub(super) fn new(solid: &'a Solid<'b>, other: &'a Solid<'b>, over: &'a mut Heights) -> Self {
         let sphere = Ball::new(solid, solid.to_local(other.center()).as_vec3(), other.inner_radius);
-        Self { solid, other, sphere, over: ArrayVec::new_const(), points: ArrayVec::new_const(), turn: 0 }
+        Self { solid, other, sphere, over, points: ArrayVec::new_const(), turn: 0 }
     }
 
     /// The face that the other's centre is furthest over; of equals the first.

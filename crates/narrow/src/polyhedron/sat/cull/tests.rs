@@ -172,7 +172,8 @@ fn no_face_and_no_edge_is_culled_whose_axes_come_to_the_separation_asked_for() {
                     shown_by_face.iter().chain(&shown_by_edge).copied().fold(f64::NEG_INFINITY, f64::max);
                 // What the whole test would ask for, and less, so that some are just good enough.
                 let asked = best - f64::from(random.number().abs()) * 0.1 * pair.precision.size;
-                let mut sight = Sight::new(solid, other);
+                let mut over = Heights::new_const();
+                let mut sight = Sight::new(solid, other, &mut over);
                 sight.highest().unwrap();
                 let mut visited = vec![false; solid.face_count()];
                 sight.for_faces(asked, |face| {
