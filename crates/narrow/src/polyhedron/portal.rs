@@ -41,7 +41,7 @@ pub(crate) fn search(a: &Solid, b: &Solid, beyond: f64, precision: &Precision) -
         // Flat solids have no inside to look from.
         return Found::Nothing(-inside.try_normalize().unwrap_or(DVec3::X));
     }
-    if apart + 2.0 * precision.projection() < a.inner_radius + b.inner_radius {
+    if do_spheres_meet(a, b, apart, precision) {
         return Found::Overlap;
     }
     if apart == 0.0 {
@@ -56,6 +56,11 @@ pub(crate) fn search(a: &Solid, b: &Solid, beyond: f64, precision: &Precision) -
         None if look.separation > beyond => Found::Beyond(look.unit(), look.separation),
         _ => Found::Nothing(look.unit()),
     }
+}
+
+/// Whether spheres inside both overlap beyond rounding, by how far their centres are apart.
+pub(crate) fn do_spheres_meet(a: &Solid, b: &Solid, apart: f64, precision: &Precision) -> bool {
+    apart + 2.0 * precision.projection() < a.inner_radius + b.inner_radius
 }
 
 /// Four points of the difference around the origin; nothing where none are found beyond rounding, or the solids have no

@@ -320,7 +320,7 @@ impl<'a> Solid<'a> {
 
     /// The centre in the frame of the pair.
     #[inline]
-    pub(super) fn center(&self) -> DVec3 {
+    pub(crate) fn center(&self) -> DVec3 {
         self.position + self.forth(self.center)
     }
 
