@@ -4,7 +4,7 @@
 //! for the most promising face of A, of B:   axis = its normal
 //! from the better one's facet of A - B to the nearest; if it is known to be that: done              (walk, facet, cover)
 //! for each other face that spheres inside the other solid leave open: axis = its normal                   (cull)
-//! of solids with rims of large faces, which spheres leave open: a polytope that grows in A - B; if it tells: done   (expand)
+//! of solids with rims of large faces, which spheres leave open: a polytope that grows in A - B; if it tells: done   (grow)
 //! for each pair of edges that they leave open, and whose arcs on the Gauss map may cross:           (arcs, caps)
 //!                                           axis = the cross product, unless they are nearly parallel,
 //!                                           or themselves show less than the best axis so far
@@ -65,8 +65,8 @@ mod caps;
 mod cover;
 mod cross;
 mod cull;
-mod expand;
 mod facet;
+mod grow;
 mod hinted;
 mod level;
 mod walk;
@@ -83,6 +83,7 @@ pub(crate) use axes::{Axes, Axis, AxisOf};
 use cross::{Cross, EdgeAt};
 use cull::{Heights, Sight};
 pub(crate) use facet::in_polygon;
+use grow::{Bound, grow};
 pub(crate) use hinted::{Hinted, hint_of, hint_to, hint_with, last_of};
 pub(crate) use walk::Ended;
 
@@ -128,42 +129,53 @@ impl Search<'_> {
 
 /// The best axis of each kind.
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
-    let (mut over_a, mut over_b) = (Heights::new_const(), Heights::new_const());
-    let mut sights = [Sight::new(a, b, &mut over_a), Sight::new(b, a, &mut over_b)];
-    let mut found = Found::new(search);
-    let first = found.by_first_faces(&mut sights, search);
-    // One that shows no more than last frame's, which led nowhere, is no better a start.
-    if found.axes.best().separation > search.unproved
-        && let Some(first) = found.first_hinted(&first, search)
-    {
-        match first.walk((a, b), search.precision) {
-            Ended::Best(axes) => return axes,
-            Ended::Apart(_) => {}
-            Ended::Open(shown) => found.floor = found.floor.max(shown - search.precision.doubt_of_depth()),
+    begun((a, b), search, |mut found, sights, first| {
+        // One that shows no more than last frame's, which led nowhere, is no better a start.
+        if found.axes.best().separation > search.unproved
+            && let Some(first) = found.first_hinted(&first, search)
+        {
+            match first.walk((a, b), search.precision) {
+                Ended::Best(axes) => return axes,
+                Ended::Apart(_) => {}
+                Ended::Open(shown) => {
+                    found.floor = found.floor.max(shown - search.precision.doubt_of_depth());
+                }
+            }
         }
-    }
-    found.by_faces(&mut sights, &first, search);
-    found.by_edges(&mut sights, search);
-    found.axes
+        found.by_faces(sights, &first, search);
+        found.by_edges(sights, search);
+        found.axes
+    })
 }
 
 /// The axis of the most promising of all faces: where to begin, of solids about which nothing is known.
 pub(crate) fn first_axis(a: &Solid, b: &Solid, search: &Search) -> Option<Hinted> {
-    let (mut over_a, mut over_b) = (Heights::new_const(), Heights::new_const());
-    let mut sights = [Sight::new(a, b, &mut over_a), Sight::new(b, a, &mut over_b)];
-    let mut found = Found::new(search);
-    let first = found.by_first_faces(&mut sights, search);
-    found.first_hinted(&first, search)
+    begun((a, b), search, |found, _, first| found.first_hinted(&first, search))
 }
 
 /// The same of faces alone, for solids that a gap parts.
 pub(crate) fn face_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
+    begun((a, b), search, |mut found, sights, first| {
+        found.by_faces(sights, &first, search);
+        found.axes
+    })
+}
+
+/// The most promising face of A, and of B, with the other's vertex that is furthest against it.
+type First = [Option<[usize; 2]>; 2];
+
+/// The test, once the most promising faces have been asked.
+#[inline(always)]
+fn begun<R>(
+    (a, b): (&Solid, &Solid),
+    search: &Search,
+    go_on: impl FnOnce(Found, &mut [Sight; 2], First) -> R,
+) -> R {
     let (mut over_a, mut over_b) = (Heights::new_const(), Heights::new_const());
     let mut sights = [Sight::new(a, b, &mut over_a), Sight::new(b, a, &mut over_b)];
     let mut found = Found::new(search);
     let first = found.by_first_faces(&mut sights, search);
-    found.by_faces(&mut sights, &first, search);
-    found.axes
+    go_on(found, &mut sights, first)
 }
 
 /// The test under way.
@@ -186,7 +198,7 @@ impl Found {
 
     /// The most promising face of each solid first, since the better the best axis is, the more is culled by it.
     /// Returns those faces, and the other's vertices that are furthest against them.
-    fn by_first_faces(&mut self, sights: &mut [Sight; 2], search: &Search) -> [Option<[usize; 2]>; 2] {
+    fn by_first_faces(&mut self, sights: &mut [Sight; 2], search: &Search) -> First {
         let mut first = [None; 2];
         for (which, sight) in sights.iter_mut().enumerate() {
             if let Some(face) = sight.highest() {
@@ -200,7 +212,7 @@ impl Found {
     }
 
     /// The best of the first faces, where to begin.
-    fn first_hinted(&self, first: &[Option<[usize; 2]>; 2], search: &Search) -> Option<Hinted> {
+    fn first_hinted(&self, first: &First, search: &Search) -> Option<Hinted> {
         let axis = *self.axes.best();
         let [of_a, of_b] = *first;
         let [_, deepest] = if matches!(axis.of, AxisOf::FaceA(_)) { of_a } else { of_b }?;
@@ -208,7 +220,7 @@ impl Found {
     }
 
     /// All other faces that may be as good.
-    fn by_faces(&mut self, sights: &mut [Sight; 2], first: &[Option<[usize; 2]>; 2], search: &Search) {
+    fn by_faces(&mut self, sights: &mut [Sight; 2], first: &First, search: &Search) {
         for (which, sight) in sights.iter_mut().enumerate() {
             let pair = [sight.solid, sight.other];
             let known = first[which].map(|[face, _]| face);
@@ -244,7 +256,7 @@ impl Found {
     fn by_edges(&mut self, sights: &mut [Sight; 2], search: &Search) {
         let [in_a, in_b] = sights;
         let (a, b) = (in_a.solid, in_b.solid);
-        if are_rimmed(a, b) && self.by_expanding((a, b), search).is_some() {
+        if are_rimmed(a, b) && self.by_growing((a, b), search).is_some() {
             return;
         }
         // Not an array of two: it would be blanked.
@@ -276,22 +288,27 @@ impl Found {
         });
     }
 
+    /// What the best axis shows, or what some axis is known to, where that alone left all others out.
+    fn stake(&self) -> f64 {
+        let best = self.axes.best().separation;
+        if best == f64::NEG_INFINITY { self.floor } else { best }
+    }
+
     /// The best axis of all by a polytope, without a look at edges; nothing where that does not tell.
     #[inline(never)]
-    fn by_expanding(&mut self, solids: (&Solid, &Solid), search: &Search) -> Option<()> {
+    fn by_growing(&mut self, solids: (&Solid, &Solid), search: &Search) -> Option<()> {
         let precision = search.precision;
-        let known = -self.axes.best().separation;
-        let even = search.even(known);
-        let nearest = expand::nearest(solids, (known, even), precision)?;
-        if let Some(direction) = nearest.direction {
-            let hinted = walk::facet_along(solids, direction, precision)?;
-            let is_it = hinted.axis.separation >= -nearest.at_least - 2.0 * even;
-            if !is_it {
-                return None;
-            }
+        let slack = search.even(self.stake());
+        // Without an axis to show it there is nothing to be proved, and the depth is to be found.
+        let known_depth = -self.axes.best().separation;
+        let Bound { at_least, met } = grow(solids, (known_depth, slack), precision)?;
+        if let Some(facet) = met {
+            let least = -at_least - 2.0 * slack - precision.planarity;
+            let is_it = |hinted: &Hinted| hinted.axis.separation >= least;
+            let hinted = walk::facet_of(solids, &facet, precision, is_it)?;
             self.offer(hinted.axis);
         }
-        self.axes.raise(-nearest.at_least, precision.projection());
+        self.axes.raise(-at_least, precision.projection());
         Some(())
     }
 
@@ -392,7 +409,7 @@ impl Found {
     /// Whether edges are so nearly parallel that what they may add to the best axis is nothing.
     fn are_parallel(&mut self, cross: &Cross, search: &Search) -> bool {
         let by_angle = search.precision.of_parallel_edges(cross.squared_sine());
-        let is_nothing = by_angle <= search.even(self.axes.best().separation);
+        let is_nothing = by_angle <= search.even(self.stake());
         if is_nothing {
             self.axes.left_out = self.axes.left_out.max(by_angle);
         }
@@ -436,9 +453,14 @@ impl Found {
     }
 }
 
-/// Whether solids have many pairs of edges of which spheres leave most: the rims of large faces.
+/// Whether solids have many pairs of edges, and either is a prism or much like one: a quarter of its edges and more are
+/// the rim of one face. Spheres tell little of those.
 fn are_rimmed(a: &Solid, b: &Solid) -> bool {
-    let is_rimmed = |solid: &Solid| 2 * solid.arcs().len() >= 5 * solid.face_count();
+    let is_rimmed = |solid: &Solid| {
+        let (edges, faces) = (solid.arcs().len(), solid.face_count());
+        let corners = |face: usize| solid.topology.face_half_edges(face).len();
+        2 * edges >= 5 * faces && (0..faces).any(|face| 4 * corners(face) >= edges)
+    };
     a.arcs().len() * b.arcs().len() >= MANY_PAIRS && (is_rimmed(a) || is_rimmed(b))
 }
 

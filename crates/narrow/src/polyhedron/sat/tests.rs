@@ -2,7 +2,7 @@
 
 mod across;
 mod cost;
-mod expand;
+mod grow;
 mod proofs;
 
 use super::*;

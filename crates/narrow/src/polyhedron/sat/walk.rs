@@ -20,6 +20,7 @@
 //! ICRA 1991); here it goes over those of their difference, in overlap.
 
 use super::super::solid::Solid;
+use super::grow::Met;
 use super::hinted::{Hinted, Judged};
 use super::{Axes, Axis, AxisOf};
 use crate::precision::Precision;
@@ -123,14 +124,33 @@ impl Hinted {
     }
 }
 
-/// The facet that a direction all but looks along, as one that is near to the nearest does.
-pub(super) fn facet_along(
+/// The facet of the difference that a piece of it belongs to, by what it shows: two edges, by its corners, or what a walk
+/// comes to from the face that looks most nearly as it does.
+pub(super) fn facet_of(
     solids: (&Solid, &Solid),
-    direction: DVec3,
+    piece: &Met,
     precision: &Precision,
+    is_it: impl Fn(&Hinted) -> bool,
 ) -> Option<Hinted> {
-    let first = face_towards(solids, direction, precision)?;
-    first.walked(solids, precision).or(Some(first))
+    if let Some(edges) = piece.corners.and_then(|corners| edges_of(solids, corners))
+        && let Some(hinted) = Hinted::at(solids, edges, precision).filter(&is_it)
+    {
+        return Some(hinted);
+    }
+    let first = face_towards(solids, piece.direction, precision)?;
+    first.walked(solids, precision).filter(&is_it).or_else(|| Some(first).filter(&is_it))
+}
+
+/// The edges of which three corners are the difference, if they are of two.
+fn edges_of((a, b): (&Solid, &Solid), corners: [[u16; 2]; 3]) -> Option<AxisOf> {
+    let ends = |which: usize| {
+        let [p, q, r] = corners.map(|corner| corner[which]);
+        let other = if q == p { r } else { q };
+        let is_two = other != p && [p, other].contains(&r);
+        is_two.then_some((usize::from(p), usize::from(other)))
+    };
+    let ((from_a, to_a), (from_b, to_b)) = (ends(0)?, ends(1)?);
+    Some(AxisOf::Edges(a.edge_between(from_a, to_a)?, b.edge_between(from_b, to_b)?))
 }
 
 /// The face that looks most nearly along a direction, of those at the vertices that are furthest along it.

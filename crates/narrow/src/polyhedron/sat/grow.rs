@@ -20,7 +20,8 @@
 //! Neither asks for a convex polytope, nor for one without folds.
 //!
 //! Prisms take 22 to 34 vertices, however many sides they have: two of 24 sides, deep in each other, 24 us to 8, two of 128
-//! 200 to 18 (AMD EPYC, Zen 4, 2026-11-26). Tried: hulls of random vertices, of whose edges spheres leave one in seven to one
+//! 200 to 18 (AMD EPYC, Zen 4, 2026-11-26). Of cells and footballs, which have as many edges for their faces, but no large
+//! one, half run out of vertices: 1.2 to 3.4 times as long as by pairs. Tried: hulls of random vertices, of whose edges spheres leave one in seven to one
 //! in seventy (32 vertices 8.4 us to 16, 256 36 to 72); globes of 256, all of whose directions are nearly as good (31 to 135);
 //! instead of a rule for shapes, one for how many edges spheres leave, asked on the way (prisms of 128 sides 28 us, since it is
 //! the asking that takes long; cones a little less than by all pairs).
@@ -42,16 +43,27 @@ const MOST_EDGES: usize = 64;
 
 /// What the polytope has shown.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Nearest {
+pub(super) struct Bound {
     /// No direction shows a lesser depth than that, rounding of a projection apart, in metres.
     pub(super) at_least: f64,
-    /// A unit direction from A to B that shows hardly more; nothing where what was known already does.
-    pub(super) direction: Option<DVec3>,
+    /// What shows hardly more; nothing where the depth that was known does.
+    pub(super) met: Option<Met>,
+}
+
+/// A facet of the polytope that is one of the difference, or a piece of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Met {
+    /// A unit vector from A to B.
+    pub(super) direction: DVec3,
+    /// Of which vertices of A and of B its corners are the difference, where that is known.
+    pub(super) corners: Option<[[u16; 2]; 3]>,
 }
 
 /// A closed surface around the origin, within the difference. What is gone over is in lists of its own.
 struct Surface {
     points: ArrayVec<DVec3, MOST_VERTICES>,
+    /// Of which vertices of A and of B each point is the difference; nothing of those that the surface began with.
+    vertices: ArrayVec<Option<[u16; 2]>, MOST_VERTICES>,
     /// Of each facet, counter-clockwise as seen from outside.
     corners: ArrayVec<[u8; 3], MOST_FACETS>,
     /// A unit vector.
@@ -62,47 +74,67 @@ struct Surface {
     doubt: f64,
 }
 
-/// How deep solids overlap of which some direction shows `known`, up to `even`; nothing where rounding is in the way, or
-/// too many vertices would be needed.
+/// How deep solids overlap of which a direction shows `known_depth` (infinite where none is known), up to a slack; nothing
+/// where rounding is in the way, or too many vertices would be needed.
+///
+/// The slack is finite, and more than the rounding of a projection: each vertex takes a facet away.
 #[inline(never)]
-pub(super) fn nearest(
+pub(super) fn grow(
     (a, b): (&Solid, &Solid),
-    (known, even): (f64, f64),
+    (known_depth, slack): (f64, f64),
     precision: &Precision,
-) -> Option<Nearest> {
+) -> Option<Bound> {
     let corners = portal::around(a, b, precision)?;
-    let mut surface = Surface {
-        points: ArrayVec::new_const(),
-        corners: ArrayVec::new_const(),
-        normals: ArrayVec::new_const(),
-        least: ArrayVec::new_const(),
-        doubt: precision.projection(),
-    };
+    let mut surface = Surface::new(precision.projection());
     surface.begin(corners)?;
+    // With its last vertex the surface is not looked at any more.
     while !surface.points.is_full() {
-        let (normal, least) = surface.nearest()?;
-        if least >= known - even {
-            return Some(Nearest { at_least: least, direction: None });
+        let place = surface.nearest_facet()?;
+        let (direction, at_least) = (surface.normals[place], surface.least[place]);
+        if at_least >= known_depth - slack {
+            return Some(Bound { at_least, met: None });
         }
-        let vertex = |of_a: usize, of_b: usize| a.point(of_a) - b.point(of_b);
-        let (rough_a, rough_b) = (a.rough_support(normal).0, b.rough_support(-normal).0);
-        let mut furthest = vertex(rough_a.vertex, rough_b.vertex);
-        if normal.dot(furthest) <= least + even {
-            let (in_a, in_b) = (a.support(normal), b.support(-normal));
-            if in_a.reach + in_b.reach <= least + even {
-                return Some(Nearest { at_least: least, direction: Some(normal) });
+        let point = |of_a: usize, of_b: usize| a.point(of_a) - b.point(of_b);
+        let mut vertices = [a.rough_support(direction).0.vertex, b.rough_support(-direction).0.vertex];
+        let mut furthest = point(vertices[0], vertices[1]);
+        if direction.dot(furthest) <= at_least + slack {
+            let (in_a, in_b) = (a.support(direction), b.support(-direction));
+            if in_a.reach + in_b.reach <= at_least + slack {
+                let corners = surface.vertices_of(place);
+                return Some(Bound { at_least, met: Some(Met { direction, corners }) });
             }
-            furthest = vertex(in_a.vertex, in_b.vertex);
+            vertices = [in_a.vertex, in_b.vertex];
+            furthest = point(vertices[0], vertices[1]);
         }
-        surface.take(furthest)?;
+        surface.take(furthest, vertices.map(|vertex| vertex as u16))?;
     }
     None
 }
 
 impl Surface {
+    /// Without a facet.
+    #[inline(always)]
+    fn new(doubt: f64) -> Self {
+        Self {
+            points: ArrayVec::new_const(),
+            vertices: ArrayVec::new_const(),
+            corners: ArrayVec::new_const(),
+            normals: ArrayVec::new_const(),
+            least: ArrayVec::new_const(),
+            doubt,
+        }
+    }
+
+    /// Of which vertices of A and of B a facet's corners are the difference, if they are.
+    fn vertices_of(&self, facet: usize) -> Option<[[u16; 2]; 3]> {
+        let [p, q, r] = self.corners[facet].map(|corner| self.vertices[usize::from(corner)]);
+        Some([p?, q?, r?])
+    }
+
     /// A tetrahedron around the origin.
     fn begin(&mut self, corners: [DVec3; 4]) -> Option<()> {
         self.points.extend(corners);
+        self.vertices.extend([None; 4]);
         let [a, b, c, d] = corners;
         let is_turned = (b - a).cross(c - a).dot(d - a) > 0.0;
         for [i, j, k] in [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]] {
@@ -111,12 +143,10 @@ impl Surface {
         Some(())
     }
 
-    /// The nearest facet's normal, and how near it is.
-    fn nearest(&self) -> Option<(DVec3, f64)> {
+    fn nearest_facet(&self) -> Option<usize> {
         let lesser = |one: f64, other: &f64| if *other < one { *other } else { one };
         let least = self.least.iter().fold(f64::INFINITY, lesser);
-        let place = self.least.iter().position(|&of| of == least)?;
-        Some((self.normals[place], least))
+        self.least.iter().position(|&of| of == least)
     }
 
     /// A facet; nothing where it is not beyond rounding from the origin.
@@ -136,7 +166,7 @@ impl Surface {
     }
 
     /// Takes a point more, in place of all facets that it is beyond.
-    fn take(&mut self, point: DVec3) -> Option<()> {
+    fn take(&mut self, point: DVec3, vertices: [u16; 2]) -> Option<()> {
         count_steps(self.corners.len() / 4);
         let mut beyond = ArrayVec::<u16, MOST_FACETS>::new_const();
         for (i, (normal, least)) in self.normals.iter().zip(&self.least).enumerate() {
@@ -158,6 +188,7 @@ impl Surface {
         }
         let new = self.points.len() as u8;
         self.points.try_push(point).ok()?;
+        self.vertices.push(Some(vertices));
         around.iter().try_for_each(|&[from, to]| self.add([from, to, new]))
     }
 
@@ -183,9 +214,8 @@ mod tests {
             // About on the line of the two others.
             let thin = [1.0, 1e-6, 1e-13, 1e-16][case % 4];
             let r = p.lerp(q, 2.0 * f64::from(random.number())) + aside * thin;
-            let points = ArrayVec::from_iter([p, q, r]);
-            let (corners, normals, least) = Default::default();
-            let mut surface = Surface { points, corners, normals, least, doubt: 1e-15 };
+            let mut surface = Surface::new(1e-15);
+            surface.points.extend([p, q, r]);
             if surface.add([0, 1, 2]).is_none() {
                 refused += 1;
                 continue;
