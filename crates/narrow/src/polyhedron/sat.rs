@@ -4,7 +4,7 @@
 //! for the most promising face of A, of B:   axis = its normal
 //! from the better one's facet of A - B to the nearest; if it is known to be that: done              (walk, facet, cover)
 //! for each other face that spheres inside the other solid leave open: axis = its normal                   (cull)
-//! of solids with rims of large faces, which spheres leave open: a polytope that grows in A - B; if it tells: done   (grow)
+//! of prisms and their like: a polytope that grows in A - B; if it tells: done                           (grow)
 //! for each pair of edges that they leave open, and whose arcs on the Gauss map may cross:           (arcs, caps)
 //!                                           axis = the cross product, unless they are nearly parallel,
 //!                                           or themselves show less than the best axis so far
