@@ -20,11 +20,11 @@
 //! Neither asks for a convex polytope, nor for one without folds.
 //!
 //! Prisms take 22 to 34 vertices, however many sides they have: two of 24 sides, deep in each other, 24 us to 8, two of 128
-//! 200 to 18 (AMD EPYC, Zen 4, 2026-11-26). Of cells and footballs, which have as many edges for their faces, but no large
-//! one, half run out of vertices: 1.2 to 3.4 times as long as by pairs. Tried: hulls of random vertices, of whose edges spheres leave one in seven to one
-//! in seventy (32 vertices 8.4 us to 16, 256 36 to 72); globes of 256, all of whose directions are nearly as good (31 to 135);
-//! instead of a rule for shapes, one for how many edges spheres leave, asked on the way (prisms of 128 sides 28 us, since it is
-//! the asking that takes long; cones a little less than by all pairs).
+//! 200 to 18 (AMD EPYC, Zen 4, 2026-11-26). Tried: hulls of random vertices, of whose edges spheres leave one in seven to
+//! one in seventy (32 vertices 8.4 us to 16, 256 36 to 72); cells and footballs, which have as many edges for their faces but
+//! no large one, and half of which run out of vertices (1.2 to 3.4 times as long); globes of 256, all of whose directions are
+//! nearly as good (31 to 135); in place of a rule for shapes, one for how many edges spheres leave, asked on the way (prisms
+//! of 128 sides 28 us, since it is the asking that takes long; cones a little less than by all pairs).
 
 use super::super::portal;
 use super::super::solid::Solid;
