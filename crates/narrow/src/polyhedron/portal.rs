@@ -48,9 +48,7 @@ pub(crate) fn search(a: &Solid, b: &Solid, beyond: f64, precision: &Precision) -
         // Slivers about the same centre, thinner than rounding: there is no ray.
         return Found::Nothing(DVec3::X);
     }
-    let direction = -inside / apart;
-    let mut look =
-        Look { a, b, doubt: precision.projection(), direction, separation: 0.0, left: MAX_VERTICES };
+    let mut look = Look::new((a, b), -inside / apart, precision);
     match look.through(inside) {
         Some(Some(corners)) if is_around_origin(corners, precision) => Found::Overlap,
         None if look.separation > beyond => Found::Beyond(look.unit(), look.separation),
@@ -75,8 +73,7 @@ pub(super) fn around(a: &Solid, b: &Solid, precision: &Precision) -> Option<[DVe
     if inside.length() < 0.5 * radius {
         inside.x += (0.5 * radius).copysign(inside.x);
     }
-    let (doubt, direction) = (precision.projection(), -inside.try_normalize()?);
-    let mut look = Look { a, b, doubt, direction, separation: 0.0, left: MAX_VERTICES };
+    let mut look = Look::new((a, b), -inside.try_normalize()?, precision);
     look.through(inside)?.filter(|&corners| is_around_origin(corners, precision))
 }
 
@@ -93,7 +90,12 @@ struct Look<'a, 'b> {
     left: usize,
 }
 
-impl Look<'_, '_> {
+impl<'a, 'b> Look<'a, 'b> {
+    /// Before the first look.
+    fn new((a, b): (&'a Solid<'b>, &'a Solid<'b>), direction: DVec3, precision: &Precision) -> Self {
+        Self { a, b, doubt: precision.projection(), direction, separation: 0.0, left: MAX_VERTICES }
+    }
+
     fn unit(&self) -> DVec3 {
         self.direction.try_normalize().unwrap_or(DVec3::X)
     }
@@ -116,8 +118,9 @@ impl Look<'_, '_> {
         (self.separation <= self.doubt).then(|| self.a.point(in_a.vertex) - self.b.point(in_b.vertex))
     }
 
-    /// Follows the ray from a point inside, to corners that are around the origin up to rounding. Nothing as long as
-    /// that is open, of either kind.
+    /// Follows the ray from a point inside, to corners that are around the origin up to rounding. Nothing where a look led
+    /// no further: its direction parts the solids, or there were too many. No corners where the ray leaves the difference
+    /// short of the origin, by no more than rounding.
     fn through(&mut self, inside: DVec3) -> Option<Option<[DVec3; 4]>> {
         let mut one = self.along(self.direction)?;
         let mut two = self.along(one.cross(inside))?;

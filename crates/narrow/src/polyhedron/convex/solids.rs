@@ -133,8 +133,8 @@ impl Convex<'_> {
         first_axis(a, b, &self.search(f64::NEG_INFINITY))
     }
 
-    /// Solids that overlap for certain, of which last frame's axis was not proved to be the best. Most often it nearly
-    /// is, and what shows less is culled.
+    /// Solids that overlap for certain, of which the axis that was begun with, last frame's or a face's, was not proved to be
+    /// the best. Most often it nearly is, and what shows less is culled.
     fn overlap_by_axes(&self, (a, b): (&Solid, &Solid), hinted: Option<Hinted>) -> Probe {
         let doubt = 8.0 * self.precision.projection();
         let unproved = hinted.map_or(f64::NEG_INFINITY, |hinted| hinted.axis.separation);

@@ -87,6 +87,7 @@ pub(super) fn grow(
     let corners = portal::around(a, b, precision)?;
     let mut surface = Surface::new(precision.projection());
     surface.begin(corners)?;
+    let point = |[of_a, of_b]: [usize; 2]| a.point(of_a) - b.point(of_b);
     // With its last vertex the surface is not looked at any more.
     while !surface.points.is_full() {
         let place = surface.nearest_facet()?;
@@ -94,9 +95,8 @@ pub(super) fn grow(
         if at_least >= known_depth - slack {
             return Some(Bound { at_least, met: None });
         }
-        let point = |of_a: usize, of_b: usize| a.point(of_a) - b.point(of_b);
         let mut vertices = [a.rough_support(direction).0.vertex, b.rough_support(-direction).0.vertex];
-        let mut furthest = point(vertices[0], vertices[1]);
+        let mut furthest = point(vertices);
         if direction.dot(furthest) <= at_least + slack {
             let (in_a, in_b) = (a.support(direction), b.support(-direction));
             if in_a.reach + in_b.reach <= at_least + slack {
@@ -104,7 +104,7 @@ pub(super) fn grow(
                 return Some(Bound { at_least, met: Some(Met { direction, corners }) });
             }
             vertices = [in_a.vertex, in_b.vertex];
-            furthest = point(vertices[0], vertices[1]);
+            furthest = point(vertices);
         }
         surface.take(furthest, vertices.map(|vertex| vertex as u16))?;
     }

@@ -26,6 +26,14 @@ fn shape(random: &mut Random, case: u64) -> Shape3 {
     }
 }
 
+/// Two rimmed hulls, the one deep in the other.
+fn rimmed_pair(random: &mut Random, sides: [usize; 2], case: u64) -> ([Shape3; 2], [Pose3; 2]) {
+    let shapes = sides.map(|sides| rimmed(random, sides));
+    // `placed` puts every fifth there.
+    let poses = placed(random, [&shapes[0], &shapes[1]], 5 * case);
+    (shapes, poses)
+}
+
 #[test]
 fn depths_are_bounded_from_both_sides_whatever_was_known() {
     let mut random = Random(0x60BE_E2BE_E120_FC15);
@@ -70,8 +78,8 @@ fn the_best_axis_of_hulls_with_large_faces_is_that_of_all_axes() {
     let mut random = Random(0x3C79_AC49_2BA7_B653);
     let (mut by_edges, mut by_faces) = (0, 0);
     for case in 0..150_u64 {
-        let (shape_a, shape_b) = (rimmed(&mut random, 16), rimmed(&mut random, 14 + case as usize % 6));
-        let [pose_a, pose_b] = placed(&mut random, [&shape_a, &shape_b], 5 * case);
+        let sides = [16, 14 + case as usize % 6];
+        let ([shape_a, shape_b], [pose_a, pose_b]) = rimmed_pair(&mut random, sides, case);
         let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
         pair.with_solids(|a, b| {
             let axes = pair.all_axes(a, b, f64::NEG_INFINITY);
@@ -93,8 +101,7 @@ fn an_answer_is_as_good_whatever_axis_was_the_best_before() {
     let mut random = Random(0xD1B5_4A32_D192_ED03);
     let (mut asked, mut left_out) = (0, 0);
     for case in 0..250_u64 {
-        let (shape_a, shape_b) = (rimmed(&mut random, 16), rimmed(&mut random, 16));
-        let [pose_a, pose_b] = placed(&mut random, [&shape_a, &shape_b], 5 * case);
+        let ([shape_a, shape_b], [pose_a, pose_b]) = rimmed_pair(&mut random, [16; 2], case);
         let before = convex(&shape_a, pose_a, &shape_b, pose_b);
         let hint = before.with_solids(|a, b| hint_to(before.all_axes(a, b, f64::NEG_INFINITY).best().of));
         for step in [1e-3, 1e-2, 3e-2] {
