@@ -81,3 +81,14 @@ pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     world.stats.hooks = world.timed(|world| edit_contacts(world, hooks));
     world.stats.impacts = world.timed(impacts::impacts);
 }
+
+/// One and the other; on two threads where there are.
+fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+    #[cfg(feature = "parallel")]
+    rayon::join(one, other);
+    #[cfg(not(feature = "parallel"))]
+    {
+        one();
+        other();
+    }
+}

@@ -102,7 +102,6 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) spare: S::Spare,
     /// What the chunks hand over.
     pub(crate) settled: Vec<Settled<S>>,
-    pub(crate) refitted: Vec<S::Aabb>,
     pub(crate) last_candidates: Vec<Candidate<S::Key>>,
     pub(crate) last_records: Records<S::Key>,
     pub(crate) last_answered: Vec<Batch<S::Manifold>>,
@@ -128,7 +127,6 @@ impl<S: Space> Scratch<S> {
             pairs: Vec::new(),
             spare: S::Spare::default(),
             settled: Vec::new(),
-            refitted: Vec::new(),
             last_candidates: Vec::new(),
             last_records: Records::new(),
             last_answered: Vec::new(),

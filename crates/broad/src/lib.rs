@@ -22,6 +22,7 @@ mod index;
 mod loose;
 mod pair;
 mod plain;
+mod sift;
 mod sweep;
 mod width;
 

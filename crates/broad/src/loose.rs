@@ -26,6 +26,7 @@
 use crate::coherent::{CoherentSweep, FEW};
 use crate::columns::Column;
 use crate::pair::{PairId, TooManyPairs};
+use crate::sift::sift;
 use crate::sweep::{Admit, keep};
 use asunder_geometry::Bounds;
 
@@ -42,7 +43,8 @@ mod tests;
 pub struct Moved<'a, C> {
     /// Their places; in any order, and again if need be.
     pub places: &'a [u32],
-    /// Whether such a box is another one than before: whether it is to be asked anew whom it may meet.
+    /// Whether such a box is another one than before: whether it is to be asked anew whom it may meet. Asked by any thread,
+    /// in any order.
     pub has_changed: C,
 }
 
@@ -142,7 +144,7 @@ impl<B: Bounds> LooseSweep<B> {
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty, and the next call starts from here.
-    pub fn update<C: Fn(u32) -> bool>(
+    pub fn update<C: Fn(u32) -> bool + Sync>(
         &mut self,
         boxes: &[B],
         moved: Moved<'_, C>,
@@ -179,7 +181,12 @@ impl<B: Bounds> LooseSweep<B> {
     }
 
     /// Brings the pairs of loose boxes up to date; or says that boxes are to be swept as they are.
-    fn finds_near<C: Fn(u32) -> bool>(&mut self, boxes: &[B], moved: &Moved<'_, C>, admit: &Admit) -> bool {
+    fn finds_near<C: Fn(u32) -> bool + Sync>(
+        &mut self,
+        boxes: &[B],
+        moved: &Moved<'_, C>,
+        admit: &Admit,
+    ) -> bool {
         let do_many = moved.places.len() * FEW > boxes.len();
         match self.state {
             State::Boxes { .. } if !do_many => false,
@@ -255,7 +262,7 @@ impl<B: Bounds> LooseSweep<B> {
         let most = 2 * self.told + boxes.len();
         // Room for the next times, too.
         self.strays.clear();
-        self.strays.reserve(boxes.len() / FEW);
+        self.strays.reserve(boxes.len());
         self.near.clear();
         self.near.reserve(self.told + self.told / 2);
         let is_known = self.sweep.sweep_all(&self.loose, true, admit, most, &mut self.near).is_ok();
@@ -272,18 +279,19 @@ impl<B: Bounds> LooseSweep<B> {
     }
 
     /// Which boxes have changed, are new, or have left their loose ones.
-    fn find_strays<C: Fn(u32) -> bool>(&mut self, boxes: &[B], moved: &Moved<'_, C>) {
+    fn find_strays<C: Fn(u32) -> bool + Sync>(&mut self, boxes: &[B], moved: &Moved<'_, C>) {
         let Self { loose, widths, strays, .. } = self;
-        strays.clear();
-        for &place in moved.places {
-            let index = place as usize;
-            let (Some(now), Some(loose)) = (boxes.get(index), loose.get_mut(index)) else { continue };
-            if (moved.has_changed)(place) {
-                *loose = B::NOTHING;
-            } else if loose.encloses(now) && now.is_valid() {
-                continue;
-            }
-            strays.push(place);
+        let is_stray = |place: u32| {
+            let known = boxes.get(place as usize).zip(loose.get(place as usize));
+            known.is_some_and(|(now, loose)| {
+                (moved.has_changed)(place) || !(loose.encloses(now) && now.is_valid())
+            })
+        };
+        strays.resize(moved.places.len(), 0);
+        let left = sift(moved.places, strays, &is_stray);
+        strays.truncate(left);
+        for &place in strays.iter().filter(|&&place| (moved.has_changed)(place)) {
+            loose[place as usize] = B::NOTHING;
         }
         strays.extend(loose.len() as u32..boxes.len() as u32);
         loose.resize(boxes.len(), B::NOTHING);
@@ -339,11 +347,7 @@ fn tell<B: Bounds>(near: &[PairId], boxes: &[B], pairs: &mut Vec<PairId>) {
     if pairs.len() < near.len() {
         pairs.resize(near.len(), PairId { a: 0, b: 0 });
     }
-    let mut told = 0;
-    for &pair in near {
-        // Written down in any case: no branch that nobody can guess.
-        pairs[told] = pair;
-        told += usize::from(boxes[pair.a as usize].overlaps_valid(&boxes[pair.b as usize]));
-    }
+    let do_overlap = |pair: PairId| boxes[pair.a as usize].overlaps_valid(&boxes[pair.b as usize]);
+    let told = sift(near, &mut pairs[..near.len()], &do_overlap);
     pairs.truncate(told);
 }

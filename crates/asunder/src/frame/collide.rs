@@ -33,6 +33,7 @@
 //! of such a frame and half of a sweep's; by default they are not, and nothing is gained.
 
 use super::ask::{Asker, Chunk};
+use super::both;
 use super::settle::Settled;
 use crate::collider::Tag;
 use crate::contact::{Candidate, ContactNumber, Record};
@@ -151,13 +152,7 @@ impl<S: Space> Part<'_, S> {
     fn work(self, asker: &Asker<'_, S>, last_records: &Records<S::Key>) {
         if self.answered.len() > 1 {
             let (one, other) = self.halves();
-            #[cfg(feature = "parallel")]
-            rayon::join(|| one.work(asker, last_records), || other.work(asker, last_records));
-            #[cfg(not(feature = "parallel"))]
-            for half in [one, other] {
-                half.work(asker, last_records);
-            }
-            return;
+            return both(|| one.work(asker, last_records), || other.work(asker, last_records));
         }
         let Self { first, pairs, last_candidates, candidates, records, answered, settled, .. } = self;
         if let ([records], [answered], [settled]) = (records, answered, settled) {

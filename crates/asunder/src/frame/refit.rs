@@ -1,5 +1,6 @@
 //! Stage 1: moved poses to boxes, rounded outwards.
 
+use super::both;
 use crate::motion::swept_bounds;
 use crate::space::Space;
 use crate::world::World;
@@ -9,12 +10,17 @@ use slotmap::Key;
 #[cfg(feature = "parallel")]
 const MIN_PARALLEL: usize = 1024;
 
+/// Boxes that a thread makes in one go, at most: another one that was asleep comes late, and takes
+/// what is left. Of 1,024 at once, 8,005 boxes took two threads 0.17 ms for 0.15 (AMD EPYC, Zen 4, 2026-11-26).
+#[cfg(feature = "parallel")]
+const AT_ONCE: usize = 256;
+
 /// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went, or are
 /// disabled, are empty sets.
 pub(super) fn refit<S: Space>(world: &mut World<S>) {
-    let World { bodies, keys, boxes, dirty, is_dirty, moved, is_moved, motions, stats, scratch, .. } = world;
+    let World { bodies, keys, boxes, dirty, is_dirty, moved, is_moved, motions, stats, .. } = world;
     stats.moved = dirty.iter().filter(|&&slot| !keys[slot as usize].is_null()).count();
-    let bounds = |&slot: &u32| {
+    let bounds = |slot: u32| {
         let body = bodies.get(keys[slot as usize]).filter(|body| !body.disabled);
         match (body, motions.of(slot)) {
             (None, _) => asunder_geometry::Bounds::NOTHING,
@@ -22,18 +28,13 @@ pub(super) fn refit<S: Space>(world: &mut World<S>) {
             (Some(body), Some(motion)) => swept_bounds(body, &motion),
         }
     };
-    scratch.refitted.clear();
-    #[cfg(feature = "parallel")]
-    if dirty.len() >= MIN_PARALLEL {
-        use rayon::prelude::*;
-        dirty.par_iter().map(bounds).collect_into_vec(&mut scratch.refitted);
+    let share = share_of(dirty.len());
+    if share < dirty.len() {
+        dirty.sort_unstable();
     }
-    if scratch.refitted.is_empty() {
-        scratch.refitted.extend(dirty.iter().map(bounds));
-    }
-    for (&slot, &refitted) in dirty.iter().zip(&scratch.refitted) {
+    make(dirty, (0, boxes), share, &bounds);
+    for &slot in &*dirty {
         let index = slot as usize;
-        boxes[index] = refitted;
         is_dirty[index] = false;
         // After an update that overflowed it may stand there still.
         if !core::mem::replace(&mut is_moved[index], true) {
@@ -41,4 +42,35 @@ pub(super) fn refit<S: Space>(world: &mut World<S>) {
         }
     }
     dirty.clear();
+}
+
+/// How many of so many slots one thread works at in one go.
+fn share_of(count: usize) -> usize {
+    #[cfg(feature = "parallel")]
+    if count >= MIN_PARALLEL && rayon::current_num_threads() > 1 {
+        return AT_ONCE;
+    }
+    count
+}
+
+/// Makes the boxes of some slots, each in its place in a list that begins with a certain slot's: where they are more than one
+/// share, and then they ascend, in halves, each on a thread.
+fn make<A: Send>(
+    slots: &[u32],
+    (first, boxes): (usize, &mut [A]),
+    share: usize,
+    bounds: &(impl Fn(u32) -> A + Sync),
+) {
+    if slots.len() > share {
+        let (low, high) = slots.split_at(slots.len() / 2);
+        let middle = high[0] as usize;
+        let (boxes_low, boxes_high) = boxes.split_at_mut(middle - first);
+        return both(
+            || make(low, (first, boxes_low), share, bounds),
+            || make(high, (middle, boxes_high), share, bounds),
+        );
+    }
+    for &slot in slots {
+        boxes[slot as usize - first] = bounds(slot);
+    }
 }
