@@ -71,7 +71,7 @@ impl<S: Space> World<S> {
 /// The stages, one after the other.
 pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     world.stats = Stats { bodies: world.bodies.len(), ..Stats::default() };
-    // Of a hook that panics, nothing of last update's is left to be taken for this one's.
+    // If a hook panics, last update's impacts must not be taken for this one's.
     world.impacts.clear();
     world.stats.refit = world.timed(refit::refit);
     world.stats.sweep = world.timed(|world| sweep::sweep(world, hooks));

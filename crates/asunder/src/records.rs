@@ -9,7 +9,7 @@ use asunder_broad::PairId;
 /// Most pairs in a chunk.
 pub(crate) const CHUNK: usize = 1024;
 
-/// How many chunks there are at most, but for those of so many pairs.
+/// How many chunks there are at most, unless each would hold more than [`CHUNK`].
 const MANY: usize = 96;
 
 /// Fewest pairs in a chunk, but for the last.

@@ -199,6 +199,10 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
         spare: &mut Self::Spare,
     ) -> Option<Self::Persistent>;
 
+    /// Whether a store has no memory that may be lent.
+    #[doc(hidden)]
+    fn has_no_memory(spare: &Self::Spare) -> bool;
+
     /// Hands memory over from one store to another that has none.
     #[doc(hidden)]
     fn lend(from: &mut Self::Spare, to: &mut Self::Spare);
@@ -324,6 +328,10 @@ impl Space for Plane {
         Persistent2::lasting(job, answer, manifolds, step)
     }
 
+    fn has_no_memory((): &()) -> bool {
+        false
+    }
+
     fn lend((): &mut (), (): &mut ()) {}
 
     fn reclaim((): &mut (), _: &mut Persistent2) {}
@@ -443,6 +451,10 @@ impl Space for Volume {
         spare: &mut Spare3,
     ) -> Option<Persistent3> {
         Persistent3::lasting(job, answer, manifolds, step, spare)
+    }
+
+    fn has_no_memory(spare: &Spare3) -> bool {
+        spare.is_empty()
     }
 
     fn lend(from: &mut Spare3, to: &mut Spare3) {

@@ -65,6 +65,8 @@ impl Scene {
                     (alone.into(), part.center())
                 })
                 .collect(),
+            // Its side is that of what is far inside.
+            Shape3::HalfSpace(half_space) => vec![(self.shape.clone(), half_space.unit_normal() * -1e12)],
             shape => vec![(shape.clone(), shape.center().as_dvec3())],
         }
     }

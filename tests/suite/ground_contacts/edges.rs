@@ -231,3 +231,27 @@ fn a_half_space_touches_the_corners_of_ground_that_reach_furthest_into_it() {
     assert!(found[0].points.iter().all(|point| matches!(point.feature.b(), Feature::Vertex(_))));
     assert_eq!(manifolds(&half_space, &at(0.0, -0.05, 0.0), &bumps, 0.0), []);
 }
+
+#[test]
+fn one_sided_ground_sees_a_half_space_by_its_direction_wherever_its_position_is() {
+    let rim = [[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]].map(|[x, z]| Vec3::new(x, -1.0, z));
+    let vertices = [&[Vec3::ZERO], &rim[..]].concat();
+    let pyramid = mesh((vertices, vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])).one_sided();
+    let from_above: Shape3 = HalfSpace::new(Vec3::NEG_Y).unwrap().into();
+    let from_below: Shape3 = HalfSpace::new(Vec3::Y).unwrap().into();
+    let ground: Shape3 = pyramid.clone().into();
+    for x in [0.0, 0.05, 0.5, 1.0, 50.0, 1e6] {
+        for depth in [0.0, 1e-6, 0.1, 3.0] {
+            let found = manifolds(&from_above, &at(x, -depth, -0.5 * x), &pyramid, 0.0);
+            assert_eq!(normals(&found), [Vec3::Y], "{depth} deep, position at {x}");
+            assert!((f64::from(found[0].separation) + depth).abs() < 1e-6);
+            assert_eq!(manifolds(&from_below, &at(x, depth, x), &pyramid, 0.0), [], "{depth} from {x}");
+        }
+        let cast = |from: f64, by: f32| {
+            let pose = at(x, from, -0.5 * x);
+            Pair3::new(&from_above, &pose, &ground, &Pose3::IDENTITY).cast(Vec3::Y * by).map(|it| it.fraction)
+        };
+        assert_eq!(cast(-0.25, 0.0), Some(0.0), "touching at {x}");
+        assert!((cast(1.0, -2.0).unwrap() - 0.5).abs() < 1e-6, "falling at {x}");
+    }
+}

@@ -137,24 +137,23 @@ impl<S: Space> Asker<'_, S> {
                     Some(self.record_of(candidate, met, place, answered))
                 }
                 Way::Asked => {
+                    // What is asked has an answer, in order, and both its bodies: `ask` has seen to that.
                     let (a, b) = candidate.keys;
                     let both = self.bodies.get(a).zip(self.bodies.get(b));
-                    let Some((answer, both)) = answered.answers.get(next).zip(both) else { break };
+                    let answer = answered.answers.get(next);
                     next += 1;
-                    self.learn(candidate, answer);
-                    match self.kept_of((candidate.pair, both), answer, answered, settled) {
-                        Some(kept) => settled.kept.push((number as u32, kept)),
-                        None => settled.vacate(core::mem::replace(&mut candidate.persistent, NOWHERE)),
-                    }
-                    match *answer {
-                        Answer::Apart { .. } => None,
-                        Answer::Contact { overlapping, ref manifolds, .. } => {
-                            let place = Place { chunk, start: manifolds.start, end: manifolds.end };
-                            let user_data = (both.0.user_data, both.1.user_data);
-                            let met = Met { overlapping, user_data, sensor: both.0.sensor || both.1.sensor };
-                            Some(self.record_of(candidate, met, place, answered))
+                    answer.zip(both).and_then(|(answer, both)| {
+                        self.learn(candidate, answer);
+                        match self.kept_of((candidate.pair, both), answer, answered, settled) {
+                            Some(kept) => settled.kept.push((number as u32, kept)),
+                            None => settled.vacate(core::mem::replace(&mut candidate.persistent, NOWHERE)),
                         }
-                    }
+                        let &Answer::Contact { overlapping, ref manifolds, .. } = answer else { return None };
+                        let place = Place { chunk, start: manifolds.start, end: manifolds.end };
+                        let user_data = (both.0.user_data, both.1.user_data);
+                        let met = Met { overlapping, user_data, sensor: both.0.sensor || both.1.sensor };
+                        Some(self.record_of(candidate, met, place, answered))
+                    })
                 }
                 // A body of it is gone.
                 Way::Open => None,
@@ -202,9 +201,10 @@ impl<S: Space> Asker<'_, S> {
             return None;
         }
         if S::is_ground(&a.shape) || S::is_ground(&b.shape) {
-            // Which memory it is changes nothing. Kept by the chunk it would gather where no ground is, and be made anew where it
-            // is: places of what is kept wander between chunks.
-            S::lend(&mut self.spare.lock().unwrap_or_else(PoisonError::into_inner), &mut settled.spare);
+            // Which memory is lent changes no output. If chunks kept their own, it would gather in those without ground.
+            if S::has_no_memory(&settled.spare) {
+                S::lend(&mut self.spare.lock().unwrap_or_else(PoisonError::into_inner), &mut settled.spare);
+            }
         }
         let job = S::job(a, b, a.margin + b.margin, hint);
         let step = self.odometers[pair.a as usize].step() + self.odometers[pair.b as usize].step();

@@ -27,8 +27,8 @@ struct First {
     met: Met,
     part: u32,
     triangle: u32,
-    /// The part's centre at the start, in the ground's axes.
-    center: DVec3,
+    /// What tells the side that the part is on at the start, in the ground's axes.
+    seen_at: DVec3,
 }
 
 /// One motion over one ground.
@@ -115,7 +115,7 @@ impl Search<'_> {
         let corners = on.ground.corners(number);
         let is_beside =
             || self.passage.is_straight() && placed.passes(&placed.beside(corners), self.way * until);
-        if !on.sees(corners, placed.center) || is_beside() {
+        if !on.sees(corners, placed.seen_at) || is_beside() {
             return until;
         }
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return until };
@@ -137,10 +137,10 @@ impl Search<'_> {
                 met
             }
         };
-        let (part, center) = (part.index, placed.center);
+        let (part, seen_at) = (part.index, placed.seen_at);
         let rank = (met.fraction, part, number);
         if self.first.as_ref().is_none_or(|known| rank < (known.met.fraction, known.part, known.triangle)) {
-            let first = First { met, part, triangle: number, center };
+            let first = First { met, part, triangle: number, seen_at };
             let is_level = self.beyond.is_some_and(|touched| {
                 let normal = told(on, self.passage, &first).normal.as_dvec3();
                 touched.lies(self.passage, parts, normal) == Lies::Level
@@ -164,7 +164,7 @@ fn told(on: &OnGround, passage: &Passage, first: &First) -> Impact3 {
         point: basis.turn_back(met.anchors[of_ground]),
         away: basis.turn_back(towards_body),
     };
-    let (triangle, away) = on.facing(&touched, first.center);
+    let (triangle, away) = on.facing(&touched, first.seen_at);
     let away = basis.turn(away);
     let normal = if on.is_b { -away } else { away };
     impact_of(&Met { normal, ..*met }, on.in_order([first.part, triangle]))

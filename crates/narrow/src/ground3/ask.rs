@@ -22,7 +22,7 @@
 
 use super::ask_box::Corners;
 use super::ask_sides::sphere_of;
-use super::near::OnGround;
+use super::near::{OnGround, grown_around};
 use crate::answer::{Closest3, Measured3, Separation3, Tier, Verdict};
 use crate::feature::Hint;
 use crate::least::Least;
@@ -70,11 +70,7 @@ impl OnGround<'_> {
     fn bounds_for(&self, reach: f64) -> Aabb3 {
         let (center, radius) = sphere_of(self.ground);
         let center = self.body_basis.turn_back(self.basis.turn(center) - self.to_body);
-        let lengths = self.to_body.length() + center.length() + radius;
-        let grow = DVec3::splat(radius + reach + 64.0 * f64::EPSILON * lengths);
-        // A conversion rounds to the nearest.
-        let up = |v: DVec3| v.as_vec3() * (1.0 + 2.0 * f32::EPSILON * v.as_vec3().signum());
-        Aabb3::new(-up(grow - center), up(center + grow))
+        grown_around([center; 2], radius + reach, self.to_body.length() + center.length() + radius)
     }
 }
 
@@ -107,7 +103,7 @@ impl Pair3<'_> {
                 let corners = on.ground.corners(number);
                 let beside = placed.beside(corners);
                 let is_meant =
-                    placed.gap(&beside, 0.0) <= 0.0 && (!only_seen || on.sees(corners, placed.center));
+                    placed.gap(&beside, 0.0) <= 0.0 && (!only_seen || on.sees(corners, placed.seen_at));
                 let mut kernels_say_so = || {
                     let triangle = on.ground.triangle(number).map(Shape3::Triangle);
                     triangle.is_some_and(|it| ask(&self.parts_on(on, &bases, *part, (number, &it))))

@@ -13,7 +13,7 @@
 //! An axis is any: what all corners of both show along it is proved, however it was found. And any two points bound a
 //! separation from above.
 
-use super::near::{OnGround, grown_around};
+use super::near::{FAR_INSIDE, OnGround, grown_around};
 use crate::pair3::Part;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -34,8 +34,10 @@ enum Extent {
 pub(crate) struct Corners {
     extent: Extent,
     radius: f64,
-    /// The centre of its bounding sphere, which tells the side it is on.
-    pub(crate) center: DVec3,
+    /// The centre of its bounding sphere.
+    center: DVec3,
+    /// What tells the side of a triangle that it is on: that centre; of a half-space a point far inside.
+    pub(crate) seen_at: DVec3,
     /// How far the part reaches from there in every direction at least; below zero where it is beside that.
     inner_radius: f64,
     /// Whether that is the part, and not a ball around it.
@@ -84,6 +86,13 @@ impl Corners {
         let reach = if let Shape3::HalfSpace(_) = shape { 0.0 } else { shape.outer_radius() };
         let lengths = summed + f64::from(reach);
         let lengths = lengths + shape.center().as_dvec3().length() + radius;
+        let seen_at = match shape {
+            Shape3::HalfSpace(half_space) => {
+                let [x, y, z] = half_space.unit_normal().to_array();
+                center - (axes[0] * x + axes[1] * y + axes[2] * z) * FAR_INSIDE
+            }
+            _ => center,
+        };
         let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let inner_radius = match shape {
             Shape3::Cuboid(cuboid) => cuboid.half_extents().min_element(),
@@ -92,8 +101,19 @@ impl Corners {
         };
         let inner_radius = f64::from(inner_radius) + radius;
         let extent = Extent::Points(ArrayVec::new());
-        let mut corners =
-            Self { extent, radius, center, inner_radius, has_all: true, axes, origin, lengths, low, high };
+        let mut corners = Self {
+            extent,
+            radius,
+            center,
+            seen_at,
+            inner_radius,
+            has_all: true,
+            axes,
+            origin,
+            lengths,
+            low,
+            high,
+        };
         // Of what has few, without all that goes with a core.
         match shape {
             Shape3::Cuboid(cuboid) => corners.hold_cuboid(cuboid.half_extents().as_dvec3()),

@@ -165,8 +165,8 @@ struct Known {
     overlapping: bool,
     /// The triangle that showed it first.
     shown_by: Option<u32>,
-    /// Triangles that f64 could not tell of: whether none of their points is a contact, how deep, and which.
-    unclear: ArrayVec<(bool, f64, u32), MOST_UNCLEAR>,
+    /// Triangles that f64 could not tell of.
+    unclear: ArrayVec<Unclear, MOST_UNCLEAR>,
     /// Triangles whose axis was refused.
     refused: AllRefused,
     /// Triangles in a gap whose axis was refused.
@@ -174,8 +174,15 @@ struct Known {
     incident: Option<Incident>,
     /// Bounds on how near triangles can be that spoke by their own normals.
     levels: Levels,
-    /// The short way for spheres met what it cannot settle.
-    is_open: bool,
+}
+
+/// A triangle of which f64 cannot tell whether the part shares a point with it.
+#[derive(Clone, Copy)]
+struct Unclear {
+    /// Whether any point was made of it.
+    has_points: bool,
+    separation: f64,
+    number: u32,
 }
 
 /// A triangle, and how a part stands over its plane.
@@ -198,23 +205,23 @@ struct Seen<'s> {
 }
 
 impl<'a> Asking<'a> {
-    /// Whether a part overlaps, if it is within the margin. Once another part does, its own yes or no is of no
-    /// interest.
-    fn contact_of(&self, part: Part<'a>, is_settled: bool, manifolds: &mut impl Room) -> Option<bool> {
+    /// Whether a part overlaps, if it is within the margin. Once it is known that another part does, its own yes or no is of
+    /// no interest.
+    fn contact_of(&self, part: Part<'a>, is_overlap_known: bool, manifolds: &mut impl Room) -> Option<bool> {
         if let (Shape3::Sphere(sphere), false) = (part.shape, self.is_plain) {
             let round = Round::new(self.on, &part, sphere.radius().into(), self.reach);
-            if let Some(found) = round.contact(self, part, is_settled, manifolds) {
+            if let Some(found) = round.contact(self, part, is_overlap_known, manifolds) {
                 return found;
             }
         }
-        self.contact_in_general(part, is_settled, manifolds)
+        self.contact_in_general(part, is_overlap_known, manifolds)
     }
 
     #[inline(never)]
     fn contact_in_general(
         &self,
         part: Part<'a>,
-        is_settled: bool,
+        is_overlap_known: bool,
         manifolds: &mut impl Room,
     ) -> Option<bool> {
         let place = Place::of(self.on, &part, self.poses);
@@ -227,20 +234,24 @@ impl<'a> Asking<'a> {
         let is_ball = matches!(part.shape, Shape3::Sphere(_));
         let seen = Seen { asking: self, standing: &standing, meeting, bounds, is_ball };
         let mut known = Known::new([standing.slack, standing.even]);
+        let is_yes_enough = !manifolds.is_wanted();
         if let Shape3::HalfSpace(half_space) = part.shape {
-            seen.look_at_all(place.axes.turn(half_space.unit_normal()), &mut known);
+            seen.look_at_all(place.axes.turn(half_space.unit_normal()), is_yes_enough, &mut known);
         } else {
             let mut plane = None;
             let _ = self.on.ground.read_near(&bounds, |near| {
                 seen.look_at(near, &mut plane, &mut known);
-                let is_enough = known.overlapping && !manifolds.is_wanted();
-                if is_enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                if known.overlapping && is_yes_enough {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
             });
         }
         seen.add_refused(&mut known);
-        seen.conclude(&mut known, is_settled);
+        seen.conclude(&mut known, is_overlap_known);
         seen.bound_least(&mut known, manifolds.is_wanted());
-        self.answer(part, &mut known, is_settled, manifolds)
+        self.answer(part, &mut known, is_overlap_known, manifolds)
     }
 }
 
@@ -256,7 +267,6 @@ impl Known {
             unsaid: ArrayVec::new_const(),
             incident: None,
             levels: Levels::new(),
-            is_open: false,
         }
     }
 }
@@ -285,7 +295,7 @@ impl Seen<'_> {
         if prism.does_cross() {
             return known.settle(number);
         }
-        self.doubt_of(number, (has_points, separation), known);
+        self.leave_unclear(number, (has_points, separation), known);
     }
 
     /// Looks at a triangle whose own normal may not be the answer.
@@ -301,18 +311,21 @@ impl Seen<'_> {
             return;
         }
         known.note_level(prism, prominent);
-        if self.is_explained(facet, known) {
-            return self.doubt_of(number, (true, separation), known);
+        if let Some(least) = self.explained(facet, known) {
+            if least <= doubt {
+                self.leave_unclear(number, (true, separation), known);
+            }
+            return;
         }
         match prism.add_against(&self.incident_to(facet.normal, known), &mut known.groups) {
             Against::Apart => return,
             Against::Refused => {
                 self.refuse(prism, None, known);
-                return self.doubt_of(number, (false, separation), known);
+                return self.leave_unclear(number, (false, separation), known);
             }
             Against::Added(_, true) => return known.settle(number),
             Against::Added(separation, _) if separation > doubt + standing.planarity => return,
-            Against::Added(separation, _) => return self.doubt_of(number, (true, separation), known),
+            Against::Added(separation, _) => return self.leave_unclear(number, (true, separation), known),
             Against::Unknown => {}
         }
         if let Some(axes) = axes {
@@ -356,6 +369,7 @@ impl Seen<'_> {
             return true;
         }
         let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return false };
+        // Twice: `move_on` lets others of the patch lie off the plane by a quarter of it.
         let doubt = 2.0 * self.doubt_over(&facet);
         let beyond = self.asking.reach + standing.radius + doubt;
         // Most are out of reach by the box around the part: its vertices need not be looked at.
@@ -406,13 +420,13 @@ impl Seen<'_> {
         prism.add_points(&incident, &mut known.groups)
     }
 
-    /// Keeps a triangle for later, or asks at once where there is no room.
-    fn doubt_of(&self, number: u32, (has_points, separation): (bool, f64), known: &mut Known) {
+    /// Keeps a triangle that f64 cannot tell of for later, or asks at once where there is no room.
+    fn leave_unclear(&self, number: u32, (has_points, separation): (bool, f64), known: &mut Known) {
         if known.overlapping {
             return;
         }
-        if let Err(full) = known.unclear.try_push((!has_points, separation, number)) {
-            let (.., number) = full.element();
+        if let Err(full) = known.unclear.try_push(Unclear { has_points, separation, number }) {
+            let Unclear { number, .. } = full.element();
             if self.meeting.overlaps(self.asking.on.ground, number) {
                 known.settle(number);
             }
@@ -420,13 +434,15 @@ impl Seen<'_> {
     }
 
     /// Settles what was left open, and that overlap and points go together.
-    fn conclude(&self, known: &mut Known, is_settled: bool) {
+    fn conclude(&self, known: &mut Known, is_overlap_known: bool) {
         let slack = self.standing.slack;
-        if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
-            known
-                .unclear
-                .sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
-            let mut numbers = known.unclear.iter().map(|&(.., number)| number);
+        if !(known.overlapping || is_overlap_known && known.groups.least() >= -slack) {
+            // What made points first, of that the deepest.
+            known.unclear.sort_unstable_by(|a, b| {
+                let by_depth = a.separation.total_cmp(&b.separation);
+                b.has_points.cmp(&a.has_points).then(by_depth).then(a.number.cmp(&b.number))
+            });
+            let mut numbers = known.unclear.iter().map(|unclear| unclear.number);
             match numbers.find(|&number| self.meeting.overlaps(self.asking.on.ground, number)) {
                 Some(number) => known.settle(number),
                 None => known.groups.keep_within(-slack),

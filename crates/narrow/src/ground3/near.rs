@@ -5,6 +5,10 @@ use crate::pair3::{Pair3, Part};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
 
+/// On which side of a triangle a half-space is: that of a point so many metres inside, so that its direction decides alone,
+/// wherever on its plane its position is.
+pub(crate) const FAR_INSIDE: f64 = 1e30;
+
 /// Ground, and a body that may touch it.
 #[derive(Clone, Copy)]
 pub(crate) struct OnGround<'a> {

@@ -108,8 +108,8 @@ impl<'a, 'b> Look<'a, 'b> {
         if !(1e-40..1e40).contains(&square) {
             (direction, square) = (direction.try_normalize()?, 1.0);
         }
-        self.direction = direction;
         self.left = self.left.checked_sub(1)?;
+        self.direction = direction;
         let ((in_a, _), (in_b, _)) = (self.a.rough_support(direction), self.b.rough_support(-direction));
         self.separation = -in_b.reach - in_a.reach;
         if self.separation > 0.0 {

@@ -11,7 +11,7 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{ALIGNED_FACES, MAX_HULL_VERTICES};
 
 /// Half-edges of a hull with the most vertices: so many edges, each seen from both of its ends.
-const MAX_EDGES: usize = 2 * (3 * MAX_HULL_VERTICES - 6);
+const MAX_HALF_EDGES: usize = 2 * (3 * MAX_HULL_VERTICES - 6);
 
 /// Share of a rod's length by which a place on it may be past its end, and count as the end.
 const SHARE: f64 = 1e-9;
@@ -77,7 +77,7 @@ pub(super) fn side_by_side(
 
 /// The edges at a core's furthest vertex that run nearly across a direction, in order: looked for around the
 /// vertices that are as far, which are few.
-fn edges_across(solid: &Solid, direction: DVec3, slack: f64) -> ArrayVec<u16, MAX_EDGES> {
+fn edges_across(solid: &Solid, direction: DVec3, slack: f64) -> ArrayVec<u16, MAX_HALF_EDGES> {
     let local = solid.turned_back(direction);
     let mut edges = ArrayVec::new();
     for vertex in Far::from(solid, direction, slack).vertices() {

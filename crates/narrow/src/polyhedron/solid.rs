@@ -373,7 +373,7 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// The corner of a cuboid that is on the upper side of the axes along which this is positive.
+/// The corner of a cuboid that is furthest along a direction in its own axes; of equals, the lowest.
 #[inline(always)]
 pub(super) fn corner_along(direction: DVec3) -> usize {
     let is_upper = |along: f64, bit: usize| usize::from(along > 0.0) << bit;

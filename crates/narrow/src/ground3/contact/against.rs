@@ -10,9 +10,9 @@
 //! of the face is better, as above for the triangle. Most of what stands out of ground under a box lies under the middle
 //! of its face.
 
-use super::facet::{Furthest, edge_number};
+use super::facet::Furthest;
 use super::groups::{Base, Groups, Pin};
-use super::prism::{Incident, Prism, STEEP};
+use super::prism::{Cut, Incident, Prism, STEEP, Span, within};
 use crate::feature::Feature;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
@@ -29,10 +29,9 @@ pub(super) enum Against {
     Added(f64, bool),
 }
 
-/// A stretch of a triangle's edge over a face, or its corner: two shares of its length, each with the half-edge of the
-/// face that ends it there; and how far its middle is inside the face, in metres.
+/// A stretch of a triangle's edge over a face, or its corner; and how far its middle is inside the face, in metres.
 struct Stretch {
-    ends: [(f64, Option<usize>); 2],
+    ends: Span,
     inside: f64,
 }
 
@@ -98,7 +97,7 @@ impl Prism<'_> {
     }
 
     /// How much further than a face's plane the round of one of its edges reaches to what passes from under it there: a line that
-    /// counts as level may lean against the face. In metres; no more than it leans by in all.
+    /// counts as level may lean against the face. In metres; never more than all that it rises by.
     fn under_round(&self, half_edge: usize, outwards: DVec3, along: DVec3) -> f64 {
         let standing = self.standing;
         let (start, stop) = standing.solid.topology.ends(half_edge);
@@ -118,56 +117,30 @@ impl Prism<'_> {
         let numbers = self.ground.vertex_numbers(self.facet.number);
         let of_face = Feature::Face(face as u32);
         match (furthest, by) {
-            (Furthest::Edge(edge), Some(half_edge)) => {
-                let own = self.standing.solid.topology.edge_of(half_edge) as u32;
-                let number = edge_number(self.ground, self.facet.number, edge);
-                (Feature::Edge(own), Feature::Edge(number))
-            }
-            (Furthest::Edge(edge), None) => {
-                let corner = if share > 0.5 { edge + 1 } else { edge };
-                (of_face, Feature::Vertex(numbers[corner % 3]))
-            }
+            (Furthest::Edge(edge), by) => self.names_on_edge(face, edge, (share, by)),
             (Furthest::Corner(corner), _) => (of_face, Feature::Vertex(numbers[corner % 3])),
             (Furthest::Face, _) => (of_face, Feature::Face(self.ground.patch(self.facet.number))),
         }
     }
 
     /// What of an edge or a corner lies over the part's face, as seen along the face's normal.
-    ///
-    /// Cyrus and Beck, "Generalized two- and three-dimensional clipping" (1978).
     fn stretch(&self, face: usize, outwards: DVec3, (from, along): (DVec3, DVec3)) -> Option<Stretch> {
         let (standing, topology) = (self.standing, self.standing.solid.topology);
-        let sides = || {
+        let cuts = || {
             topology.face_half_edges(face).map(|half_edge| {
                 let (start, stop) = topology.ends(half_edge);
                 let (start, stop) = (standing.point(start), standing.point(stop));
                 // A face goes counter-clockwise as seen from outside.
-                (half_edge, start, outwards.cross(stop - start))
+                Cut { half_edge, start, into: outwards.cross(stop - start) }
             })
         };
-        let (mut enters, mut leaves) = ((0.0, None), (1.0, None));
-        for (half_edge, start, into) in sides() {
-            let (inside, change) = (into.dot(from - start), into.dot(along));
-            let share = -inside / change;
-            if change == 0.0 && inside < 0.0 {
-                return None;
-            }
-            if change > 0.0 && share > enters.0 {
-                enters = (share, Some(half_edge));
-            }
-            if change < 0.0 && share < leaves.0 {
-                leaves = (share, Some(half_edge));
-            }
-        }
-        if enters.0 > leaves.0 {
-            return None;
-        }
-        let middle = from + along * (0.5 * (enters.0 + leaves.0));
+        let ends = within(cuts(), DVec3::ZERO, (from, along))?;
+        let middle = from + along * (0.5 * (ends[0].0 + ends[1].0));
         let mut least = f64::INFINITY;
-        for (_, start, into) in sides() {
+        for Cut { start, into, .. } in cuts() {
             let inside = into.dot(middle - start) / into.length();
             least = if inside < least { inside } else { least };
         }
-        Some(Stretch { ends: [enters, leaves], inside: least })
+        Some(Stretch { ends, inside: least })
     }
 }

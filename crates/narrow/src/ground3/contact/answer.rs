@@ -15,7 +15,7 @@ impl Asking<'_> {
         &self,
         part: Part,
         known: &mut Known,
-        is_settled: bool,
+        is_overlap_known: bool,
         manifolds: &mut impl Room,
     ) -> Option<bool> {
         let overlapping = known.overlapping;
@@ -27,7 +27,7 @@ impl Asking<'_> {
             let order = known.groups.finish();
             for group in order.into_iter().filter_map(|place| known.groups.at(place)) {
                 let hidden = known.hidden((group, least), part.shape.outer_radius().into());
-                let how = (overlapping, is_settled, least);
+                let how = (overlapping, is_overlap_known, least);
                 self.add_manifold(part.index, (group, hidden), how, manifolds);
             }
         }
@@ -38,7 +38,7 @@ impl Asking<'_> {
         &self,
         part: u32,
         (group, hidden): (&Group, f64),
-        (overlapping, is_settled, least): (bool, bool, f64),
+        (overlapping, is_overlap_known, least): (bool, bool, f64),
         to: &mut impl Room,
     ) {
         let on = self.on;
@@ -46,12 +46,11 @@ impl Asking<'_> {
         // The deepest of all has the sign of the decision.
         let separation = match overlapping {
             true if deepest <= least => signed(deepest, true),
-            false if !is_settled => signed(deepest, false),
+            false if !is_overlap_known => signed(deepest, false),
             _ => deepest as f32,
         };
         let Some(manifold) = to.room(separation) else { return };
-        let sides = [part, group.base.patch];
-        [manifold.part_a, manifold.part_b] = if on.is_b { sides } else { [sides[1], sides[0]] };
+        [manifold.part_a, manifold.part_b] = on.in_order([part, group.base.patch]);
         let towards = on.basis.turn(group.base.normal);
         manifold.normal = if on.is_b { -towards } else { towards }.as_vec3();
         let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE[1] };
@@ -61,11 +60,9 @@ impl Asking<'_> {
         manifold.points.extend(group.pins.iter().map(|pin| {
             let of_body = (on.basis.turn(pin.on_body) - on.to_body).as_vec3();
             let of_ground = on.basis.turn(pin.on_ground).as_vec3();
-            let (anchor_a, anchor_b, feature) = if on.is_b {
-                (of_body, of_ground, FeatureId::new(pin.of_body, pin.of_ground))
-            } else {
-                (of_ground, of_body, FeatureId::new(pin.of_ground, pin.of_body))
-            };
+            let [anchor_a, anchor_b] = on.in_order([of_body, of_ground]);
+            let [feature_a, feature_b] = on.in_order([pin.of_body, pin.of_ground]);
+            let feature = FeatureId::new(feature_a, feature_b);
             let separation = pin.separation as f32;
             ContactPoint3 { separation, anchor_a, anchor_b, feature }
         }));

@@ -20,7 +20,7 @@ pub(super) struct Nearest {
 }
 
 impl Nearest {
-    /// Ericson, "Real-time collision detection" (2005), 5.1.5.
+    /// What of a triangle is nearest to a part's centre.
     pub(super) fn of(standing: &Standing, facet: &Facet, doubt: f64) -> Self {
         let center = standing.center;
         Self::at((center, standing.radius), facet, nearest_to(facet, center), doubt)
@@ -117,11 +117,12 @@ impl Seen<'_> {
         if nearest.separation < -doubt {
             return known.settle(facet.number);
         }
-        self.doubt_of(facet.number, (has_points, nearest.separation), known);
+        self.leave_unclear(facet.number, (has_points, nearest.separation), known);
     }
 }
 
-/// The nearest point of a triangle, and what it lies on.
+/// What of a triangle is nearest to a point, and where: over the triangle's face that is the point as it is given, and its foot
+/// is the caller's to take.
 pub(super) fn nearest_to(facet: &Facet, point: DVec3) -> (Furthest, DVec3) {
     let mut best: Option<(f64, Furthest, DVec3)> = None;
     for edge in 0..3 {

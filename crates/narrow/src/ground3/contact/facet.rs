@@ -8,8 +8,8 @@ use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_NORMAL;
 
-/// Triangles around a corner that are looked at, each way. More than that meet in no level that was meant to be one;
-/// then the triangle's own normal is taken.
+/// Triangles around a corner that are looked at, each way. More than that meet in no level that was meant to be one: then a corner
+/// gives no direction but its triangles' own.
 const MOST_AROUND: usize = 64;
 
 /// A triangle in the ground's axes, its normal on the side of the part that looks at it.
@@ -187,7 +187,8 @@ impl Facet {
         if self.is_front { self.normal } else { -self.normal }
     }
 
-    /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner in it.
+    /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner in it; of
+    /// very many, of those that are looked at.
     fn do_all_around(
         &self,
         ground: Ground,
@@ -222,8 +223,8 @@ impl Facet {
         sum
     }
 
-    /// Whether the rim of ground may give a direction. That of two-sided ground gives any; that of one-sided ground
-    /// none that leads further behind it than aside.
+    /// Whether the rim of ground may give a direction. That of two-sided ground gives any; that of one-sided ground those within
+    /// 135 degrees of the front's normal.
     fn may_rim_give(&self, ground: Ground, towards: DVec3) -> bool {
         !ground.is_one_sided() || towards.dot(self.normal) >= -core::f64::consts::FRAC_1_SQRT_2
     }
@@ -413,8 +414,7 @@ impl Facet {
             return false;
         }
         let cross = front_of(ground.corners(other));
-        let front = if self.is_front { self.normal } else { -self.normal };
-        is_same(front, cross)
+        is_same(self.front(), cross)
     }
 }
 

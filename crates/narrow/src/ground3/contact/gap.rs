@@ -8,9 +8,9 @@
 //!     distance up to rounding: else the kernels are asked
 //! ground refuses that axis: no contact, and where they are nearest is all there is to say; else the kernels make points
 //! ```
-//! Of the convex distance to a cuboid, a triangle has its least on its rim, or where it is straight under what the cuboid
-//! has lowest; and if that is an edge or a face, some of the rim is as near. On hills of triangles 24 of 39 calls of the
-//! kernels end here, for a cuboid that rolls.
+//! A triangle is nearest to a cuboid on its rim, or under what the cuboid has lowest. If that is an edge or a face, either the foot
+//! of the corner that is chosen here is in the triangle, or what is lowest reaches across the rim as seen from above, which is then
+//! as near. On hills of triangles 24 of 39 calls of the kernels end here, for a cuboid that rolls.
 
 use super::axes::Axes;
 use super::prism::Prism;
@@ -32,7 +32,7 @@ impl Prism<'_> {
         let between = on_cuboid - on_triangle;
         let distance = between.length();
         let size = 2.0 * standing.outer_radius;
-        if distance - standing.radius <= (TELLING * size).max(self.doubt) || distance <= TELLING * size {
+        if distance - standing.radius <= (TELLING * size).max(self.doubt) {
             return None;
         }
         let towards = between / distance;

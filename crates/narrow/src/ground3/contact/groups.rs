@@ -46,14 +46,14 @@ pub(super) struct Base {
     pub(super) weight: f64,
 }
 
-/// Of points that have not been reduced.
+/// Nothing told yet.
 const NOTHING_TOLD: [f64; 2] = [f64::INFINITY, 0.0];
 
 /// A normal and its points.
 pub(super) struct Group {
     pub(super) base: Base,
     pub(super) pins: ArrayVec<Pin, MOST_POINTS>,
-    /// Once it is reduced, the least separation of all that it had, or that was told of it, and by how much that may be off.
+    /// The least separation that was told of it so far, of points that have gone, too, and by how much that may be off.
     pub(super) told: [f64; 2],
     /// By how much that may exceed the truth beside it, as far as was noted, in metres.
     pub(super) hidden: f64,
@@ -112,15 +112,15 @@ impl Groups {
         Some((nearest.base.normal, nearest.pins[deepest].on_body))
     }
 
-    /// Takes note that ground of a normal may be as near as a bound says: of what is told along the same, by a normal that leans
-    /// so far against it, and is of the same ground if it is within the window.
+    /// Notes that ground with this normal may be as near as a bound says, for the groups of the same normal: `most` of their own
+    /// normal and of how much nearer that is.
     pub(super) fn hide(&mut self, normal: DVec3, bound: f64, most: impl Fn(DVec3, f64) -> f64) {
         for group in self.groups.iter_mut().filter(|group| is_same(group.base.normal, normal)) {
             group.hidden = group.hidden.max(most(group.base.normal, group.found() - bound));
         }
     }
 
-    /// The same along a normal.
+    /// The least separation that was found along a normal; infinite without any.
     pub(super) fn least_along(&self, normal: DVec3) -> f64 {
         let group = self.groups.iter().find(|group| is_same(group.base.normal, normal));
         group.map_or(f64::INFINITY, Group::found)
@@ -138,9 +138,9 @@ impl Groups {
             let shallowest = self
                 .groups
                 .iter_mut()
-                .reduce(|most, next| if next.least() > most.least() { next } else { most });
-            if let Some(shallowest) = shallowest.filter(|group| group.least() > pin.separation) {
-                (shallowest.base, shallowest.told) = (*base, NOTHING_TOLD);
+                .reduce(|most, next| if next.found() > most.found() { next } else { most });
+            if let Some(shallowest) = shallowest.filter(|group| group.found() > pin.separation) {
+                (shallowest.base, shallowest.told, shallowest.hidden) = (*base, NOTHING_TOLD, 0.0);
                 shallowest.pins.clear();
                 shallowest.pins.push(pin);
             }
@@ -169,12 +169,14 @@ impl Groups {
         }
     }
 
-    /// Whether a normal's points have one on a feature of ground.
-    pub(super) fn holds(&self, is_it: impl Fn(&Base, Feature) -> bool) -> bool {
-        self.groups.iter().any(|group| group.pins.iter().any(|pin| is_it(&group.base, pin.of_ground)))
+    /// The first that is found of a normal and the features of ground that its points are on.
+    pub(super) fn find_on<T>(&self, find: impl Fn(&Base, Feature) -> Option<T>) -> Option<T> {
+        self.groups
+            .iter()
+            .find_map(|group| group.pins.iter().find_map(|pin| find(&group.base, pin.of_ground)))
     }
 
-    /// Takes away points that are deeper than shapes which share no point can be; those without any left go.
+    /// Removes points that are deeper than rounding allows of shapes that share no point, and groups without any left.
     pub(super) fn keep_within(&mut self, least: f64) {
         for group in &mut self.groups {
             group.pins.retain(|pin| pin.separation >= least - pin.doubt);

@@ -18,7 +18,7 @@ use asunder_geometry::{Basis3, Ground, Pose3, Shape3};
 pub(super) struct Meeting<'a> {
     part: Part<'a>,
     body: &'a Pose3,
-    field: &'a Pose3,
+    ground_pose: &'a Pose3,
     /// The ground's axes and its origin as the part sees them.
     relative: Basis3,
     offset: DVec3,
@@ -37,18 +37,18 @@ pub(super) enum Met {
 }
 
 impl<'a> Meeting<'a> {
-    pub(super) fn new(on: &OnGround, part: Part<'a>, [body, field]: [&'a Pose3; 2]) -> Self {
+    pub(super) fn new(on: &OnGround, part: Part<'a>, [body, ground_pose]: [&'a Pose3; 2]) -> Self {
         let (axes, shift) = part.placed(&on.body_basis);
         let is_part = part.site(body).part.is_some();
-        let relative = if is_part { on.basis.relative_to(&axes) } else { field.basis_from(body) };
+        let relative = if is_part { on.basis.relative_to(&axes) } else { ground_pose.basis_from(body) };
         let offset = axes.turn_back(-(on.to_body + shift));
         let summed = if is_part { on.to_body.length() + shift.length() } else { 0.0 };
-        Self { part, body, field, relative, offset, summed }
+        Self { part, body, ground_pose, relative, offset, summed }
     }
 
     fn with<R>(&self, ground: Ground, number: u32, ask: impl FnOnce(&Convex) -> R) -> Option<R> {
         let shape = Shape3::Triangle(ground.triangle(number)?);
-        let site = Site3 { shape: &shape, body: *self.field, part: None };
+        let site = Site3 { shape: &shape, body: *self.ground_pose, part: None };
         let sites = [self.part.site(self.body), site];
         Some(ask(&Convex::new(sites, self.relative, self.offset, self.summed)))
     }
@@ -112,7 +112,7 @@ impl<'a> Meeting<'a> {
     /// What the kernels say, if the two are within the margin; with points, where they are wanted.
     ///
     /// Of what a gap parts the closest points are asked first, since most often ground refuses them: axes, and what to begin
-    /// with in a next frame, are asked only where points are made. Of cuboids that is known by now.
+    /// with in a next frame, are asked only where points are made. Of cuboids `refused_gap` has said as much before.
     fn near(
         &self,
         (ground, facet): (Ground, &Facet),

@@ -43,27 +43,28 @@ impl Seen<'_> {
         !(is_inside && (depth <= 0.0 || facet.inside(lowest, |edge| counts[edge]) >= depth))
     }
 
-    /// Whether all that a triangle has to say was said by another around the same corner, or beside the same edge: along
-    /// the normal that it gave, nothing else of this one is within reach.
-    pub(super) fn is_explained(&self, facet: &Facet, known: &Known) -> bool {
+    /// How near a triangle is at least, if all that it has to say was said by another around the same corner, or beside the
+    /// same edge: along the normal that it gave, nothing else of this one is within reach.
+    pub(super) fn explained(&self, facet: &Facet, known: &Known) -> Option<f64> {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let numbers = ground.vertex_numbers(facet.number);
-        known.groups.holds(|base, feature| {
+        known.groups.find_on(|base, feature| {
             // One corner, or both ends of an edge.
             let (first, count) = match feature {
                 Feature::Vertex(vertex) => (numbers.iter().position(|&number| number == vertex), 1),
                 Feature::Edge(edge) => {
                     ((0..3).find(|&own| edge_number(ground, facet.number, own) == edge), 2)
                 }
-                Feature::Face(_) => return false,
+                Feature::Face(_) => return None,
             };
-            let Some(first) = first else { return false };
+            let first = first?;
             let at = facet.corners[first];
             let low = standing.extent(base.normal, at).low - standing.radius;
-            (count..3).all(|next| {
-                let height = base.normal.dot(facet.corners[(first + next) % 3] - at);
-                height < 0.0 && low - height > self.asking.reach
-            })
+            let height = |next: usize| base.normal.dot(facet.corners[(first + next) % 3] - at);
+            let is_rest_beyond =
+                (count..3).all(|next| height(next) < 0.0 && low - height(next) > self.asking.reach);
+            // An edge need not be level to the last bit along the normal that it gave.
+            is_rest_beyond.then(|| low - height(count - 1).max(0.0))
         })
     }
 }

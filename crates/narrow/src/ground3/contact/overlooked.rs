@@ -73,7 +73,7 @@ impl Open {
 
 impl Seen<'_> {
     /// Sees to it that no triangle with a low bend is nearer than what is told, but for what goes into the error.
-    /// Yes or no is known by now, but for what nothing was told of.
+    /// Whether the part is within the margin is known by now, unless nothing was told of it.
     pub(super) fn bound_least(&self, known: &mut Known, is_wanted: bool) {
         if !is_wanted && known.groups.least() < f64::INFINITY {
             return;
@@ -107,15 +107,21 @@ impl Seen<'_> {
             self.add_axis(normal, on_body, &mut asked);
         }
         let mut rest = f64::INFINITY;
-        for look in 0..MOST_LOOKS {
-            let open = self.nearest_of_low(look == 0 && known.levels.is_crowded, &asked, known);
+        let mut is_any_told = false;
+        for _ in 0..MOST_LOOKS {
+            let open = self.nearest_of_low(&asked, known);
+            is_any_told = false;
             for (bound, number) in open.nearest {
-                self.ask(number, bound, &mut asked, known);
+                is_any_told |= self.ask(number, bound, &mut asked, known);
             }
             rest = open.rest;
             if rest >= self.enough(known) {
                 break;
             }
+        }
+        if is_any_told && known.levels.is_crowded {
+            // What is hidden of the manifold that came last.
+            let _ = self.nearest_of_low(&asked, known);
         }
         asked.lowest.min(rest)
     }
@@ -135,57 +141,61 @@ impl Seen<'_> {
         asked.axes.iter().map(bound).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Asks the kernels about a triangle, and tells what they say where it is nearer than all that is told.
-    fn ask(&self, number: u32, bound: f64, asked: &mut Asked, known: &mut Known) {
+    /// Asks the kernels about a triangle, and tells what they say where it is nearer than all that is told; whether it is.
+    fn ask(&self, number: u32, bound: f64, asked: &mut Asked, known: &mut Known) -> bool {
         let (ground, standing, enough) = (self.asking.on.ground, self.standing, self.enough(known));
         let _ = asked.numbers.try_push(number);
-        let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
+        let Some(facet) = Facet::seen(ground, number, standing.center) else { return false };
         let bound = bound.max(self.bound_by(asked, &facet) - self.doubt_over(&facet));
         if bound >= enough {
             asked.lowest = asked.lowest.min(bound);
-            return;
+            return false;
         }
         let found = self.meeting.nearest((ground, &facet), &standing.place, self.asking);
-        let Some((towards, found)) = found else { return };
+        let Some((towards, found)) = found else { return false };
         let is_hidden =
             facet.normal.dot(towards) > 0.0 && facet.normal.cross(towards).length() <= window(1.0);
         if !(is_hidden || !known.overlapping && !ground.is_one_sided()) {
-            return;
+            return false;
         }
         asked.lowest = asked.lowest.min(found.separation - found.doubt);
         self.add_axis(towards, found.ends[0], asked);
-        if found.separation < known.groups.least() {
+        let is_nearer = found.separation < known.groups.least();
+        if is_nearer {
             self.tell_overlooked(found, known);
         }
+        is_nearer
     }
 
     /// Goes through all triangles with low bends that were not asked about. What they hide of other manifolds than the nearest is
-    /// noted where that is wanted.
-    fn nearest_of_low(&self, is_all_wanted: bool, asked: &Asked, known: &mut Known) -> Open {
+    /// noted where not all levels were kept.
+    fn nearest_of_low(&self, asked: &Asked, known: &mut Known) -> Open {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let (floor, enough) = (self.floor(known), self.enough(known));
         let mut open = Open { nearest: ArrayVec::new_const(), rest: f64::INFINITY };
         let _ = ground.read_near(&self.bounds, |near| {
-            if let Some((facet, least)) = self.low(near, known)
-                && least >= floor
-                && !asked.numbers.contains(&near.number)
-            {
-                let bound = least.max(self.bound_by(asked, &facet) - self.doubt_over(&facet));
-                let is_apart = || {
-                    let mut cores = asked.axes.iter().map(|&(.., core)| core);
-                    standing.is_apart((&facet, None), enough)
-                        || cores.any(|core| standing.is_apart_towards(core, &facet, enough))
-                };
-                if is_all_wanted {
-                    self.hide(facet.normal, bound, known);
-                }
-                if bound >= enough {
-                    open.rest = open.rest.min(bound);
-                } else if is_apart() {
-                    open.rest = open.rest.min(enough);
-                } else {
-                    open.add(bound, near.number);
-                }
+            let Some((facet, least)) = self.low(near, known).filter(|&(_, least)| least >= floor) else {
+                return ControlFlow::Continue(());
+            };
+            let bound = least.max(self.bound_by(asked, &facet) - self.doubt_over(&facet));
+            if known.levels.is_crowded {
+                self.hide(facet.normal, bound, known);
+            }
+            let is_apart = || {
+                let beyond = enough + self.doubt_over(&facet);
+                let mut cores = asked.axes.iter().map(|&(.., core)| core);
+                standing.is_apart((&facet, None), beyond)
+                    || cores.any(|core| standing.is_apart_towards(core, &facet, beyond))
+            };
+            if asked.numbers.contains(&near.number) {
+                return ControlFlow::Continue(());
+            }
+            if bound >= enough {
+                open.rest = open.rest.min(bound);
+            } else if is_apart() {
+                open.rest = open.rest.min(enough);
+            } else {
+                open.add(bound, near.number);
             }
             ControlFlow::Continue(())
         });

@@ -4,24 +4,38 @@ use super::facet::Facet;
 use super::groups::{Base, Pin};
 use super::{Known, Seen};
 use crate::feature::Feature;
+use crate::ground3::near::FAR_INSIDE;
 use asunder_geometry::glam::DVec3;
 use core::ops::ControlFlow;
 
 impl Seen<'_> {
-    /// Looks at all triangles, for a half-space whose unit normal this is in the ground's axes.
-    pub(super) fn look_at_all(&self, normal: DVec3, known: &mut Known) {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
+    /// Looks at all triangles, for a half-space whose unit normal this is in the ground's axes; at no more than the first that
+    /// it overlaps, if only yes or no is wanted.
+    pub(super) fn look_at_all(&self, normal: DVec3, is_yes_enough: bool, known: &mut Known) {
+        let ground = self.asking.on.ground;
+        let inside = self.standing.center - normal * FAR_INSIDE;
         let _ = ground.visit_near(&self.bounds, |number| {
-            let Some(facet) = Facet::seen(ground, number, standing.center) else {
-                return ControlFlow::Continue(());
-            };
-            let numbers = ground.vertex_numbers(number);
-            for (corner, vertex) in facet.corners.into_iter().zip(numbers) {
-                let height = normal.dot(corner - standing.center);
-                let doubt = standing.doubt(corner);
-                if height > self.asking.reach + doubt {
-                    continue;
-                }
+            if let Some(facet) = Facet::front_of(number, ground.corners(number))
+                && !(ground.is_one_sided() && facet.height(inside) < 0.0)
+            {
+                self.add_corners(&facet, normal, known);
+            }
+            if known.overlapping && is_yes_enough {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+    }
+
+    /// Adds the corners of a triangle that a half-space reaches.
+    fn add_corners(&self, facet: &Facet, normal: DVec3, known: &mut Known) {
+        let (ground, standing, number) = (self.asking.on.ground, self.standing, facet.number);
+        let (mut lowest, mut is_unclear) = (f64::INFINITY, false);
+        for (corner, vertex) in facet.corners.into_iter().zip(ground.vertex_numbers(number)) {
+            let height = normal.dot(corner - standing.center);
+            let doubt = standing.doubt(corner);
+            if height <= self.asking.reach {
                 // From the ground to the body.
                 let base = Base { normal: -normal, patch: ground.patch(number), weight: 0.0 };
                 let pin = Pin {
@@ -32,16 +46,16 @@ impl Seen<'_> {
                     of_body: Feature::Face(0),
                     of_ground: Feature::Vertex(vertex),
                 };
-                if height <= self.asking.reach {
-                    known.groups.add(&base, pin);
-                }
-                if height < -doubt {
-                    known.settle(number);
-                } else if height <= doubt && !known.overlapping {
-                    self.doubt_of(number, (false, height), known);
-                }
+                known.groups.add(&base, pin);
             }
-            ControlFlow::Continue(())
-        });
+            if height < -doubt {
+                known.settle(number);
+            }
+            lowest = lowest.min(height);
+            is_unclear |= height <= doubt;
+        }
+        if is_unclear {
+            self.leave_unclear(number, (false, lowest), known);
+        }
     }
 }

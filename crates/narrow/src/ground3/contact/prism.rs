@@ -37,15 +37,15 @@ const FEW_SIDES: usize = 16;
 
 /// A side of a part's face: a corner, and the way inwards in the triangle's plane.
 #[derive(Clone, Copy)]
-struct Cut {
-    half_edge: usize,
-    start: DVec3,
-    into: DVec3,
+pub(super) struct Cut {
+    pub(super) half_edge: usize,
+    pub(super) start: DVec3,
+    pub(super) into: DVec3,
 }
 
 /// A stretch of a side of a triangle: two shares of its length, each with the half-edge of the part's face that ends it
 /// there.
-type Span = [(f64, Option<usize>); 2];
+pub(super) type Span = [(f64, Option<usize>); 2];
 
 /// The face of a part that looks against a normal; kept, since neighbours most often have one normal.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ impl Incident {
 /// The face that [`opposed_face`] finds, of a cuboid: the most opposed of those that have all the furthest corners.
 fn opposed_of_cuboid(normal: DVec3, cuboid: &Cuboid, slack: f64) -> usize {
     let (lean, half) = (normal.abs(), cuboid.half_extents().as_dvec3());
-    // A face whose other side is as far up to the slack has but some of them.
+    // Of a face whose opposite is level with it up to the slack, the furthest corners are on both.
     let has_all = |axis: usize| 2.0 * half[axis] * lean[axis] > slack;
     let is_better = |axis: usize, than: usize| (has_all(axis), lean[axis]) > (has_all(than), lean[than]);
     let axis = (1..3).fold(0, |best, axis| if is_better(axis, best) { axis } else { best });
@@ -251,50 +251,64 @@ impl Prism<'_> {
         Pin { on_body, on_ground, separation, doubt: self.doubt, of_body, of_ground }
     }
 
+    /// Adds the vertices of the part's face that are over the triangle, and the lowest of all.
     fn add_corners(&self, incident: &Incident, base: &Base, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let rims = [facet.rim(0, standing.slack), facet.rim(1, standing.slack), facet.rim(2, standing.slack)];
         let (mut is_any, mut has_lowest) = (false, false);
-        let deep = self.extent.low + standing.slack;
-        let mut add = |vertex: usize| {
-            let core = standing.point(vertex);
-            let height = facet.height(core);
-            let (at, separation, up) = if height <= deep {
-                (core - facet.normal * standing.radius, height - standing.radius, height)
-            } else if let Some(outwards) = incident.outwards {
-                // What is less deep belongs to a tilted face, and lies out along its normal.
-                let at = core + outwards * standing.radius;
-                let separation = facet.height(at);
-                (at, separation, separation)
-            } else {
-                return;
-            };
-            // Over a bend too low to give a normal what is nearest may be beside both its triangles, the further up the more.
-            let up = up.max(0.0);
-            let is_over = |edge: usize| {
-                let rim: &Rim = &rims[edge];
-                rim.holds(at) || rim.holds_by(at, FLAT * up) && facet.goes_on(self.ground, edge)
-            };
-            if separation <= self.reach && is_over(0) && is_over(1) && is_over(2) {
-                let mut pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
-                if rims[0].is_beyond(at) || rims[1].is_beyond(at) || rims[2].is_beyond(at) {
-                    pin.doubt += self.overhang(&pin, up);
-                }
-                is_any |= self.add_pin(pin, base, groups);
-            }
-        };
         for vertex in standing.solid.topology.face_vertices(incident.face) {
-            add(vertex);
+            is_any |= self.add_corner(vertex, (incident, &rims), base, groups);
             has_lowest |= vertex == self.extent.lowest;
         }
         if !has_lowest {
-            add(self.extent.lowest);
+            is_any |= self.add_corner(self.extent.lowest, (incident, &rims), base, groups);
         }
         is_any
     }
 
-    /// What the height of a point may be off by that is over the triangle only by the slack, in metres, and is so far up, or the
-    /// vertex is that it rounds: of a gap hardly anything, of a sharp corner in overlap as much as it is beside it.
+    #[inline]
+    fn add_corner(
+        &self,
+        vertex: usize,
+        (incident, rims): (&Incident, &[Rim; 3]),
+        base: &Base,
+        groups: &mut Groups,
+    ) -> bool {
+        let Some((at, separation, up)) = self.moved_out(vertex, incident) else { return false };
+        // Above a bend that is too low to give a normal what is nearest may be beside both its triangles, the further the higher
+        // it is.
+        let up = up.max(0.0);
+        let is_over = |edge: usize| {
+            let rim: &Rim = &rims[edge];
+            rim.holds(at) || rim.holds_by(at, FLAT * up) && self.facet.goes_on(self.ground, edge)
+        };
+        if !(separation <= self.reach && is_over(0) && is_over(1) && is_over(2)) {
+            return false;
+        }
+        let mut pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
+        if rims[0].is_beyond(at) || rims[1].is_beyond(at) || rims[2].is_beyond(at) {
+            pin.doubt += self.overhang(&pin, up);
+        }
+        self.add_pin(pin, base, groups)
+    }
+
+    /// Where the surface is that a vertex rounds, its separation, and the height of what it is measured from: the vertex where it is
+    /// as deep as any; else the surface, which belongs to a tilted face, and lies out along its normal.
+    #[inline]
+    fn moved_out(&self, vertex: usize, incident: &Incident) -> Option<(DVec3, f64, f64)> {
+        let (standing, facet) = (self.standing, self.facet);
+        let core = standing.point(vertex);
+        let height = facet.height(core);
+        if height <= self.extent.low + standing.slack {
+            return Some((core - facet.normal * standing.radius, height - standing.radius, height));
+        }
+        let at = core + incident.outwards? * standing.radius;
+        let separation = facet.height(at);
+        Some((at, separation, separation))
+    }
+
+    /// By how much a point's height may differ from its distance, in metres, whose foot is outside the triangle by no more than the
+    /// slack. `up` is the height of the point, or of the vertex that it rounds; at 0 that is the whole way to the triangle.
     fn overhang(&self, pin: &Pin, up: f64) -> f64 {
         let aside = (pin.on_ground - nearest_to(self.facet, pin.on_ground).1).length();
         (up * up + aside * aside).sqrt() - up
@@ -319,23 +333,31 @@ impl Prism<'_> {
             if separation > self.reach {
                 continue;
             }
-            let (of_body, of_ground) = match by {
-                Some(body_edge) => {
-                    let number = edge_number(self.ground, facet.number, edge);
-                    (Feature::Edge(standing.solid.topology.edge_of(body_edge) as u32), Feature::Edge(number))
-                }
-                None => {
-                    let corner = if share > 0.5 { edge + 1 } else { edge };
-                    let numbers = self.ground.vertex_numbers(facet.number);
-                    (Feature::Face(face as u32), Feature::Vertex(numbers[corner % 3]))
-                }
-            };
+            let (of_body, of_ground) = self.names_on_edge(face, edge, (share, by));
             let on_body = on_ground + facet.normal * separation;
             let doubt = (self.doubt + standing.planarity) / -facing + rounded;
             is_any |=
                 self.add_pin(Pin { on_body, on_ground, separation, doubt, of_body, of_ground }, base, groups);
         }
         is_any
+    }
+
+    /// What a point on an edge of the triangle is named after, at a share of its length where a half-edge of the part's face passes
+    /// over it, or at its nearer end.
+    pub(super) fn names_on_edge(
+        &self,
+        face: usize,
+        edge: usize,
+        (share, by): (f64, Option<usize>),
+    ) -> (Feature, Feature) {
+        if let Some(half_edge) = by {
+            let own = self.standing.solid.topology.edge_of(half_edge) as u32;
+            let number = edge_number(self.ground, self.facet.number, edge);
+            return (Feature::Edge(own), Feature::Edge(number));
+        }
+        let corner = if share > 0.5 { edge + 1 } else { edge };
+        let numbers = self.ground.vertex_numbers(self.facet.number);
+        (Feature::Face(face as u32), Feature::Vertex(numbers[corner % 3]))
     }
 
     /// Adds a point that the gate lets through; whether it did.
@@ -353,32 +375,9 @@ impl Prism<'_> {
     }
 
     /// The stretch of a side that lies over the part's face, which has these sides.
-    ///
-    /// Cyrus and Beck, "Generalized two- and three-dimensional clipping" (1978).
     fn span(&self, cuts: impl Iterator<Item = Cut>, outwards: DVec3, edge: usize) -> Option<Span> {
         let (from, along) = self.facet.edge(edge);
-        let shift = outwards * self.standing.radius;
-        let (mut enters, mut leaves) = ((0.0, None), (1.0, None));
-        for Cut { half_edge, start, into } in cuts {
-            let (inside, change) = (into.dot(from - start - shift), into.dot(along));
-            if change == 0.0 {
-                if inside < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let share = -inside / change;
-            if change > 0.0 && share > enters.0 {
-                enters = (share, Some(half_edge));
-            }
-            if change < 0.0 && share < leaves.0 {
-                leaves = (share, Some(half_edge));
-            }
-            if enters.0 > leaves.0 {
-                return None;
-            }
-        }
-        Some([enters, leaves])
+        within(cuts, outwards * self.standing.radius, (from, along))
     }
 
     /// The same under a segment: where it passes over the side, if it does. The same end twice, since it is one point.
@@ -397,4 +396,36 @@ impl Prism<'_> {
         let share = along.dot(crossing - from) / along.length_squared();
         (0.0..=1.0).contains(&share).then_some([(share, Some(0)); 2])
     }
+}
+
+/// The stretch of a line that is on the inner side of all cuts, once these are shifted.
+///
+/// Cyrus and Beck, "Generalized two- and three-dimensional clipping" (1978).
+#[inline]
+pub(super) fn within(
+    cuts: impl Iterator<Item = Cut>,
+    shift: DVec3,
+    (from, along): (DVec3, DVec3),
+) -> Option<Span> {
+    let (mut enters, mut leaves) = ((0.0, None), (1.0, None));
+    for Cut { half_edge, start, into } in cuts {
+        let (inside, change) = (into.dot(from - start - shift), into.dot(along));
+        if change == 0.0 {
+            if inside < 0.0 {
+                return None;
+            }
+            continue;
+        }
+        let share = -inside / change;
+        if change > 0.0 && share > enters.0 {
+            enters = (share, Some(half_edge));
+        }
+        if change < 0.0 && share < leaves.0 {
+            leaves = (share, Some(half_edge));
+        }
+        if enters.0 > leaves.0 {
+            return None;
+        }
+    }
+    Some([enters, leaves])
 }

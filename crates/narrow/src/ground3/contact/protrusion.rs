@@ -4,8 +4,8 @@
 //! a triangle that speaks by its own normal tells of what stands over it, and where ground ends or bends; of a ridge too low
 //!     for that, on which a face rests, the points that are told are beside it, and lower
 //! triangles with such a bend, and the normal that is told:
-//!     ground rises over the plane of that normal by no more than the sine of its slope against it times the way: by no more
-//!         than that times the part's diameter
+//!     ground rises over the plane of that normal by no more than the sine of its slope against it times the way, which is the
+//!         tangent up to rounding where bends are as low as that: by no more than that times the part's diameter
 //!     the part is no nearer to a triangle than its lowest vertex is over its plane, nor than the triangle's highest corner is
 //!         below a face of the part
 //! ```

@@ -9,7 +9,7 @@
 //!   the point, where ground lets the direction through                                           (Nearest::add_point)
 //! what ground refused is nearer than all points: the general way                                (unsaid)
 //! ```
-//! Answers are those of the general way to the last bit. Where rounding leaves it open whether the two share a point, or
+//! Answers are those of the general way to the last bit, but for needles whose normals are worth little. Where rounding leaves it open whether the two share a point, or
 //! the centre is on the triangle, that way is asked instead: it knows how to go on.
 //!
 //! What it buys: no core, no solid, no vertices eight by eight, and for most triangles no side.
@@ -27,7 +27,8 @@ use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Aabb3, Ground, NearTriangle, Prominent};
 use core::ops::ControlFlow;
 
-/// More than the sine of the angle by which a triangle's normal may be off, and what products lose beside it.
+/// More than what products lose here, as a share of lengths. A needle's normal may be off by more; the plane asked about is not
+/// made of it, and what that passes over is apart, whatever the normal says.
 const LOST: f64 = 1e-6;
 
 /// A sphere, in the ground's axes.
@@ -61,7 +62,7 @@ impl Round {
         &self,
         asking: &Asking,
         part: Part,
-        is_settled: bool,
+        is_overlap_known: bool,
         manifolds: &mut impl Room,
     ) -> Option<Option<bool>> {
         let slack = self.slack();
@@ -69,14 +70,14 @@ impl Round {
         if !self.look(asking.on.ground, !manifolds.is_wanted(), &mut known) {
             return None;
         }
-        if !(known.overlapping || is_settled && known.groups.least() >= -slack) {
+        if !(known.overlapping || is_overlap_known && known.groups.least() >= -slack) {
             known.groups.keep_within(-slack);
         }
         if known.is_unsaid(slack) || known.groups.least() > slack && known.shown_by.is_some() {
             return None;
         }
         known.tell_unsaid(slack);
-        Some(asking.answer(part, &mut known, is_settled, manifolds))
+        Some(asking.answer(part, &mut known, is_overlap_known, manifolds))
     }
 
     /// Places that differ by no more are the same, in metres.
@@ -84,25 +85,23 @@ impl Round {
         (2.0 * FACE_PREFERENCE * self.radius).max(doubt_of(self.lengths, self.center))
     }
 
-    /// Looks at the triangles near it, all but at once if only yes or no is wanted. Whether that settles everything;
+    /// Looks at the triangles near it, until the first overlap if only yes or no is wanted. Whether that settles everything;
     /// else it is to be asked in the general way, from the start.
     fn look(&self, ground: Ground, is_yes_enough: bool, known: &mut Known) -> bool {
-        let flow = ground.read_near_if(
+        let mut is_settled = true;
+        let _ = ground.read_near_if(
             &self.bounds(),
             |corners| self.may_reach(corners),
             |near| {
-                if !self.look_at(ground, near, known) {
-                    known.is_open = true;
-                    return ControlFlow::Break(());
-                }
-                if known.overlapping && is_yes_enough {
-                    ControlFlow::Break(())
-                } else {
+                is_settled = self.look_at(ground, near, known);
+                if is_settled && !(known.overlapping && is_yes_enough) {
                     ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
                 }
             },
         );
-        flow.is_continue() || !known.is_open
+        is_settled
     }
 
     /// Whether a triangle may be within reach: not where a plane has it and the ball on either side, further apart than that.
@@ -115,7 +114,7 @@ impl Round {
     fn may_reach(&self, corners: &[Vec3; 3]) -> bool {
         let corners = widened(*corners);
         let (away, least) = way_from(corners, self.center);
-        // More than what the rest can take a separation to be off by: nothing is lost.
+        // More than rounding can hide.
         let lever = (self.center - corners[0]).abs().element_sum() + self.radius;
         let beyond = self.radius + self.reach + doubt_of(self.lengths, corners[0]) + LOST * lever;
         // What is not a number may reach.

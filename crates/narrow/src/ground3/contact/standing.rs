@@ -161,8 +161,11 @@ impl<'s> Standing<'s> {
     pub(super) fn is_apart(&self, (facet, axes): (&Facet, Option<&Axes>), beyond: f64) -> bool {
         let beyond_core = beyond + self.radius;
         if let Some(axes) = axes {
-            if axes.best > beyond_core || axes.best < 0.0 {
-                return axes.best > 0.0;
+            if axes.best > beyond_core {
+                return true;
+            }
+            if axes.best < 0.0 {
+                return false;
             }
         } else {
             let own = |corner: usize| self.place.axes.turn_back(facet.corners[corner] - self.place.origin);

@@ -15,17 +15,17 @@
 
 use super::facet::{Facet, edge_number, is_same};
 use super::groups::{Base, Pin};
-use super::{Known, Seen};
+use super::{Known, Seen, Unclear};
 use crate::feature::Feature;
 use arrayvec::ArrayVec;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
 
-/// A triangle in a gap from the part, of which no point was made.
+/// What the kernels, or a closed form, say of a triangle of which no point was made.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unsaid {
     pub(super) number: u32,
-    /// In metres, and by how much it may be off.
+    /// In metres, and by how much it may be off; below zero where they overlap.
     pub(super) separation: f64,
     pub(super) doubt: f64,
     /// The nearest points, on the part and on the ground.
@@ -144,7 +144,7 @@ impl Seen<'_> {
         if ground.is_one_sided() || known.unclear.is_empty() {
             return;
         }
-        for (.., separation, number) in core::mem::take(&mut known.unclear) {
+        for Unclear { separation, number, .. } in core::mem::take(&mut known.unclear) {
             if separation < -standing.slack
                 && let Some(facet) = Facet::seen(ground, number, standing.center)
                 && let Some(gap) = self.meeting.gap((ground, &facet), &standing.place, self.asking)

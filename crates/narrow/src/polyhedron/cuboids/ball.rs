@@ -10,7 +10,6 @@
 //! point however small the gap: it needs no care where the point all but touches. Neither distance nor depth changes by
 //! more than the point moves, so that what rounding does to c, it does to the answer, and no more.
 
-use super::UNIT;
 use super::names::edge_through;
 use crate::feature::Feature;
 use arrayvec::ArrayVec;
@@ -54,7 +53,7 @@ impl Nearest {
         } else {
             2
         };
-        let normal = if corner >> axis & 1 == 1 { UNIT[axis] } else { -UNIT[axis] };
+        let normal = if corner >> axis & 1 == 1 { DVec3::AXES[axis] } else { -DVec3::AXES[axis] };
         let on_cuboid = point - normal * over[axis];
         Self { separation: over[axis], normal, on_cuboid, corner, held: 1 << axis }
     }

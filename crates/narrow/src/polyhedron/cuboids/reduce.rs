@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! corners clockwise in eight places, the last one repeated
-//! 70 quadrilaterals = ten shapes (steps from corner to corner) times eight beginnings
+//! 70 quadrilaterals: ten shapes (steps from corner to corner) times eight beginnings name each of them once or twice
 //! twice the area of each = the cross product of its diagonals
 //! ```
 //! All of them are looked at, since that takes no branch: the walk around the patch, which finds the same, takes

@@ -10,6 +10,7 @@
 //! its length is less needs no projection beyond its closed form.
 
 use super::super::sat::{Axis, AxisOf};
+use super::super::solid::corner_along;
 use super::fifteen::closed_form;
 use super::names;
 use super::placed::Placed;
@@ -335,10 +336,4 @@ pub(super) fn parted_by(
             Some(AxisOf::Edges(names::edge_through(0, pair / 3), names::edge_through(0, pair % 3)))
         }
     }
-}
-
-/// The corner furthest along a direction in a cuboid's own axes; of equals, the lowest.
-#[inline]
-fn corner_along(v: DVec3) -> usize {
-    usize::from(v.x > 0.0) | usize::from(v.y > 0.0) << 1 | usize::from(v.z > 0.0) << 2
 }

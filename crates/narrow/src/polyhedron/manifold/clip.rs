@@ -78,7 +78,7 @@ pub(super) struct Side {
 }
 
 impl<const N: usize> Polygon<N> {
-    /// No corners, and room for those of one face and twice those of another.
+    /// No corners, and room for those of one face, twice those of another, and some more.
     pub(super) fn new() -> Self {
         Self {
             corners: ArrayVec::new(),

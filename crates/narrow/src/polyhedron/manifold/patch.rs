@@ -17,12 +17,17 @@ use super::{Depths, Point, Points};
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
-/// The most corners that are made: those of the incident face, and two for each of the reference face.
-const MAX_CORNERS: usize = 768;
+/// The most corners that are made: those of the incident face, two for each side of the reference face, and eight where a box
+/// cuts what is left.
+const MAX_CORNERS: usize = 3 * MAX_HULL_VERTICES + BY_BOX;
+
+/// Corners that a box makes: two for each of its sides.
+const BY_BOX: usize = 8;
 
 /// As many are made in little memory.
-const FEW_CORNERS: usize = 32;
+const FEW_CORNERS: usize = 32 + BY_BOX;
 
 /// A face of each shape.
 #[derive(Clone, Copy)]
@@ -41,7 +46,7 @@ impl<'a> Faces<'a> {
     pub(super) fn add_points(&self, frame: &Frame, depths: &Depths, points: &mut Points) -> bool {
         let corners =
             |(solid, face): (&Solid, usize)| ExactSizeIterator::len(&solid.topology.face_half_edges(face));
-        if 2 * corners(self.reference) + corners(self.incident) <= FEW_CORNERS {
+        if 2 * corners(self.reference) + corners(self.incident) + BY_BOX <= FEW_CORNERS {
             self.add::<FEW_CORNERS>(frame, depths, points)
         } else {
             self.add_of_many(frame, depths, points)

@@ -30,7 +30,7 @@ use asunder_geometry::glam::DVec3;
 const MOST_STEPS: usize = 8;
 
 /// Walks at most: each begins at what beat the end of the one before.
-const MOST_WALKS: usize = 3;
+const MOST_WALKS: usize = 4;
 
 /// What a walk came to.
 #[allow(clippy::large_enum_variant, reason = "as Probe")]
@@ -64,7 +64,7 @@ impl Hinted {
     pub(crate) fn walk(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Ended {
         let (mut at, mut most) = (*self, self.axis.separation);
         let least = -precision.doubt_of_depth();
-        for walk in 0..=MOST_WALKS {
+        for walk in 0..MOST_WALKS {
             if at.axis.separation >= least {
                 return Ended::Apart(at.axis);
             }
