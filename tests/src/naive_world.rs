@@ -176,8 +176,10 @@ impl<S: Judged> NaiveWorld<S> {
         let body = &mut tenant.body;
         match change {
             Change::Shape(shape) => {
+                if S::shape_of(body) != shape {
+                    self.reshaped.insert(slot);
+                }
                 *body = S::shaped(body, shape.clone());
-                self.reshaped.insert(slot);
             }
             Change::Layers(layers) => *body = body.clone().layers(*layers),
             Change::UserData(number) => *body = body.clone().user_data(*number),

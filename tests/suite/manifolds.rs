@@ -2,6 +2,7 @@
 
 mod faces;
 mod frames;
+mod names;
 mod trembling;
 
 use asunder_geometry::tolerance::EVEN_DEPTH;

@@ -62,10 +62,13 @@ impl<S: Space> World<S> {
     /// so.
     pub(crate) fn reshape_body(&mut self, key: S::Key, shape: S::Shape) -> Result<(), StaleKey> {
         let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
+        let is_reshaped = body.shape != shape;
         body.fixed |= S::is_ground(&shape);
         body.shape = shape;
         self.tags[slot_of(key) as usize] = Tag::of(body);
-        self.note_reshaped(slot_of(key));
+        if is_reshaped {
+            self.note_reshaped(slot_of(key));
+        }
         self.mark_changed(slot_of(key));
         Ok(())
     }

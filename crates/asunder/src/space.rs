@@ -135,6 +135,10 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn bounds(shape: &Self::Shape, pose: &Self::Pose, margin: f32) -> Self::Aabb;
 
+    /// A box that holds a posed shape, at a constant cost for compounds.
+    #[doc(hidden)]
+    fn bounds_at_once(shape: &Self::Shape, pose: &Self::Pose) -> Self::Aabb;
+
     /// The least box around both.
     #[doc(hidden)]
     fn union(one: &Self::Aabb, other: &Self::Aabb) -> Self::Aabb;
@@ -249,6 +253,13 @@ impl Space for Plane {
 
     fn bounds(shape: &Shape2, pose: &Pose2, margin: f32) -> Aabb2 {
         shape.bounds(pose, margin)
+    }
+
+    fn bounds_at_once(shape: &Shape2, pose: &Pose2) -> Aabb2 {
+        match shape {
+            Shape2::Compound(compound) => compound.bounds_at_once(pose),
+            _ => shape.bounds(pose, 0.0),
+        }
     }
 
     fn union(one: &Aabb2, other: &Aabb2) -> Aabb2 {
@@ -374,6 +385,13 @@ impl Space for Volume {
 
     fn bounds(shape: &Shape3, pose: &Pose3, margin: f32) -> Aabb3 {
         shape.bounds(pose, margin)
+    }
+
+    fn bounds_at_once(shape: &Shape3, pose: &Pose3) -> Aabb3 {
+        match shape {
+            Shape3::Compound(compound) => compound.bounds_at_once(pose),
+            _ => shape.bounds(pose, 0.0),
+        }
     }
 
     fn union(one: &Aabb3, other: &Aabb3) -> Aabb3 {

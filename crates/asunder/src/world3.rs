@@ -187,7 +187,8 @@ impl World<Volume> {
         Ok(Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 
-    /// Gives a body another shape. A contact stays if they still touch, else it ends at the next update. What becomes ground is
+    /// Gives a body another shape. A contact stays if they touch with it, and ends at the next update if they are but within their
+    /// margins; with an equal shape nothing ends. What becomes ground is
     /// fixed, and stays so with other shapes: [`replace`](Self::replace) makes it free again.
     ///
     /// # Errors

@@ -34,6 +34,7 @@ use core::fmt;
 pub struct Filter<'a, S: Space> {
     layers: Option<Layers>,
     without: Option<S::Key>,
+    without_all: &'a [S::Key],
     without_owner: Option<u64>,
     is_solid: bool,
     only: Option<Only<'a, S>>,
@@ -59,7 +60,14 @@ pub type Filter3<'a> = Filter<'a, Volume>;
 impl<'a, S: Space> Filter<'a, S> {
     /// Lets all bodies pass.
     pub const fn new() -> Self {
-        Self { layers: None, without: None, without_owner: None, is_solid: false, only: None }
+        Self {
+            layers: None,
+            without: None,
+            without_all: &[],
+            without_owner: None,
+            is_solid: false,
+            only: None,
+        }
     }
 
     /// Asks as a body of these layers would: only bodies that these meet, where both sides must agree, are found.
@@ -69,11 +77,28 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out one body: who asks, say. A stale key leaves out nobody. Another call takes the place of the one before: to leave
-    /// out several, give them an owner, or ask by [`only`](Self::only).
+    /// Leaves out one body: who asks, say. A stale key leaves out nobody. Another call takes the place of the one before: several
+    /// are left out by [`without_all`](Self::without_all), or by their owner.
     #[must_use]
     pub const fn without(mut self, body: S::Key) -> Self {
         self.without = Some(body);
+        self
+    }
+
+    /// Leaves out some bodies: who asks, and what they carry. Another call takes the place of the one before. Cost: linear in
+    /// the bodies that are left out, for each that is met.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Sphere, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let [hero, sword, foe] = [(); 3].map(|()| world.insert(Collider3::new(Sphere::new(1.0).unwrap())));
+    /// let mut found = vec![];
+    /// world.overlapping_point(Vec3::ZERO, &Filter3::new().without_all(&[hero, sword]), &mut found);
+    /// assert_eq!(found, [foe]);
+    /// ```
+    #[must_use]
+    pub const fn without_all(mut self, bodies: &'a [S::Key]) -> Self {
+        self.without_all = bodies;
         self
     }
 
@@ -102,9 +127,8 @@ impl<'a, S: Space> Filter<'a, S> {
     /// What can be told without a call.
     #[inline]
     pub(super) fn admits(&self, key: S::Key, body: &Collider<S>) -> bool {
-        !body.disabled
-            && self.without != Some(key)
-            && !(self.is_solid && body.sensor)
+        let is_left_out = self.without == Some(key) || self.without_all.contains(&key);
+        !(body.disabled || is_left_out || self.is_solid && body.sensor)
             && (self.without_owner.is_none() || self.without_owner != body.owner)
             && self.layers.is_none_or(|layers| layers.meets(body.layers))
     }
@@ -134,6 +158,7 @@ impl<S: Space> fmt::Debug for Filter<'_, S> {
         f.debug_struct("Filter")
             .field("layers", &self.layers)
             .field("without", &self.without)
+            .field("without_all", &self.without_all)
             .field("without_owner", &self.without_owner)
             .field("is_solid", &self.is_solid)
             .field("has_only", &self.only.is_some())

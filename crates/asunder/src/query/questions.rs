@@ -22,7 +22,9 @@ pub(crate) fn boxes_over<'q, S: Asked>(
     filter: &'q Filter<'q, S>,
 ) -> Question<'q, S, impl Asks<S, Met<S::Key>>> {
     let ask = |key, _: &_| Some(Met(key));
-    Question { world, filter, reach: Reach::Over(*bounds), limit: 0.0, ask }
+    // The box of the body is all that counts.
+    let bounds_of = |shape: &S::Shape, pose: &S::Pose| S::bounds(shape, pose, 0.0);
+    Question { world, filter, reach: Reach::Over(*bounds), bounds_of, limit: 0.0, ask }
 }
 
 /// Which bodies overlap a shape.
@@ -32,7 +34,8 @@ pub(crate) fn bodies_over<'q, S: Asked>(
     filter: &'q Filter<'q, S>,
 ) -> Question<'q, S, impl Asks<S, Met<S::Key>>> {
     let ask = move |key, body: &_| S::overlaps(at, body).then_some(Met(key));
-    Question { world, filter, reach: Reach::Over(S::bounds(at.0, at.1, 0.0)), limit: 0.0, ask }
+    let reach = Reach::Over(S::bounds(at.0, at.1, 0.0));
+    Question { world, filter, reach, bounds_of: S::bounds_at_once, limit: 0.0, ask }
 }
 
 /// Which bodies are near a shape.
@@ -44,7 +47,7 @@ pub(crate) fn bodies_near<'q, S: Asked>(
 ) -> Question<'q, S, impl Asks<S, Near<S>>> {
     let ask = move |key, body: &_| Some(S::near(at, key, body));
     let reach = Reach::Around(S::bounds(at.0, at.1, 0.0));
-    Question { world, filter, reach, limit: limit_of(within.into()), ask }
+    Question { world, filter, reach, bounds_of: S::bounds_at_once, limit: limit_of(within.into()), ask }
 }
 
 /// Which bodies a ray meets.
@@ -56,7 +59,8 @@ pub(crate) fn bodies_along_ray<'q, S: Asked>(
 ) -> Question<'q, S, impl Asks<S, Enter<S>>> {
     let limit = limit_of(limit);
     let ask = move |key, body: &_| S::enter(ray, limit, key, body);
-    Question { world, filter, reach: Reach::Along(S::along_ray(ray)), limit, ask }
+    let reach = Reach::Along(S::along_ray(ray));
+    Question { world, filter, reach, bounds_of: S::bounds_at_once, limit, ask }
 }
 
 /// Which bodies a moved shape meets.
@@ -128,5 +132,5 @@ fn moved<'q, S: Asked>(
         meet(body).map(|(fraction, impact)| S::met(fraction, &impact, key, body))
     };
     let reach = Reach::Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
-    Question { world, filter, reach, limit: 1.0, ask }
+    Question { world, filter, reach, bounds_of: S::bounds_at_once, limit: 1.0, ask }
 }

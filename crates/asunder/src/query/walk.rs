@@ -122,18 +122,20 @@ pub(crate) struct Question<'q, S: Space, F> {
     pub(super) world: &'q World<S>,
     pub(super) filter: &'q Filter<'q, S>,
     pub(super) reach: Reach<S::Aabb>,
+    /// The box of a body that is looked at.
+    pub(super) bounds_of: fn(&S::Shape, &S::Pose) -> S::Aabb,
     /// Nothing that is further is an answer.
     pub(super) limit: f64,
     pub(super) ask: F,
 }
 
 impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, F> {
-    /// The answer of a body, if it is within a limit that may be nearer by now. Where a box from a tree was met already, the
-    /// body's exact box is looked at after the narrow phase, which refuses more of them.
+    /// The answer of a body, if it is within a limit that may be nearer by now. Where a box from a tree was met already, a
+    /// box of the body itself is looked at after the narrow phase, which refuses more of them.
     fn answer(&self, slot: u32, limit: f64, is_from_tree: bool) -> Option<A> {
         let key = *self.world.keys.get(slot as usize)?;
         let body = self.world.bodies.get(key).filter(|body| self.filter.admits(key, body))?;
-        let meets = || self.reach.meets(&S::bounds(&body.shape, &body.pose, 0.0), limit);
+        let meets = || self.reach.meets(&(self.bounds_of)(&body.shape, &body.pose), limit);
         let early = if is_from_tree { None } else { Some(meets()?) };
         if !self.filter.agrees(key, body) {
             return None;

@@ -255,6 +255,23 @@ impl Compound2 {
         };
         self.parts().iter().map(box_of).reduce(|one, other| one.union(&other)).unwrap_or(Aabb2::NOTHING)
     }
+
+    /// A box that holds the posed shape, whatever its parts: around its bounding circle, and so no smaller than
+    /// [`bounds`](Self::bounds). Cost: constant.
+    ///
+    /// ```
+    /// use asunder_geometry::{Bounds, Compound2, Pose2, Shape2, Circle, glam::Vec2};
+    /// let ball: Shape2 = Circle::new(0.5)?.into();
+    /// let row = Compound2::new([(Pose2::at(Vec2::ZERO)?, ball.clone()), (Pose2::at(Vec2::X * 2.0)?, ball)])?;
+    /// let pose = Pose2::at(Vec2::Y)?;
+    /// assert!(row.bounds_at_once(&pose).encloses(&row.bounds(&pose, 0.0)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn bounds_at_once(&self, pose: &Pose2) -> Aabb2 {
+        // What places of parts lost to rounding shows, as in `bounds`.
+        let lost = 128.0 * f64::EPSILON * (self.center.as_dvec2().length() + f64::from(self.outer_radius));
+        around2(core::iter::once(self.center.as_dvec2()), pose, f64::from(self.outer_radius) + lost)
+    }
 }
 
 impl PartialEq for Compound2 {

@@ -252,6 +252,23 @@ impl Compound3 {
         };
         self.parts().iter().map(box_of).reduce(|one, other| one.union(&other)).unwrap_or(Aabb3::NOTHING)
     }
+
+    /// A box that holds the posed shape, whatever its parts: around its bounding sphere, and so no smaller than
+    /// [`bounds`](Self::bounds). Cost: constant.
+    ///
+    /// ```
+    /// use asunder_geometry::{Bounds, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// let ball: Shape3 = Sphere::new(0.5)?.into();
+    /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball)])?;
+    /// let pose = Pose3::at(Vec3::Y)?;
+    /// assert!(row.bounds_at_once(&pose).encloses(&row.bounds(&pose, 0.0)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn bounds_at_once(&self, pose: &Pose3) -> Aabb3 {
+        // What places of parts lost to rounding shows, as in `bounds`.
+        let lost = 128.0 * f64::EPSILON * (self.center.as_dvec3().length() + f64::from(self.outer_radius));
+        around3(core::iter::once(self.center.as_dvec3()), pose, f64::from(self.outer_radius) + lost)
+    }
 }
 
 impl PartialEq for Compound3 {

@@ -186,10 +186,8 @@ impl<'a> Convex<'a> {
 
     /// Contact points over an edge of A, or of B, along its outward normal: see [`over_edge`].
     pub(crate) fn over_edge(&self, of_b: bool, edge: (usize, DVec2), within: f64) -> ArrayVec<Point, 2> {
-        let preference = self.measure.preference;
-        self.with_outlines(|a, b| {
-            over_edge(if of_b { [b, a] } else { [a, b] }, edge, within, preference, of_b)
-        })
+        let sizes = [self.measure.preference, self.measure.near];
+        self.with_outlines(|a, b| over_edge(if of_b { [b, a] } else { [a, b] }, edge, within, sizes, of_b))
     }
 
     /// By how much one contact point must be deeper than another to matter, in metres.

@@ -57,7 +57,8 @@ impl Touch {
 }
 
 /// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
-/// `preference` is how much another axis must beat an edge of A by.
+/// `preference` is how much another axis must beat an edge of A by, and `near` how near a point must be to a vertex of either to be named
+/// after it.
 ///
 /// An axis that only nearly is the best may have its deepest point clipped away, because what touches lies just beside
 /// its edge. Then the best axis is asked in its place, and in a gap, the witness points.
@@ -67,7 +68,7 @@ pub(crate) fn touch(
     axes: &Axes,
     witness: Option<&Witness>,
     margin: f64,
-    preference: f64,
+    [preference, near]: [f64; 2],
 ) -> Touch {
     let best = axes.best();
     let at_stake = witness.map_or(best.separation, |witness| witness.distance);
@@ -75,7 +76,7 @@ pub(crate) fn touch(
     let least = deep - a.radius() - b.radius();
     // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
     // deeper than zero: a body that rests exactly on an edge rests on both of its ends.
-    let depths = Depths { deep, within: margin.max(least), is_cut: false };
+    let depths = Depths { deep, within: margin.max(least), is_cut: false, near };
     let on_edge = |axis: &Axis| {
         let points = match axis.of {
             AxisOf::EdgeA(edge) => edge_points([a, b], edge, axis, depths, false),
@@ -120,6 +121,8 @@ struct Depths {
     within: f64,
     /// Whether what is deepest may be cut off, beside the reference edge: the axis may be far from the best.
     is_cut: bool,
+    /// How near a point must be to a vertex to be named after it.
+    near: f64,
 }
 
 /// The deepest vertex of the shape whose edge the axis is not, and its foot on that edge's line: what is left where an
@@ -270,8 +273,8 @@ fn on_edge(
         let second = incident.facing(deepest, normal);
         let vertices = [second, incident.after(second)];
         let ends = [incident.point(vertices[0]), incident.point(vertices[1])];
-        let clipped = clip(&reference.ends, ends, [(edge, next), (vertices[0], vertices[1])])?;
-        let ends = [clipped[0].0, clipped[1].0];
+        let clipped = clip(&reference.ends, ends, [(edge, next), (vertices[0], vertices[1])], 0.0)?;
+        let ends = [clipped[0].at, clipped[1].at];
         let (one, other) = ((normal.dot(ends[0]), ends[0]), (normal.dot(ends[1]), ends[1]));
         let (height, point) = if other.0 < one.0 { other } else { one };
         if height - normal.dot(vertex) > tiny {
@@ -292,7 +295,7 @@ pub(crate) fn over_edge(
     [outline, incident]: [&impl Placed; 2],
     (edge, normal): (usize, DVec2),
     within: f64,
-    preference: f64,
+    [preference, near]: [f64; 2],
     is_b: bool,
 ) -> ArrayVec<Point, 2> {
     let ends = [outline.point(edge), outline.point(outline.after(edge))];
@@ -302,12 +305,13 @@ pub(crate) fn over_edge(
         let second = incident.facing_edge(normal);
         let vertices = [second, incident.after(second)];
         let lowest = [incident.point(vertices[0]), incident.point(vertices[1])];
-        let clipped = clip(&ends, lowest, [(0, 0); 2]);
-        deep = clipped.map_or(f64::INFINITY, |[one, other]| height(one.0).min(height(other.0)) + preference);
+        let clipped = clip(&ends, lowest, [(0, 0); 2], 0.0);
+        deep =
+            clipped.map_or(f64::INFINITY, |[one, other]| height(one.at).min(height(other.at)) + preference);
     }
     let of = if is_b { AxisOf::EdgeB(edge) } else { AxisOf::EdgeA(edge) };
     let axis = Axis { separation: deep, normal: if is_b { -normal } else { normal }, of };
-    edge_points([outline, incident], edge, &axis, Depths { deep, within, is_cut: true }, is_b)
+    edge_points([outline, incident], edge, &axis, Depths { deep, within, is_cut: true, near }, is_b)
 }
 
 /// Contact points of an edge of `outline` with this outward normal, and the incident shape.
@@ -331,12 +335,13 @@ fn edge_points(
     let edges = [(edge, outline.after(edge)), (second, incident.after(second))];
     let ends = [incident.point(edges[1].0), incident.point(edges[1].1)];
     let mut points: ArrayVec<Point, 2> = ArrayVec::new();
-    if let Some([one, other]) = clip(&reference.ends, ends, edges) {
-        let lowest = |(point, features): (DVec2, (Feature, Feature))| match features.0 {
-            Feature::Vertex(_) if depths.is_cut && radius > 0.0 => {
-                reference.over_cut(point, (ends, incident.outward(second) * radius), features)
+    if let Some([one, other]) = clip(&reference.ends, ends, edges, depths.near) {
+        let lowest = |End { at, features, is_cut }: End| {
+            if is_cut && depths.is_cut && radius > 0.0 {
+                reference.over_cut(at, (ends, incident.outward(second) * radius), features)
+            } else {
+                reference.lowest(at, radius, features)
             }
-            _ => reference.lowest(point, radius, features),
         };
         let (one, other) = (lowest(one), lowest(other));
         // How deep the cores are, seen from a contact made along the normal.
@@ -363,7 +368,7 @@ fn edge_points(
     }
     if points.len() < 2 {
         let outwards = incident.outward(second) * radius;
-        let clipped = clip(&reference.ends, [ends[0] + outwards, ends[1] + outwards], edges);
+        let clipped = clip(&reference.ends, [ends[0] + outwards, ends[1] + outwards], edges, depths.near);
         add_tilted(&mut points, &reference, clipped, depths);
     }
     points
@@ -385,7 +390,7 @@ fn vertex_point(
 
 /// Adds what is less deep: it belongs to a tilted edge, and lies out along its normal; there the ends are cut again.
 fn add_tilted(points: &mut ArrayVec<Point, 2>, reference: &Reference, clipped: Clipped, depths: Depths) {
-    let contacts = clipped.into_iter().flatten().map(|(point, features)| reference.contact(point, features));
+    let contacts = clipped.into_iter().flatten().map(|end| reference.contact(end.at, end.features));
     let mut ends: ArrayVec<Point, 2> =
         contacts.filter(|contact| contact.separation <= depths.within).collect();
     if let Some(&known) = points.first() {
@@ -403,13 +408,27 @@ fn add_tilted(points: &mut ArrayVec<Point, 2>, reference: &Reference, clipped: C
     }
 }
 
-/// Points of the incident edge and their features, the reference's first.
-type Clipped = Option<[(DVec2, (Feature, Feature)); 2]>;
+/// A point of the incident edge.
+struct End {
+    at: DVec2,
+    /// The reference's first.
+    features: (Feature, Feature),
+    /// Whether the edge goes on there, beyond the reference edge.
+    is_cut: bool,
+}
+
+type Clipped = Option<[End; 2]>;
 
 /// The ends of the incident edge held to the width of the reference edge; none where they face past each other. `edges`
-/// are the vertices at their ends, the reference's first.
+/// are the vertices at their ends, the reference's first. Where ends of both are within `near` metres of each other, the point is named
+/// after both, whichever is further in: so that names stay while bodies of equal width tremble on each other.
 #[inline]
-fn clip(&[from, to]: &[DVec2; 2], [start, end]: [DVec2; 2], edges: [(usize, usize); 2]) -> Clipped {
+fn clip(
+    &[from, to]: &[DVec2; 2],
+    [start, end]: [DVec2; 2],
+    edges: [(usize, usize); 2],
+    near: f64,
+) -> Clipped {
     let along = to - from;
     // Places along the reference edge, 0 to 1. The incident edge runs against it, so that `low` is its end.
     let inverse = 1.0 / along.length_squared();
@@ -422,10 +441,17 @@ fn clip(&[from, to]: &[DVec2; 2], [start, end]: [DVec2; 2], edges: [(usize, usiz
     }
     let at = |place: f64| start + (end - start) * ((high - place) / (high - low));
     let [(edge, next), (first, second)] = edges;
-    let on_edge = |vertex: usize| (Feature::Edge(edge as u32), Feature::Vertex(vertex as u32));
-    let on_corner = |vertex: usize| (Feature::Vertex(vertex as u32), Feature::Edge(first as u32));
-    Some([
-        if low >= 0.0 { (end, on_edge(second)) } else { (at(0.0), on_corner(edge)) },
-        if high <= 1.0 { (start, on_edge(first)) } else { (at(1.0), on_corner(next)) },
-    ])
+    let end_at = |place: f64, beyond: f64, whole: DVec2, (of_reference, of_incident): (usize, usize)| {
+        let is_cut = beyond < 0.0;
+        let corner = (Feature::Vertex(of_reference as u32), Feature::Vertex(of_incident as u32));
+        let features = if beyond * beyond * along.length_squared() < near * near {
+            corner
+        } else if is_cut {
+            (corner.0, Feature::Edge(first as u32))
+        } else {
+            (Feature::Edge(edge as u32), corner.1)
+        };
+        End { at: if is_cut { at(place) } else { whole }, features, is_cut }
+    };
+    Some([end_at(0.0, low, end, (edge, second)), end_at(1.0, 1.0 - high, start, (next, first))])
 }

@@ -10,7 +10,7 @@ use crate::answer::{Tier, Verdict};
 use crate::feature::Hint;
 use crate::precision::{IN_PLANE, Precision, at_least, signed};
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::tolerance::{DISTANCE_GAP, FACE_PREFERENCE};
+use asunder_geometry::tolerance::{DISTANCE_GAP, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Rect, Shape2};
 
 /// What is asked of two shapes.
@@ -51,6 +51,8 @@ pub(crate) struct Measure {
     /// How much another axis must beat a face of A by. Relative to the smaller shape: what is nothing to a floor
     /// may be all of a pebble. Never below rounding.
     pub(super) preference: f64,
+    /// How near a contact point must be to a vertex to be named after it, in metres.
+    pub(super) near: f64,
 }
 
 impl Measure {
@@ -100,6 +102,7 @@ impl Measure {
             radii,
             radius_a,
             preference: if preference > rounding { preference } else { rounding },
+            near: SAME_PLACE * 2.0 * smaller,
         }
     }
 
@@ -194,7 +197,8 @@ impl Measure {
     ) -> Probe {
         let best = axes.best();
         let depth = best.separation - self.radii;
-        let touch = asked.points.then(|| touch(placed, axes, None, asked.limit, self.preference));
+        let touch =
+            asked.points.then(|| touch(placed, axes, None, asked.limit, [self.preference, self.near]));
         Probe::Near(Near {
             verdict,
             separation: signed(depth, true),
@@ -233,7 +237,9 @@ impl Measure {
         let best = axes.best();
         let has_axis = best.separation > f64::NEG_INFINITY;
         let hint = if has_axis { hint_of(best.of) } else { hint_of_direction(witness.normal) };
-        let touch = asked.points.then(|| touch(placed, axes, Some(witness), asked.limit, self.preference));
+        let touch = asked
+            .points
+            .then(|| touch(placed, axes, Some(witness), asked.limit, [self.preference, self.near]));
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
@@ -257,10 +263,11 @@ impl Measure {
         let precision = self.precision;
         let best = axes.best();
         let separation = best.separation.max(0.0) - self.radii;
-        let nearest = touch(placed, axes, None, 0.0, self.preference);
+        let nearest = touch(placed, axes, None, 0.0, [self.preference, self.near]);
         let deepest = nearest.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         let short = Self::short(axes, gap) + 3.0 * precision.projection();
-        let touch = asked.points.then(|| touch(placed, axes, None, asked.limit, self.preference));
+        let touch =
+            asked.points.then(|| touch(placed, axes, None, asked.limit, [self.preference, self.near]));
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),

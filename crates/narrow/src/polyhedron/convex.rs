@@ -44,7 +44,7 @@ use crate::exact::Site3;
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE};
+use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Basis3, Hull, Shape3};
 use told::Ball;
 
@@ -283,7 +283,8 @@ impl<'a> Convex<'a> {
             Evidence::Axes(axes, witness) => {
                 let last = last_of(asked.hint);
                 let even = self.even_depth();
-                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, even, last };
+                let near = self.same_place();
+                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, even, near, last };
                 touch_into(a, b, &ask, touch);
             }
             Evidence::Slender(nearest) => *touch = slender::touch(a, b, nearest, margin, preference),
@@ -333,6 +334,11 @@ impl<'a> Convex<'a> {
     /// How much deeper a corner must be to be told for its depth alone, in metres.
     fn even_depth(&self) -> f64 {
         self.of_smaller(EVEN_DEPTH)
+    }
+
+    /// How near a contact point must be to a vertex or an edge to be named after it, in metres.
+    fn same_place(&self) -> f64 {
+        self.of_smaller(SAME_PLACE)
     }
 
     /// So much of the smaller shape's diameter, and never less than rounding.

@@ -412,7 +412,8 @@ impl Convex<'_> {
         let preference = self.preference();
         // The deepest corner is what is wanted here: none that is only nearly so.
         let even = preference;
-        let ask = Ask { axes: &axes, witness: None, margin: 0.0, preference, even, last: None };
+        let near = self.same_place();
+        let ask = Ask { axes: &axes, witness: None, margin: 0.0, preference, even, near, last: None };
         let touch = touch(a, b, &ask);
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         Probe::Near(Near {

@@ -189,6 +189,8 @@ impl Touching<'_> {
             *place = patch.names(slot).0 << 4 | slot as u32;
         }
         sort(&mut order);
+        let mut order = named_near(patch, &order[..count], self.placed.near);
+        sort(&mut order);
         let over = Over::new(self, &patch.reference);
         let out = leaning.unwrap_or(over.out);
         Over { out, ..over }.write(patch, &order[..count], manifold);
@@ -254,6 +256,25 @@ impl Placed {
 #[inline(always)]
 pub(super) fn looks(direction: DVec3) -> bool {
     direction.abs().max_element() >= ALIGNED_FACES
+}
+
+/// Slots by what they are near, in place of what they lie on: those that would be named alike keep their names.
+#[inline(always)]
+fn named_near(patch: &Patch, order: &[u32], near: f64) -> [u32; 4] {
+    let (mut named, mut alike) = ([u32::MAX; 4], 0);
+    for (k, &lies_on) in order.iter().enumerate().take(4) {
+        let slot = lies_on & 15;
+        named[k] = patch.names_near(slot as usize, near).0 << 4 | slot;
+        for before in 0..k {
+            // The same slot twice is one point.
+            let is_alike = named[before] ^ named[k] != 0 && named[before] >> 4 == named[k] >> 4;
+            alike |= u32::from(is_alike) << before | u32::from(is_alike) << k;
+        }
+    }
+    for (k, &lies_on) in order.iter().enumerate().take(4) {
+        named[k] = if alike >> k & 1 == 1 { lies_on } else { named[k] };
+    }
+    named
 }
 
 /// Ascending: five comparisons.

@@ -30,6 +30,9 @@ pub(super) struct Patch {
     pub(super) v: [f64; SLOTS],
     /// Over the reference face's plane, along the direction of measurement.
     pub(super) height: [f64; SLOTS],
+    /// Half the sides of the reference face, and the corners of the other as they are seen, u and v.
+    half: [f64; 2],
+    around: [[f64; 4]; 2],
     /// Which corners there are, clockwise around the patch, one bit each: see [`Patch::slot`].
     pub(super) held: u32,
     /// Whether all corners stand apart from each other and from every line.
@@ -244,6 +247,8 @@ impl Faces {
             u: join(0),
             v: join(1),
             height: join(2),
+            half: self.half,
+            around: [u.0, v.0],
             held,
             is_clear: (off[0] > near) & (off[1] > near) & (off[2] > near) & (off[3] > near),
             reference,
@@ -320,10 +325,66 @@ impl Patch {
         if turn < 2 { 4 * turn + k } else { corner }
     }
 
-    /// What meets in a slot's corner.
+    /// What a slot's corner is named after where that is within so many metres: see `super::super::manifold::near`.
+    #[inline(always)]
+    pub(super) fn names_near(&self, slot: usize, near: f64) -> Names {
+        let Reference { is_b, face, incident } = self.reference;
+        let (of_reference, of_incident) = self.lies_on(slot);
+        let (u, v) = (self.u[slot % SLOTS], self.v[slot % SLOTS]);
+        let (off_u, off_v) = (self.half[0] - u.abs(), self.half[1] - v.abs());
+        let of_reference = if of_reference.is_vertex() {
+            of_reference
+        } else if off_u * off_u + off_v * off_v < near * near {
+            let corner = [[0, 3], [1, 2]][usize::from(u > 0.0)][usize::from(v > 0.0)];
+            Name::vertex(names::corner(face, corner))
+        } else if of_reference.is_face() && (off_u < near || off_v < near) {
+            let (of_u, of_v) = ([3, 1][usize::from(u > 0.0)], [0, 2][usize::from(v > 0.0)]);
+            Name::edge(names::edge(face, if off_u < off_v { of_u } else { of_v }))
+        } else {
+            of_reference
+        };
+        let [around_u, around_v] = &self.around;
+        let (mut best, mut nearest) = (near * near, None);
+        for k in 0..4 {
+            let (to_u, to_v) = (around_u[k] - u, around_v[k] - v);
+            let squared = to_u * to_u + to_v * to_v;
+            (best, nearest) = if squared < best { (squared, Some(k)) } else { (best, nearest) };
+        }
+        let of_incident = match nearest {
+            _ if of_incident.is_vertex() => of_incident,
+            Some(corner) => Name::vertex(names::corner(incident, corner)),
+            None if of_incident.is_face() => self.edge_near((u, v), near).unwrap_or(of_incident),
+            None => of_incident,
+        };
+        Names::new(of_reference, of_incident, is_b)
+    }
+
+    /// The nearest edge of the incident face, if its line is within so many metres.
+    #[inline]
+    fn edge_near(&self, (u, v): (f64, f64), near: f64) -> Option<Name> {
+        let [around_u, around_v] = &self.around;
+        let (mut best, mut nearest) = (near, None);
+        for k in 0..4 {
+            let next = (k + 1) % 4;
+            let (along_u, along_v) = (around_u[next] - around_u[k], around_v[next] - around_v[k]);
+            let across = along_u * (v - around_v[k]) - along_v * (u - around_u[k]);
+            let off = across.abs() / (along_u * along_u + along_v * along_v).sqrt();
+            (best, nearest) = if off < best { (off, Some(k)) } else { (best, nearest) };
+        }
+        nearest.map(|edge| Name::edge(names::edge(self.reference.incident, edge)))
+    }
+
+    /// What a slot's corner lies on.
     #[inline(always)]
     pub(super) fn names(&self, slot: usize) -> Names {
-        let Reference { is_b, face, incident } = self.reference;
+        let (of_reference, of_incident) = self.lies_on(slot);
+        Names::new(of_reference, of_incident, self.reference.is_b)
+    }
+
+    /// The same, of the reference face and of the other.
+    #[inline(always)]
+    fn lies_on(&self, slot: usize) -> (Name, Name) {
+        let Reference { face, incident, .. } = self.reference;
         let (k, group) = (slot % 4, slot / 4);
         let cut = usize::from(self.cuts[k]);
         let side = usize::from(SIDES[group & 1][cut >> 1 & 15]);
@@ -332,7 +393,6 @@ impl Patch {
         let own = (Name::vertex(names::corner(face, k)), Name::face(incident));
         let is_corner = (group == 0) & (cut & 1 == 0);
         let (of_reference, of_incident) = if is_corner { corner } else { crossing };
-        let (of_reference, of_incident) = if group >= 2 { own } else { (of_reference, of_incident) };
-        Names::new(of_reference, of_incident, is_b)
+        if group >= 2 { own } else { (of_reference, of_incident) }
     }
 }

@@ -4,7 +4,7 @@ use super::fifteen::Fifteen;
 use crate::batch::beyond;
 use crate::precision::{IN_SPACE, Precision};
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE};
+use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Basis3, Cuboid, Pose3};
 
 /// Two cuboids as their bodies stand.
@@ -34,6 +34,8 @@ pub(super) struct Placed {
     pub(super) preference: f64,
     /// Corners no further above the deepest are as deep as any where four of more are chosen, in metres.
     pub(super) even: f64,
+    /// How near a point must be to a corner or an edge to be named after it, in metres.
+    pub(super) near: f64,
     pub(super) fifteen: Fifteen,
 }
 
@@ -140,9 +142,10 @@ impl Placed {
         let precision = Size::precision(cores, cores + radii, offset);
         let preference = (FACE_PREFERENCE * 2.0 * smaller).max(precision.projection());
         let even = (EVEN_DEPTH * 2.0 * smaller).max(precision.projection());
+        let near = (SAME_PLACE * 2.0 * smaller).max(precision.projection());
         let Basis3 { x, y, z } = relative;
         let turn = [x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z];
-        Self { half, relative, turn, offset, basis, precision, radii, preference, even, fifteen }
+        Self { half, relative, turn, offset, basis, precision, radii, preference, even, near, fifteen }
     }
 
     /// One of B's axes.

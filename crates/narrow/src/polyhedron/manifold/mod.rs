@@ -25,11 +25,12 @@
 //! 4. the axis has told how deep the deepest vertex is, so that the reference plane needs no support search;
 //! 5. of five to eight corners the best four are found by trying all.
 //!
-//! Every corner of the clipped polygon carries the features it comes from, which is what makes its id.
+//! Every corner of the clipped polygon carries the features it comes from. Its id is made of those, and of what is near   (near)
 
 mod clip;
 mod frame;
 mod incident;
+mod near;
 mod over;
 mod patch;
 mod single;
@@ -104,6 +105,8 @@ pub(crate) struct Ask<'a> {
     pub(crate) preference: f64,
     /// Corners no further above the deepest are as deep as any where four of more are chosen, in metres.
     pub(crate) even: f64,
+    /// How near a point must be to a vertex or an edge to be named after it, in metres.
+    pub(crate) near: f64,
     /// What [`Touch::of`] was in the last frame. It keeps its role until another axis beats it by more than two
     /// preferences; one that is stale, or not of these shapes, changes nothing.
     pub(crate) last: Option<AxisOf>,
@@ -133,7 +136,8 @@ impl Ask<'_> {
         let least = deep - a.radius - b.radius;
         // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
         // deeper than zero: a body that rests exactly on a face rests on all of its corners.
-        Depths { deep, least, within: self.margin.max(least), slack: self.preference, even: self.even }
+        let (slack, even, near) = (self.preference, self.even, self.near);
+        Depths { deep, least, within: self.margin.max(least), slack, even, near }
     }
 
     /// The separation of the cores.
@@ -238,6 +242,8 @@ struct Depths {
     slack: f64,
     /// Points of the shapes no further above the deepest are as deep as any where four of more are chosen.
     even: f64,
+    /// How near a point must be to a vertex or an edge to be named after it.
+    near: f64,
 }
 
 /// Adds contact points of a face that an axis is normal to, and the other shape; whether there is one as deep as any.

@@ -13,6 +13,7 @@ use super::super::reduce::{Spot, pick_four};
 use super::super::solid::Solid;
 use super::clip::{Corner, Name, Polygon, Side};
 use super::frame::Frame;
+use super::near::Rim;
 use super::{Depths, Point, Points};
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
@@ -79,7 +80,7 @@ impl<'a> Faces<'a> {
         if !is_whole && let Some(moved) = self.outwards(frame) {
             self.add_higher(frame, moved, &mut polygon, &mut spots);
         }
-        self.add_kept(frame, &spots.list, depths.even, points);
+        self.add_kept::<N>(frame, &spots.list, depths, points);
         spots.list.iter().any(|spot| spot.spot.separation <= depths.least)
     }
 
@@ -149,23 +150,76 @@ impl<'a> Faces<'a> {
     }
 
     /// At most four of the spots as contacts, in order of their ids.
-    fn add_kept(&self, frame: &Frame, spots: &[NamedSpot], even: f64, points: &mut Points) {
+    fn add_kept<const N: usize>(
+        &self,
+        frame: &Frame,
+        spots: &[NamedSpot],
+        depths: &Depths,
+        points: &mut Points,
+    ) {
+        let mut places = [ArrayVec::new_const(), ArrayVec::new_const()];
+        self.fill_places::<N>(frame, &mut places);
         let id = |i: usize| self.id(spots[i].name);
+        let id_near = |i: usize| self.id_near(&places, &spots[i], depths.near);
         let mut kept: ArrayVec<(FeatureId, usize), 4> = ArrayVec::new();
         if spots.len() <= 4 {
             kept.extend((0..spots.len()).map(|i| (id(i), i)));
         } else {
-            let chosen = pick_four(spots.len(), |i| spots[i].spot, id, even);
+            let chosen = pick_four(spots.len(), |i| spots[i].spot, id, depths.even);
             kept.extend(chosen.iter().map(|&i| (id(i), i)));
         }
         kept.sort_unstable();
+        // Sides shorter than the slack can give two corners one name.
         let mut last = None;
-        for &(feature, i) in &kept {
-            // Sides shorter than the slack can give two corners one name.
-            if last.replace(feature) != Some(feature) {
-                points.push(self.contact(frame, &spots[i], feature));
-            }
+        kept.retain(|&mut (feature, _)| last.replace(feature) != Some(feature));
+        let near: ArrayVec<FeatureId, 4> = kept.iter().map(|&(_, i)| id_near(i)).collect();
+        let is_alone = |name: &FeatureId| near.iter().filter(|other| *other == name).count() == 1;
+        for ((feature, _), name) in kept.iter_mut().zip(&near) {
+            *feature = if is_alone(name) { *name } else { *feature };
         }
+        kept.sort_unstable();
+        points.extend(kept.iter().map(|&(feature, i)| self.contact(frame, &spots[i], feature)));
+    }
+
+    /// Where the vertices of the reference face are seen, and those of the incident one. In place: they may be many.
+    fn fill_places<const N: usize>(&self, frame: &Frame, places: &mut [ArrayVec<[f64; 2], N>; 2]) {
+        let faces = [(self.reference, self.is_b), (self.incident, !self.is_b)];
+        for (((solid, face), is_b), places) in faces.into_iter().zip(places) {
+            let place = |vertex: usize| frame.shift_of(in_frame(solid, is_b, vertex));
+            places.extend(solid.topology.face_vertices(face).take(N).map(place));
+        }
+    }
+
+    /// What a spot is named after: see `super::near`.
+    fn id_near<const N: usize>(
+        &self,
+        places: &[ArrayVec<[f64; 2], N>; 2],
+        spot: &NamedSpot,
+        near: f64,
+    ) -> FeatureId {
+        let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
+        let rim = |places: &'_ [[f64; 2]], (solid, face): (&Solid, usize)| {
+            let first = solid.topology.face_half_edges(face).start as u16;
+            let own = Rim { places, first };
+            (own.vertex_near(spot.spot.at, near), own.edge_near(spot.spot.at, near))
+        };
+        let (vertex, edge) = rim(&places[0], self.reference);
+        let of_reference = match (vertex, spot.name, edge) {
+            (_, Name::Reference(start), _) | (Some(start), ..) => vertex_at(reference, start),
+            (None, Name::Crossing(side, _), _) | (None, Name::Incident(_), Some(side)) => {
+                edge_at(reference, side)
+            }
+            (None, Name::Incident(_), None) => Feature::Face(face as u32),
+        };
+        let (vertex, edge) = rim(&places[1], self.incident);
+        let of_incident = match (vertex, spot.name, edge) {
+            (_, Name::Incident(start), _) | (Some(start), ..) => vertex_at(incident, start),
+            (None, Name::Crossing(_, side), _) | (None, Name::Reference(_), Some(side)) => {
+                edge_at(incident, side)
+            }
+            (None, Name::Reference(_), None) => Feature::Face(incident_face as u32),
+        };
+        self.in_order(of_reference, of_incident)
     }
 
     fn contact(&self, frame: &Frame, spot: &NamedSpot, feature: FeatureId) -> Point {
@@ -176,24 +230,32 @@ impl<'a> Faces<'a> {
         Point { separation, on_a, on_b, feature }
     }
 
+    /// What a corner lies on.
     fn id(&self, name: Name) -> FeatureId {
         let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
-        let edge =
-            |solid: &Solid, half_edge: u16| Feature::Edge(solid.topology.edge_of(half_edge.into()) as u32);
-        let vertex = |solid: &Solid, half_edge: u16| {
-            Feature::Vertex(solid.topology.half_edges()[usize::from(half_edge)].origin.into())
-        };
         let (of_reference, of_incident) = match name {
-            Name::Incident(start) => (Feature::Face(face as u32), vertex(incident, start)),
-            Name::Reference(start) => (vertex(reference, start), Feature::Face(incident_face as u32)),
-            Name::Crossing(side, other) => (edge(reference, side), edge(incident, other)),
+            Name::Incident(start) => (Feature::Face(face as u32), vertex_at(incident, start)),
+            Name::Reference(start) => (vertex_at(reference, start), Feature::Face(incident_face as u32)),
+            Name::Crossing(side, other) => (edge_at(reference, side), edge_at(incident, other)),
         };
+        self.in_order(of_reference, of_incident)
+    }
+
+    fn in_order(&self, of_reference: Feature, of_incident: Feature) -> FeatureId {
         if self.is_b {
             FeatureId::new(of_incident, of_reference)
         } else {
             FeatureId::new(of_reference, of_incident)
         }
     }
+}
+
+fn edge_at(solid: &Solid, half_edge: u16) -> Feature {
+    Feature::Edge(solid.topology.edge_of(half_edge.into()) as u32)
+}
+
+fn vertex_at(solid: &Solid, half_edge: u16) -> Feature {
+    Feature::Vertex(solid.topology.half_edges()[usize::from(half_edge)].origin.into())
 }
 
 /// A spot, where it stands on the incident surface, and what it is a corner of.
