@@ -386,7 +386,8 @@ impl World<Volume> {
     /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of
     /// bodies met at the same time, that of the lowest slot. One that it touches already is met at fraction 0.
     ///
-    /// A displacement of zero meets what the shape overlaps, and one that is not finite meets nothing. Who goes on along what it
+    /// A displacement of zero meets what the shape overlaps, but for one-sided ground that it is behind, and one that is not finite
+    /// meets nothing. Who goes on along what it
     /// met keeps a skin of a tenth of a millimetre: normals are f32, and so a speed that was cleared of one still goes in.
     ///
     /// ```

@@ -31,7 +31,8 @@ impl Motion2 {
     /// Neither moves nor turns.
     pub const STILL: Self = Self { displacement: DVec2::ZERO, to: None };
 
-    /// A motion by a displacement in metres (`Vec2`, `DVec2`, or an array of f64), which ends in a given rotation.
+    /// A motion by a displacement in metres (`Vec2`, `DVec2`, or an array of f64), which ends in a given rotation: not the turn from
+    /// the body's own, but where it ends. Without turning: [`shift`](Self::shift).
     ///
     /// # Errors
     /// A displacement that is not finite, or beyond [`MAX_POSITION`](crate::tolerance::MAX_POSITION) on an axis.

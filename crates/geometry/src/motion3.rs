@@ -61,8 +61,8 @@ impl Motion3 {
     /// Neither moves nor turns.
     pub const STILL: Self = Self { displacement: DVec3::ZERO, rotation: None };
 
-    /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the rotation that is reached at the end,
-    /// of any length but zero.
+    /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the rotation that is reached at the end, of any length but
+    /// zero: not the turn from the body's own, but where it ends. Without turning: [`shift`](Self::shift).
     ///
     /// # Errors
     /// What is not finite, a displacement beyond 1e9 m on an axis, and a zero quaternion.

@@ -360,7 +360,8 @@ pub struct Manifold3 {
     /// |true - reported| <= error, in metres.
     pub error: f32,
     /// Where they touch. Never empty. Of more corners than four, those that hold the patch by at least 95 % of the best four's
-    /// area, one of them as deep as any up to that: the same from frame to frame, but for a coincidence, while their features are.
+    /// area, one of them as deep as any up to that: the same from frame to frame, but for a coincidence, while their features are. Of
+    /// two faces, named after the vertex or the edge of each that is within 2^-9 of the smaller bounding diameter, if any is.
     pub points: ContactPoints<ContactPoint3, 4>,
 }
 
