@@ -255,3 +255,21 @@ fn one_sided_ground_sees_a_half_space_by_its_direction_wherever_its_position_is(
         assert!((cast(1.0, -2.0).unwrap() - 0.5).abs() < 1e-6, "falling at {x}");
     }
 }
+
+/// What stands square to a half-space's plane is seen from either side, turned or not, and a cast says so, too.
+#[test]
+fn a_one_sided_wall_is_seen_by_a_half_space_that_it_stands_square_to() {
+    let wall = mesh((vec![Vec3::ZERO, Vec3::Y, Vec3::Z], vec![[0, 1, 2]])).one_sided();
+    let (ground, below): (Shape3, Shape3) = (wall.into(), HalfSpace::new(Vec3::Y).unwrap().into());
+    for turn in
+        [Quat::IDENTITY, Quat::from_xyzw(0.16, 0.27, 0.38, 0.85), Quat::from_xyzw(0.7, -0.1, 0.2, 0.3)]
+    {
+        let under = Pose3::new([0.0; 3], turn).unwrap();
+        for x in [-1e3, -1.0, 0.0, 1.0, 1e3] {
+            let pose = Pose3::new(under.turn(DVec3::new(x, 0.5, 0.0)), turn).unwrap();
+            let pair = Pair3::new(&below, &pose, &ground, &under);
+            assert_eq!(pair.manifolds(0.0).len(), 1, "position at {x}");
+            assert_eq!(pair.cast(Vec3::ZERO).map(|impact| impact.fraction), Some(0.0), "position at {x}");
+        }
+    }
+}

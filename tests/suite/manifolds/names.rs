@@ -91,3 +91,21 @@ fn outlines_that_stand_squarely_on_each_other_keep_the_names_of_their_points() {
         }
     }
 }
+
+/// Symptom: of two rounded rectangles, one tilted by a hundredth, one corner was told as two points 5 mm apart. Cause: the end of an
+/// edge that was there already was known by its name, which was another one where the edge was cut again, further out.
+#[test]
+fn a_rounded_corner_is_one_point() {
+    let rect: Shape2 = Rect::from_half_extents(Vec2::new(1.0, 0.3)).unwrap().rounded(0.5).unwrap().into();
+    for step in 0..400 {
+        let turn = Rotation2::from_angle(5e-5 * step as f32).unwrap();
+        for height in [1.594, 1.5945, 1.59] {
+            let pose = Pose2::new(DVec2::new(0.0, height), turn).unwrap();
+            let manifold = Pair2::new(&rect, &Pose2::IDENTITY, &rect, &pose).manifold(0.0).unwrap();
+            if let [one, other] = manifold.points[..] {
+                let apart = (one.anchor_a - other.anchor_a).length();
+                assert!(apart > 1.0, "{apart} m, turned by {step} times 5e-5: {manifold:?}");
+            }
+        }
+    }
+}

@@ -268,8 +268,9 @@ impl Compound2 {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn bounds_at_once(&self, pose: &Pose2) -> Aabb2 {
-        // What places of parts lost to rounding shows, as in `bounds`.
-        let lost = 128.0 * f64::EPSILON * (self.center.as_dvec2().length() + f64::from(self.outer_radius));
+        // A rotation's length is one up to the rounding of f32; and what places of parts lost to rounding shows, as in `bounds`.
+        let reach = self.center.as_dvec2().length() + f64::from(self.outer_radius);
+        let lost = 4.0 * f64::from(f32::EPSILON) * reach;
         around2(core::iter::once(self.center.as_dvec2()), pose, f64::from(self.outer_radius) + lost)
     }
 }

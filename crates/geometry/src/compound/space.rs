@@ -265,8 +265,9 @@ impl Compound3 {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn bounds_at_once(&self, pose: &Pose3) -> Aabb3 {
-        // What places of parts lost to rounding shows, as in `bounds`.
-        let lost = 128.0 * f64::EPSILON * (self.center.as_dvec3().length() + f64::from(self.outer_radius));
+        // A rotation's length is one up to the rounding of f32; and what places of parts lost to rounding shows, as in `bounds`.
+        let reach = self.center.as_dvec3().length() + f64::from(self.outer_radius);
+        let lost = 4.0 * f64::from(f32::EPSILON) * reach;
         around3(core::iter::once(self.center.as_dvec3()), pose, f64::from(self.outer_radius) + lost)
     }
 }

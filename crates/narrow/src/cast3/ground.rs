@@ -14,7 +14,7 @@ use super::advance::{End, Met};
 use super::beyond::Touched as TouchedAtStart;
 use super::passage::Passage;
 use super::{impact_of, part_end};
-use crate::ground3::{Corners, OnGround, Touched};
+use crate::ground3::{Corners, OnGround, SeenAt, Touched};
 use crate::impact3::Impact3;
 use crate::level::Lies;
 use crate::pair3::{Pair3, Part};
@@ -28,7 +28,7 @@ struct First {
     part: u32,
     triangle: u32,
     /// What tells the side that the part is on at the start, in the ground's axes.
-    seen_at: DVec3,
+    seen_at: SeenAt,
 }
 
 /// One motion over one ground.

@@ -13,7 +13,7 @@
 //! An axis is any: what all corners of both show along it is proved, however it was found. And any two points bound a
 //! separation from above.
 
-use super::near::{FAR_INSIDE, OnGround, grown_around};
+use super::near::{OnGround, SeenAt, grown_around};
 use crate::pair3::Part;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -36,8 +36,8 @@ pub(crate) struct Corners {
     radius: f64,
     /// The centre of its bounding sphere.
     center: DVec3,
-    /// What tells the side of a triangle that it is on: that centre; of a half-space a point far inside.
-    pub(crate) seen_at: DVec3,
+    /// What tells the side of a triangle that it is on.
+    pub(crate) seen_at: SeenAt,
     /// How far the part reaches from there in every direction at least; below zero where it is beside that.
     inner_radius: f64,
     /// Whether that is the part, and not a ball around it.
@@ -89,9 +89,9 @@ impl Corners {
         let seen_at = match shape {
             Shape3::HalfSpace(half_space) => {
                 let [x, y, z] = half_space.unit_normal().to_array();
-                center - (axes[0] * x + axes[1] * y + axes[2] * z) * FAR_INSIDE
+                SeenAt::Far(-(axes[0] * x + axes[1] * y + axes[2] * z))
             }
-            _ => center,
+            _ => SeenAt::Place(center),
         };
         let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let inner_radius = match shape {

@@ -1,6 +1,6 @@
 //! From which side ground is seen, and which way it faces where it is touched.
 
-use super::near::{OnGround, box_around};
+use super::near::{OnGround, SeenAt, box_around};
 use arrayvec::ArrayVec;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -35,13 +35,12 @@ fn normal_of([a, b, c]: [DVec3; 3]) -> DVec3 {
 
 impl OnGround<'_> {
     /// Whether a triangle sees a part that is there: always, unless the ground is one-sided and that is behind.
-    pub(crate) fn sees(&self, corners: [Vec3; 3], seen_at: DVec3) -> bool {
+    pub(crate) fn sees(&self, corners: [Vec3; 3], seen_at: SeenAt) -> bool {
         if !self.ground.is_one_sided() {
             return true;
         }
         let corners = corners.map(|corner| corner.as_dvec3());
-        let height = normal_of(corners).dot(seen_at - corners[0]);
-        height >= 0.0
+        seen_at.is_in_front(corners[0], normal_of(corners))
     }
 
     /// The direction in which a touched triangle pushes a part that is there, and whose it is: no ghosts.
@@ -55,7 +54,7 @@ impl OnGround<'_> {
     /// A direction belongs to a point of a set if no part of the set near it lies that way (its normal cone; Ericson,
     /// "Real-Time Collision Detection" (2005), 5.1, has the same as Voronoi regions of edges and vertices). Asked of
     /// all triangles that hold the point and not of those across its edges, it also holds where edges do not meet.
-    pub(crate) fn facing(&self, touched: &Touched, seen_at: DVec3) -> (u32, DVec3) {
+    pub(crate) fn facing(&self, touched: &Touched, seen_at: SeenAt) -> (u32, DVec3) {
         let corners = self.ground.corners(touched.triangle).map(|corner| corner.as_dvec3());
         let Some(own) = normal_of(corners).try_normalize() else { return (touched.triangle, touched.away) };
         let own = if own.dot(touched.away) < 0.0 { -own } else { own };
@@ -80,7 +79,7 @@ impl OnGround<'_> {
     }
 
     /// The triangles that hold a point.
-    fn around(&self, point: DVec3, corners: [DVec3; 3], seen_at: DVec3) -> ArrayVec<Around, MOST_AROUND> {
+    fn around(&self, point: DVec3, corners: [DVec3; 3], seen_at: SeenAt) -> ArrayVec<Around, MOST_AROUND> {
         let mut around = ArrayVec::new();
         let slack = ON_TRIANGLE * extent(corners);
         let bounds = box_around([point - DVec3::splat(slack), point + DVec3::splat(slack)]);
@@ -91,7 +90,7 @@ impl OnGround<'_> {
             if let Some(normal) = normal_of(corners).try_normalize()
                 && holds(corners, normal, point, slack)
             {
-                let is_behind = normal.dot(seen_at - corners[0]) < 0.0;
+                let is_behind = !seen_at.is_in_front(corners[0], normal);
                 let facing = if is_behind && !self.ground.is_one_sided() { -normal } else { normal };
                 around.push(Around { number, corners, facing, sees: self.sees(seen, seen_at) });
             }

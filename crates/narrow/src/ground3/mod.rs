@@ -10,4 +10,4 @@ mod near;
 pub(crate) use ask_box::Corners;
 pub(crate) use ask_sides::Touched;
 pub(crate) use contact::{contact_on_ground, front_of, widened};
-pub(crate) use near::{OnGround, box_around};
+pub(crate) use near::{OnGround, SeenAt, box_around};

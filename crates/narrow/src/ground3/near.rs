@@ -5,9 +5,28 @@ use crate::pair3::{Pair3, Part};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
 
-/// On which side of a triangle a half-space is: that of a point so many metres inside, so that its direction decides alone,
-/// wherever on its plane its position is.
-pub(crate) const FAR_INSIDE: f64 = 1e30;
+/// Where a part is, as it is asked on which side of a triangle that is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum SeenAt {
+    /// The centre of its bounding sphere.
+    Place(DVec3),
+    /// Far off in a unit direction: into a half-space, whose position is any point of its plane.
+    Far(DVec3),
+}
+
+/// Sine of the angle by which what is far off may be behind a triangle, and counts as aside: as in front.
+const ASIDE: f64 = 1e-9;
+
+impl SeenAt {
+    /// Whether it is in front of a triangle, by a corner of that and its normal, of any length.
+    #[inline]
+    pub(crate) fn is_in_front(self, corner: DVec3, normal: DVec3) -> bool {
+        match self {
+            Self::Place(place) => normal.dot(place - corner) >= 0.0,
+            Self::Far(direction) => normal.dot(direction) >= -ASIDE * normal.length(),
+        }
+    }
+}
 
 /// Ground, and a body that may touch it.
 #[derive(Clone, Copy)]

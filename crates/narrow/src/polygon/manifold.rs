@@ -335,6 +335,8 @@ fn edge_points(
     let edges = [(edge, outline.after(edge)), (second, incident.after(second))];
     let ends = [incident.point(edges[1].0), incident.point(edges[1].1)];
     let mut points: ArrayVec<Point, 2> = ArrayVec::new();
+    // Which end is there already.
+    let mut known = None;
     if let Some([one, other]) = clip(&reference.ends, ends, edges, depths.near) {
         let lowest = |End { at, features, is_cut }: End| {
             if is_cut && depths.is_cut && radius > 0.0 {
@@ -349,7 +351,9 @@ fn edge_points(
             let core = contact.separation + outline.radius() + radius;
             contact.separation <= depths.within && (is_sharp || core <= depths.deep)
         };
-        match (is_kept(&one), is_kept(&other)) {
+        let kept = [is_kept(&one), is_kept(&other)];
+        known = kept.iter().position(|&is_kept| is_kept);
+        match kept.into() {
             (true, true) if other.feature < one.feature => {
                 points.push(other);
                 points.push(one);
@@ -369,7 +373,7 @@ fn edge_points(
     if points.len() < 2 {
         let outwards = incident.outward(second) * radius;
         let clipped = clip(&reference.ends, [ends[0] + outwards, ends[1] + outwards], edges, depths.near);
-        add_tilted(&mut points, &reference, clipped, depths);
+        add_tilted((&mut points, known), &reference, clipped, depths);
     }
     points
 }
@@ -389,14 +393,20 @@ fn vertex_point(
 }
 
 /// Adds what is less deep: it belongs to a tilted edge, and lies out along its normal; there the ends are cut again.
-fn add_tilted(points: &mut ArrayVec<Point, 2>, reference: &Reference, clipped: Clipped, depths: Depths) {
-    let contacts = clipped.into_iter().flatten().map(|end| reference.contact(end.at, end.features));
+fn add_tilted(
+    (points, known): (&mut ArrayVec<Point, 2>, Option<usize>),
+    reference: &Reference,
+    clipped: Clipped,
+    depths: Depths,
+) {
+    let is_other = |&(which, _): &(usize, End)| known != Some(which);
+    let ends = clipped.into_iter().flatten().enumerate().filter(is_other);
+    let contacts = ends.map(|(_, end)| reference.contact(end.at, end.features));
     let mut ends: ArrayVec<Point, 2> =
         contacts.filter(|contact| contact.separation <= depths.within).collect();
     if let Some(&known) = points.first() {
         // The end that is not the deep one.
         let away = |end: &Point| (end.on_a - known.on_a).length_squared();
-        ends.retain(|end| end.feature != known.feature);
         ends.sort_unstable_by(|one, other| away(other).total_cmp(&away(one)));
     }
     let room = points.remaining_capacity();

@@ -114,10 +114,10 @@ impl Touching<'_> {
         is_b: bool,
         ask: impl FnOnce(&Patch) -> Option<R>,
     ) -> Option<R> {
-        let (slack, deep) = (self.placed.preference, self.deep());
+        let (slack, near, deep) = (self.placed.preference, self.placed.near, self.deep());
         let within = if deep > self.margin { deep } else { self.margin };
         let (reference, faces) = self.placed.faces(is_b, face, slack)?;
-        ask(&wide::patch(&faces, &Wanted { reference, within, slack }))
+        ask(&wide::patch(&faces, &Wanted { reference, within, slack, near }))
     }
 
     /// Points of the faces beside two edges, if they nearly look at each other; else the point where the edges cross.
@@ -140,14 +140,14 @@ impl Touching<'_> {
     /// a pair in all, and 10.0 where the general path was asked for these (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
     #[inline(never)]
     pub(super) fn over_leaning(&self, normal: DVec3, manifold: &mut Manifold3) -> Option<()> {
-        let (slack, deep) = (self.placed.preference, self.deep());
+        let (slack, near, deep) = (self.placed.preference, self.placed.near, self.deep());
         let within = if deep > self.margin { deep } else { self.margin };
         let size = normal.abs();
         let axis = if size.x >= ALIGNED_FACES { 0 } else { 2 - usize::from(size.y >= ALIGNED_FACES) };
         let face = 2 * axis + usize::from(normal[axis] > 0.0);
         let (reference, faces) = self.placed.faces(false, face, slack)?;
         let faces = faces.leaning(&reference, normal);
-        let patch = wide::patch(&faces, &Wanted { reference, within, slack });
+        let patch = wide::patch(&faces, &Wanted { reference, within, slack, near });
         wide::fill(self, &patch, Some(self.placed.basis.turn(normal)), manifold)
     }
 
@@ -189,8 +189,10 @@ impl Touching<'_> {
             *place = patch.names(slot).0 << 4 | slot as u32;
         }
         sort(&mut order);
-        let mut order = named_near(patch, &order[..count], self.placed.near);
-        sort(&mut order);
+        if !patch.is_apart {
+            order = named_near(patch, &order[..count], self.placed.near);
+            sort(&mut order);
+        }
         let over = Over::new(self, &patch.reference);
         let out = leaning.unwrap_or(over.out);
         Over { out, ..over }.write(patch, &order[..count], manifold);
@@ -259,7 +261,7 @@ pub(super) fn looks(direction: DVec3) -> bool {
 }
 
 /// Slots by what they are near, in place of what they lie on: those that would be named alike keep their names.
-#[inline(always)]
+#[inline(never)]
 fn named_near(patch: &Patch, order: &[u32], near: f64) -> [u32; 4] {
     let (mut named, mut alike) = ([u32::MAX; 4], 0);
     for (k, &lies_on) in order.iter().enumerate().take(4) {

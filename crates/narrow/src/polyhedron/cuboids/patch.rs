@@ -37,6 +37,8 @@ pub(super) struct Patch {
     pub(super) held: u32,
     /// Whether all corners stand apart from each other and from every line.
     pub(super) is_clear: bool,
+    /// The same by what counts as near for names: then all are named after what they lie on.
+    pub(super) is_apart: bool,
     pub(super) reference: Reference,
     /// What happens to each edge, in bits: see [`Patch::names`].
     cuts: [u8; 4],
@@ -61,6 +63,8 @@ pub(super) struct Wanted {
     /// Corners no higher than this, in metres.
     pub(super) within: f64,
     pub(super) slack: f64,
+    /// How near a corner is named after what is there.
+    pub(super) near: f64,
 }
 
 /// Both faces in the reference face's plane: coordinates u, v, height.
@@ -193,7 +197,7 @@ impl Faces {
 
     /// The common patch. To be called through `super::wide`, which compiles it.
     #[inline(always)]
-    pub(super) fn patch(&self, &Wanted { reference, within, slack }: &Wanted) -> Patch {
+    pub(super) fn patch(&self, &Wanted { reference, within, slack, near: same }: &Wanted) -> Patch {
         let around = |c: usize| {
             let (f, p, q) = (self.center[c], self.p[c], self.q[c]);
             let (low, high) = (f - p, f + p);
@@ -251,6 +255,7 @@ impl Faces {
             around: [u.0, v.0],
             held,
             is_clear: (off[0] > near) & (off[1] > near) & (off[2] > near) & (off[3] > near),
+            is_apart: (off[0] > same) & (off[1] > same) & (off[2] > same) & (off[3] > same),
             reference,
             cuts,
             follows,

@@ -165,7 +165,7 @@ mod tests {
             {
                 let slack = placed.preference;
                 let Some((reference, faces)) = placed.faces(is_b, face, slack) else { continue };
-                let wanted = Wanted { reference, within: margin, slack };
+                let wanted = Wanted { reference, within: margin, slack, near: placed.near };
                 let found = patch(&faces, &wanted);
                 assert_eq!(bits(&found), bits(&anywhere(Cut(&faces, &wanted))));
                 patches += 1;

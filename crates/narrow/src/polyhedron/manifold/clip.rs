@@ -111,6 +111,12 @@ impl<const N: usize> Polygon<N> {
         self.corners.push(Corner { at, height, name, leaving });
     }
 
+    /// Where the vertex of the incident face is seen that was added so many places after the first.
+    #[inline]
+    pub(super) fn vertex(&self, place: usize) -> [f64; 2] {
+        self.corners[place].at
+    }
+
     /// What is left of it.
     pub(super) fn corners(&self) -> impl ExactSizeIterator<Item = &Corner> {
         self.ring().iter().map(|&i| &self.corners[usize::from(i)])

@@ -13,7 +13,7 @@ use super::super::reduce::{Spot, pick_four};
 use super::super::solid::Solid;
 use super::clip::{Corner, Name, Polygon, Side};
 use super::frame::Frame;
-use super::near::Rim;
+use super::near::{Near, Rim};
 use super::{Depths, Point, Points};
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
@@ -65,7 +65,8 @@ impl<'a> Faces<'a> {
         let is_sharp = radius + incident_radius == 0.0;
         let mut polygon = Polygon::<N>::new();
         let mut spots = Spots::<N>::new(depths);
-        self.clip(frame, [DVec3::ZERO; 2], depths.slack, &mut polygon);
+        let mut places = ArrayVec::new_const();
+        self.clip(frame, [DVec3::ZERO; 2], depths.slack, (&mut polygon, &mut places));
         let (mut is_whole, mut last) = (is_sharp || polygon.corners().len() > 0, None);
         for corner in polygon.corners() {
             if is_sharp || corner.height <= depths.deep {
@@ -78,9 +79,9 @@ impl<'a> Faces<'a> {
         spots.close(0);
         // What is less deep belongs to a tilted face, and lies out along its normal; there the corners are cut again.
         if !is_whole && let Some(moved) = self.outwards(frame) {
-            self.add_higher(frame, moved, &mut polygon, &mut spots);
+            self.add_higher(frame, moved, (&mut polygon, &mut places), &mut spots);
         }
-        self.add_kept::<N>(frame, &spots.list, depths, points);
+        self.add_kept(frame, &spots.list, (&polygon, &places), depths, points);
         spots.list.iter().any(|spot| spot.spot.separation <= depths.least)
     }
 
@@ -101,7 +102,7 @@ impl<'a> Faces<'a> {
         &self,
         frame: &Frame,
         moved: [DVec3; 2],
-        polygon: &mut Polygon<N>,
+        (polygon, places): (&mut Polygon<N>, &mut ArrayVec<[f64; 2], N>),
         spots: &mut Spots<'_, N>,
     ) {
         let [radius, _] = self.radii();
@@ -109,7 +110,7 @@ impl<'a> Faces<'a> {
         let rise = radius * frame.lift(frame.facing());
         let (slack, first) = (spots.depths.slack, spots.list.len());
         let mut last = None;
-        self.clip(frame, moved, slack, polygon);
+        self.clip(frame, moved, slack, (polygon, places));
         for corner in polygon.corners() {
             let is_known = spots.list[..first]
                 .iter()
@@ -124,8 +125,14 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// The incident face cut by the sides of the reference face, both moved first.
-    fn clip<const N: usize>(&self, frame: &Frame, moved: [DVec3; 2], slack: f64, polygon: &mut Polygon<N>) {
+    /// The incident face cut by the sides of the reference face, both moved first; and where the vertices of the latter are seen.
+    fn clip<const N: usize>(
+        &self,
+        frame: &Frame,
+        moved: [DVec3; 2],
+        slack: f64,
+        (polygon, places): (&mut Polygon<N>, &mut ArrayVec<[f64; 2], N>),
+    ) {
         let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
         polygon.clear();
         for half_edge in incident.topology.face_half_edges(incident_face) {
@@ -134,7 +141,7 @@ impl<'a> Faces<'a> {
             polygon.add_vertex(half_edge as u16, frame.place(point));
         }
         let half_edges = reference.topology.face_half_edges(face);
-        let mut places: ArrayVec<[f64; 2], N> = ArrayVec::new();
+        places.clear();
         for half_edge in half_edges.clone() {
             let vertex = reference.topology.half_edges()[half_edge].origin;
             let _ = places.try_push(frame.shift_of(in_frame(reference, self.is_b, vertex.into()) + moved[0]));
@@ -146,7 +153,7 @@ impl<'a> Faces<'a> {
             let to = places[if half_edge == last { 0 } else { i + 1 }];
             polygon.cut(&Side { from, to, half_edge, before, after }, slack);
         }
-        polygon.cut_tips(&places, first, slack);
+        polygon.cut_tips(places, first, slack);
     }
 
     /// At most four of the spots as contacts, in order of their ids.
@@ -154,13 +161,12 @@ impl<'a> Faces<'a> {
         &self,
         frame: &Frame,
         spots: &[NamedSpot],
+        (polygon, places): (&Polygon<N>, &[[f64; 2]]),
         depths: &Depths,
         points: &mut Points,
     ) {
-        let mut places = [ArrayVec::new_const(), ArrayVec::new_const()];
-        self.fill_places::<N>(frame, &mut places);
         let id = |i: usize| self.id(spots[i].name);
-        let id_near = |i: usize| self.id_near(&places, &spots[i], depths.near);
+        let id_near = |i: usize| self.id_near((polygon, places), &spots[i], depths.near);
         let mut kept: ArrayVec<(FeatureId, usize), 4> = ArrayVec::new();
         if spots.len() <= 4 {
             kept.extend((0..spots.len()).map(|i| (id(i), i)));
@@ -181,53 +187,35 @@ impl<'a> Faces<'a> {
         points.extend(kept.iter().map(|&(feature, i)| self.contact(frame, &spots[i], feature)));
     }
 
-    /// Where the vertices of the reference face are seen, and those of the incident one. In place: they may be many.
-    fn fill_places<const N: usize>(&self, frame: &Frame, places: &mut [ArrayVec<[f64; 2], N>; 2]) {
-        let faces = [(self.reference, self.is_b), (self.incident, !self.is_b)];
-        for (((solid, face), is_b), places) in faces.into_iter().zip(places) {
-            let place = |vertex: usize| frame.shift_of(in_frame(solid, is_b, vertex));
-            places.extend(solid.topology.face_vertices(face).take(N).map(place));
-        }
-    }
-
-    /// What a spot is named after: see `super::near`.
-    fn id_near<const N: usize>(
-        &self,
-        places: &[ArrayVec<[f64; 2], N>; 2],
-        spot: &NamedSpot,
-        near: f64,
-    ) -> FeatureId {
-        let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
-        let rim = |places: &'_ [[f64; 2]], (solid, face): (&Solid, usize)| {
-            let first = solid.topology.face_half_edges(face).start as u16;
-            let own = Rim { places, first };
-            (own.vertex_near(spot.spot.at, near), own.edge_near(spot.spot.at, near))
-        };
-        let (vertex, edge) = rim(&places[0], self.reference);
-        let of_reference = match (vertex, spot.name, edge) {
-            (_, Name::Reference(start), _) | (Some(start), ..) => vertex_at(reference, start),
-            (None, Name::Crossing(side, _), _) | (None, Name::Incident(_), Some(side)) => {
-                edge_at(reference, side)
-            }
-            (None, Name::Incident(_), None) => Feature::Face(face as u32),
-        };
-        let (vertex, edge) = rim(&places[1], self.incident);
-        let of_incident = match (vertex, spot.name, edge) {
-            (_, Name::Incident(start), _) | (Some(start), ..) => vertex_at(incident, start),
-            (None, Name::Crossing(_, side), _) | (None, Name::Reference(_), Some(side)) => {
-                edge_at(incident, side)
-            }
-            (None, Name::Reference(_), None) => Feature::Face(incident_face as u32),
-        };
-        self.in_order(of_reference, of_incident)
-    }
-
     fn contact(&self, frame: &Frame, spot: &NamedSpot, feature: FeatureId) -> Point {
         let separation = spot.spot.separation;
         let on_incident = frame.point(spot.spot.at, spot.height);
         let on_reference = on_incident - frame.along * separation;
         let (on_a, on_b) = if self.is_b { (on_incident, on_reference) } else { (on_reference, on_incident) };
         Point { separation, on_a, on_b, feature }
+    }
+
+    /// What a spot is named after: see `super::near`.
+    fn id_near<const N: usize>(
+        &self,
+        (polygon, places): (&Polygon<N>, &[[f64; 2]]),
+        &NamedSpot { spot: Spot { at, .. }, name, .. }: &NamedSpot,
+        near: f64,
+    ) -> FeatureId {
+        let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
+        let half_edges = |(solid, face): (&'a Solid<'a>, usize)| solid.topology.face_half_edges(face);
+        let (of_reference, of_incident) = (half_edges(self.reference), half_edges(self.incident));
+        let rim = Rim { place: |i: usize| places[i], count: places.len(), first: of_reference.start as u16 };
+        let count = ExactSizeIterator::len(&of_incident);
+        let other = Rim { place: |i: usize| polygon.vertex(i), count, first: of_incident.start as u16 };
+        let (of_reference, of_incident) = match name {
+            Name::Incident(start) => (rim.in_face(at, near), Some(Near::Vertex(start))),
+            Name::Reference(start) => (Some(Near::Vertex(start)), other.in_face(at, near)),
+            Name::Crossing(side, edge) => {
+                (Some(rim.on_edge(at, side, near)), Some(other.on_edge(at, edge, near)))
+            }
+        };
+        self.in_order(feature(reference, face, of_reference), feature(incident, incident_face, of_incident))
     }
 
     /// What a corner lies on.
@@ -247,6 +235,14 @@ impl<'a> Faces<'a> {
         } else {
             FeatureId::new(of_reference, of_incident)
         }
+    }
+}
+
+fn feature(solid: &Solid, face: usize, near: Option<Near>) -> Feature {
+    match near {
+        Some(Near::Vertex(start)) => vertex_at(solid, start),
+        Some(Near::Edge(half_edge)) => edge_at(solid, half_edge),
+        None => Feature::Face(face as u32),
     }
 }
 
