@@ -84,15 +84,16 @@ impl OnGround<'_> {
         let slack = ON_TRIANGLE * extent(corners);
         let bounds = box_around([point - DVec3::splat(slack), point + DVec3::splat(slack)]);
         let _ = self.ground.visit_near(&bounds, |number| {
-            let seen = self.ground.corners(number);
-            let corners = seen.map(|corner| corner.as_dvec3());
+            let corners = self.ground.corners(number).map(|corner| corner.as_dvec3());
             let slack = ON_TRIANGLE * extent(corners) + slack;
-            if let Some(normal) = normal_of(corners).try_normalize()
+            let cross = normal_of(corners);
+            if let Some(normal) = cross.try_normalize()
                 && holds(corners, normal, point, slack)
             {
-                let is_behind = !seen_at.is_in_front(corners[0], normal);
-                let facing = if is_behind && !self.ground.is_one_sided() { -normal } else { normal };
-                around.push(Around { number, corners, facing, sees: self.sees(seen, seen_at) });
+                let (is_in_front, is_one_sided) =
+                    (seen_at.is_in_front(corners[0], cross), self.ground.is_one_sided());
+                let facing = if is_in_front || is_one_sided { normal } else { -normal };
+                around.push(Around { number, corners, facing, sees: is_in_front || !is_one_sided });
             }
             if around.is_full() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });

@@ -353,18 +353,18 @@ fn edge_points(
         };
         let kept = [is_kept(&one), is_kept(&other)];
         known = kept.iter().position(|&is_kept| is_kept);
-        match kept.into() {
-            (true, true) if other.feature < one.feature => {
+        match kept {
+            [true, true] if other.feature < one.feature => {
                 points.push(other);
                 points.push(one);
             }
-            (true, true) => {
+            [true, true] => {
                 points.push(one);
                 points.push(other);
             }
-            (true, false) => points.push(one),
-            (false, true) => points.push(other),
-            (false, false) => {}
+            [true, false] => points.push(one),
+            [false, true] => points.push(other),
+            [false, false] => {}
         }
     }
     if is_sharp {

@@ -52,10 +52,16 @@ pub(crate) struct Measure {
     /// may be all of a pebble. Never below rounding.
     pub(super) preference: f64,
     /// How near a contact point must be to a vertex to be named after it, in metres.
-    pub(super) near: f64,
+    near: f64,
 }
 
 impl Measure {
+    /// By how much an axis must beat another, and how near a point is named after a vertex, in metres.
+    #[inline]
+    pub(super) fn sizes(&self) -> [f64; 2] {
+        [self.preference, self.near]
+    }
+
     /// Two shapes, and B's position less A's. `summed` is how long the vectors were that the position is a sum of,
     /// in metres, where it is one of several: of parts.
     #[inline]
@@ -197,8 +203,7 @@ impl Measure {
     ) -> Probe {
         let best = axes.best();
         let depth = best.separation - self.radii;
-        let touch =
-            asked.points.then(|| touch(placed, axes, None, asked.limit, [self.preference, self.near]));
+        let touch = asked.points.then(|| touch(placed, axes, None, asked.limit, self.sizes()));
         Probe::Near(Near {
             verdict,
             separation: signed(depth, true),
@@ -237,9 +242,7 @@ impl Measure {
         let best = axes.best();
         let has_axis = best.separation > f64::NEG_INFINITY;
         let hint = if has_axis { hint_of(best.of) } else { hint_of_direction(witness.normal) };
-        let touch = asked
-            .points
-            .then(|| touch(placed, axes, Some(witness), asked.limit, [self.preference, self.near]));
+        let touch = asked.points.then(|| touch(placed, axes, Some(witness), asked.limit, self.sizes()));
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
@@ -263,11 +266,10 @@ impl Measure {
         let precision = self.precision;
         let best = axes.best();
         let separation = best.separation.max(0.0) - self.radii;
-        let nearest = touch(placed, axes, None, 0.0, [self.preference, self.near]);
+        let nearest = touch(placed, axes, None, 0.0, self.sizes());
         let deepest = nearest.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         let short = Self::short(axes, gap) + 3.0 * precision.projection();
-        let touch =
-            asked.points.then(|| touch(placed, axes, None, asked.limit, [self.preference, self.near]));
+        let touch = asked.points.then(|| touch(placed, axes, None, asked.limit, self.sizes()));
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),

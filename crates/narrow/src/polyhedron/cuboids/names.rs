@@ -107,14 +107,6 @@ impl Name {
         Self(2 << 5 | face as u32)
     }
 
-    pub(super) const fn is_vertex(self) -> bool {
-        self.0 >> 5 == 0
-    }
-
-    pub(super) const fn is_face(self) -> bool {
-        self.0 >> 5 == 2
-    }
-
     /// As `Feature` packs it.
     const fn to_bits(self) -> u64 {
         ((self.0 as u64 >> 5 & 3) << 30) | (self.0 as u64 & 31)

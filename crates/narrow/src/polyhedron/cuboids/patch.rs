@@ -15,6 +15,7 @@
 //! Where a corner lies on the line of an edge, up to a slack, several features meet in one place, and which of them
 //! names it depends on the order in which sides are cut. That is left to the general clipper, whose names count.
 
+use super::super::manifold::near::{LiesOn, Rim};
 use super::names::{self, Name, Names};
 use super::placed::Placed;
 use crate::lanes::Lanes;
@@ -330,74 +331,48 @@ impl Patch {
         if turn < 2 { 4 * turn + k } else { corner }
     }
 
-    /// What a slot's corner is named after where that is within so many metres: see `super::super::manifold::near`.
-    #[inline(always)]
+    /// What a slot's corner is named after by what is within so many metres: see `super::super::manifold::near`.
     pub(super) fn names_near(&self, slot: usize, near: f64) -> Names {
-        let Reference { is_b, face, incident } = self.reference;
-        let (of_reference, of_incident) = self.lies_on(slot);
-        let (u, v) = (self.u[slot % SLOTS], self.v[slot % SLOTS]);
-        let (off_u, off_v) = (self.half[0] - u.abs(), self.half[1] - v.abs());
-        let of_reference = if of_reference.is_vertex() {
-            of_reference
-        } else if off_u * off_u + off_v * off_v < near * near {
-            let corner = [[0, 3], [1, 2]][usize::from(u > 0.0)][usize::from(v > 0.0)];
-            Name::vertex(names::corner(face, corner))
-        } else if of_reference.is_face() && (off_u < near || off_v < near) {
-            let (of_u, of_v) = ([3, 1][usize::from(u > 0.0)], [0, 2][usize::from(v > 0.0)]);
-            Name::edge(names::edge(face, if off_u < off_v { of_u } else { of_v }))
-        } else {
-            of_reference
-        };
+        let [half_u, half_v] = self.half;
+        let (us, vs) = ([-half_u, half_u, half_u, -half_u], [-half_v, -half_v, half_v, half_v]);
         let [around_u, around_v] = &self.around;
-        let (mut best, mut nearest) = (near * near, None);
-        for k in 0..4 {
-            let (to_u, to_v) = (around_u[k] - u, around_v[k] - v);
-            let squared = to_u * to_u + to_v * to_v;
-            (best, nearest) = if squared < best { (squared, Some(k)) } else { (best, nearest) };
-        }
-        let of_incident = match nearest {
-            _ if of_incident.is_vertex() => of_incident,
-            Some(corner) => Name::vertex(names::corner(incident, corner)),
-            None if of_incident.is_face() => self.edge_near((u, v), near).unwrap_or(of_incident),
-            None => of_incident,
-        };
-        Names::new(of_reference, of_incident, is_b)
+        let reference = Rim { place: |k: usize| [us[k], vs[k]], count: 4, first: 0 };
+        let incident = Rim { place: |k: usize| [around_u[k], around_v[k]], count: 4, first: 0 };
+        let at = [self.u[slot % SLOTS], self.v[slot % SLOTS]];
+        let [of_reference, of_incident] = self.lies_on(slot);
+        self.named(reference.near(at, of_reference, near), incident.near(at, of_incident, near))
     }
 
-    /// The nearest edge of the incident face, if its line is within so many metres.
-    #[inline]
-    fn edge_near(&self, (u, v): (f64, f64), near: f64) -> Option<Name> {
-        let [around_u, around_v] = &self.around;
-        let (mut best, mut nearest) = (near, None);
-        for k in 0..4 {
-            let next = (k + 1) % 4;
-            let (along_u, along_v) = (around_u[next] - around_u[k], around_v[next] - around_v[k]);
-            let across = along_u * (v - around_v[k]) - along_v * (u - around_u[k]);
-            let off = across.abs() / (along_u * along_u + along_v * along_v).sqrt();
-            (best, nearest) = if off < best { (off, Some(k)) } else { (best, nearest) };
-        }
-        nearest.map(|edge| Name::edge(names::edge(self.reference.incident, edge)))
-    }
-
-    /// What a slot's corner lies on.
+    /// What a slot's corner is named after by what it lies on.
     #[inline(always)]
     pub(super) fn names(&self, slot: usize) -> Names {
-        let (of_reference, of_incident) = self.lies_on(slot);
-        Names::new(of_reference, of_incident, self.reference.is_b)
+        let [of_reference, of_incident] = self.lies_on(slot);
+        self.named(of_reference, of_incident)
     }
 
-    /// The same, of the reference face and of the other.
+    /// What a slot's corner lies on, of the reference face and of the other.
     #[inline(always)]
-    fn lies_on(&self, slot: usize) -> (Name, Name) {
-        let Reference { face, incident, .. } = self.reference;
+    fn lies_on(&self, slot: usize) -> [LiesOn; 2] {
         let (k, group) = (slot % 4, slot / 4);
         let cut = usize::from(self.cuts[k]);
-        let side = usize::from(SIDES[group & 1][cut >> 1 & 15]);
-        let crossing = (Name::edge(names::edge(face, side)), Name::edge(names::edge(incident, k)));
-        let corner = (Name::face(face), Name::vertex(names::corner(incident, k)));
-        let own = (Name::vertex(names::corner(face, k)), Name::face(incident));
-        let is_corner = (group == 0) & (cut & 1 == 0);
-        let (of_reference, of_incident) = if is_corner { corner } else { crossing };
-        if group >= 2 { own } else { (of_reference, of_incident) }
+        match group {
+            0 if cut & 1 == 0 => [LiesOn::Face, LiesOn::Vertex(k as u16)],
+            0 | 1 => {
+                let side = SIDES[group & 1][cut >> 1 & 15];
+                [LiesOn::Edge(side.into()), LiesOn::Edge(k as u16)]
+            }
+            _ => [LiesOn::Vertex(k as u16), LiesOn::Face],
+        }
+    }
+
+    #[inline(always)]
+    fn named(&self, of_reference: LiesOn, of_incident: LiesOn) -> Names {
+        let Reference { is_b, face, incident } = self.reference;
+        let name = |face: usize, of: LiesOn| match of {
+            LiesOn::Vertex(k) => Name::vertex(names::corner(face, k.into())),
+            LiesOn::Edge(k) => Name::edge(names::edge(face, k.into())),
+            LiesOn::Face => Name::face(face),
+        };
+        Names::new(name(face, of_reference), name(incident, of_incident), is_b)
     }
 }

@@ -30,7 +30,7 @@
 mod clip;
 mod frame;
 mod incident;
-mod near;
+pub(super) mod near;
 mod over;
 mod patch;
 mod single;

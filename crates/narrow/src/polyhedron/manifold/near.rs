@@ -10,24 +10,25 @@
 //! of their patch is now a vertex of one, now of the other, and now lies where edges cross. Names that changed with it would cost
 //! a solver what it knew of the point: stacks of six cubes that were told so still trembled after 20 seconds.
 //!
-//! Cuboids have the same in closed form (`super::super::cuboids::patch`).
+//! Cuboids, whose patches are made otherwise (`super::super::cuboids::patch`), ask here where any corner is near; most often none is.
 
 use asunder_geometry::glam::DVec2;
 
 /// A face's vertices as seen along the normal, by the half-edges that start from them.
-pub(super) struct Rim<P> {
+pub(in crate::polyhedron) struct Rim<P> {
     /// Where the vertex is seen that is so many half-edges after the first.
-    pub(super) place: P,
-    pub(super) count: usize,
+    pub(in crate::polyhedron) place: P,
+    pub(in crate::polyhedron) count: usize,
     /// The first half-edge of the face.
-    pub(super) first: u16,
+    pub(in crate::polyhedron) first: u16,
 }
 
-/// A feature of a face by a half-edge: the vertex that it starts from, or its edge.
+/// A feature of a face: the vertex that a half-edge starts from, its edge, or the face itself.
 #[derive(Clone, Copy)]
-pub(super) enum Near {
+pub(in crate::polyhedron) enum LiesOn {
     Vertex(u16),
     Edge(u16),
+    Face,
 }
 
 impl<P: Fn(usize) -> [f64; 2]> Rim<P> {
@@ -38,45 +39,56 @@ impl<P: Fn(usize) -> [f64; 2]> Rim<P> {
         [DVec2::from_array((self.place)(edge)), DVec2::from_array((self.place)(next))]
     }
 
-    /// Of a place on an edge, given by its half-edge: an end of it within so many metres, or the edge.
+    /// What a place is named after that lies on a feature of the face, by what of it is within so many metres. Cost: linear in the
+    /// edges where it lies in the face alone.
     #[inline]
-    pub(super) fn on_edge(&self, at: [f64; 2], half_edge: u16, near: f64) -> Near {
-        let edge = usize::from(half_edge - self.first);
-        let away = self.ends(edge).map(|end| (end - DVec2::from_array(at)).length_squared());
-        let next = if edge + 1 == self.count { self.first } else { half_edge + 1 };
-        match away[1] < away[0] {
-            _ if away[0].min(away[1]) >= near * near => Near::Edge(half_edge),
-            false => Near::Vertex(half_edge),
-            true => Near::Vertex(next),
+    pub(in crate::polyhedron) fn near(&self, at: [f64; 2], lies_on: LiesOn, near: f64) -> LiesOn {
+        let at = DVec2::from_array(at);
+        match lies_on {
+            LiesOn::Vertex(_) => lies_on,
+            LiesOn::Edge(half_edge) => self.on_edge(at, half_edge, near),
+            LiesOn::Face => self.in_face(at, near),
         }
     }
 
-    /// Of a place in the face: what of it is within so many metres. Cost: linear in the edges.
-    pub(super) fn in_face(&self, at: [f64; 2], near: f64) -> Option<Near> {
-        let at = DVec2::from_array(at);
+    /// The nearer end of an edge, if it is near, or the edge.
+    fn on_edge(&self, at: DVec2, half_edge: u16, near: f64) -> LiesOn {
+        let edge = usize::from(half_edge - self.first);
+        let away = self.ends(edge).map(|end| (end - at).length_squared());
+        if away[0].min(away[1]) >= near * near {
+            return LiesOn::Edge(half_edge);
+        }
+        let is_last = edge + 1 == self.count;
+        match away[1] < away[0] {
+            false => LiesOn::Vertex(half_edge),
+            true => LiesOn::Vertex(if is_last { self.first } else { half_edge + 1 }),
+        }
+    }
+
+    fn in_face(&self, at: DVec2, near: f64) -> LiesOn {
         // A vertex is on the lines of two edges: most often no line is near.
         let is_beside = |edge: usize| {
             let [from, to] = self.ends(edge);
             let across = (to - from).perp_dot(at - from);
             across * across < near * near * (to - from).length_squared()
         };
-        (0..self.count).any(is_beside).then(|| self.nearest(at, near)).flatten()
+        if (0..self.count).any(is_beside) { self.nearest(at, near) } else { LiesOn::Face }
     }
 
     #[cold]
-    fn nearest(&self, at: DVec2, near: f64) -> Option<Near> {
-        let (mut vertex, mut edge) = ((near * near, None), (near, None));
+    fn nearest(&self, at: DVec2, near: f64) -> LiesOn {
+        let (mut vertex, mut edge) = ((near * near, None), (near, LiesOn::Face));
         for (i, half_edge) in (0..self.count).zip(self.first..) {
             let [from, to] = self.ends(i);
             let squared = (from - at).length_squared();
             if squared < vertex.0 {
-                vertex = (squared, Some(Near::Vertex(half_edge)));
+                vertex = (squared, Some(LiesOn::Vertex(half_edge)));
             }
             let off = (to - from).perp_dot(at - from).abs() / (to - from).length();
             if off < edge.0 {
-                edge = (off, Some(Near::Edge(half_edge)));
+                edge = (off, LiesOn::Edge(half_edge));
             }
         }
-        vertex.1.or(edge.1)
+        vertex.1.unwrap_or(edge.1)
     }
 }

@@ -13,7 +13,7 @@ use super::super::reduce::{Spot, pick_four};
 use super::super::solid::Solid;
 use super::clip::{Corner, Name, Polygon, Side};
 use super::frame::Frame;
-use super::near::{Near, Rim};
+use super::near::{LiesOn, Rim};
 use super::{Depths, Point, Points};
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
@@ -165,7 +165,7 @@ impl<'a> Faces<'a> {
         depths: &Depths,
         points: &mut Points,
     ) {
-        let id = |i: usize| self.id(spots[i].name);
+        let id = |i: usize| self.id(lies_on(spots[i].name));
         let id_near = |i: usize| self.id_near((polygon, places), &spots[i], depths.near);
         let mut kept: ArrayVec<(FeatureId, usize), 4> = ArrayVec::new();
         if spots.len() <= 4 {
@@ -202,34 +202,26 @@ impl<'a> Faces<'a> {
         &NamedSpot { spot: Spot { at, .. }, name, .. }: &NamedSpot,
         near: f64,
     ) -> FeatureId {
-        let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
-        let half_edges = |(solid, face): (&'a Solid<'a>, usize)| solid.topology.face_half_edges(face);
-        let (of_reference, of_incident) = (half_edges(self.reference), half_edges(self.incident));
-        let rim = Rim { place: |i: usize| places[i], count: places.len(), first: of_reference.start as u16 };
+        let [first, of_incident] =
+            [self.reference, self.incident].map(|(solid, face)| solid.topology.face_half_edges(face));
+        let rim = Rim { place: |i: usize| places[i], count: places.len(), first: first.start as u16 };
         let count = ExactSizeIterator::len(&of_incident);
         let other = Rim { place: |i: usize| polygon.vertex(i), count, first: of_incident.start as u16 };
-        let (of_reference, of_incident) = match name {
-            Name::Incident(start) => (rim.in_face(at, near), Some(Near::Vertex(start))),
-            Name::Reference(start) => (Some(Near::Vertex(start)), other.in_face(at, near)),
-            Name::Crossing(side, edge) => {
-                (Some(rim.on_edge(at, side, near)), Some(other.on_edge(at, edge, near)))
+        let [of_reference, of_incident] = lies_on(name);
+        self.id([rim.near(at, of_reference, near), other.near(at, of_incident, near)])
+    }
+
+    /// The id of a feature of the reference face that meets one of the incident face.
+    fn id(&self, [of_reference, of_incident]: [LiesOn; 2]) -> FeatureId {
+        let feature = |(solid, face): (&Solid, usize), of: LiesOn| match of {
+            LiesOn::Vertex(start) => {
+                Feature::Vertex(solid.topology.half_edges()[usize::from(start)].origin.into())
             }
+            LiesOn::Edge(half_edge) => Feature::Edge(solid.topology.edge_of(half_edge.into()) as u32),
+            LiesOn::Face => Feature::Face(face as u32),
         };
-        self.in_order(feature(reference, face, of_reference), feature(incident, incident_face, of_incident))
-    }
-
-    /// What a corner lies on.
-    fn id(&self, name: Name) -> FeatureId {
-        let ((reference, face), (incident, incident_face)) = (self.reference, self.incident);
-        let (of_reference, of_incident) = match name {
-            Name::Incident(start) => (Feature::Face(face as u32), vertex_at(incident, start)),
-            Name::Reference(start) => (vertex_at(reference, start), Feature::Face(incident_face as u32)),
-            Name::Crossing(side, other) => (edge_at(reference, side), edge_at(incident, other)),
-        };
-        self.in_order(of_reference, of_incident)
-    }
-
-    fn in_order(&self, of_reference: Feature, of_incident: Feature) -> FeatureId {
+        let (of_reference, of_incident) =
+            (feature(self.reference, of_reference), feature(self.incident, of_incident));
         if self.is_b {
             FeatureId::new(of_incident, of_reference)
         } else {
@@ -238,20 +230,13 @@ impl<'a> Faces<'a> {
     }
 }
 
-fn feature(solid: &Solid, face: usize, near: Option<Near>) -> Feature {
-    match near {
-        Some(Near::Vertex(start)) => vertex_at(solid, start),
-        Some(Near::Edge(half_edge)) => edge_at(solid, half_edge),
-        None => Feature::Face(face as u32),
+/// What a corner lies on, of the reference face and of the incident one.
+fn lies_on(name: Name) -> [LiesOn; 2] {
+    match name {
+        Name::Incident(start) => [LiesOn::Face, LiesOn::Vertex(start)],
+        Name::Reference(start) => [LiesOn::Vertex(start), LiesOn::Face],
+        Name::Crossing(side, edge) => [LiesOn::Edge(side), LiesOn::Edge(edge)],
     }
-}
-
-fn edge_at(solid: &Solid, half_edge: u16) -> Feature {
-    Feature::Edge(solid.topology.edge_of(half_edge.into()) as u32)
-}
-
-fn vertex_at(solid: &Solid, half_edge: u16) -> Feature {
-    Feature::Vertex(solid.topology.half_edges()[usize::from(half_edge)].origin.into())
 }
 
 /// A spot, where it stands on the incident surface, and what it is a corner of.
