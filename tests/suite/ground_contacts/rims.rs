@@ -165,3 +165,64 @@ fn a_rounded_crate_in_a_groove_stands_on_both_slopes() {
         }
     }
 }
+
+/// Symptom: a plank, turned by a ten-thousandth against the floor that it hovered over the rim of, was told to be 20 um further
+/// from it than it was. Cause: a cut across the floor counts as level to the plank's face, and where it passed under that face was
+/// taken for what is nearest. Its upper end was not under the face, and the floor's rim, which leaves that end, passed under it nearer.
+#[test]
+fn a_cut_that_counts_as_level_does_not_hide_a_rim_that_is_nearer() {
+    const SIDE: u32 = 5;
+    let vertices: Vec<Vec3> =
+        (0..SIDE * SIDE).map(|i| Vec3::new((i % SIDE) as f32 - 2.0, 0.0, (i / SIDE) as f32 - 2.0)).collect();
+    let cells = (0..(SIDE - 1) * (SIDE - 1)).map(|cell| cell / (SIDE - 1) * SIDE + cell % (SIDE - 1));
+    let triangles: Vec<[u32; 3]> =
+        cells.flat_map(|i| [[i, i + SIDE, i + 1], [i + 1, i + SIDE, i + SIDE + 1]]).collect();
+    let mesh = TriMesh::new(vertices.clone(), triangles.clone()).unwrap();
+    let grounds = [mesh.clone(), mesh.one_sided()].map(Shape3::from);
+    let corners = || triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize]));
+    let mut random = Random::new(0x00C0_75ED);
+    let mut told = 0;
+    for case in 0..4000 {
+        let half = Vec3::new(random.between(0.3, 1.8) as f32, 0.25, random.between(0.3, 1.8) as f32);
+        let body: Shape3 = Cuboid::from_half_extents(half).unwrap().into();
+        let turn = Quat::from_axis_angle(random.direction().as_vec3(), random.between(2e-5, 4e-4) as f32);
+        let over = DVec3::new(random.signed() * 2.0, random.between(0.3, 0.4), random.signed() * 2.0);
+        let at = Pose3::new(over, turn).unwrap();
+        let Some(truth) = nearest(&body, &at, corners(), 0.2) else { continue };
+        for ground in &grounds {
+            let manifolds = Pair3::new(&body, &at, ground, &Pose3::IDENTITY).manifolds(0.2);
+            told_within(&manifolds, truth, format_args!("{case}, {half}, {at:?}"));
+            told += 1;
+        }
+    }
+    assert!(told > 6000, "{told} told");
+}
+
+/// Symptom: a prism whose corner was 5 um beside a ridge, 2 mm above it, was told to be 7e-9 m nearer than it was. Cause: the point
+/// that stands for the corner is where sides of both faces cross, a micrometre beside it, and told as the least of all.
+#[test]
+fn a_corner_beside_a_ridge_is_no_nearer_than_the_ridge_is() {
+    let mut random = Random::new(0x0000_21D6);
+    let upright = Quat::from_rotation_arc(Vec3::Z, Vec3::Y);
+    let mut told = 0;
+    for case in 0..20_000 {
+        let fall = [random.between(0.002, 0.02), random.between(0.002, 0.02)].map(|fall| fall as f32);
+        let vertices = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, -fall[0], 0.5], [-1.0, -fall[1], 0.5]];
+        let (vertices, triangles) = (vertices.map(Vec3::from), [[0, 1, 2], [1, 0, 3]]);
+        let ground: Shape3 = TriMesh::new(vertices.to_vec(), triangles.to_vec()).unwrap().into();
+        let corners = triangles.map(|triangle| triangle.map(|vertex: u32| vertices[vertex as usize]));
+        let body = random.prism(8);
+        let lean = Quat::from_axis_angle(random.direction().as_vec3(), random.between(0.001, 0.02) as f32);
+        let turn = lean * Quat::from_rotation_y(random.between(0.0, 6.0) as f32) * upright;
+        let Shape3::Hull(hull) = &body else { panic!("a prism is a hull") };
+        let turned = Pose3::new(DVec3::ZERO, turn).unwrap();
+        let points = hull.vertices().iter().map(|&vertex| turned.transform(vertex.as_dvec3()));
+        let lowest = points.min_by(|one, other| one.y.total_cmp(&other.y)).unwrap();
+        let above = DVec3::new(1e-5 * random.signed(), random.between(1e-3, 2e-2), 0.5);
+        let at = Pose3::new(above - lowest, turn).unwrap();
+        let Some(truth) = nearest(&body, &at, corners.into_iter(), 0.1) else { continue };
+        told_within(&Pair3::new(&body, &at, &ground, &Pose3::IDENTITY).manifolds(0.1), truth, case);
+        told += 1;
+    }
+    assert!(told > 15_000, "{told} told");
+}

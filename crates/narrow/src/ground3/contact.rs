@@ -337,7 +337,7 @@ impl Seen<'_> {
                 && let Some(unsaid) = prism.refused_gap(axes)
             {
                 if unsaid.separation <= self.asking.margin.into() {
-                    known.leave_unsaid(ground, unsaid);
+                    known.leave_unsaid(unsaid);
                     self.refuse(prism, None, known);
                 }
                 return;
@@ -352,7 +352,7 @@ impl Seen<'_> {
                     known.settle(number);
                 }
                 if let Some(unsaid) = gap {
-                    known.leave_unsaid(ground, unsaid);
+                    known.leave_unsaid(unsaid);
                 }
                 self.refuse(prism, told, known);
             }

@@ -62,6 +62,12 @@ impl Prism<'_> {
         let Some(stretch) = self.stretch(incident.face, outwards, (from, along)) else {
             return Against::Unknown;
         };
+        // An edge that counts as level may rise a little. Where its upper end is cut off, another edge may pass under the face
+        // nearer to it.
+        let [(begin, _), (end, _)] = stretch.ends;
+        if separation(begin).min(separation(end)) > least + doubt {
+            return Against::Unknown;
+        }
         let depth = -(least + standing.radius);
         if stretch.inside < depth.max(0.0) {
             return Against::Unknown;
@@ -79,7 +85,6 @@ impl Prism<'_> {
                 groups.add(&base, Pin { on_body, on_ground, separation, doubt, of_body, of_ground });
             }
         }
-        let [(begin, _), (end, _)] = stretch.ends;
         let middle = from + along * (0.5 * (begin + end));
         Against::Added(least, self.certainly_holds(middle, outwards.dot(middle - over), stretch.inside))
     }

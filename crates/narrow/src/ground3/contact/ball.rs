@@ -46,10 +46,23 @@ impl Nearest {
 
     /// What is kept of it where ground does not let the direction through, which is not the triangle's own.
     #[inline]
-    pub(super) fn unsaid(&self, (center, radius): (DVec3, f64), number: u32, doubt: f64) -> Unsaid {
+    pub(super) fn unsaid(
+        &self,
+        (center, radius): (DVec3, f64),
+        (ground, number): (Ground, u32),
+        doubt: f64,
+    ) -> Unsaid {
         let Self { at, separation, towards, .. } = *self;
         let ends = [center - towards * radius, at];
-        Unsaid { number, separation, doubt, ends, normal: towards, is_own: false }
+        Unsaid {
+            number,
+            separation,
+            doubt,
+            ends,
+            normal: towards,
+            is_own: false,
+            is_meant: !ground.is_one_sided(),
+        }
     }
 
     /// Adds the contact point, where ground lets the direction through; whether it did.
@@ -109,7 +122,7 @@ impl Seen<'_> {
         let is_within = nearest.separation <= self.asking.reach;
         let has_points = is_within && nearest.add_point(ball, facet, ground, doubt, &mut known.groups);
         if is_within && !has_points {
-            known.leave_unsaid(ground, nearest.unsaid(ball, number, doubt));
+            known.leave_unsaid(nearest.unsaid(ball, (ground, number), doubt));
         }
         if known.overlapping || nearest.separation > doubt {
             return;

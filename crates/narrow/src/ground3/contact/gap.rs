@@ -48,7 +48,12 @@ impl Prism<'_> {
             return None;
         }
         let ends = [place.point(on_cuboid - towards * standing.radius), place.point(on_triangle)];
-        Some(Unsaid::along(facet, direction, [distance - standing.radius, self.doubt + short.abs()], ends))
+        Some(Unsaid::along(
+            (self.ground, facet),
+            direction,
+            [distance - standing.radius, self.doubt + short.abs()],
+            ends,
+        ))
     }
 }
 

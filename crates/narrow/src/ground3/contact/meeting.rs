@@ -81,14 +81,18 @@ impl<'a> Meeting<'a> {
         }
         let overlapping = near.verdict.overlapping;
         let is_told = overlapping && facet.is_level_to(-place.axes.turn(near.normal));
-        Met::Refused { overlapping, gap: unsaid_of(facet, place, &near), told: is_told.then_some(told) }
+        Met::Refused {
+            overlapping,
+            gap: unsaid_of((ground, facet), place, &near),
+            told: is_told.then_some(told),
+        }
     }
 
     /// Where the part is nearest to a triangle, if it is within the margin and overlaps it in no point.
     pub(super) fn gap(&self, of: (Ground, &Facet), place: &Place, asking: &Asking) -> Option<Unsaid> {
         let mut touch = Touch::none();
         let near = self.near(of, asking, |_| false, &mut touch)?;
-        unsaid_of(of.1, place, &near)
+        unsaid_of(of, place, &near)
     }
 
     /// Where the part is nearest to a triangle, if it is within the margin; where they overlap, where it is deepest. And the
@@ -106,7 +110,7 @@ impl<'a> Meeting<'a> {
         let [on_a, on_b] = near.closest.or(deepest.map(|point| [point.on_a, point.on_b]))?;
         let told = [near.separation.into(), near.error.into()];
         let ends = [place.point(on_a), place.point(on_b)];
-        Some((towards, Unsaid::along(of.1, towards, told, ends)))
+        Some((towards, Unsaid::along(of, towards, told, ends)))
     }
 
     /// What the kernels say, if the two are within the margin; with points, where they are wanted.
@@ -156,7 +160,8 @@ impl<'a> Meeting<'a> {
             let pin = Pin {
                 on_body: place.point(point.on_a),
                 on_ground: place.point(point.on_b),
-                separation: point.separation,
+                // Where faces cross beside a corner a point may be lower than the corner is: by what faces are preferred by.
+                separation: point.separation.max(told[0]),
                 doubt: told[1],
                 of_body: point.feature.a(),
                 of_ground: feature_on(ground, facet.number, point.feature.b()),
@@ -170,11 +175,11 @@ impl<'a> Meeting<'a> {
 }
 
 /// Where part and triangle are nearest, in the ground's axes; nothing where they overlap.
-fn unsaid_of(facet: &Facet, place: &Place, near: &Near) -> Option<Unsaid> {
+fn unsaid_of(of: (Ground, &Facet), place: &Place, near: &Near) -> Option<Unsaid> {
     let [on_a, on_b] = near.closest.filter(|_| !near.verdict.overlapping)?;
     let towards = -place.axes.turn(near.normal);
     let told = [near.separation.into(), near.error.into()];
-    Some(Unsaid::along(facet, towards, told, [place.point(on_a), place.point(on_b)]))
+    Some(Unsaid::along(of, towards, told, [place.point(on_a), place.point(on_b)]))
 }
 
 /// The name of a triangle's own feature on the ground.

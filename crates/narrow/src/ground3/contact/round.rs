@@ -155,7 +155,7 @@ impl Round {
                 nearest.add_point(ball, &facet, ground, doubt, &mut known.groups)
             };
             if !is_added {
-                known.leave_unsaid(ground, nearest.unsaid(ball, near.number, doubt));
+                known.leave_unsaid(nearest.unsaid(ball, (ground, near.number), doubt));
             }
         }
         if nearest.separation < -doubt {

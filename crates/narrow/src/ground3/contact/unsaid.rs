@@ -33,6 +33,8 @@ pub(super) struct Unsaid {
     /// Unit direction from the ground to the part: the triangle's own normal where it is the same, and whether it is.
     pub(super) normal: DVec3,
     pub(super) is_own: bool,
+    /// Whether ground means to be touched along it: one-sided ground has no backs, and no more of its rims than it gives.
+    pub(super) is_meant: bool,
 }
 
 /// One a direction, the nearest first; of many those.
@@ -42,14 +44,18 @@ impl Unsaid {
     /// Of a triangle, along a unit direction from it to the part: how far they are apart and by how much that may be off, and
     /// their nearest points.
     pub(super) fn along(
-        facet: &Facet,
+        (ground, facet): (Ground, &Facet),
         towards: DVec3,
         [separation, doubt]: [f64; 2],
         ends: [DVec3; 2],
     ) -> Self {
         let is_own = is_same(facet.normal, towards);
         let normal = if is_own { facet.normal } else { towards };
-        Self { number: facet.number, separation, doubt, ends, normal, is_own }
+        // What was refused may be a face of the part that is all but as good as this.
+        let is_given =
+            || facet.normal.dot(towards) > 0.0 && facet.may_give(ground, facet.furthest(towards), towards);
+        let is_meant = is_own || !ground.is_one_sided() || is_given();
+        Self { number: facet.number, separation, doubt, ends, normal, is_own, is_meant }
     }
 
     /// Whether it comes before another; of equals the one of the lower number.
@@ -59,9 +65,9 @@ impl Unsaid {
 }
 
 impl Known {
-    /// Keeps the nearest of each direction. Of one-sided ground rims and backs were meant to be refused.
-    pub(super) fn leave_unsaid(&mut self, ground: Ground, unsaid: Unsaid) {
-        if ground.is_one_sided() && !unsaid.is_own {
+    /// Keeps the nearest of each direction.
+    pub(super) fn leave_unsaid(&mut self, unsaid: Unsaid) {
+        if !unsaid.is_meant {
             return;
         }
         let all = &mut self.unsaid;
@@ -149,7 +155,7 @@ impl Seen<'_> {
                 && let Some(facet) = Facet::seen(ground, number, standing.center)
                 && let Some(gap) = self.meeting.gap((ground, &facet), &standing.place, self.asking)
             {
-                known.leave_unsaid(ground, gap);
+                known.leave_unsaid(gap);
             }
         }
     }
