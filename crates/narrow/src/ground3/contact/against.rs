@@ -17,6 +17,10 @@ use crate::feature::Feature;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
+/// How much of an edge's rise may be cut off and go into the error, in slacks: what rotations in f32 leave of edges that were meant
+/// to be level. With none, cuboids that start on hills with their faces along the ground's took 17 % more instructions.
+const MOST_CUT_OFF: f64 = 1.0 / 64.0;
+
 /// What a part's face says of a triangle.
 pub(super) enum Against {
     /// The triangle is further from it than is wanted.
@@ -63,11 +67,13 @@ impl Prism<'_> {
             return Against::Unknown;
         };
         // An edge that counts as level may rise a little. Where its upper end is cut off, another edge may pass under the face
-        // nearer to it.
+        // nearer to it, by no more than was cut off.
         let [(begin, _), (end, _)] = stretch.ends;
-        if separation(begin).min(separation(end)) > least + doubt {
+        let cut_off = separation(begin).min(separation(end)) - least;
+        if cut_off > MOST_CUT_OFF * standing.slack {
             return Against::Unknown;
         }
+        let doubt = doubt + cut_off;
         let depth = -(least + standing.radius);
         if stretch.inside < depth.max(0.0) {
             return Against::Unknown;
