@@ -81,6 +81,41 @@ impl Motion2 {
         Ok(Self { to: (bits(from) != bits(to)).then_some(to.rotation()), ..motion })
     }
 
+    /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second counter-clockwise about its
+    /// position.
+    ///
+    /// It ends where the body would, by `libm`: the same bits on every platform. On the way it turns the shorter way, so half a turn and
+    /// more in one step is a wheel seen to run backwards: take shorter steps.
+    ///
+    /// ```
+    /// use asunder_geometry::{Motion2, Pose2, glam::{DVec2, Vec2}};
+    /// let from = Pose2::at([0.0, 2.0])?;
+    /// let motion = Motion2::of_velocities(&from, [3.0, 0.0], core::f64::consts::FRAC_PI_2, 0.5)?;
+    /// let to = motion.pose_at(&from, 1.0);
+    /// assert_eq!(to.position(), DVec2::new(1.5, 2.0));
+    /// assert!((f64::from(to.rotation().angle()) - core::f64::consts::FRAC_PI_4).abs() < 1e-7, "an eighth of a turn");
+    /// assert_eq!(Motion2::of_velocities(&from, Vec2::X, 0.0, 1.0)?, Motion2::shift(Vec2::X)?);
+    /// assert!(Motion2::of_velocities(&from, Vec2::X, f64::NAN, 1.0).is_err());
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What is not finite, and a displacement beyond [`MAX_POSITION`](crate::tolerance::MAX_POSITION) on an axis.
+    pub fn of_velocities(
+        from: &Pose2,
+        linear: impl Into<DVec2>,
+        angular: f64,
+        seconds: f64,
+    ) -> Result<Self, PoseError> {
+        let (displacement, angle) = (linear.into() * seconds, angular * seconds);
+        if angle == 0.0 {
+            return Self::shift(displacement);
+        }
+        let turn = DVec2::new(libm::cos(angle), libm::sin(angle));
+        let end = turn.rotate(DVec2::new(from.rotation().cos().into(), from.rotation().sin().into()));
+        Self::new(displacement, Rotation2::new(end.x as f32, end.y as f32)?)
+    }
+
     /// How far the position moves, in metres.
     #[inline]
     pub const fn displacement(&self) -> DVec2 {
@@ -256,5 +291,27 @@ mod tests {
         assert_eq!(motion.pose_at(&from, 1.0).position(), DVec2::new(1e9, -9.5e8));
         assert_eq!(motion.pose_at(&from, 0.5).position(), DVec2::new(9.5e8, -9.25e8));
         assert!(Motion2::shift([f64::NAN, 0.0]).is_err() && Motion2::shift([0.0, 2e9]).is_err());
+    }
+
+    #[test]
+    fn velocities_lead_where_a_steady_turn_does() {
+        for from in [0.0, 0.5, -3.0, 2.0].map(turned) {
+            let from = Pose2::new(DVec2::X, from).unwrap();
+            for (speed, seconds) in
+                [(1e-9, 1.0), (0.3, 1.0 / 60.0), (-12.0, 1.0 / 60.0), (3.0, 2.0), (7.0, 30.0)]
+            {
+                let motion = Motion2::of_velocities(&from, DVec2::Y, speed, seconds).unwrap();
+                let to = motion.pose_at(&from, 1.0);
+                assert_eq!(to.position(), DVec2::new(1.0, seconds));
+                let off = angle_of(to.rotation()) - angle_of(from.rotation()) - speed * seconds;
+                assert!(off.sin().abs() < 3e-7 && off.cos() > 0.0, "{speed} {seconds}: {off}");
+            }
+        }
+        let from = Pose2::IDENTITY;
+        for odd in [f64::NAN, f64::INFINITY] {
+            assert!(Motion2::of_velocities(&from, [odd, 0.0], 1.0, 1.0).is_err());
+            assert!(Motion2::of_velocities(&from, DVec2::X, odd, 1.0).is_err());
+            assert!(Motion2::of_velocities(&from, DVec2::X, 1.0, odd).is_err());
+        }
     }
 }

@@ -114,6 +114,46 @@ impl Motion3 {
         Ok(Self { rotation: is_turned.then_some(end), ..motion })
     }
 
+    /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second about the axis that the
+    /// angular one points along, both in world axes and of the body's position.
+    ///
+    /// It ends where the body would after a turn at constant speed, by `libm`: the same bits on every platform. On the way it turns the
+    /// shorter way, so half a turn and more in one step is a wheel seen to run backwards: take shorter steps.
+    ///
+    /// ```
+    /// use asunder_geometry::{Motion3, Pose3, glam::{DVec3, Vec3}};
+    /// let from = Pose3::at([0.0, 2.0, 0.0])?;
+    /// let motion = Motion3::of_velocities(&from, [3.0, 0.0, 0.0], Vec3::Y * core::f32::consts::FRAC_PI_2, 0.5)?;
+    /// let to = motion.pose_at(&from, 1.0);
+    /// assert_eq!(to.position(), DVec3::new(1.5, 2.0, 0.0));
+    /// let ahead = to.transform(Vec3::Z) - to.position();
+    /// assert!((ahead - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-7, "an eighth of a turn");
+    /// assert_eq!(Motion3::of_velocities(&from, Vec3::X, Vec3::ZERO, 1.0)?, Motion3::shift(Vec3::X)?);
+    /// assert!(Motion3::of_velocities(&from, Vec3::X, Vec3::NAN, 1.0).is_err());
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What is not finite, and a displacement beyond 1e9 m on an axis.
+    pub fn of_velocities(
+        from: &Pose3,
+        linear: impl Into<DVec3>,
+        angular: impl Into<DVec3>,
+        seconds: f64,
+    ) -> Result<Self, PoseError> {
+        let displacement = linear.into() * seconds;
+        let turn = angular.into() * seconds;
+        let angle = turn.length();
+        if angle == 0.0 {
+            return Self::shift(displacement);
+        }
+        let axis = turn * (libm::sin(0.5 * angle) / angle);
+        let [x, y, z, w] = unit(from.rotation().to_array().map(f64::from));
+        let (v, cosine) = (DVec3::new(x, y, z), libm::cos(0.5 * angle));
+        let (end, real) = (v * cosine + axis * w + axis.cross(v), cosine * w - axis.dot(v));
+        Self::new(displacement, Quat::from_array([end.x, end.y, end.z, real].map(|value| value as f32)))
+    }
+
     /// How far the position moves in all, in metres.
     #[inline]
     pub const fn displacement(&self) -> DVec3 {
@@ -401,5 +441,44 @@ mod tests {
             Motion3::new(DVec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0)),
             Err(PoseError::ZeroRotation)
         );
+    }
+
+    /// By the formula of Rodrigues, which knows no quaternions.
+    fn rotated(v: DVec3, axis: DVec3, angle: f64) -> DVec3 {
+        v * angle.cos() + axis.cross(v) * angle.sin() + axis * (axis.dot(v) * (1.0 - angle.cos()))
+    }
+
+    #[test]
+    fn velocities_lead_where_a_steady_turn_does() {
+        for from in ROTATIONS.map(pose) {
+            for axis in [DVec3::X, DVec3::new(1.0, -2.0, 0.5), DVec3::new(-0.3, 0.1, 0.9)] {
+                let axis = axis.normalize();
+                for (speed, seconds) in
+                    [(1e-9, 1.0), (0.3, 1.0 / 60.0), (12.0, 1.0 / 60.0), (3.0, 2.0), (-7.0, 30.0)]
+                {
+                    let motion = Motion3::of_velocities(&from, DVec3::Z, axis * speed, seconds).unwrap();
+                    let to = motion.pose_at(&from, 1.0);
+                    assert_eq!(to.position(), from.position() + DVec3::Z * seconds);
+                    for arm in [DVec3::X, DVec3::Y, DVec3::Z] {
+                        let truth = rotated(from.basis().turn(arm), axis, speed * seconds);
+                        let off = (to.basis().turn(arm) - truth).length();
+                        assert!(off < 3e-7, "{axis} {speed} {seconds}: {off}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn velocities_that_are_no_numbers_are_refused() {
+        let from = Pose3::IDENTITY;
+        for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(Motion3::of_velocities(&from, [odd, 0.0, 0.0], DVec3::Y, 1.0).is_err());
+            assert!(Motion3::of_velocities(&from, DVec3::X, [0.0, odd, 0.0], 1.0).is_err());
+            assert!(Motion3::of_velocities(&from, DVec3::X, DVec3::Y, odd).is_err());
+        }
+        assert!(Motion3::of_velocities(&from, DVec3::X * 2e9, DVec3::ZERO, 1.0).is_err());
+        let fast = Motion3::of_velocities(&from, DVec3::ZERO, DVec3::Y * f64::MAX, 1e-300).unwrap();
+        assert!(fast.rotation().is_some_and(|to| to.is_finite()));
     }
 }
