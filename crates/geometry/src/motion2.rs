@@ -304,7 +304,7 @@ mod tests {
                 let to = motion.pose_at(&from, 1.0);
                 assert_eq!(to.position(), DVec2::new(1.0, seconds));
                 let off = angle_of(to.rotation()) - angle_of(from.rotation()) - speed * seconds;
-                assert!(off.sin().abs() < 3e-7 && off.cos() > 0.0, "{speed} {seconds}: {off}");
+                assert!(libm::sin(off).abs() < 3e-7 && libm::cos(off) > 0.0, "{speed} {seconds}: {off}");
             }
         }
         let from = Pose2::IDENTITY;

@@ -445,7 +445,8 @@ mod tests {
 
     /// By the formula of Rodrigues, which knows no quaternions.
     fn rotated(v: DVec3, axis: DVec3, angle: f64) -> DVec3 {
-        v * angle.cos() + axis.cross(v) * angle.sin() + axis * (axis.dot(v) * (1.0 - angle.cos()))
+        let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+        v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine))
     }
 
     #[test]
