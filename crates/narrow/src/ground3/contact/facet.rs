@@ -70,6 +70,19 @@ pub(super) enum Furthest {
     Face,
 }
 
+/// How a walk around a corner ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Around {
+    /// Where it was told to.
+    Stopped,
+    /// Where it began.
+    Whole,
+    /// Where ground ends, both ways.
+    Rim,
+    /// Nowhere in sight.
+    Many,
+}
+
 impl Facet {
     /// The triangle with a number as a part whose centre this is sees it. Nothing for one-sided ground whose front is
     /// not seen, and where the triangle has no normal.
@@ -187,6 +200,38 @@ impl Facet {
         if self.is_front { self.normal } else { -self.normal }
     }
 
+    /// Walks over the other triangles around a corner, first one way and, where ground ends there, the other, as long as something
+    /// holds of each: by its number, the place of the corner in it, and the place of the next corner on the way.
+    fn walk_around(
+        &self,
+        ground: Ground,
+        corner: usize,
+        mut holds: impl FnMut(u32, usize, usize) -> bool,
+    ) -> Around {
+        let mut ends = Around::Many;
+        for way in [0, 2] {
+            ends = Around::Many;
+            let mut at = (self.number, (corner + way) % 3);
+            for _ in 0..MOST_AROUND {
+                let Some((other, twin)) = ground.neighbor(at.0, at.1) else {
+                    ends = Around::Rim;
+                    break;
+                };
+                if other == self.number {
+                    return Around::Whole;
+                }
+                // The corner is the end of the twin, or its start.
+                let there = if way == 0 { (twin + 1) % 3 } else { twin };
+                let next = if way == 0 { (there + 1) % 3 } else { (there + 2) % 3 };
+                if !holds(other, there, next) {
+                    return Around::Stopped;
+                }
+                at = (other, (there + way) % 3);
+            }
+        }
+        ends
+    }
+
     /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner in it; of
     /// very many, of those that are looked at.
     fn do_all_around(
@@ -195,22 +240,7 @@ impl Facet {
         corner: usize,
         mut holds: impl FnMut(u32, usize) -> bool,
     ) -> bool {
-        for way in [0, 2] {
-            let mut at = (self.number, (corner + way) % 3);
-            for _ in 0..MOST_AROUND {
-                let Some((other, twin)) = ground.neighbor(at.0, at.1) else { break };
-                if other == self.number {
-                    return true;
-                }
-                // The corner is the end of the twin, or its start.
-                let there = if way == 0 { (twin + 1) % 3 } else { twin };
-                if !holds(other, there) {
-                    return false;
-                }
-                at = (other, (there + way) % 3);
-            }
-        }
-        true
+        self.walk_around(ground, corner, |other, there, _| holds(other, there)) != Around::Stopped
     }
 
     /// The sum of the fronts' normals around a corner, each by its angle there.
@@ -350,40 +380,21 @@ impl Facet {
         }
     }
 
-    /// Walks around a corner, first one way and, where ground ends there, the other.
+    /// The same of a corner: no edge that leaves it leads towards the direction.
     fn may_corner_give(&self, ground: Ground, corner: usize, towards: DVec3) -> bool {
         let is_off = |triangle: u32, from: usize, to: usize| {
             let corners = ground.corners(triangle);
-            leans_off(corners[to % 3].as_dvec3() - corners[from % 3].as_dvec3(), towards)
+            leans_off(corners[to].as_dvec3() - corners[from].as_dvec3(), towards)
         };
-        let (next, before) = ((corner + 1) % 3, (corner + 2) % 3);
-        if !is_off(self.number, corner, next) || !is_off(self.number, corner, before) {
+        let corner = corner % 3;
+        if !is_off(self.number, corner, (corner + 1) % 3) || !is_off(self.number, corner, (corner + 2) % 3) {
             return false;
         }
-        let mut at = (self.number, corner);
-        for _ in 0..MOST_AROUND {
-            let Some((other, twin)) = ground.neighbor(at.0, at.1) else { break };
-            if other == self.number {
-                return true;
-            }
-            // The twin leads to the corner; the edge after it leaves it.
-            at = (other, (twin + 1) % 3);
-            if !is_off(other, at.1, at.1 + 1) {
-                return false;
-            }
+        match self.walk_around(ground, corner, is_off) {
+            Around::Whole => true,
+            Around::Rim => self.may_rim_give(ground, towards),
+            Around::Stopped | Around::Many => false,
         }
-        let mut at = (self.number, before);
-        for _ in 0..MOST_AROUND {
-            let Some((other, twin)) = ground.neighbor(at.0, at.1) else {
-                return self.may_rim_give(ground, towards);
-            };
-            // The twin leaves the corner; the edge before it leads there.
-            at = (other, (twin + 2) % 3);
-            if !is_off(other, twin, at.1) {
-                return false;
-            }
-        }
-        false
     }
 
     /// Whether a point that is on this side of the triangle is on the other side of one that shares a corner with it.
