@@ -5,7 +5,8 @@ mod plane;
 
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{
-    Aabb3, Capsule3, Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Ray3, Segment3, Shape3, Sphere,
+    Aabb3, Bounds, Capsule3, Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Ray3, Segment3, Shape3,
+    Sphere,
 };
 use asunder_narrow::{
     Answer, Batch3, Hint, Impact3, Job3, Manifold3, Pair3, Separation3, cast_ray3, collide3,
@@ -329,4 +330,41 @@ fn a_ray_beside_a_segment_meets_it_among_many_as_among_few() {
         hits += usize::from(distance(&body.whole).is_some());
     }
     assert!(hits > 10 && hits < 30, "{hits}");
+}
+
+/// Poses near and far, turned and not, whose quaternion has any length.
+fn poses(random: &mut Random) -> impl Iterator<Item = Pose3> {
+    let anywhere = [0.0, 1.0, 1e3, 1e6, 9e8].map(|far| anywhere(random, far));
+    let turns = [Quat::IDENTITY, random.rotation(), random.rotation() * 3.0, random.rotation() * 1e-6];
+    anywhere.into_iter().flat_map(move |place| turns.map(|turn| Pose3::new(place, turn).unwrap()))
+}
+
+/// Parts that are passed over reach no further than those that are looked at, bit for bit.
+#[test]
+fn the_box_around_many_parts_is_that_around_them_one_by_one() {
+    let mut random = Random::new(0xB0C5);
+    let cube: Shape3 = Cuboid::from_half_extents(Vec3::splat(0.25)).unwrap().into();
+    let cell = |i: u32| Pose3::at([i % 8, i / 8 % 8, i / 64].map(|i| 0.5 * f64::from(i) - 2.0)).unwrap();
+    let grid: Vec<(Pose3, Shape3)> = (0..512).map(|i| (cell(i), cube.clone())).collect();
+    let mut scenes = vec![grid.clone(), parts(&mut random, 16, 1e-3), parts(&mut random, 40, 5e5)];
+    scenes.extend((0..30).map(|i| parts(&mut random, 16 + 40 * i, 6.0)));
+    // Many that reach nearly as far.
+    let ball: Shape3 = Sphere::new(0.25).unwrap().into();
+    for jitter in [1e-7, 1e-6, 1e-5, 1e-4, 1e-3].repeat(4) {
+        let near = |at: &Pose3, random: &mut Random| {
+            (Pose3::at(at.position() + anywhere(random, jitter)).unwrap(), ball.clone())
+        };
+        scenes.push(grid.iter().map(|(at, _)| near(at, &mut random)).collect());
+    }
+    for scene in scenes {
+        let body = body(&scene, Pose3::IDENTITY);
+        for pose in poses(&mut random) {
+            for margin in [0.0, 0.02, 1e3, -0.1, f32::INFINITY] {
+                let one_by_one = body.pieces.iter().map(|(_, piece)| piece.bounds(&pose, margin));
+                let expected = one_by_one.reduce(|all, piece| all.union(&piece)).unwrap();
+                assert_eq!(body.whole.bounds(&pose, margin), expected, "{} at {pose:?}", scene.len());
+            }
+            assert!(!body.whole.bounds(&pose, f32::NAN).is_valid(), "as of a single part");
+        }
+    }
 }

@@ -279,3 +279,38 @@ fn walks_over_parts_find_what_a_loop_over_their_boxes_finds() {
         assert!(nearest.iter().all(|&part| gap(part) <= least * 1.000_01 + 1e-12), "{round}");
     }
 }
+
+/// Parts that are passed over reach no further than those that are looked at, bit for bit.
+#[test]
+fn the_box_around_many_parts_is_that_around_them_one_by_one() {
+    let mut random = Random::new(0xB0C6);
+    let square: Shape2 = Rect::from_half_extents(Vec2::splat(0.25)).unwrap().into();
+    let cell = |i: u32| Pose2::at([i % 16, i / 16].map(|i| 0.5 * f64::from(i) - 4.0)).unwrap();
+    let grid: Vec<(Pose2, Shape2)> = (0..256).map(|i| (cell(i), square.clone())).collect();
+    let mut scenes = vec![grid.clone(), parts(&mut random, 16, 1e-3), parts(&mut random, 40, 5e5)];
+    scenes.extend((0..30).map(|i| parts(&mut random, 16 + 40 * i, 6.0)));
+    // Many that reach nearly as far.
+    let ball: Shape2 = Circle::new(0.25).unwrap().into();
+    for jitter in [1e-7, 1e-6, 1e-5, 1e-4, 1e-3].repeat(40) {
+        let near = |at: &Pose2, random: &mut Random| {
+            (Pose2::at(at.position() + anywhere(random, jitter)).unwrap(), ball.clone())
+        };
+        scenes.push(grid.iter().map(|(at, _)| near(at, &mut random)).collect());
+    }
+    for scene in scenes {
+        let body = body(&scene, Pose2::IDENTITY);
+        for far in [0.0, 1.0, 1e3, 1e6, 9e8] {
+            let turn = match random.below(3) {
+                0 => Rotation2::IDENTITY,
+                1 => Rotation2::from_angle(random.range(-1e-7, 1e-7) as f32).unwrap(),
+                _ => rotation(&mut random),
+            };
+            let pose = Pose2::new(anywhere(&mut random, far), turn).unwrap();
+            for margin in [0.0, 0.02, 1e3, -0.1, f32::INFINITY] {
+                let one_by_one = body.pieces.iter().map(|(_, piece)| piece.bounds(&pose, margin));
+                let expected = one_by_one.reduce(|all, piece| all.union(&piece)).unwrap();
+                assert_eq!(body.whole.bounds(&pose, margin), expected, "{} at {pose:?}", scene.len());
+            }
+        }
+    }
+}

@@ -1,8 +1,8 @@
 //! Several convex parts in space under one collider.
 
-use super::{CompoundError, tree_of};
+use super::{CompoundError, FEW_PARTS, tree_of};
 use crate::aabb::{Aabb3, Bounds};
-use crate::ground::tree::{Line, Near, Tree};
+use crate::ground::tree::{Line, Near, Reach, Sides, Tree};
 use crate::outward::{around3, round_up};
 use crate::pose3::Pose3;
 use crate::shape::Shape3;
@@ -239,8 +239,8 @@ impl Compound3 {
         self.parts().iter().any(|part| part.shape.contains(part.pose.transform_back(point)))
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards. Cost: linear in the parts'
-    /// vertices.
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards: that of all its parts' vertices. Cost: linear in the
+    /// vertices of the parts that reach out furthest; of 16 parts and more the others are passed over in a tree.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         let box_of = |part: &Part3| {
             let core = part.shape.core();
@@ -250,7 +250,31 @@ impl Compound3 {
                 64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
             around3(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
         };
-        self.parts().iter().map(box_of).reduce(|one, other| one.union(&other)).unwrap_or(Aabb3::NOTHING)
+        let parts = self.parts();
+        if parts.len() < FEW_PARTS {
+            return parts.iter().map(box_of).fold(Aabb3::NOTHING, |all, part| all.union(&part));
+        }
+        let (basis, place) = (pose.basis(), pose.position());
+        let apart = [basis.x.abs(), basis.y.abs(), basis.z.abs()];
+        // More than a part's own box is wider by, and the tree's boxes lose here.
+        let reach = self.center.as_dvec3().length() + f64::from(self.outer_radius);
+        let grow = f64::from(margin).abs();
+        let grow =
+            f64::from(margin) + 512.0 * f64::EPSILON * (place.abs().element_sum() + 8.0 * reach + grow);
+        let reach_of = |[a, b, c, d, e, f]: Sides| -> Reach {
+            let [low, high] = [Vec3::new(a, b, c).as_dvec3(), Vec3::new(d, e, f).as_dvec3()];
+            let (middle, half) = (place + basis.turn((low + high) * 0.5), (high - low) * 0.5);
+            let half = apart[0] * half.x + apart[1] * half.y + apart[2] * half.z + grow;
+            let ([x, y, z], [u, v, w]) = ((half - middle).to_array(), (half + middle).to_array());
+            [x, y, z, u, v, w]
+        };
+        let mut all = Aabb3::NOTHING;
+        self.data.tree.visit_outermost(reach_of, |part| {
+            all = all.union(&box_of(&parts[part as usize]));
+            let ([x, y, z], [u, v, w]) = ((-all.min.as_dvec3()).to_array(), all.max.as_dvec3().to_array());
+            [x, y, z, u, v, w]
+        });
+        all
     }
 
     /// A box that holds the posed shape, whatever its parts: around its bounding sphere, and so no smaller than

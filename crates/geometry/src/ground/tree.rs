@@ -5,6 +5,7 @@
 //!          halve by count, in such steps, along the axis on which centres lie furthest apart, until all are children
 //! overlap  test the eight boxes of a node at once; hand over boxes, put nodes on a stack
 //! order    test the eight boxes of a node at once; put all that pass on a stack, the nearest on top
+//! reach    to six sides, pass over all that reaches no further than what was found                            (outermost)
 //! ```
 //! A tree of boxes keeps their numbers in its last nodes. A tree of triangles has leaves there, with the corners of up to eight in
 //! rows, of which boxes are made when they are asked for: no more is read of what a ray meets, and 48 instructions a leaf are less than
@@ -21,8 +22,10 @@
 //! anywhere; where it was asked about just before, in 80 and 170. parry3d's tree takes 1.6 times as long for either,
 //! and 1.5 to 1.8 times for a ray (AMD EPYC Zen 4, 2026-11-22, a busy machine).
 //! Tried: the same compiled for AVX2: 10 to 15 % faster, where memory is not what is waited for. Not worth unsafe code.
+mod outermost;
 mod walk;
 
+pub(crate) use outermost::Reach;
 pub(crate) use walk::{Ask, Line, Near};
 
 use glam::Vec3;
