@@ -30,7 +30,7 @@
 //! That normal may be a bad one: of a box that leans over a cliff, a triangle of the cliff's top whose corner alone lies
 //! in the box is left by the box sideways along the cliff, which its neighbours refuse; straight up would throw the box
 //! onto the cliff. So triangles whose axis was refused wait until all others have been heard: where a move along
-//! one of their normals by its depth leaves such a triangle too, it has nothing to add.
+//! one of their normals by its depth leaves such a triangle too, it has nothing to add (see `refused`).
 //!
 //! **The short way.** Where the lowest vertex of the part is over the triangle, in a gap of the cores it is the closest
 //! point, and the normal is the answer. In overlap by h, a direction that leans by the angle a over an edge r away is
@@ -319,8 +319,8 @@ impl Seen<'_> {
         }
         match prism.add_against(&self.incident_to(facet.normal, known), &mut known.groups) {
             Against::Apart => return,
-            Against::Refused => {
-                self.refuse(prism, None, known);
+            Against::Refused(is_own) => {
+                self.refuse(prism, (is_own, None), known);
                 return self.leave_unclear(number, (false, separation), known);
             }
             Against::Added(_, true) => return known.settle(number),
@@ -331,14 +331,14 @@ impl Seen<'_> {
         if let Some(axes) = axes {
             if axes.do_overlap(doubt) && prism.refuses(axes) {
                 known.settle(number);
-                return self.refuse(prism, prism.told_by(axes), known);
+                return self.refuse(prism, (prism.is_own(axes), prism.told_by(axes)), known);
             }
             if axes.best > doubt
                 && let Some(unsaid) = prism.refused_gap(axes)
             {
                 if unsaid.separation <= self.asking.margin.into() {
                     known.leave_unsaid(unsaid);
-                    self.refuse(prism, None, known);
+                    self.refuse(prism, (unsaid.is_own, None), known);
                 }
                 return;
             }
@@ -347,14 +347,14 @@ impl Seen<'_> {
         match met {
             Met::Apart | Met::Told(false) => {}
             Met::Told(true) => known.settle(number),
-            Met::Refused { overlapping, gap, told } => {
+            Met::Refused { overlapping, is_own, gap, told } => {
                 if overlapping {
                     known.settle(number);
                 }
                 if let Some(unsaid) = gap {
                     known.leave_unsaid(unsaid);
                 }
-                self.refuse(prism, told, known);
+                self.refuse(prism, (is_own, told), known);
             }
         }
     }

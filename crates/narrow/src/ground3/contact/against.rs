@@ -27,8 +27,8 @@ pub(super) enum Against {
     Apart,
     /// Its normal is not the answer, or may not be.
     Unknown,
-    /// It is, and ground around the triangle's feature does not let it through.
-    Refused,
+    /// It is, and ground around the triangle's feature does not let it through; whether it is nearly the triangle's own.
+    Refused(bool),
     /// It is; how deep, and whether the part certainly shares a point with the triangle.
     Added(f64, bool),
 }
@@ -66,20 +66,21 @@ impl Prism<'_> {
         let Some(stretch) = self.stretch(incident.face, outwards, (from, along)) else {
             return Against::Unknown;
         };
-        // An edge that counts as level may rise a little. Where its upper end is cut off, another edge may pass under the face
+        // An edge that counts as level may rise a little. Where its upper end is cut off, in a gap another edge may pass under the face
         // nearer to it, by no more than was cut off.
         let [(begin, _), (end, _)] = stretch.ends;
-        let cut_off = separation(begin).min(separation(end)) - least;
-        if cut_off > MOST_CUT_OFF * standing.slack {
+        let nearest = separation(begin).min(separation(end));
+        let is_little = nearest - least <= MOST_CUT_OFF * standing.slack;
+        if !is_little && nearest + standing.radius > 0.0 {
             return Against::Unknown;
         }
-        let doubt = doubt + cut_off;
+        let doubt = if is_little { doubt + (nearest - least) } else { doubt };
         let depth = -(least + standing.radius);
         if stretch.inside < depth.max(0.0) {
             return Against::Unknown;
         }
         if !facet.may_give(self.ground, furthest, -outwards) {
-            return Against::Refused;
+            return Against::Refused(facet.is_nearly_own(-outwards));
         }
         let base = Base { normal: -outwards, patch: self.ground.patch(facet.number), weight: 0.0 };
         for (share, by) in stretch.ends {

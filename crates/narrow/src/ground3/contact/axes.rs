@@ -11,7 +11,9 @@
 //!
 //! Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with depths.
 
+use super::facet::Facet;
 use super::prism::Prism;
+use super::standing::Standing;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
@@ -43,13 +45,9 @@ impl Prism<'_> {
     /// trusted; whether it did. All of them, unless one says at once that they are further apart than so many metres. Filled
     /// where they stay: they are large.
     pub(super) fn fill(&self, axes: &mut Axes, beyond: f64) -> bool {
-        let (standing, facet) = (self.standing, self.facet);
-        let Shape3::Cuboid(cuboid) = standing.part.shape else { return false };
-        let place = &standing.place;
-        let own = |corner: DVec3| place.axes.turn_back(corner - place.origin);
-        axes.corners = [own(facet.corners[0]), own(facet.corners[1]), own(facet.corners[2])];
-        let normal = place.axes.turn_back(facet.normal);
-        axes.fill(normal, (cuboid.half_extents().as_dvec3(), beyond))
+        let Shape3::Cuboid(cuboid) = self.standing.part.shape else { return false };
+        let normal = self.standing.own(self.facet, DVec3::ZERO, axes);
+        axes.fill(normal, (cuboid.half_extents().as_dvec3(), beyond), CROSSED)
     }
 
     /// Whether ground refuses the axis along which overlapping cores are the least deep, and all that are as good.
@@ -61,6 +59,13 @@ impl Prism<'_> {
         rivals.all(|axis| !facet.lets_through(self.ground, standing.place.axes.turn(axis.1)))
     }
 
+    /// Whether an axis along which overlapping cores are the least deep is nearly the triangle's own normal.
+    pub(super) fn is_own(&self, axes: &Axes) -> bool {
+        let standing = self.standing;
+        let mut best = axes.all[..axes.count].iter().filter(|axis| axis.0 == axes.best);
+        best.any(|axis| self.facet.is_nearly_own(standing.place.axes.turn(axis.1)))
+    }
+
     /// How deep a cuboid is in a triangle to which the axis along which it is the least deep is level, and how far that may be
     /// off, in metres.
     pub(super) fn told_by(&self, axes: &Axes) -> Option<[f64; 2]> {
@@ -68,6 +73,28 @@ impl Prism<'_> {
         let mut all = axes.all[..axes.count].iter().filter(|axis| axis.0 == axes.best);
         let is_level = all.any(|axis| facet.is_level_to(standing.place.axes.turn(axis.1)));
         is_level.then_some([axes.best - standing.radius, self.doubt + axes.left_out])
+    }
+}
+
+impl Standing<'_> {
+    /// Puts a triangle's corners, after the part has moved, in the part's axes, and tells the triangle's normal there.
+    fn own(&self, facet: &Facet, moved: DVec3, axes: &mut Axes) -> DVec3 {
+        let place = &self.place;
+        let origin = place.origin + moved;
+        let own = |corner: DVec3| place.axes.turn_back(corner - origin);
+        axes.corners = [own(facet.corners[0]), own(facet.corners[1]), own(facet.corners[2])];
+        place.axes.turn_back(facet.normal)
+    }
+
+    /// Whether some axis shows that a cuboid, once it has moved, is no deeper in a triangle than the slack. Of others nothing is known.
+    pub(super) fn is_clear_of(&self, facet: &Facet, moved: DVec3) -> bool {
+        let Shape3::Cuboid(cuboid) = self.part.shape else { return false };
+        let least = self.radius - self.slack;
+        let mut axes = Axes::NONE;
+        let normal = self.own(facet, moved, &mut axes);
+        // An axis across edges that are nearly parallel shows what it shows.
+        axes.fill(normal, (cuboid.half_extents().as_dvec3(), least), PARALLEL);
+        axes.best >= least
     }
 }
 
@@ -86,8 +113,8 @@ impl Axes {
     }
 
     /// The thirteen axes, less those across edges that are parallel, and those after the first that shows a gap beyond
-    /// what is wanted; whether no edges are nearly parallel.
-    fn fill(&mut self, normal: DVec3, (half, beyond): (DVec3, f64)) -> bool {
+    /// what is wanted; whether the sine between no other edges is below `crossed`.
+    fn fill(&mut self, normal: DVec3, (half, beyond): (DVec3, f64), crossed: f64) -> bool {
         let corners = self.corners;
         let (low, high) =
             (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
@@ -115,7 +142,7 @@ impl Axes {
                     self.left_out = if length > 0.0 { 2.0 * PARALLEL * reach } else { self.left_out };
                     continue;
                 }
-                if length < CROSSED * CROSSED * square {
+                if length < crossed * crossed * square {
                     return false;
                 }
                 let axis = axis * (1.0 / length.sqrt());
@@ -149,7 +176,10 @@ mod tests {
         let (half, height) = (DVec3::new(1.0, 0.3, 0.3), 0.3 - depth);
         let corners = [[-1.0, height, -turn], [1.0, height, turn], [0.0, height, 2.0]].map(DVec3::from);
         let mut axes = Axes { corners, ..Axes::NONE };
-        assert!(axes.fill(DVec3::Y, (half, f64::INFINITY)), "no edges too near to parallel to be trusted");
+        assert!(
+            axes.fill(DVec3::Y, (half, f64::INFINITY), CROSSED),
+            "no edges too near to parallel to be trusted"
+        );
         assert!((axes.best + depth).abs() < 1e-15);
         axes.do_overlap(1e-13)
     }

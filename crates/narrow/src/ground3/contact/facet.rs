@@ -6,7 +6,7 @@
 use super::ball::nearest_to;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::tolerance::SAME_NORMAL;
+use asunder_geometry::tolerance::{ALIGNED_FACES, SAME_NORMAL};
 
 /// Triangles around a corner that are looked at, each way. More than that meet in no level that was meant to be one: then a corner
 /// gives no direction but its triangles' own.
@@ -361,6 +361,11 @@ impl Facet {
     /// across it, and no feature of it has that direction to give.
     pub(super) fn is_level_to(&self, towards: DVec3) -> bool {
         self.furthest(towards) == Furthest::Face && !is_same(self.normal, towards)
+    }
+
+    /// Whether the triangle's own normal may stand for a unit direction that ground refuses: it leads as good as the same way.
+    pub(super) fn is_nearly_own(&self, towards: DVec3) -> bool {
+        self.normal.dot(towards) >= ALIGNED_FACES
     }
 
     /// Whether ground around a feature lets it give this unit direction, from the ground to the body.

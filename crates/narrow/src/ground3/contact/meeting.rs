@@ -31,9 +31,9 @@ pub(super) enum Met {
     Apart,
     /// They are not, and points were made of it; whether they share a point.
     Told(bool),
-    /// They are not, and ground refused the direction: whether they share a point, where they are nearest if they do not, and how
-    /// deep they are, up to an error, of a triangle to which that direction is level.
-    Refused { overlapping: bool, gap: Option<Unsaid>, told: Option<[f64; 2]> },
+    /// They are not, and ground refused the direction: whether they share a point, whether it is nearly the triangle's own, where they are
+    /// nearest if they share none, and how deep they are, up to an error, of a triangle to which that direction is level.
+    Refused { overlapping: bool, is_own: bool, gap: Option<Unsaid>, told: Option<[f64; 2]> },
 }
 
 impl<'a> Meeting<'a> {
@@ -80,11 +80,12 @@ impl<'a> Meeting<'a> {
             return Met::Told(near.verdict.overlapping);
         }
         let overlapping = near.verdict.overlapping;
-        let is_told = overlapping && facet.is_level_to(-place.axes.turn(near.normal));
+        let towards = -place.axes.turn(near.normal);
         Met::Refused {
             overlapping,
+            is_own: facet.is_nearly_own(towards),
             gap: unsaid_of((ground, facet), place, &near),
-            told: is_told.then_some(told),
+            told: (overlapping && facet.is_level_to(towards)).then_some(told),
         }
     }
 

@@ -1,4 +1,14 @@
 //! Triangles whose axis ground refused: they wait until all others have been heard.
+//!
+//! ```text
+//! first those whose axis is nearly their own normal, then the others: told by their own normals, but for those that are freed
+//!     by a normal that was heard before all of them, by the part's lowest vertex
+//!     of the others, by any that is heard by then and far from their own
+//! ```
+//! A normal frees a triangle if a move along it, by how deep the part was found along it, leaves the triangle, too. Of a crate that lies
+//! over the edge of a step, a millimetre deep in the tread and half a metre beyond the riser, the riser is freed by the tread.
+//! Between normals that are nearly the same it makes no such difference, and there the second rule would only give what trembles
+//! one manifold more in every other frame.
 
 use super::facet::{Facet, is_same};
 use super::groups::MOST_GROUPS;
@@ -6,13 +16,17 @@ use super::prism::Prism;
 use super::standing::Extent;
 use super::{Known, Seen};
 use arrayvec::ArrayVec;
+use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
+use core::f64::consts::FRAC_1_SQRT_2;
 
 /// A triangle whose axis was refused, and how the part stands over it: made once, though it takes room.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refused {
     facet: Facet,
     extent: Extent,
+    /// Whether that axis is nearly the triangle's own normal.
+    is_own: bool,
     /// How deep the part is in it, and how far that may be off, where its axis is level to all of the triangle.
     told: Option<[f64; 2]>,
 }
@@ -22,9 +36,18 @@ const MOST_REFUSED: usize = 32;
 
 pub(super) type AllRefused = ArrayVec<Refused, MOST_REFUSED>;
 
+/// A normal, and the least separation that was found along it.
+type Heard = (DVec3, f64);
+
+impl Known {
+    fn heard(&self) -> ArrayVec<Heard, MOST_GROUPS> {
+        self.groups.iter().map(|group| (group.base.normal, group.least())).collect()
+    }
+}
+
 impl Seen<'_> {
     /// Keeps a triangle whose axis was refused until all others have been heard.
-    pub(super) fn refuse(&self, prism: &Prism, told: Option<[f64; 2]>, known: &mut Known) {
+    pub(super) fn refuse(&self, prism: &Prism, (is_own, told): (bool, Option<[f64; 2]>), known: &mut Known) {
         if known.refused.is_full() {
             self.add_in_place(prism, told, known);
             return;
@@ -35,7 +58,7 @@ impl Seen<'_> {
         {
             (facet, extent) = (own, self.standing.extent(own.normal, own.origin()));
         }
-        let _ = known.refused.try_push(Refused { facet, extent, told });
+        let _ = known.refused.try_push(Refused { facet, extent, is_own, told });
     }
 
     /// Adds points of triangles whose axis was refused, by their own normals.
@@ -43,29 +66,68 @@ impl Seen<'_> {
         if known.refused.is_empty() {
             return;
         }
+        let heard = known.heard();
+        self.add_those(true, known, |refused, _| heard.iter().any(|&by| self.is_freed(refused, by)));
+        if known.refused.iter().all(|refused| refused.is_own) {
+            return;
+        }
+        let by_now = known.heard();
+        self.add_those(false, known, |refused, known| {
+            let is_far = |by: &&Heard| refused.facet.normal.dot(by.0) < FRAC_1_SQRT_2;
+            heard.iter().any(|&by| self.is_freed(refused, by))
+                || by_now
+                    .iter()
+                    .filter(is_far)
+                    .any(|&by| self.is_freed(refused, by) || self.is_freed_by_face(refused, by, known))
+        });
+    }
+
+    /// Adds points of those whose axis is nearly their own normal, or of the others, but for what is freed.
+    fn add_those(&self, is_own: bool, known: &mut Known, is_freed: impl Fn(&Refused, &mut Known) -> bool) {
         let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
-        let heard: ArrayVec<(DVec3, f64), MOST_GROUPS> =
-            known.groups.iter().map(|group| (group.base.normal, group.least())).collect();
         // One by one: all of them are large.
         for place in 0..known.refused.len() {
-            let Refused { facet, extent, told } = known.refused[place];
-            let separation = extent.low - standing.radius;
-            let is_freed = heard.iter().any(|&(normal, least)| {
-                separation < least - standing.slack && !is_same(facet.normal, normal) && {
-                    let [a, b, c] = facet.corners;
-                    let height = |corner: DVec3| normal.dot(corner - facet.origin());
-                    let top = height(a).max(height(b)).max(height(c));
-                    let low = standing.extent(normal, facet.origin()).low - standing.radius;
-                    low - top >= least - standing.slack
-                }
-            });
-            if !is_freed {
-                let doubt = self.doubt_over(&facet);
-                let prism =
-                    Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
-                self.add_in_place(&prism, told, known);
+            let refused = known.refused[place];
+            if refused.is_own != is_own || is_freed(&refused, known) {
+                continue;
             }
+            let Refused { facet, extent, told, .. } = &refused;
+            let doubt = self.doubt_over(facet);
+            let prism = Prism { ground, standing, facet, extent, reach, doubt, gate: None };
+            self.add_in_place(&prism, *told, known);
         }
+    }
+
+    /// Whether a normal frees a triangle, as the part's lowest vertex shows.
+    fn is_freed(&self, refused: &Refused, (normal, least): Heard) -> bool {
+        let standing = self.standing;
+        let facet = &refused.facet;
+        let separation = refused.extent.low - standing.radius;
+        separation < least - standing.slack && !is_same(facet.normal, normal) && {
+            let [a, b, c] = facet.corners;
+            let height = |corner: DVec3| normal.dot(corner - facet.origin());
+            let top = height(a).max(height(b)).max(height(c));
+            let low = standing.extent(normal, facet.origin()).low - standing.radius;
+            low - top >= least - standing.slack
+        }
+    }
+
+    /// The same where that vertex is beside all ground: as any axis shows of a cuboid, of others the face that they turn to the normal.
+    fn is_freed_by_face(&self, refused: &Refused, (normal, least): Heard, known: &mut Known) -> bool {
+        let standing = self.standing;
+        let facet = &refused.facet;
+        if refused.extent.low - standing.radius >= least - standing.slack {
+            return false;
+        }
+        if let Shape3::Cuboid(_) = standing.part.shape {
+            return standing.is_clear_of(facet, normal * -least);
+        }
+        let incident = self.incident_to(normal, known);
+        let Some(outwards) = incident.outwards.filter(|_| !standing.solid.is_slender()) else { return false };
+        let [a, b, c] = facet.corners;
+        let nearest = outwards.dot(a).min(outwards.dot(b)).min(outwards.dot(c));
+        let over = standing.solid.face_reach(incident.face, outwards) + standing.radius;
+        nearest - over >= -outwards.dot(normal) * least - standing.slack
     }
 
     /// Adds points by a triangle's own normal, in place of those along what was refused.

@@ -13,7 +13,7 @@
 //! one a direction, and told at last: along a triangle's own normal where nothing there is as near, along others where nothing
 //! at all is.
 
-use super::facet::{Facet, edge_number, is_same};
+use super::facet::{Facet, Furthest, edge_number, is_same};
 use super::groups::{Base, Pin};
 use super::{Known, Seen, Unclear};
 use crate::feature::Feature;
@@ -51,9 +51,12 @@ impl Unsaid {
     ) -> Self {
         let is_own = is_same(facet.normal, towards);
         let normal = if is_own { facet.normal } else { towards };
-        // What was refused may be a face of the part that is all but as good as this.
-        let is_given =
-            || facet.normal.dot(towards) > 0.0 && facet.may_give(ground, facet.furthest(towards), towards);
+        // What was refused may be a face of the part that is all but as good as this. To a needle many directions are level: with none but
+        // its own, bodies beside the rim of a strip of needles were told to be further away than they are.
+        let is_given = || match facet.furthest(towards) {
+            Furthest::Face => facet.normal.dot(towards) > 0.0,
+            furthest => facet.may_give(ground, furthest, towards),
+        };
         let is_meant = is_own || !ground.is_one_sided() || is_given();
         Self { number: facet.number, separation, doubt, ends, normal, is_own, is_meant }
     }
