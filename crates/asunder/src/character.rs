@@ -58,8 +58,8 @@ pub struct Walk<N> {
     /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: what is steeper is a
     /// wall. At first 0.7, 45.6 degrees; a NaN counts as that.
     pub steepest: f32,
-    /// The height of steps that are climbed, 0 for none. At first 0.35 of the shape's bounding radius: a third of a
-    /// metre for a grown-up.
+    /// The height of steps that are climbed, up to half a skin more or less, 0 for none; what is higher is a wall. At first 0.35 of
+    /// the shape's bounding radius: a third of a metre for a grown-up.
     pub step: f32,
     /// How far down the ground is followed by who stood on it and does not go up, 0 for not at all. At first as
     /// high as a step.

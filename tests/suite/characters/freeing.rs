@@ -1,8 +1,8 @@
 //! Out of solids, and the truth where there is no way out.
 
 use super::stage::{Hero, capsule, crate_of_a_person, cuboid, floor, is_free, put};
-use asunder::glam::DVec3;
-use asunder::{Collider3, Filter3, Pair3, Pose3, Separation3, Sphere, World3};
+use asunder::glam::{DVec3, Quat, Vec3};
+use asunder::{Collider3, Filter3, Pair3, Pose3, Separation3, Shape3, Sphere, TriMesh, World3};
 use asunder_scenes::random::Random;
 
 #[test]
@@ -142,4 +142,18 @@ fn freedom_is_exactly_that() {
         freed_of_many += usize::from(freed.is_free && freed.moved != DVec3::ZERO && world.len() > 3);
     }
     assert!(wedged < 100 && freed_of_many > 500, "{wedged} of them are wedged, {freed_of_many} freed");
+}
+
+/// Symptom: of a mesh that lay in another one it was said that it is free. Cause: two grounds have no manifolds.
+#[test]
+fn ground_in_ground_is_not_free() {
+    let corners = [[-3.0, 0.0, -3.0], [-3.0, 0.0, 3.0], [3.0, 0.0, -3.0], [3.0, 0.0, 3.0]].map(Vec3::from);
+    let mesh = TriMesh::new(corners.to_vec(), vec![[0, 1, 2], [2, 1, 3]]).unwrap();
+    let mut world = World3::new();
+    world.insert(Collider3::new(mesh.clone()));
+    let at = Pose3::new([0.0, 0.1, 0.0], Quat::from_xyzw(0.0, 0.0, 0.25, 1.0)).unwrap();
+    let mesh = Shape3::from(mesh);
+    assert!(!world.depenetrate((&mesh, &at), &Filter3::new()).is_free);
+    let above = Pose3::at([0.0, 0.1, 0.0]).unwrap();
+    assert!(world.depenetrate((&mesh, &above), &Filter3::new()).is_free);
 }

@@ -2,7 +2,8 @@
 
 use super::stage::{Hero, capsule, cosine, crate_of_a_person, floor, put, sine};
 use asunder::glam::{DVec3, Quat, Vec3};
-use asunder::{Collider3, Hull, Pose3, Segment3, Sphere, Triangle3, World3};
+use asunder::{Collider3, HalfSpace, Hull, Pose3, Segment3, Sphere, Triangle3, World3};
+use asunder_scenes::random::Random;
 
 /// Adds an upright wall through the origin, of which the far side is solid, turned about y.
 fn wall(world: &mut World3, degrees: f64) {
@@ -174,4 +175,60 @@ fn along_the_crease_of_two_walls_the_way_leads_on() {
         assert!(frame < 100 || (slide.moved - DVec3::Z * 0.1).length() < 1e-3, "frame {frame}: {slide:?}");
         pose = slide.pose;
     }
+}
+
+/// Symptom: before a kerb a little higher than a step a hero stood still, and was told that nothing was in the way. Cause: its round
+/// feet may hold on to edges a little higher than those that it gets up on, and what holds was no wall.
+#[test]
+fn a_kerb_that_is_too_high_is_a_wall() {
+    let (mut climbed, mut stopped) = (0, 0);
+    for millimetres in 290..380 {
+        let height = f64::from(millimetres) * 1e-3;
+        let mut world = floor();
+        put(&mut world, [1.0, 0.5 * height as f32, 9.0], [3.0, 0.5 * height, 0.0], 0.0);
+        for aside in [0.0, 0.02] {
+            let mut hero = Hero::new(&world, capsule(), [0.0, 0.0, -1.0]);
+            for _ in 0..60 {
+                hero.step([0.05, -0.02, aside]);
+            }
+            if hero.feet().x > 2.5 {
+                climbed += 1;
+                continue;
+            }
+            let slide = hero.step([0.05, -0.02, aside]);
+            assert_eq!(slide.walls.len(), 1, "{height}, {aside}: {slide:?}");
+            assert_eq!(slide.blocked, aside == 0.0, "{height}: {slide:?}");
+            stopped += 1;
+        }
+    }
+    assert!(climbed > 40 && stopped > 40, "{climbed} got up, {stopped} did not");
+}
+
+/// Symptom: who walked into a corner of which one wall leans over stood still and was not blocked. Cause: the way was turned along one
+/// wall, and then along the other and the ground: back to where it came from.
+#[test]
+fn a_corner_blocks_whichever_wall_leans_over() {
+    let mut random = Random::new(0xC0_4E4);
+    let mut blocked = 0;
+    for case in 0..400 {
+        let mut world = World3::new();
+        world.insert(Collider3::new(HalfSpace::new(Vec3::Y).unwrap()));
+        for side in [-1.0, 1.0] {
+            let lean = random.range(-0.3, 0.0) as f32;
+            let normal = Vec3::new(side * random.range(0.3, 1.0) as f32, lean, -1.0);
+            world.insert(Collider3::new(HalfSpace::new(normal).unwrap()));
+        }
+        let shape = if case % 2 == 0 { capsule() } else { crate_of_a_person() };
+        let mut hero = Hero::new(&world, shape, [0.0, 0.0, -4.0]);
+        let way = [random.range(-0.005, 0.005) as f32, -0.003, 0.05];
+        for _ in 0..300 {
+            hero.step(way);
+        }
+        let slide = hero.step(way);
+        if slide.moved.length() < 1e-9 {
+            assert!(slide.blocked && slide.walls.len() == 2, "{case}: {slide:?}");
+            blocked += 1;
+        }
+    }
+    assert!(blocked > 300, "{blocked}");
 }

@@ -141,9 +141,9 @@ pub(super) fn has_entered<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Fi
     is_any(world, at, filter, |body| !S::has_one_side(body) && blocks(at, body))
 }
 
-/// Whether a shape overlaps a body that sees it: of one-sided ground, a front.
+/// Whether a shape overlaps a body that sees it: of one-sided ground, a front. Two grounds see each other from all sides.
 fn blocks<S: Walks>(at: At<'_, S>, body: &Collider<S>) -> bool {
-    if S::is_ground(&body.shape) {
+    if S::is_ground(&body.shape) && !S::is_ground(at.0) {
         S::gap(at, body, 0.0).is_some_and(|(gap, _)| gap <= 0.0)
     } else {
         S::overlaps(at, body)

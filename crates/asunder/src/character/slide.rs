@@ -184,7 +184,8 @@ impl<S: Walks> Mover<'_, S> {
                 bounds.clear();
                 continue;
             }
-            if !bound.holds {
+            // Round feet may hold on to an edge that they do not get up on.
+            if climb || !bound.holds {
                 note::<S>(slid, &hit);
             }
             let same = |old: &Bound<S>| (old.body, old.parts) == (bound.body, bound.parts);
@@ -202,25 +203,45 @@ impl<S: Walks> Mover<'_, S> {
     /// - What holds takes what goes down: nobody slides off ground that can be walked on.
     /// - What is too steep is a wall to who would go up it, and a slope to who falls.
     /// - On ground one goes as fast uphill and downhill as on the level.
+    /// - What leans over is a wall to who walks: turned along other walls first, and then along this and the ground, the way could lead
+    ///   back to where it came from.
     fn way(&self, left: S::Point, bounds: &[Bound<S>]) -> S::Point {
         let Gait { up, .. } = self.gait;
         let normals = |of: &dyn Fn(&Bound<S>) -> Option<S::Point>| {
             bounds.iter().filter_map(of).collect::<ArrayVec<S::Point, SLIDES>>()
         };
-        let level = along(self.gait.level(left), &normals(&|bound| bound.wall), S::crease);
         let mut rise = left.dot(up);
-        if bounds.iter().any(|bound| bound.holds) {
+        let holds = bounds.iter().any(|bound| bound.holds);
+        if holds {
             rise = rise.max(0.0);
         }
+        let ground = bounds.iter().rev().find(|bound| bound.is_ground && rise <= 0.0);
+        let floor = ground.map_or(up, |ground| ground.normal);
+        let wall = |bound: &Bound<S>| {
+            let over = || if holds && rise <= 0.0 { self.wall_over(floor, bound.normal) } else { None };
+            bound.wall.or_else(over)
+        };
+        let level = along(self.gait.level(left), &normals(&wall), S::crease);
         let mut way = level + up * rise;
-        let ground = bounds.iter().rev().find(|bound| bound.is_ground);
-        if let (Some(ground), true) = (ground, rise <= 0.0) {
+        if let Some(ground) = ground {
             let on_ground = level - up * (level.dot(ground.normal) / up.dot(ground.normal));
             if let Some(unit) = on_ground.unit() {
                 way = unit * level.length();
             }
         }
         along(way, &normals(&|bound| Some(bound.normal)), S::crease)
+    }
+
+    /// What leans over as a wall to who walks on a plane: which way leads into it, seen from above. Nothing where it leans over no more
+    /// than a wall, or lies over the plane as a ceiling.
+    fn wall_over(&self, floor: S::Point, normal: S::Point) -> Option<S::Point> {
+        let up = self.gait.up;
+        let rise = normal.dot(up);
+        if rise > -UPRIGHT {
+            return None;
+        }
+        let aside = normal - floor * (rise / floor.dot(up));
+        if aside.length() > UPRIGHT { aside.unit() } else { None }
     }
 
     /// Goes until something is in the way. Tells which share of the way was gone, and what is in the way if it was
