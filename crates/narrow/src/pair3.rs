@@ -1,6 +1,7 @@
 //! One pair in space.
 
 mod ball;
+mod ball_on_plane;
 mod balls;
 mod compounds;
 mod nearest;
