@@ -13,7 +13,7 @@
 
 use super::{IDENTITY, Pair3, Part, reach_of};
 use crate::answer::{Closest3, ContactPoint3, Measured3, Separation3, Tier, Verdict};
-use crate::exact;
+use crate::exact::{self, Corner};
 use crate::feature::{Feature, FeatureId};
 use crate::precision::{IN_SPACE, Precision, at_least, signed};
 use crate::room::Room;
@@ -75,6 +75,12 @@ impl Pair3<'_> {
             Some(ball) => Some(ball.contact(margin, manifolds)),
             None => self.ball().map(|ball| ball.contact(margin, manifolds)),
         }
+    }
+
+    /// By integers, of shapes that need no axes for it; by which corners is where to begin.
+    pub(super) fn overlaps_exactly(&self, corners: &[Corner]) -> bool {
+        let (a, b) = (Part::whole(self.shape_a, &IDENTITY), Part::whole(self.shape_b, &IDENTITY));
+        exact::overlaps3([&a.site(&self.pose_a), &b.site(&self.pose_b)], corners)
     }
 
     #[inline]
@@ -181,9 +187,7 @@ impl Told for Balls<'_> {
 
     #[cold]
     fn exactly(&self) -> bool {
-        let Pair3 { shape_a, shape_b, pose_a, pose_b, .. } = self.pair;
-        let (a, b) = (Part::whole(shape_a, &IDENTITY), Part::whole(shape_b, &IDENTITY));
-        exact::overlaps3([&a.site(pose_a), &b.site(pose_b)], &[[0, 0]])
+        self.pair.overlaps_exactly(&[[0, 0]])
     }
 
     #[inline]
