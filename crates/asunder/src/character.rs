@@ -159,8 +159,8 @@ pub struct Slide<K, O, N, P> {
     pub moved: P,
     /// What it stands on, if it does: ground no steeper than it can walk on, or the edge of a step.
     pub ground: Option<Obstacle<K, N, P>>,
-    /// What it met that it cannot stand on, walls and ceilings, in the order in which it met them; no more than the
-    /// first eight.
+    /// What it met that it cannot stand on or does not get up on, walls, ceilings and kerbs, in the order in which it met them; no more
+    /// than the first eight.
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
     pub blocked: bool,

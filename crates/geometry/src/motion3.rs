@@ -117,8 +117,9 @@ impl Motion3 {
     /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second about the axis that the
     /// angular one points along, both in world axes and of the body's position.
     ///
-    /// It ends where the body would after a turn at constant speed, by `libm`: the same bits on every platform. On the way it turns the
-    /// shorter way, so half a turn and more in one step is a wheel seen to run backwards: take shorter steps.
+    /// It ends where the body would after a turn at constant speed, by `libm`, rounded to f32: the same bits on every platform. What turns by
+    /// less than 1e-7 rad a step may stand still, or turn by twice as much. On the way it turns the shorter way, so half a turn and
+    /// more in one step is a wheel seen to run backwards: take shorter steps.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::{DVec3, Vec3}};

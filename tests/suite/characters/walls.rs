@@ -232,3 +232,38 @@ fn a_corner_blocks_whichever_wall_leans_over() {
     }
     assert!(blocked > 300, "{blocked}");
 }
+
+/// Where two grounds meet under a ceiling that slants, each of them leads along the ceiling another way.
+#[test]
+fn a_valley_under_a_slanting_ceiling_blocks() {
+    let plane = |normal: [f32; 3], at: [f64; 3]| {
+        let half_space = HalfSpace::new(Vec3::from(normal)).unwrap();
+        Collider3::new(half_space).at(Pose3::at(at).unwrap()).fixed()
+    };
+    let round: asunder::Shape3 = Sphere::new(0.5).unwrap().into();
+    for (shape, grounds, ceiling, way) in [
+        (capsule(), [[0.0, 1.0, 0.0], [0.1, 1.0, 0.3]], ([-0.4, -1.0, 0.0], 3.3), [0.05, -0.003, -0.006]),
+        (capsule(), [[-0.1, 1.0, 0.3], [0.0, 1.0, -0.3]], ([-0.4, -1.0, 0.1], 3.3), [0.05, -0.003, 0.01]),
+        (round, [[-0.4, 1.0, 0.4], [-0.1, 1.0, -0.4]], ([-0.5, -1.0, 0.3], 2.5), [0.05, -0.003, 0.0]),
+    ] {
+        let mut world = World3::new();
+        for ground in grounds {
+            world.insert(plane(ground, [0.0; 3]));
+        }
+        world.insert(plane(ceiling.0, [0.0, ceiling.1, 0.0]));
+        let mut hero = Hero::new(&world, shape, [-1.0, 0.5, 0.0]);
+        for _ in 0..60 {
+            hero.step([0.0, -0.05, 0.0]);
+        }
+        for _ in 0..400 {
+            hero.step(way);
+        }
+        let mut path = 0.0;
+        for _ in 0..200 {
+            let slide = hero.step(way);
+            path += slide.moved.length();
+            assert!(slide.blocked, "{grounds:?}: {slide:?}");
+        }
+        assert!(path < 1e-3, "{grounds:?}: trembles over {path} m");
+    }
+}

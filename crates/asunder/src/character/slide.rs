@@ -14,6 +14,12 @@ use core::ops::ControlFlow;
 /// Casts along the way, and so walls that can be slid along, one after the other.
 const SLIDES: usize = 6;
 
+/// Sine of the angle between a ceiling and the ground up to which it is no wall to who walks there.
+const LEAST_ASIDE: f64 = 1.0 / 16.0;
+
+/// Planes that were met, and what leans over once for each of them.
+type Planes<S> = ArrayVec<<S as Asked>::Point, { SLIDES * SLIDES }>;
+
 /// How far beyond its way a shape looks, in skins: what it would come closer to than its skin, it has to see.
 const OUTLOOK: f64 = 5.0;
 
@@ -207,21 +213,17 @@ impl<S: Walks> Mover<'_, S> {
     ///   back to where it came from.
     fn way(&self, left: S::Point, bounds: &[Bound<S>]) -> S::Point {
         let Gait { up, .. } = self.gait;
-        let normals = |of: &dyn Fn(&Bound<S>) -> Option<S::Point>| {
-            bounds.iter().filter_map(of).collect::<ArrayVec<S::Point, SLIDES>>()
-        };
         let mut rise = left.dot(up);
         let holds = bounds.iter().any(|bound| bound.holds);
         if holds {
             rise = rise.max(0.0);
         }
+        let mut walls: Planes<S> = bounds.iter().filter_map(|bound| bound.wall).collect();
+        if holds && rise <= 0.0 {
+            self.add_walls_over(bounds, &mut walls);
+        }
+        let level = along(self.gait.level(left), &walls, S::crease);
         let ground = bounds.iter().rev().find(|bound| bound.is_ground && rise <= 0.0);
-        let floor = ground.map_or(up, |ground| ground.normal);
-        let wall = |bound: &Bound<S>| {
-            let over = || if holds && rise <= 0.0 { self.wall_over(floor, bound.normal) } else { None };
-            bound.wall.or_else(over)
-        };
-        let level = along(self.gait.level(left), &normals(&wall), S::crease);
         let mut way = level + up * rise;
         if let Some(ground) = ground {
             let on_ground = level - up * (level.dot(ground.normal) / up.dot(ground.normal));
@@ -229,19 +231,26 @@ impl<S: Walks> Mover<'_, S> {
                 way = unit * level.length();
             }
         }
-        along(way, &normals(&|bound| Some(bound.normal)), S::crease)
+        let planes: Planes<S> = bounds.iter().map(|bound| bound.normal).collect();
+        along(way, &planes, S::crease)
     }
 
-    /// What leans over as a wall to who walks on a plane: which way leads into it, seen from above. Nothing where it leans over no more
-    /// than a wall, or lies over the plane as a ceiling.
-    fn wall_over(&self, floor: S::Point, normal: S::Point) -> Option<S::Point> {
+    /// What leans over as a wall to who walks: which way leads into it along each ground that was met, or on the level where there is
+    /// none. A ceiling all but parallel to the ground is none: which way leads into it would be rounding.
+    fn add_walls_over(&self, bounds: &[Bound<S>], walls: &mut Planes<S>) {
         let up = self.gait.up;
-        let rise = normal.dot(up);
-        if rise > -UPRIGHT {
-            return None;
+        let is_over = |bound: &&Bound<S>| bound.normal.dot(up) <= -UPRIGHT;
+        let grounds = || bounds.iter().filter(|bound| bound.is_ground).map(|bound| bound.normal);
+        for over in bounds.iter().filter(is_over) {
+            let level = grounds().next().is_none().then_some(up);
+            for floor in grounds().chain(level) {
+                let aside = over.normal - floor * (over.normal.dot(up) / floor.dot(up));
+                if let (Some(wall), true) = (aside.unit(), aside.length() > LEAST_ASIDE) {
+                    // There is room for all of all.
+                    let _ = walls.try_push(wall);
+                }
+            }
         }
-        let aside = normal - floor * (rise / floor.dot(up));
-        if aside.length() > UPRIGHT { aside.unit() } else { None }
     }
 
     /// Goes until something is in the way. Tells which share of the way was gone, and what is in the way if it was

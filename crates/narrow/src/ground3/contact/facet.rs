@@ -6,11 +6,14 @@
 use super::ball::nearest_to;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::tolerance::{ALIGNED_FACES, SAME_NORMAL};
+use asunder_geometry::tolerance::SAME_NORMAL;
 
 /// Triangles around a corner that are looked at, each way. More than that meet in no level that was meant to be one: then a corner
 /// gives no direction but its triangles' own.
 const MOST_AROUND: usize = 64;
+
+/// Cosine of the angle up to which a triangle's own normal leads as good as the same way as what ground refuses: 0.1 rad.
+const NEARLY: f64 = 0.995;
 
 /// A triangle in the ground's axes, its normal on the side of the part that looks at it.
 #[derive(Clone, Copy, Debug)]
@@ -365,7 +368,7 @@ impl Facet {
 
     /// Whether the triangle's own normal may stand for a unit direction that ground refuses: it leads as good as the same way.
     pub(super) fn is_nearly_own(&self, towards: DVec3) -> bool {
-        self.normal.dot(towards) >= ALIGNED_FACES
+        self.normal.dot(towards) >= NEARLY
     }
 
     /// Whether ground around a feature lets it give this unit direction, from the ground to the body.

@@ -67,14 +67,15 @@ impl Seen<'_> {
             return;
         }
         let heard = known.heard();
-        self.add_those(true, known, |refused, _| heard.iter().any(|&by| self.is_freed(refused, by)));
+        let is_freed = |refused: &Refused| heard.iter().any(|&by| self.is_freed(refused, by));
+        self.add_those(true, known, |refused, _| is_freed(refused));
         if known.refused.iter().all(|refused| refused.is_own) {
             return;
         }
         let by_now = known.heard();
         self.add_those(false, known, |refused, known| {
             let is_far = |by: &&Heard| refused.facet.normal.dot(by.0) < FRAC_1_SQRT_2;
-            heard.iter().any(|&by| self.is_freed(refused, by))
+            is_freed(refused)
                 || by_now
                     .iter()
                     .filter(is_far)
@@ -98,12 +99,16 @@ impl Seen<'_> {
         }
     }
 
+    /// Whether the part is deeper in a triangle, along its own normal, than was found along another.
+    fn is_deeper(&self, refused: &Refused, least: f64) -> bool {
+        refused.extent.low - self.standing.radius < least - self.standing.slack
+    }
+
     /// Whether a normal frees a triangle, as the part's lowest vertex shows.
     fn is_freed(&self, refused: &Refused, (normal, least): Heard) -> bool {
         let standing = self.standing;
         let facet = &refused.facet;
-        let separation = refused.extent.low - standing.radius;
-        separation < least - standing.slack && !is_same(facet.normal, normal) && {
+        self.is_deeper(refused, least) && !is_same(facet.normal, normal) && {
             let [a, b, c] = facet.corners;
             let height = |corner: DVec3| normal.dot(corner - facet.origin());
             let top = height(a).max(height(b)).max(height(c));
@@ -116,7 +121,7 @@ impl Seen<'_> {
     fn is_freed_by_face(&self, refused: &Refused, (normal, least): Heard, known: &mut Known) -> bool {
         let standing = self.standing;
         let facet = &refused.facet;
-        if refused.extent.low - standing.radius >= least - standing.slack {
+        if !self.is_deeper(refused, least) {
             return false;
         }
         if let Shape3::Cuboid(_) = standing.part.shape {
