@@ -387,8 +387,8 @@ impl World<Plane> {
     /// bodies met at the same time, that of the lowest slot. One that it touches already is met at fraction 0.
     ///
     /// A displacement of zero meets what the shape overlaps, but for one-sided ground that it is behind, and one that is not finite
-    /// meets nothing. Who goes on along what it
-    /// met keeps a skin of a tenth of a millimetre: normals are f32, and so a speed that was cleared of one still goes in.
+    /// meets nothing. Who goes on along what it met keeps a skin of a tenth of a millimetre: normals are f32, and so a speed that was
+    /// cleared of one still goes in.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::{DVec2, Vec2}};

@@ -115,7 +115,7 @@ impl Motion3 {
     }
 
     /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second about the axis that the
-    /// angular one points along, both in world axes and of the body's position.
+    /// angular one points along, through the body's position; both in world axes.
     ///
     /// It ends where the body would after a turn at constant speed, by `libm`, rounded to f32: the same bits on every platform. What turns by
     /// less than 1e-7 rad a step may stand still, or turn by twice as much. On the way it turns the shorter way, so half a turn and

@@ -17,7 +17,7 @@ const SLIDES: usize = 6;
 /// Sine of the angle between a ceiling and the ground up to which it is no wall to who walks there.
 const LEAST_ASIDE: f64 = 1.0 / 16.0;
 
-/// Planes that were met, and what leans over once for each of them.
+/// Planes that were met, and walls that what leans over is along each.
 type Planes<S> = ArrayVec<<S as Asked>::Point, { SLIDES * SLIDES }>;
 
 /// How far beyond its way a shape looks, in skins: what it would come closer to than its skin, it has to see.
@@ -209,8 +209,8 @@ impl<S: Walks> Mover<'_, S> {
     /// - What holds takes what goes down: nobody slides off ground that can be walked on.
     /// - What is too steep is a wall to who would go up it, and a slope to who falls.
     /// - On ground one goes as fast uphill and downhill as on the level.
-    /// - What leans over is a wall to who walks: turned along other walls first, and then along this and the ground, the way could lead
-    ///   back to where it came from.
+    /// - What leans over is a wall to who walks. Turned along other walls first, and only then along the ceiling and the ground, the way
+    ///   could lead back to where it came from.
     fn way(&self, left: S::Point, bounds: &[Bound<S>]) -> S::Point {
         let Gait { up, .. } = self.gait;
         let mut rise = left.dot(up);
@@ -223,9 +223,9 @@ impl<S: Walks> Mover<'_, S> {
             self.add_walls_over(bounds, &mut walls);
         }
         let level = along(self.gait.level(left), &walls, S::crease);
-        let ground = bounds.iter().rev().find(|bound| bound.is_ground && rise <= 0.0);
         let mut way = level + up * rise;
-        if let Some(ground) = ground {
+        let ground = bounds.iter().rev().find(|bound| bound.is_ground);
+        if let (Some(ground), true) = (ground, rise <= 0.0) {
             let on_ground = level - up * (level.dot(ground.normal) / up.dot(ground.normal));
             if let Some(unit) = on_ground.unit() {
                 way = unit * level.length();
@@ -246,7 +246,7 @@ impl<S: Walks> Mover<'_, S> {
             for floor in grounds().chain(level) {
                 let aside = over.normal - floor * (over.normal.dot(up) / floor.dot(up));
                 if let (Some(wall), true) = (aside.unit(), aside.length() > LEAST_ASIDE) {
-                    // There is room for all of all.
+                    // One for each two planes, at most.
                     let _ = walls.try_push(wall);
                 }
             }

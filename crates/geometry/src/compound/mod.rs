@@ -73,8 +73,8 @@ impl core::fmt::Display for CompoundError {
 
 impl core::error::Error for CompoundError {}
 
-/// Parts up to which all of them are looked at for the box around them: of fewer than this, their tree is no shorter.
-const FEW_PARTS: usize = 16;
+/// Parts from which on the box around them is found by their tree; of fewer all are looked at.
+const MANY_PARTS: usize = 16;
 
 /// Where parts are, by their boxes.
 fn tree_of(boxes: &[Aabb3]) -> Tree {

@@ -1,6 +1,6 @@
 //! Several convex parts in the plane under one collider.
 
-use super::{CompoundError, FEW_PARTS, tree_of};
+use super::{CompoundError, MANY_PARTS, tree_of};
 use crate::aabb::{Aabb2, Aabb3, Bounds};
 use crate::ground::tree::{Line, Near, Reach, Sides, Tree};
 use crate::outward::{around2, round_up};
@@ -254,7 +254,7 @@ impl Compound2 {
             around2(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
         };
         let parts = self.parts();
-        if parts.len() < FEW_PARTS {
+        if parts.len() < MANY_PARTS {
             return parts.iter().map(box_of).fold(Aabb2::NOTHING, |all, part| all.union(&part));
         }
         let (rotation, place) = (pose.rotation(), pose.position());
@@ -262,10 +262,9 @@ impl Compound2 {
         // More than a part's own box is wider by, and the tree's boxes lose here; and a rotation's length is not quite one, which shrinks
         // them and no radius.
         let reach = self.center.as_dvec2().length() + f64::from(self.outer_radius);
-        let grow = f64::from(margin).abs();
-        let grow =
-            f64::from(margin) + 512.0 * f64::EPSILON * (place.abs().element_sum() + 8.0 * reach + grow);
-        let grow = grow + reach * (1.0 - apart.length()).abs();
+        let lengths = place.abs().element_sum() + 8.0 * reach + f64::from(margin).abs();
+        let lost = 512.0 * f64::EPSILON * lengths + reach * (1.0 - apart.length()).abs();
+        let grow = f64::from(margin) + lost;
         let reach_of = |[a, b, _, d, e, _]: Sides| -> Reach {
             let [low, high] = [Vec2::new(a, b).as_dvec2(), Vec2::new(d, e).as_dvec2()];
             let (middle, half) = (place + rotation.turn((low + high) * 0.5), (high - low) * 0.5);

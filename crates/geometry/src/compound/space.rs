@@ -1,6 +1,6 @@
 //! Several convex parts in space under one collider.
 
-use super::{CompoundError, FEW_PARTS, tree_of};
+use super::{CompoundError, MANY_PARTS, tree_of};
 use crate::aabb::{Aabb3, Bounds};
 use crate::ground::tree::{Line, Near, Reach, Sides, Tree};
 use crate::outward::{around3, round_up};
@@ -251,16 +251,15 @@ impl Compound3 {
             around3(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
         };
         let parts = self.parts();
-        if parts.len() < FEW_PARTS {
+        if parts.len() < MANY_PARTS {
             return parts.iter().map(box_of).fold(Aabb3::NOTHING, |all, part| all.union(&part));
         }
         let (basis, place) = (pose.basis(), pose.position());
         let apart = [basis.x.abs(), basis.y.abs(), basis.z.abs()];
         // More than a part's own box is wider by, and the tree's boxes lose here.
         let reach = self.center.as_dvec3().length() + f64::from(self.outer_radius);
-        let grow = f64::from(margin).abs();
-        let grow =
-            f64::from(margin) + 512.0 * f64::EPSILON * (place.abs().element_sum() + 8.0 * reach + grow);
+        let lengths = place.abs().element_sum() + 8.0 * reach + f64::from(margin).abs();
+        let grow = f64::from(margin) + 512.0 * f64::EPSILON * lengths;
         let reach_of = |[a, b, c, d, e, f]: Sides| -> Reach {
             let [low, high] = [Vec3::new(a, b, c).as_dvec3(), Vec3::new(d, e, f).as_dvec3()];
             let (middle, half) = (place + basis.turn((low + high) * 0.5), (high - low) * 0.5);

@@ -35,46 +35,30 @@ struct Balls<'p> {
 impl Pair3<'_> {
     #[inline]
     pub(super) fn verdict_of_balls(&self) -> Option<Verdict> {
-        if let Some(balls) = self.balls() {
-            return Some(balls.verdict());
-        }
-        match self.ball_on_plane() {
-            Some(ball) => Some(ball.verdict()),
-            None => self.ball().map(|ball| ball.verdict()),
-        }
+        (self.balls().map(|balls| balls.verdict()))
+            .or_else(|| self.ball_on_plane().map(|ball| ball.verdict()))
+            .or_else(|| self.ball().map(|ball| ball.verdict()))
     }
 
     #[inline]
     pub(super) fn separation_of_balls(&self, limit: f64) -> Option<Separation3> {
-        if let Some(balls) = self.balls() {
-            return Some(balls.within(limit));
-        }
-        match self.ball_on_plane() {
-            Some(ball) => Some(ball.within(limit)),
-            None => self.ball().map(|ball| ball.seen().within(limit)),
-        }
+        (self.balls().map(|balls| balls.within(limit)))
+            .or_else(|| self.ball_on_plane().map(|ball| ball.within(limit)))
+            .or_else(|| self.ball().map(|ball| ball.seen().within(limit)))
     }
 
     #[inline]
     pub(super) fn distance_of_balls(&self) -> Option<Option<Closest3>> {
-        if let Some(balls) = self.balls() {
-            return Some(balls.distance());
-        }
-        match self.ball_on_plane() {
-            Some(ball) => Some(ball.distance()),
-            None => self.ball().map(|ball| ball.seen().distance()),
-        }
+        (self.balls().map(|balls| balls.distance()))
+            .or_else(|| self.ball_on_plane().map(|ball| ball.distance()))
+            .or_else(|| self.ball().map(|ball| ball.seen().distance()))
     }
 
     #[inline]
     pub(super) fn contact_of_balls(&self, margin: f32, manifolds: &mut impl Room) -> Option<Option<bool>> {
-        if let Some(balls) = self.balls() {
-            return Some(balls.contact(margin, manifolds));
-        }
-        match self.ball_on_plane() {
-            Some(ball) => Some(ball.contact(margin, manifolds)),
-            None => self.ball().map(|ball| ball.contact(margin, manifolds)),
-        }
+        (self.balls().map(|balls| balls.contact(margin, manifolds)))
+            .or_else(|| self.ball_on_plane().map(|ball| ball.contact(margin, manifolds)))
+            .or_else(|| self.ball().map(|ball| ball.contact(margin, manifolds)))
     }
 
     /// By integers, of shapes that need no axes for it; by which corners is where to begin.
@@ -223,9 +207,35 @@ impl Balls<'_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use asunder_geometry::{Compound3, Pose3, Sphere};
+
+    /// Checks that a pair says what the same pair does by the general path, with ends of points so near to each other, as a share of a
+    /// metre and of how far they are from their bodies; whether they are near enough for a point.
+    pub(in crate::pair3) fn says_as(whole: &Pair3<'_>, general: &Pair3<'_>, near: f32) -> bool {
+        assert_eq!(whole.overlaps(), general.overlaps());
+        let found = [whole, general].map(|pair| pair.separation(f32::INFINITY));
+        let [Separation3::Measured(one), Separation3::Measured(other)] = found else { panic!("no limit") };
+        assert!((one.separation - other.separation).abs() <= one.error + other.error);
+        assert!((one.normal - other.normal).length() < 1e-6 && one.error <= other.error);
+        let closest = [whole.distance(), general.distance()];
+        assert_eq!(closest.map(|closest| closest.is_none()), [whole.overlaps(); 2]);
+        if let [Some(one), Some(other)] = closest {
+            assert!((one.distance - other.distance).abs() <= one.error + other.error);
+        }
+        let told = [whole, general].map(|pair| pair.manifold(0.1));
+        let [Some(one), Some(other)] = told else {
+            assert_eq!(told.map(|told| told.is_none()), [true; 2]);
+            return false;
+        };
+        assert_eq!((one.points.len(), other.points.len()), (1, 1));
+        let (one, other) = (one.points[0], other.points[0]);
+        assert_eq!(one.feature, other.feature);
+        let off = (one.anchor_a - other.anchor_a).length() + (one.anchor_b - other.anchor_b).length();
+        assert!(off <= near * (1.0 + one.anchor_a.length() + one.anchor_b.length()), "{off}");
+        true
+    }
 
     fn ball(radius: f32) -> Shape3 {
         Sphere::new(radius).unwrap().into()
@@ -270,32 +280,9 @@ mod tests {
             let there = Pose3::at(there + DVec3::X * far).unwrap();
             let part = Compound3::new([(Pose3::IDENTITY, a.clone())]).unwrap().into();
             let (whole, parts) = (Pair3::new(&a, &here, &b, &there), Pair3::new(&part, &here, &b, &there));
-            assert_eq!(whole.overlaps(), parts.overlaps());
-            let found = [&whole, &parts].map(|pair| pair.separation(f32::INFINITY));
-            let [Separation3::Measured(one), Separation3::Measured(other)] = found else {
-                panic!("no limit")
-            };
-            assert!((one.separation - other.separation).abs() <= one.error + other.error);
-            assert!((one.normal - other.normal).length() < 1e-5 && one.error <= other.error);
-            let points = [&whole, &parts].map(|pair| pair.manifold(0.1).map(|manifold| manifold.points[0]));
-            match points {
-                [Some(one), Some(other)] => {
-                    near += 1;
-                    assert_eq!(one.feature, other.feature);
-                    assert!(
-                        (one.anchor_a - other.anchor_a).length() + (one.anchor_b - other.anchor_b).length()
-                            < 1e-5
-                    );
-                }
-                points => {
-                    apart += 1;
-                    assert_eq!(points, [None, None]);
-                }
-            }
-            let closest = [whole.distance(), parts.distance()];
-            assert_eq!(closest.map(|closest| closest.is_none()), [whole.overlaps(); 2]);
-            if let [Some(one), Some(other)] = closest {
-                assert!((one.distance - other.distance).abs() <= one.error + other.error);
+            match says_as(&whole, &parts, 2.5e-6) {
+                true => near += 1,
+                false => apart += 1,
             }
         }
         assert!(near > 300 && apart > 300, "{near} near, {apart} apart");

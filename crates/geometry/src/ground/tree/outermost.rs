@@ -1,14 +1,14 @@
 //! Which boxes of a tree reach out furthest: how what is around all of them is found without looking at all.
 //!
 //! ```text
-//! to each of six sides: from node to node, the box that reaches furthest; hand over what it is of
-//! then all nodes, but those of which nothing reaches further than what was handed over
+//! to each of six sides: from node to node what reaches furthest there, down to a box, which is handed over
+//! then all boxes, but for those, and nodes, that reach no further than what was handed over
 //! ```
 //! The first is not sure to find what is furthest, since the box of a node that is turned reaches further than what is in it. It
 //! finds what lets the second pass over nearly all.
 
-use super::{EMPTY, IS_BOX, Node, Sides, Tree, WIDTH};
-use crate::ground::tree::MOST_DEPTH;
+use super::walk::STACK;
+use super::{EMPTY, IS_BOX, Node, Sides, Tree};
 use arrayvec::ArrayVec;
 
 /// How far something reaches to six sides: any numbers that are greater further out.
@@ -41,7 +41,7 @@ impl Tree {
             }
             reached = visitor(slot & !IS_BOX);
         }
-        let mut stack = ArrayVec::<u32, { WIDTH * (MOST_DEPTH + 1) }>::new();
+        let mut stack = ArrayVec::<u32, STACK>::new();
         stack.push(self.root);
         while let Some(slot) = stack.pop() {
             if slot & IS_BOX != 0 {

@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 use glam::{DVec3, Vec3};
 
 /// What waits while another is looked at: all but one of each node that stands above it.
-const STACK: usize = WIDTH * (MOST_DEPTH + 1);
+pub(super) const STACK: usize = WIDTH * (MOST_DEPTH + 1);
 
 /// Boxes that wait, each with its place in the order. Not an array, which is written all over before it is used: of a ray on 20,000
 /// triangles that was 4 % of the time (AMD EPYC, Zen 4, 2026-11-25).

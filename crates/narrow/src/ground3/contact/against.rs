@@ -3,7 +3,8 @@
 //!
 //! ```text
 //! of the triangle, what reaches furthest against the normal of the part's face                      (Facet::furthest)
-//! as seen along that normal, it lies within the face, and further inside than it is deep: the face's normal is the axis
+//! as seen along that normal, it lies within the face, and further inside than it is deep: the face's normal is the axis,
+//!     unless in a gap a side of the face cuts off the upper end of an edge that is not quite level
 //! else the kernels are asked
 //! ```
 //! In a gap of the cores that is the closest point. In overlap no axis that leans by less than a right angle over a side

@@ -5,6 +5,7 @@
 //! - where that direction is the triangle's own normal up to the tolerance, and along the normal all of the part's face is cut
 //!   away, or the nearest of it: the part's nearest point stands a hair outside the triangle; or the part is rounded, and what
 //!   is nearest is the round of an edge that leads over the triangle from side to side;
+//! - where a face of the part that is all but as good was preferred to it, and ground refuses that one;
 //! - of two-sided ground, where the part reaches around a rim or a fold: its centre is on one side, and what is nearest on the
 //!   other, from where the triangle is not looked at, or taken for deep; and at corners so crumpled that they have no sides.
 //!
