@@ -338,7 +338,7 @@ impl Seen<'_> {
             {
                 if unsaid.separation <= self.asking.margin.into() {
                     known.leave_unsaid(unsaid);
-                    self.refuse(prism, (facet.is_nearly_own(unsaid.normal), None), known);
+                    self.refuse(prism, (unsaid.is_own, None), known);
                 }
                 return;
             }
