@@ -93,13 +93,13 @@ fn memory_of_pairs_of_many_manifolds_is_as_documented() {
         Pose3::at([x, y, z]).unwrap()
     };
     let boxes: Vec<Collider3> = (0..400).map(|i| box_.clone().margin(0.01).unwrap().at(at(i, 0.3))).collect();
-    check_many("field", Collider3::new(field), &boxes, 1200.0);
+    check_many("field", Collider3::new(field), &boxes, 1300.0);
     let slab = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.2, 0.2, 13.0)).unwrap());
     let slabs = (0..60).map(|i| (Pose3::at([0.4 * f64::from(i), 0.0, 13.0]).unwrap(), slab.clone()));
     let floor = Collider3::new(Compound3::new(slabs).unwrap()).fixed();
     let boxes: Vec<Collider3> =
         (0..400).map(|i| box_.clone().margin(0.01).unwrap().at(at(i, 0.295))).collect();
-    check_many("slabs", floor, &boxes, 1200.0);
+    check_many("slabs", floor, &boxes, 1300.0);
 }
 
 /// What ground says that it holds, and what the allocator gave for it; checks that all of it is given back.

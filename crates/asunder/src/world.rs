@@ -46,7 +46,7 @@ impl core::error::Error for StaleKey {}
 /// is a snapshot.
 ///
 /// Memory, beside the shapes' own data: at most 450 bytes a body and 1,600 a candidate pair in space, 400 and 1,300
-/// in the plane; and 1,200 for each manifold beyond one a pair, which bodies on ground and compounds have. That is of the most
+/// in the plane; and 1,300 for each manifold beyond one a pair, which bodies on ground and compounds have. That is of the most
 /// bodies, pairs and manifolds that there have been: a world gives nothing back, but a clone of it takes no more than it
 /// needs, empty slots of bodies aside. In a scene that goes on as it did, an update allocates nothing, if it is called inside a thread pool
 /// (`rayon::ThreadPool::install`) or the feature `parallel` is off; from outside, rayon takes a block for its queue
@@ -100,6 +100,8 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) pairs: Vec<PairId>,
     /// Memory of persistent manifolds that are kept no longer.
     pub(crate) spare: S::Spare,
+    /// Pairs in a chunk of the last update that collided.
+    pub(crate) chunk: usize,
     /// What the chunks hand over.
     pub(crate) settled: Vec<Settled<S>>,
     pub(crate) last_candidates: Vec<Candidate<S::Key>>,
@@ -126,6 +128,7 @@ impl<S: Space> Scratch<S> {
             sweep: LooseSweep::new(),
             pairs: Vec::new(),
             spare: S::Spare::default(),
+            chunk: 0,
             settled: Vec::new(),
             last_candidates: Vec::new(),
             last_records: Records::new(),

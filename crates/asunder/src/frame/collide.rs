@@ -94,9 +94,13 @@ fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
 fn ask<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, is_moved, reshaped, odometers, motions, persistent, .. } = world;
     let World { candidates, records, answered, scratch, .. } = world;
-    let Scratch { pairs, settled, spare, last_candidates, last_records, last_answered, .. } = scratch;
+    let Scratch { pairs, chunk, settled, spare, last_candidates, last_records, last_answered, .. } = scratch;
     // Without a pair there is a chunk still: of what is gone.
-    let size = chunk_of(pairs.len());
+    // Who comes into an empty world is asked about.
+    let asked = settled.iter().map(|settled| settled.tally.asked).sum();
+    let asked = if settled.is_empty() { pairs.len() } else { asked };
+    let size = chunk_of(pairs.len(), asked);
+    *chunk = size;
     let records = records.chunks_of(pairs, size);
     let answered = room_for(records.len(), answered, Batch::clear);
     let settled = room_for(records.len(), settled, Settled::clear);

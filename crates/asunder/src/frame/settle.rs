@@ -45,6 +45,8 @@ pub(crate) struct Settled<S: Space> {
 pub(crate) struct Tally {
     /// The second body of each.
     pub(super) seconds: Vec<u32>,
+    /// Pairs that were asked about.
+    pub(super) asked: usize,
     pub(super) new: usize,
     pub(super) touching: usize,
     pub(super) manifolds: usize,
@@ -53,7 +55,7 @@ pub(crate) struct Tally {
 impl Tally {
     fn clear(&mut self) {
         self.seconds.clear();
-        (self.new, self.touching, self.manifolds) = (0, 0, 0);
+        (self.asked, self.new, self.touching, self.manifolds) = (0, 0, 0, 0);
     }
 
     fn count<K>(&mut self, record: &Record<K>) {
@@ -172,6 +174,7 @@ impl<S: Space> Asker<'_, S> {
                 }
             };
         }
+        settled.tally.asked = next;
         // Those that are gone came first. Numbers ascend as pairs do.
         settled.ended.sort_unstable();
     }
