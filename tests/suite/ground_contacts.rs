@@ -13,3 +13,4 @@ mod rims;
 mod scenes;
 mod slide;
 mod turned;
+mod walls;

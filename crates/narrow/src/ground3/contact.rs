@@ -108,7 +108,7 @@ use groups::Groups;
 use meeting::{Meeting, Met};
 use prism::{Incident, Prism};
 use protrusion::Levels;
-use refused::AllRefused;
+use refused::{AllRefused, Refusal};
 use round::Round;
 pub(super) use standing::doubt_of;
 use standing::{Extent, Octets, Place, Standing};
@@ -319,8 +319,8 @@ impl Seen<'_> {
         }
         match prism.add_against(&self.incident_to(facet.normal, known), &mut known.groups) {
             Against::Apart => return,
-            Against::Refused(is_own) => {
-                self.refuse(prism, (is_own, None), known);
+            Against::Refused(refusal) => {
+                self.refuse(prism, refusal, known);
                 return self.leave_unclear(number, (false, separation), known);
             }
             Against::Added(_, true) => return known.settle(number),
@@ -331,14 +331,16 @@ impl Seen<'_> {
         if let Some(axes) = axes {
             if axes.do_overlap(doubt) && prism.refuses(axes) {
                 known.settle(number);
-                return self.refuse(prism, (prism.is_own(axes), prism.told_by(axes)), known);
+                let (is_own, told) = (prism.is_own(axes), prism.told_by(axes));
+                return self.refuse(prism, Refusal { is_own, is_apart: false, told }, known);
             }
             if axes.best > doubt
                 && let Some(unsaid) = prism.refused_gap(axes)
             {
                 if unsaid.separation <= self.asking.margin.into() {
                     known.leave_unsaid(unsaid);
-                    self.refuse(prism, (unsaid.is_own, None), known);
+                    let is_own = unsaid.is_own;
+                    self.refuse(prism, Refusal { is_own, is_apart: true, told: None }, known);
                 }
                 return;
             }
@@ -354,7 +356,7 @@ impl Seen<'_> {
                 if let Some(unsaid) = gap {
                     known.leave_unsaid(unsaid);
                 }
-                self.refuse(prism, (is_own, told), known);
+                self.refuse(prism, Refusal { is_own, is_apart: !overlapping, told }, known);
             }
         }
     }

@@ -14,6 +14,7 @@
 use super::facet::Furthest;
 use super::groups::{Base, Groups, Pin};
 use super::prism::{Cut, Incident, Prism, STEEP, Span, within};
+use super::refused::Refusal;
 use crate::feature::Feature;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
@@ -28,8 +29,8 @@ pub(super) enum Against {
     Apart,
     /// Its normal is not the answer, or may not be.
     Unknown,
-    /// It is, and ground around the triangle's feature does not let it through; whether it is nearly the triangle's own.
-    Refused(bool),
+    /// It is, and ground around the triangle's feature does not let it through.
+    Refused(Refusal),
     /// It is; how deep, and whether the part certainly shares a point with the triangle.
     Added(f64, bool),
 }
@@ -81,7 +82,8 @@ impl Prism<'_> {
             return Against::Unknown;
         }
         if !facet.may_give(self.ground, furthest, -outwards) {
-            return Against::Refused(facet.is_nearly_own(-outwards));
+            let is_own = facet.is_nearly_own(-outwards);
+            return Against::Refused(Refusal { is_own, is_apart: least > doubt, told: None });
         }
         let base = Base { normal: -outwards, patch: self.ground.patch(facet.number), weight: 0.0 };
         for (share, by) in stretch.ends {

@@ -3,7 +3,8 @@
 //! ```text
 //! first those whose axis is nearly their own normal, then the others: told by their own normals, but for those that are freed
 //!     by a normal that was heard before all of them, by the part's lowest vertex
-//!     of the others, by any that is heard by then and far from their own
+//!     of the others, by any that is heard by then and far from their own; those that a gap parts from the part only if they would
+//!     be told as deeper than all else
 //! ```
 //! A normal frees a triangle if a move along it, by how deep the part was found along it, leaves the triangle, too. Of a crate that lies
 //! over the edge of a step, a millimetre deep in the tread and half a metre beyond the riser, the riser is freed by the tread.
@@ -25,10 +26,18 @@ use core::f64::consts::FRAC_1_SQRT_2;
 pub(super) struct Refused {
     facet: Facet,
     extent: Extent,
-    /// Whether that axis is nearly the triangle's own normal.
-    is_own: bool,
-    /// How deep the part is in it, and how far that may be off, where its axis is level to all of the triangle.
-    told: Option<[f64; 2]>,
+    refusal: Refusal,
+}
+
+/// What is known of an axis that was refused.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Refusal {
+    /// Whether it is nearly the triangle's own normal.
+    pub(super) is_own: bool,
+    /// Whether a gap parts the triangle from the part.
+    pub(super) is_apart: bool,
+    /// How deep the part is in the triangle, and how far that may be off, where the axis is level to all of it.
+    pub(super) told: Option<[f64; 2]>,
 }
 
 /// Most triangles that wait until all others have been seen.
@@ -47,9 +56,9 @@ impl Known {
 
 impl Seen<'_> {
     /// Keeps a triangle whose axis was refused until all others have been heard.
-    pub(super) fn refuse(&self, prism: &Prism, (is_own, told): (bool, Option<[f64; 2]>), known: &mut Known) {
+    pub(super) fn refuse(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
         if known.refused.is_full() {
-            self.add_in_place(prism, told, known);
+            self.add_in_place(prism, refusal.told, known);
             return;
         }
         let (mut facet, mut extent) = (*prism.facet, *prism.extent);
@@ -58,7 +67,7 @@ impl Seen<'_> {
         {
             (facet, extent) = (own, self.standing.extent(own.normal, own.origin()));
         }
-        let _ = known.refused.try_push(Refused { facet, extent, is_own, told });
+        let _ = known.refused.try_push(Refused { facet, extent, refusal });
     }
 
     /// Adds points of triangles whose axis was refused, by their own normals.
@@ -69,17 +78,20 @@ impl Seen<'_> {
         let heard = known.heard();
         let is_freed = |refused: &Refused| heard.iter().any(|&by| self.is_freed(refused, by));
         self.add_those(true, known, |refused, _| is_freed(refused));
-        if known.refused.iter().all(|refused| refused.is_own) {
+        if known.refused.iter().all(|refused| refused.refusal.is_own) {
             return;
         }
-        let by_now = known.heard();
+        let (by_now, deepest) = (known.heard(), known.groups.least().min(0.0));
         self.add_those(false, known, |refused, known| {
             let is_far = |by: &&Heard| refused.facet.normal.dot(by.0) < FRAC_1_SQRT_2;
+            // What a gap parts from the part is clear of it before any move, which shows nothing: the floor beside a wall was told by one
+            // corner. Only what would be told as deeper than all else is left out.
+            let may_be_freed = !refused.refusal.is_apart || self.is_deeper(refused, deepest);
+            let mut far = by_now.iter().filter(is_far);
             is_freed(refused)
-                || by_now
-                    .iter()
-                    .filter(is_far)
-                    .any(|&by| self.is_freed(refused, by) || self.is_freed_by_face(refused, by, known))
+                || far.any(|&by| {
+                    self.is_freed(refused, by) || (may_be_freed && self.is_freed_by_face(refused, by, known))
+                })
         });
     }
 
@@ -89,13 +101,13 @@ impl Seen<'_> {
         // One by one: all of them are large.
         for place in 0..known.refused.len() {
             let refused = known.refused[place];
-            if refused.is_own != is_own || is_freed(&refused, known) {
+            if refused.refusal.is_own != is_own || is_freed(&refused, known) {
                 continue;
             }
-            let Refused { facet, extent, told, .. } = &refused;
+            let Refused { facet, extent, refusal } = &refused;
             let doubt = self.doubt_over(facet);
             let prism = Prism { ground, standing, facet, extent, reach, doubt, gate: None };
-            self.add_in_place(&prism, *told, known);
+            self.add_in_place(&prism, refusal.told, known);
         }
     }
 
