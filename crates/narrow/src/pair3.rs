@@ -1,10 +1,11 @@
 //! One pair in space.
 
 mod ball;
-mod ball_on_plane;
+mod ball_on_rod;
 mod balls;
 mod compounds;
 mod nearest;
+mod on_plane;
 mod part;
 mod parts;
 
@@ -284,7 +285,7 @@ impl<'a> Pair3<'a> {
 
     pub(crate) fn general_contact(&self, margin: f32, hint: Hint, manifolds: &mut impl Room) -> (Hint, Met) {
         if let Some(found) = self.contact_of_balls(margin, manifolds) {
-            return (Hint::NONE, found.ok_or(0.0));
+            return (Hint::NONE, found);
         }
         if let Some(found) = contact_on_ground(self, margin, manifolds) {
             return (Hint::NONE, found.ok_or(0.0));

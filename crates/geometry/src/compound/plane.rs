@@ -236,10 +236,30 @@ impl Compound2 {
         self.outer_radius
     }
 
-    /// Whether any part holds a local point, in metres.
+    /// Whether any part holds a local point, in metres. Cost: that for each part whose bounding circle holds it; of 16 parts and more
+    /// the others are passed over in a tree.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let point = point.into();
-        self.parts().iter().any(|part| part.shape.contains(part.pose.transform_back(point)))
+        let reach = point.abs() + self.center.abs().as_dvec2();
+        let rounding = 64.0 * f64::EPSILON * (reach.element_sum() + f64::from(self.outer_radius));
+        let holds = |part: &Part2| {
+            // By more than rounding, and than a stored rotation may stretch it.
+            let outer = f64::from(part.shape.outer_radius()) * (1.0 + 1e-6);
+            // Most parts do not come near, and need no turn; nor does what is no number.
+            let is_near = (point - part.center).length_squared() <= outer * outer + rounding * rounding;
+            is_near && part.shape.contains(part.pose.transform_back(point))
+        };
+        let parts = self.parts();
+        if parts.len() < MANY_PARTS {
+            return parts.iter().any(holds);
+        }
+        let (low, high) = (point - DVec2::splat(rounding), point + DVec2::splat(rounding));
+        let around = Aabb2::new(low.as_vec2(), high.as_vec2());
+        let found = self.visit_near(&around, |index| match parts.get(index as usize).is_some_and(holds) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
+        found.is_break()
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards: that of all its parts' vertices. Cost: linear in the

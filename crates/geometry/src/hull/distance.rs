@@ -9,8 +9,8 @@ impl Hull {
     /// Whether the closed shape holds a local point, in metres.
     ///
     /// Without rounding, a hull of dimension 3 holds what no face has outside. A flat hull, a segment and a point
-    /// hold what lies in them exactly. With rounding, what is within the radius of the nearest feature. Cost: linear
-    /// in the faces' corners.
+    /// hold what lies in them exactly. With rounding, what is within the radius of the nearest feature. Cost: a dot
+    /// product a face; on the surface and beyond an edge, linear in the faces' corners.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         // Far beyond any shape, where squares would overflow.
@@ -20,13 +20,23 @@ impl Hull {
         if self.data.dimension < 3 && self.radius == 0.0 {
             return self.data.bears(point);
         }
-        self.data.distance_outside(point) <= f64::from(self.radius)
+        let radius = f64::from(self.radius);
+        let beyond = self.data.beyond_faces(point);
+        // Of their roundings and the point's there are some ten, and a face's own corners lie off its plane by no more than this.
+        let rounding = 32.0 * f64::EPSILON * (point.abs().element_sum() + f64::from(self.extent()));
+        if beyond > radius + rounding {
+            return false;
+        }
+        if self.data.dimension == 3 && beyond < -(rounding + 4.0 * f64::from(self.planarity_error())) {
+            return true;
+        }
+        self.data.distance_outside(point) <= radius
     }
 }
 
 impl HullData {
     /// Whether a hull without volume holds a point: exact, as long as no product of three coordinates underflows.
-    fn bears(&self, p: DVec3) -> bool {
+    pub(super) fn bears(&self, p: DVec3) -> bool {
         let vertex = |i: usize| self.vertices[i].as_dvec3();
         match self.vertices.len() {
             0 => false,
@@ -46,6 +56,17 @@ impl HullData {
                 height == 0.0 && (0..count).all(is_left)
             }
         }
+    }
+
+    /// How far a point is beyond the vertices along the normal of any face, at most, in metres: a bound on its distance from below; below
+    /// zero where it is in front of none. Of a segment or a point, which have no faces, nothing is known.
+    fn beyond_faces(&self, p: DVec3) -> f64 {
+        let mut most = f64::NEG_INFINITY;
+        for (normal, &height) in self.normals.iter().zip(&self.octets.heights) {
+            let beyond = normal.dot(p) - height;
+            most = if beyond > most { beyond } else { most };
+        }
+        most
     }
 
     /// An upper bound on a point's distance from the hull: its distance to the nearest triangle of any face, or zero

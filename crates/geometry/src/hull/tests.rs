@@ -1,4 +1,5 @@
 mod clouds;
+mod holding;
 #[cfg(feature = "serde")]
 mod restored;
 

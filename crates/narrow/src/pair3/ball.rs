@@ -6,6 +6,7 @@
 use super::balls::Told;
 use super::{Pair3, Part, reach_of};
 use crate::answer::{Tier, Verdict};
+use crate::batch::{Met, beyond};
 use crate::exact::{self, Corner};
 use crate::feature::{Feature, FeatureId};
 use crate::polyhedron::cuboids::ball::Nearest;
@@ -98,9 +99,11 @@ impl Ball<'_> {
 
     /// Whether they overlap, if they are within the margin; the manifold goes where it is wanted.
     #[inline]
-    pub(super) fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Option<bool> {
+    pub(super) fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Met {
         if self.is_far(reach_of(margin)) {
-            return None;
+            let radii = f64::from(self.cuboid.outer_radius()) + f64::from(self.radius);
+            let apart = self.pair.between.length() * (1.0 - 8.0 * f64::EPSILON);
+            return Err(beyond(apart - radii, reach_of(margin)));
         }
         self.seen().contact(margin, manifolds)
     }

@@ -5,7 +5,7 @@
 
 use super::distance::{Reached, Until, distance};
 use super::half_space::Plane;
-use super::slender;
+use super::slender::{self, Slender};
 use super::solid::Solid;
 use crate::precision::Precision;
 use asunder_geometry::glam::DVec3;
@@ -51,7 +51,7 @@ pub(crate) fn closest(a: &Placed, b: &Placed, towards: DVec3, precision: &Precis
 
 fn of_cores(a: &Solid, b: &Solid, towards: DVec3, precision: &Precision) -> Closest {
     if a.is_slender() && b.is_slender() {
-        let nearest = slender::nearest(a, b, precision.projection());
+        let nearest = slender::nearest(&Slender::of_solid(a), &Slender::of_solid(b), precision.projection());
         return Closest {
             at_least: nearest.at_least,
             at_most: nearest.distance,

@@ -37,7 +37,7 @@ use super::distance::Witness;
 use super::half_space::Plane;
 use super::manifold::{Ask, Point, Touch, touch_into};
 use super::sat::{Axes, last_of};
-use super::slender::{self, Nearest};
+use super::slender::{self, Nearest, Slender};
 use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
 use crate::exact::Site3;
@@ -144,7 +144,10 @@ impl<'a> Convex<'a> {
         match self.planes() {
             [Some(a), Some(b)] => self.told(self.told_half_spaces(a, b), limit),
             [Some(plane), None] | [None, Some(plane)] => self.told(self.told_half_space(plane), limit),
-            [None, None] => self.with_solids(|a, b| self.probe_any_solids(a, b, asked)),
+            [None, None] => match self.slenders() {
+                Some([a, b]) => self.told(self.told_slender(&a, &b), limit),
+                None => self.with_solids(|a, b| self.probe_any_solids(a, b, asked)),
+            },
         }
     }
 
@@ -156,7 +159,7 @@ impl<'a> Convex<'a> {
         accept: impl FnOnce(&Near) -> bool,
         touch: &mut Touch,
     ) -> (Probe, bool) {
-        let ([None, None], None) = (self.planes(), self.ball()) else {
+        let (([None, None], None), None) = ((self.planes(), self.ball()), self.slenders()) else {
             let probe = self.probe(asked);
             let is_made = match &probe {
                 Probe::Near(near) if accept(near) => self.touch(near, asked, touch),
@@ -182,7 +185,7 @@ impl<'a> Convex<'a> {
 
     fn probe_any_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
         if a.is_slender() && b.is_slender() {
-            self.told(self.told_slender(a, b), asked.limit)
+            self.told(self.told_slender(&Slender::of_solid(a), &Slender::of_solid(b)), asked.limit)
         } else {
             self.probe_solids(a, b, asked)
         }
@@ -206,12 +209,16 @@ impl<'a> Convex<'a> {
             return self.told_verdict(&self.told_ball(ball));
         }
         match self.planes() {
-            [None, None] => self.with_solids(|a, b| {
-                if a.is_slender() && b.is_slender() {
-                    return self.told_verdict(&self.told_slender(a, b));
-                }
-                self.verdict_of_solids(a, b)
-            }),
+            [None, None] => match self.slenders() {
+                Some([a, b]) => self.told_verdict(&self.told_slender(&a, &b)),
+                None => self.with_solids(|a, b| {
+                    if a.is_slender() && b.is_slender() {
+                        let told = self.told_slender(&Slender::of_solid(a), &Slender::of_solid(b));
+                        return self.told_verdict(&told);
+                    }
+                    self.verdict_of_solids(a, b)
+                }),
+            },
             [Some(a), Some(b)] => self.told_verdict(&self.told_half_spaces(a, b)),
             [Some(plane), None] | [None, Some(plane)] => self.told_verdict(&self.told_half_space(plane)),
         }
@@ -230,7 +237,8 @@ impl<'a> Convex<'a> {
         match self.planes() {
             [None, None] => self.with_solids(|a, b| {
                 if a.is_slender() && b.is_slender() {
-                    return self.told_slender(a, b).separation <= 0.0;
+                    let [a, b] = [Slender::of_solid(a), Slender::of_solid(b)];
+                    return self.told_slender(&a, &b).separation <= 0.0;
                 }
                 self.guess_of_solids(a, b)
             }),
@@ -243,10 +251,20 @@ impl<'a> Convex<'a> {
     /// that is worse by two preferences; filled in, since they are large. False for two half-spaces that overlap
     /// without end, which have none.
     fn touch(&self, near: &Near, asked: Asked, touch: &mut Touch) -> bool {
+        let (margin, preference) = (asked.limit, self.preference());
         let (a, b) = match &near.evidence {
             Evidence::HalfSpaces(a, b) => (a, b),
+            Evidence::HalfSpace(plane) => {
+                let slacks = [preference, self.even_depth()];
+                *touch = self.with_core_over(plane, |core| plane.touch(core, margin, slacks));
+                return true;
+            }
             Evidence::Ball(ball) => {
                 *touch = ball.touch(near.separation.into(), self.on_surfaces(ball.points(), ball.axis()));
+                return true;
+            }
+            Evidence::Slender(nearest) if let Some([a, b]) = self.slenders() => {
+                *touch = slender::touch([&a, &b], nearest, margin, preference);
                 return true;
             }
             _ => {
@@ -287,11 +305,11 @@ impl<'a> Convex<'a> {
                 let ask = Ask { axes, witness: witness.as_ref(), margin, preference, even, near, last };
                 touch_into(a, b, &ask, touch);
             }
-            Evidence::Slender(nearest) => *touch = slender::touch(a, b, nearest, margin, preference),
-            Evidence::HalfSpace(plane) => {
-                *touch = plane.touch(if plane.is_b { a } else { b }, margin, [preference, self.even_depth()]);
+            Evidence::Slender(nearest) => {
+                let [a, b] = [Slender::of_solid(a), Slender::of_solid(b)];
+                *touch = slender::touch([&a, &b], nearest, margin, preference);
             }
-            Evidence::HalfSpaces(..) | Evidence::Ball(_) => {}
+            Evidence::HalfSpace(_) | Evidence::HalfSpaces(..) | Evidence::Ball(_) => {}
         }
     }
 
@@ -314,6 +332,26 @@ impl<'a> Convex<'a> {
             Some(Plane { normal: basis.turn(half_space.unit_normal()), origin, is_b })
         };
         [plane(self.shape_a, false), plane(self.shape_b, true)]
+    }
+
+    /// Both as what they are without their radius, where they are points and segments for certain.
+    fn slenders(&self) -> Option<[Slender; 2]> {
+        let a = Slender::of(self.shape_a, (&IDENTITY, DVec3::ZERO))?;
+        Some([a, Slender::of(self.shape_b, (&self.relative, self.offset))?])
+    }
+
+    /// The shape beside a half-space, and its axes and position.
+    fn shape_over(&self, plane: &Plane) -> (&'a Shape3, (&Basis3, DVec3)) {
+        match plane.is_b {
+            true => (self.shape_a, (&IDENTITY, DVec3::ZERO)),
+            false => (self.shape_b, (&self.relative, self.offset)),
+        }
+    }
+
+    fn with_core_over<R>(&self, plane: &Plane, ask: impl FnOnce(&Solid) -> R) -> R {
+        let (shape, (basis, origin)) = self.shape_over(plane);
+        let core = shape.core();
+        ask(&Solid::new(&core, *basis, origin, f64::from(shape.radius())))
     }
 
     pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {

@@ -5,11 +5,13 @@
 
 use super::manifold::{Frame, Point, Touch, opposed_face};
 use super::reduce::{Spot, pick_four};
+use super::slender::Slender;
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
+use asunder_geometry::{Basis3, Shape3};
 
 /// Sine of the angle up to which two planes may be parallel: far more than the roundings of two unit normals.
 const PARALLEL: f64 = 1e-12;
@@ -31,7 +33,7 @@ impl Plane {
         if self.is_b { -self.normal } else { self.normal }
     }
 
-    fn height(&self, point: DVec3) -> f64 {
+    pub(crate) fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.origin)
     }
 
@@ -39,6 +41,22 @@ impl Plane {
     pub(crate) fn lowest(&self, core: &Solid) -> (usize, f64) {
         let vertex = core.support(-self.normal).vertex;
         (vertex, self.height(core.point(vertex)))
+    }
+
+    /// The same of a shape that has its axes and its origin there: where the vertex is. To make a [`Solid`] of a cuboid or a
+    /// capsule takes longer.
+    #[inline]
+    pub(crate) fn lowest_of(&self, shape: &Shape3, (basis, origin): (&Basis3, DVec3)) -> DVec3 {
+        if let Shape3::Cuboid(cuboid) = shape {
+            let (half, down) = (cuboid.half_extents().as_dvec3(), basis.turn_back(-self.normal));
+            origin + basis.turn(DVec3::select(down.cmpgt(DVec3::ZERO), half, -half))
+        } else if let Some(Slender { ends: [one, other], .. }) = Slender::of(shape, (basis, origin)) {
+            if self.height(other) < self.height(one) { other } else { one }
+        } else {
+            let core = shape.core();
+            let core = Solid::new(&core, *basis, origin, 0.0);
+            core.point(self.lowest(&core).0)
+        }
     }
 
     /// Two half-spaces: the distance of planes that look exactly away from each other; else they overlap without end.

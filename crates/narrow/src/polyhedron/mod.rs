@@ -16,7 +16,7 @@ pub(crate) mod reduce;
 mod rods;
 pub(crate) mod sat;
 pub(crate) mod simplex;
-mod slender;
+pub(crate) mod slender;
 pub(crate) mod solid;
 
 pub(crate) use distance::TELLING;

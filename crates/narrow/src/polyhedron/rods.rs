@@ -4,6 +4,7 @@
 //! rests on the whole stretch that both share, and so on both ends of that.
 
 use super::manifold::{Far, Point};
+use super::slender::Slender;
 use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
@@ -26,8 +27,10 @@ pub(super) struct Rod {
 
 impl Rod {
     /// A segment; nothing of a point.
-    pub(super) fn of_slender(core: &Solid) -> Option<Self> {
-        (core.vertices.len() == 2).then(|| Self::of_edge(core, 0))
+    pub(super) fn of_slender(core: &Slender) -> Option<Self> {
+        let &Slender { ends, is_point, radius } = core;
+        let vertices = [Feature::Vertex(0), Feature::Vertex(1)];
+        (!is_point).then_some(Self { ends, radius, edge: Feature::Edge(0), vertices })
     }
 
     fn of_edge(solid: &Solid, edge: usize) -> Self {

@@ -13,6 +13,65 @@ use super::solid::Solid;
 use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Basis3, Shape3};
+
+/// A point or a segment, in the frame of the pair, and how far the shape reaches beyond it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slender {
+    /// Of a point, both are one.
+    pub(super) ends: [DVec3; 2],
+    pub(super) is_point: bool,
+    pub(crate) radius: f64,
+}
+
+impl Slender {
+    /// Of a shape with its axes and its origin there, if it is one for certain: to make a [`Solid`] of it takes as long as to find
+    /// closest points.
+    #[inline]
+    pub(crate) fn of(shape: &Shape3, (basis, origin): (&Basis3, DVec3)) -> Option<Self> {
+        let [from, to] = match shape {
+            Shape3::Sphere(ball) => {
+                return Some(Self { ends: [origin; 2], is_point: true, radius: ball.radius().into() });
+            }
+            Shape3::Capsule(capsule) => capsule.segment().ends(),
+            Shape3::Segment(segment) => segment.ends(),
+            _ => return None,
+        };
+        let ends = [origin + basis.turn(from.as_dvec3()), origin + basis.turn(to.as_dvec3())];
+        Some(Self { ends, is_point: false, radius: shape.radius().into() })
+    }
+
+    /// Of a core that has neither faces nor more than two vertices.
+    pub(crate) fn of_solid(core: &Solid) -> Self {
+        let last = core.vertices.len() - 1;
+        Self { ends: [core.point(0), core.point(last)], is_point: last == 0, radius: core.radius }
+    }
+
+    #[inline]
+    pub(crate) fn along(&self) -> DVec3 {
+        self.ends[1] - self.ends[0]
+    }
+
+    /// Where on it, 0 to 1, from its first end to its last.
+    #[inline]
+    pub(crate) fn at(&self, place: f64) -> DVec3 {
+        self.ends[0] + self.along() * place
+    }
+
+    /// The place that is nearest to a point.
+    #[inline]
+    pub(crate) fn place_of(&self, point: DVec3) -> f64 {
+        place_on(self.ends[0], self.along(), point)
+    }
+
+    pub(crate) fn feature_at(&self, place: f64) -> Feature {
+        match place {
+            _ if self.is_point || place <= 0.0 => Feature::Vertex(0),
+            _ if place >= 1.0 => Feature::Vertex(1),
+            _ => Feature::Edge(0),
+        }
+    }
+}
 
 /// The closest points of two slender cores, in the frame of the pair.
 #[derive(Clone, Copy, Debug)]
@@ -30,9 +89,9 @@ pub(crate) struct Nearest {
 }
 
 /// The closest points. Where they are closer than `rounding`, the way from one to the other is no axis.
-pub(crate) fn nearest(a: &Solid, b: &Solid, rounding: f64) -> Nearest {
-    let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
-    let (along_a, along_b) = (a1 - a0, b1 - b0);
+pub(crate) fn nearest(a: &Slender, b: &Slender, rounding: f64) -> Nearest {
+    let ([a0, a1], [b0, b1]) = (a.ends, b.ends);
+    let (along_a, along_b) = (a.along(), b.along());
     let mut best = (f64::INFINITY, [0.0, 0.0]);
     let mut offer = |s: f64, t: f64| {
         let squared = (b0 + along_b * t - a0 - along_a * s).length_squared();
@@ -40,17 +99,23 @@ pub(crate) fn nearest(a: &Solid, b: &Solid, rounding: f64) -> Nearest {
             best = (squared, [s, t]);
         }
     };
-    offer(place_on(a0, along_a, b0), 0.0);
-    offer(place_on(a0, along_a, b1), 1.0);
-    offer(0.0, place_on(b0, along_b, a0));
-    offer(1.0, place_on(b0, along_b, a1));
-    let cross = along_a.cross(along_b);
-    let inverse = 1.0 / cross.length_squared();
-    let (s, t) =
-        ((b0 - a0).cross(along_b).dot(cross) * inverse, (b0 - a0).cross(along_a).dot(cross) * inverse);
-    // Parallel lines give infinities and NaN here; an end is among their closest points.
-    if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
-        offer(s, t);
+    if a.is_point {
+        offer(0.0, place_on(b0, along_b, a0));
+    } else if b.is_point {
+        offer(place_on(a0, along_a, b0), 0.0);
+    } else {
+        offer(place_on(a0, along_a, b0), 0.0);
+        offer(place_on(a0, along_a, b1), 1.0);
+        offer(0.0, place_on(b0, along_b, a0));
+        offer(1.0, place_on(b0, along_b, a1));
+        let cross = along_a.cross(along_b);
+        let inverse = 1.0 / cross.length_squared();
+        let (s, t) =
+            ((b0 - a0).cross(along_b).dot(cross) * inverse, (b0 - a0).cross(along_a).dot(cross) * inverse);
+        // Parallel lines give infinities and NaN here; an end is among their closest points.
+        if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
+            offer(s, t);
+        }
     }
     let places = best.1;
     let (on_a, on_b) = (a0 + along_a * places[0], b0 + along_b * places[1]);
@@ -90,7 +155,7 @@ fn square_to(between: DVec3, along: [DVec3; 2], places: [f64; 2]) -> Option<DVec
 ///
 /// Points are at most `within` apart. The stretch is taken only if one end of it is as close as the closest points,
 /// up to `preference`: segments that cross at a small angle touch in one point.
-pub(crate) fn touch(a: &Solid, b: &Solid, nearest: &Nearest, within: f64, preference: f64) -> Touch {
+pub(crate) fn touch([a, b]: [&Slender; 2], nearest: &Nearest, within: f64, preference: f64) -> Touch {
     let normal = nearest.normal;
     let least = nearest.distance - a.radius - b.radius + preference;
     let within = within.max(least);
@@ -101,17 +166,13 @@ pub(crate) fn touch(a: &Solid, b: &Solid, nearest: &Nearest, within: f64, prefer
     }
     if !points.iter().any(|point| point.separation <= least) {
         points.clear();
-        let feature = FeatureId::new(feature_at(a, nearest.places[0]), feature_at(b, nearest.places[1]));
+        let feature = FeatureId::new(a.feature_at(nearest.places[0]), b.feature_at(nearest.places[1]));
         let (on_a, on_b) = (nearest.on_a, nearest.on_b);
         let point = Point { separation: nearest.distance, on_a, on_b, feature };
-        points.push(point.on_surfaces(a, b, normal));
+        points.push(point.on_surfaces([a.radius, b.radius], normal));
     }
     points.sort_unstable_by_key(|point| point.feature);
     Touch { normal, points, of: None }
-}
-
-fn ends(core: &Solid) -> [DVec3; 2] {
-    [core.point(0), core.point(core.vertices.len() - 1)]
 }
 
 /// The place of the foot of a point on a segment, 0 to 1; 0 on one of no length.
@@ -121,7 +182,7 @@ fn place_on(from: DVec3, along: DVec3, point: DVec3) -> f64 {
 }
 
 /// A unit axis across both directions, as far as there is one, towards `between` where that leaves a choice.
-fn across(along_a: DVec3, along_b: DVec3, between: DVec3) -> DVec3 {
+pub(crate) fn across(along_a: DVec3, along_b: DVec3, between: DVec3) -> DVec3 {
     let cross = along_a.cross(along_b);
     let longer = if along_a.length_squared() >= along_b.length_squared() { along_a } else { along_b };
     let square = |v: DVec3| v.length_squared();
@@ -142,13 +203,4 @@ fn across(along_a: DVec3, along_b: DVec3, between: DVec3) -> DVec3 {
     };
     let axis = axis.normalize();
     if axis.dot(between) < 0.0 { -axis } else { axis }
-}
-
-fn feature_at(core: &Solid, place: f64) -> Feature {
-    match core.vertices.len() {
-        1 => Feature::Vertex(0),
-        _ if place <= 0.0 => Feature::Vertex(0),
-        _ if place >= 1.0 => Feature::Vertex(1),
-        _ => Feature::Edge(0),
-    }
 }

@@ -14,7 +14,9 @@ impl Convex<'_> {
         if let Some(cuboids) = self.cuboids() {
             return cuboids.gap(radii, limit, &self.precision);
         }
-        let ([None, None], None) = (self.planes(), self.ball()) else { return Gap::Unclear };
+        let (([None, None], None), None) = ((self.planes(), self.ball()), self.slenders()) else {
+            return Gap::Unclear;
+        };
         let beyond = limit + self.radii + self.precision.projection();
         self.with_solids(|a, b| {
             if a.is_slender() && b.is_slender() {

@@ -7,8 +7,7 @@ use crate::feature::{Feature, FeatureId, Hint};
 use crate::polyhedron::cuboids::ball::Nearest;
 use crate::polyhedron::half_space::Plane;
 use crate::polyhedron::manifold::{Point, Touch};
-use crate::polyhedron::slender;
-use crate::polyhedron::solid::Solid;
+use crate::polyhedron::slender::{self, Slender};
 use crate::precision::{at_least, signed};
 use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
@@ -75,11 +74,9 @@ impl Convex<'_> {
     }
 
     pub(super) fn told_half_space(&self, plane: Plane) -> Told {
-        let (vertex, height) = self.with_solids(|a, b| {
-            let core = if plane.is_b { a } else { b };
-            let (vertex, height) = plane.lowest(core);
-            (core.point(vertex), height)
-        });
+        let (shape, frame) = self.shape_over(&plane);
+        let vertex = plane.lowest_of(shape, frame);
+        let height = plane.height(vertex);
         let separation = height - self.radii;
         let on_shape = vertex - plane.normal * self.radii;
         let on_plane = vertex - plane.normal * height;
@@ -88,7 +85,7 @@ impl Convex<'_> {
         Told { separation, at_least: separation, normal, closest, evidence, corners }
     }
 
-    pub(super) fn told_slender(&self, a: &Solid, b: &Solid) -> Told {
+    pub(super) fn told_slender(&self, a: &Slender, b: &Slender) -> Told {
         let nearest = slender::nearest(a, b, self.precision.projection());
         Told {
             separation: nearest.distance - self.radii,

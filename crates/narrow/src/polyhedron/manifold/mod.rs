@@ -62,11 +62,11 @@ pub(crate) struct Point {
 
 impl Point {
     /// A point where two cores are closest, moved out to the surfaces along the normal.
-    pub(super) fn on_surfaces(self, a: &Solid, b: &Solid, normal: DVec3) -> Self {
+    pub(super) fn on_surfaces(self, [of_a, of_b]: [f64; 2], normal: DVec3) -> Self {
         Self {
-            separation: self.separation - a.radius - b.radius,
-            on_a: self.on_a + normal * a.radius,
-            on_b: self.on_b - normal * b.radius,
+            separation: self.separation - of_a - of_b,
+            on_a: self.on_a + normal * of_a,
+            on_b: self.on_b - normal * of_b,
             ..self
         }
     }

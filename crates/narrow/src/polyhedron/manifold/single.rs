@@ -38,14 +38,14 @@ pub(super) fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), axis: &Axi
     {
         point = over;
     }
-    point.on_surfaces(a, b, normal)
+    point.on_surfaces([a.radius, b.radius], normal)
 }
 
 /// The deepest vertex of one shape, and its foot on the other's supporting plane: what is left where a face looks past
 /// what touches it. If other features that are as deep lie over each other, a point of those.
 pub(super) fn deepest_point(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> Point {
     if let Some((over, _)) = point_over(a, b, axis, slack) {
-        return over.on_surfaces(a, b, axis.normal);
+        return over.on_surfaces([a.radius, b.radius], axis.normal);
     }
     let Axis { separation, normal, of } = *axis;
     let point = match of {
@@ -66,7 +66,7 @@ pub(super) fn deepest_point(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> Po
             Point { separation, on_a: on_b - normal * separation, on_b, feature }
         }
     };
-    point.on_surfaces(a, b, normal)
+    point.on_surfaces([a.radius, b.radius], normal)
 }
 
 /// The witness points of a gap, named by the features that carry them.
@@ -78,7 +78,7 @@ pub(super) fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> Point {
         on_b: witness.point_b,
         feature: FeatureId::new(of_a, of_b),
     };
-    point.on_surfaces(a, b, witness.across)
+    point.on_surfaces([a.radius, b.radius], witness.across)
 }
 
 /// The edges that the witness points of a gap lie on, if both lie on one, and not side by side: then they have no axis.

@@ -1,0 +1,198 @@
+//! A sphere and a capsule, or a segment, that are parts of nothing: answered at once, in the world's axes.
+//!
+//! ```text
+//! separation    |centre - its foot on the segment| - (radius of the sphere + of the capsule): both ends are turned once, and a foot that
+//!               is a little beside its place is no nearer; the bound of projections (44 u) is enough
+//! normal        along that, square to the segment where the foot is inside; across it where the centre lies on it
+//! yes or no     the number's beyond twice the bound, else by integers
+//! ```
+//! The general path looks for the closest points of two segments, in the first shape's axes: a distance takes 230 ns there and 40 here
+//! (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-26).
+
+use super::Pair3;
+use super::balls::Told;
+use crate::feature::{Feature, FeatureId};
+use crate::polyhedron::slender::{Slender, across};
+use crate::precision::{IN_SPACE, Precision};
+use asunder_geometry::Shape3;
+use asunder_geometry::glam::{DVec3, Vec3};
+
+/// A sphere and a segment with a radius, as they stand.
+pub(super) struct BallOnRod<'p> {
+    pair: &'p Pair3<'p>,
+    rod: Slender,
+    /// The sphere's centre from the rod's position, in metres.
+    center: DVec3,
+    radius: f64,
+    /// Its foot on the segment: where between both ends, 0 to 1, and from the rod's position.
+    place: f64,
+    foot: DVec3,
+    /// Of centre and foot.
+    distance: f64,
+    /// Whether the rod is B.
+    is_b: bool,
+    precision: Precision,
+}
+
+impl Pair3<'_> {
+    #[inline]
+    pub(super) fn ball_on_rod(&self) -> Option<BallOnRod<'_>> {
+        let (sphere, shape, pose, is_b) = match (self.shape_a, self.shape_b) {
+            (Shape3::Sphere(sphere), rod @ (Shape3::Capsule(_) | Shape3::Segment(_))) => {
+                (sphere, rod, &self.pose_b, true)
+            }
+            (rod @ (Shape3::Capsule(_) | Shape3::Segment(_)), Shape3::Sphere(sphere)) => {
+                (sphere, rod, &self.pose_a, false)
+            }
+            _ => return None,
+        };
+        let rod = Slender::of(shape, (&pose.basis(), DVec3::ZERO))?;
+        let center = if is_b { -self.between } else { self.between };
+        let radius = f64::from(sphere.radius());
+        let place = rod.place_of(center);
+        let foot = rod.at(place);
+        // Sums of coordinates bound lengths, and need no root.
+        let length = |v: DVec3| v.abs().element_sum();
+        let reach =
+            radius + f64::from(shape.outer_radius()) + length(shape.center().as_dvec3()) + length(center);
+        let precision = Precision { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[0] };
+        let distance = (center - foot).length();
+        Some(BallOnRod { pair: self, rod, center, radius, place, foot, distance, is_b, precision })
+    }
+}
+
+impl BallOnRod<'_> {
+    /// Unit direction from the rod to the sphere.
+    #[inline]
+    fn outwards(&self) -> DVec3 {
+        let along = self.rod.along();
+        if self.distance <= self.precision.projection() {
+            return across(along, DVec3::ZERO, self.center - self.rod.at(0.5));
+        }
+        let way = self.center - self.foot;
+        let is_inside = self.place > 0.0 && self.place < 1.0;
+        let square = way - along * (way.dot(along) / along.length_squared());
+        let clean = if is_inside { square.try_normalize() } else { None };
+        clean.unwrap_or(way / self.distance)
+    }
+}
+
+impl Told for BallOnRod<'_> {
+    #[inline]
+    fn separation(&self) -> f64 {
+        self.distance - (self.radius + self.rod.radius)
+    }
+
+    #[inline]
+    fn precision(&self) -> &Precision {
+        &self.precision
+    }
+
+    #[cold]
+    fn exactly(&self) -> bool {
+        self.pair.overlaps_exactly(&[])
+    }
+
+    #[inline]
+    fn normal(&self) -> Vec3 {
+        let outwards = self.outwards();
+        (if self.is_b { -outwards } else { outwards }).as_vec3()
+    }
+
+    #[inline]
+    fn anchors(&self) -> [Vec3; 2] {
+        let outwards = self.outwards();
+        let on_sphere = (outwards * -self.radius).as_vec3();
+        let on_rod = (self.foot + outwards * self.rod.radius).as_vec3();
+        if self.is_b { [on_sphere, on_rod] } else { [on_rod, on_sphere] }
+    }
+
+    #[inline]
+    fn measured_from(&self) -> (bool, DVec3) {
+        (false, self.pair.between)
+    }
+
+    fn feature(&self) -> FeatureId {
+        let (of_rod, of_sphere) = (self.rod.feature_at(self.place), Feature::Vertex(0));
+        if self.is_b { FeatureId::new(of_sphere, of_rod) } else { FeatureId::new(of_rod, of_sphere) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::balls::tests::says_as;
+    use super::*;
+    use crate::answer::{Tier, Verdict};
+    use crate::numbers::Numbers;
+    use asunder_geometry::glam::Quat;
+    use asunder_geometry::{Capsule3, Compound3, Pose3, Segment3, Sphere};
+
+    #[test]
+    fn touching_is_exact_at_the_side_and_at_either_end() {
+        let rod: Shape3 = Capsule3::from_half_height(2.0, 1.0).unwrap().into();
+        let ball: Shape3 = Sphere::new(4.0).unwrap().into();
+        // Ways of whole length.
+        for way in [DVec3::new(3.0, 0.5, 4.0), DVec3::new(3.0, 6.0, 0.0), DVec3::new(0.0, -5.0, 4.0)] {
+            let verdict = |longer: f64| {
+                let there = Pose3::at(way * DVec3::new(longer, 1.0, longer)).unwrap();
+                let told = Pair3::new(&rod, &Pose3::IDENTITY, &ball, &there).verdict();
+                assert_eq!(told, Pair3::new(&ball, &there, &rod, &Pose3::IDENTITY).verdict());
+                told
+            };
+            assert_eq!(verdict(1.0), Verdict { overlapping: true, tier: Tier::Exact }, "{way}");
+            assert_eq!(
+                verdict(1.0 + f64::EPSILON),
+                Verdict { overlapping: false, tier: Tier::Exact },
+                "{way}"
+            );
+            assert_eq!(verdict(1.1), Verdict { overlapping: false, tier: Tier::Bound });
+            assert_eq!(verdict(0.9), Verdict { overlapping: true, tier: Tier::Bound });
+        }
+    }
+
+    #[test]
+    fn a_centre_on_the_axis_has_a_normal_across_it() {
+        let rod: Shape3 = Capsule3::from_half_height(2.0, 1.0).unwrap().into();
+        let ball: Shape3 = Sphere::new(0.5).unwrap().into();
+        for place in [-2.0, -0.3, 0.0, 1e-300, 2.0] {
+            let there = Pose3::at([0.0, place, 0.0]).unwrap();
+            let manifold = Pair3::new(&rod, &Pose3::IDENTITY, &ball, &there).manifold(0.0).unwrap();
+            assert_eq!((manifold.separation, manifold.normal.length()), (-1.5, 1.0));
+            assert_eq!(manifold.normal.y, 0.0, "{place}");
+        }
+    }
+
+    /// The general path, which parts of compounds take, says the same.
+    #[test]
+    fn a_part_of_a_compound_says_the_same() {
+        let mut numbers = Numbers::new(77);
+        let (mut near, mut apart) = (0, 0);
+        for i in 0..4000 {
+            let (from, to) = (numbers.vector().as_vec3(), numbers.vector().as_vec3());
+            let rod = match i % 4 {
+                0 => Segment3::new(from, to).map(Shape3::from).ok(),
+                _ => Capsule3::new(from, to, 0.3).map(Shape3::from).ok(),
+            };
+            let Some(rod) = rod else { continue };
+            let q = [numbers.vector(), numbers.vector()];
+            let turn = Quat::from_xyzw(q[0].x as f32, q[0].y as f32, q[0].z as f32, q[1].x as f32);
+            let ball = Shape3::from(Sphere::new((0.1 + 0.5 * q[1].y.abs()) as f32).unwrap());
+            let far = if i % 3 == 0 { 1e7 } else { 0.0 };
+            let here = Pose3::new(numbers.vector() + DVec3::X * far, turn).unwrap();
+            let there = here.position() + numbers.vector() * if i % 2 == 0 { 0.3 } else { 3.0 };
+            let there = Pose3::at(there).unwrap();
+            let part: Shape3 = Compound3::new([(Pose3::IDENTITY, ball.clone())]).unwrap().into();
+            for is_b in [false, true] {
+                let pair = |ball| match is_b {
+                    true => Pair3::new(ball, &there, &rod, &here),
+                    false => Pair3::new(&rod, &here, ball, &there),
+                };
+                match says_as(&pair(&ball), &pair(&part), 1e-6) {
+                    true => near += 1,
+                    false => apart += 1,
+                }
+            }
+        }
+        assert!(near > 1500 && apart > 3000, "{near} near, {apart} apart");
+    }
+}
