@@ -92,7 +92,8 @@ fn bodies_see_only_what_they_touch(is_inside: bool) -> usize {
 #[test]
 fn on_a_hill_of_facets_no_normal_is_beyond_those_of_the_facets() {
     let seen = bodies_see_only_what_they_touch(false);
-    assert!(seen > 500, "only {seen} manifolds");
+    // One each, for the most part: a lift off the facet under the middle frees the others.
+    assert!(seen > 300, "only {seen} manifolds");
 }
 
 #[test]

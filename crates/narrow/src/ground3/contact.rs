@@ -76,6 +76,7 @@ mod against;
 mod answer;
 mod axes;
 mod ball;
+mod behind;
 mod facet;
 mod gap;
 mod groups;
@@ -100,6 +101,7 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, NearTriangle, Pose3, Prominent, Shape3};
 use axes::Axes;
 use ball::nearest_to;
+use behind::AllBehind;
 use core::cell::Cell;
 use core::ops::ControlFlow;
 use facet::Facet;
@@ -167,6 +169,8 @@ struct Known {
     shown_by: Option<u32>,
     /// Triangles that f64 could not tell of.
     unclear: ArrayVec<Unclear, MOST_UNCLEAR>,
+    /// Triangles that are seen from behind, across a gap.
+    behind: AllBehind,
     /// Triangles whose axis was refused.
     refused: AllRefused,
     /// Triangles in a gap whose axis was refused.
@@ -248,6 +252,7 @@ impl<'a> Asking<'a> {
                 }
             });
         }
+        seen.look_at_behind(&mut known);
         seen.add_refused(&mut known);
         seen.conclude(&mut known, is_overlap_known);
         seen.bound_least(&mut known, manifolds.is_wanted());
@@ -263,6 +268,7 @@ impl Known {
             overlapping: false,
             shown_by: None,
             unclear: ArrayVec::new(),
+            behind: ArrayVec::new_const(),
             refused: ArrayVec::new_const(),
             unsaid: ArrayVec::new_const(),
             incident: None,
@@ -274,21 +280,34 @@ impl Known {
 impl Seen<'_> {
     /// Looks at one triangle; `plane` is that of the one before.
     fn look_at(&self, near: &NearTriangle, plane: &mut Option<Plane>, known: &mut Known) {
-        let (ground, standing, number) = (self.asking.on.ground, self.standing, near.number);
         if self.is_ball {
-            return self.look_at_from_ball(number, known);
+            return self.look_at_from_ball(near.number, known);
         }
         if !self.is_within(near, plane) {
             return;
         }
-        let Some(Plane { facet, extent, doubt, .. }) = plane else { return };
-        let (separation, doubt) = (extent.low - standing.radius, *doubt);
-        let prism = Prism { ground, standing, facet, extent, reach: self.asking.reach, doubt, gate: None };
-        if self.needs_kernels(&prism, near.prominent) {
-            return self.look_closer(&prism, near.prominent, known);
+        let Some(plane) = plane else { return };
+        let prism = self.prism_over(plane);
+        if !self.leaves_behind(near, &prism, known) {
+            self.look_on(near, &prism, known);
         }
-        let has_points = self.add_where_met(&prism, separation, known);
-        known.note_level(&prism, near.prominent);
+    }
+
+    fn prism_over<'p>(&'p self, plane: &'p Plane) -> Prism<'p> {
+        let Plane { facet, extent, doubt, .. } = plane;
+        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        Prism { ground, standing, facet, extent, reach, doubt: *doubt, gate: None }
+    }
+
+    /// Looks at a triangle that is near enough.
+    fn look_on(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) {
+        let (number, doubt) = (near.number, prism.doubt);
+        let separation = prism.extent.low - self.standing.radius;
+        if self.needs_kernels(prism, near.prominent) {
+            return self.look_closer(prism, near.prominent, known);
+        }
+        let has_points = self.add_where_met(prism, separation, known);
+        known.note_level(prism, near.prominent);
         if known.overlapping || separation > doubt {
             return;
         }

@@ -1,0 +1,55 @@
+//! Triangles of two-sided ground that are seen from behind, across a gap: they wait until all others have been heard.
+//!
+//! ```text
+//! a normal that was heard, and the triangle's own no nearer to it than a little less than a right angle:
+//!     a move along it, by how deep the part is there, leaves all of the triangle behind: it is hidden
+//! all others are looked at as if they had not waited
+//! ```
+//! A crate on a step, a hair deep in the tread, has a strip of the riser as high as that before it, from the inside: told as what it runs
+//! into, that stopped a crate without friction at the edge of the step it slid from.
+
+use super::facet::Facet;
+use super::prism::Prism;
+use super::refused::Heard;
+use super::{Known, Seen};
+use arrayvec::ArrayVec;
+use asunder_geometry::NearTriangle;
+
+/// Most triangles that wait; those beyond are looked at at once.
+const MOST_BEHIND: usize = 64;
+
+pub(super) type AllBehind = ArrayVec<NearTriangle, MOST_BEHIND>;
+
+/// Cosine of the angle between two normals up to which what is before a triangle is not above what is under the part.
+const ASIDE: f64 = 0.125;
+
+impl Seen<'_> {
+    /// Keeps a triangle until all others have been heard, if it is to wait; whether it did.
+    pub(super) fn leaves_behind(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) -> bool {
+        let separation = prism.extent.low - self.standing.radius;
+        !prism.facet.is_front && separation > prism.doubt && known.behind.try_push(*near).is_ok()
+    }
+
+    /// Looks at the triangles that waited, but for those that are hidden.
+    pub(super) fn look_at_behind(&self, known: &mut Known) {
+        if known.behind.is_empty() {
+            return;
+        }
+        let heard = known.heard();
+        for near in core::mem::take(&mut known.behind) {
+            let mut plane = None;
+            if !self.is_within(&near, &mut plane) {
+                continue;
+            }
+            let Some(plane) = &plane else { continue };
+            if !heard.iter().any(|&by| self.is_hidden(&plane.facet, by)) {
+                self.look_on(&near, &self.prism_over(plane), known);
+            }
+        }
+    }
+
+    /// Whether a normal hides a triangle.
+    fn is_hidden(&self, facet: &Facet, by: Heard) -> bool {
+        facet.normal.dot(by.0) <= ASIDE && self.is_left_below(facet, by)
+    }
+}
