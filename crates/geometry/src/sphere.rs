@@ -26,8 +26,13 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// A point, for questions about points; no body may be one.
-    #[doc(hidden)]
+    /// A point, for questions about points. A body that is one had better be a hull of one point: snapshots refuse spheres of no
+    /// radius.
+    ///
+    /// ```
+    /// use asunder_geometry::{Sphere, glam::DVec3};
+    /// assert!(Sphere::POINT.contains(DVec3::ZERO) && !Sphere::POINT.contains(DVec3::X * 1e-100));
+    /// ```
     pub const POINT: Self = Self { radius: 0.0 };
 
     /// A sphere from its radius, in metres.
