@@ -214,6 +214,10 @@ impl Pair3<'_> {
         if let Some(on) = OnGround::of(self) {
             return self.first_touch_on(&on, passage, None);
         }
+        // Where that takes a tenth of looking ahead: what touches need not be looked at on its way.
+        if self.verdict_of_balls().is_some_and(|verdict| verdict.overlapping) {
+            return Some(self.touching_at_start());
+        }
         let are_planes = |shape: &Shape3| matches!(shape, Shape3::HalfSpace(_));
         // Planes that overlap only far out look parted from near.
         if passage.is_still() || are_planes(self.shape_a) && are_planes(self.shape_b) {

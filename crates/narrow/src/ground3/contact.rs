@@ -82,6 +82,7 @@ mod gap;
 mod groups;
 mod meeting;
 mod outstanding;
+mod over;
 mod overlooked;
 mod plane;
 mod prism;
@@ -108,12 +109,13 @@ use facet::Facet;
 pub(crate) use facet::{front_of, widened};
 use groups::Groups;
 use meeting::{Meeting, Met};
+use over::Plane;
 use prism::{Incident, Prism};
 use protrusion::Levels;
 use refused::{AllRefused, Refusal};
 use round::Round;
 pub(super) use standing::doubt_of;
-use standing::{Extent, Octets, Place, Standing};
+use standing::{Octets, Place, Standing};
 use unsaid::AllUnsaid;
 
 /// Triangles whose yes or no waits until all have been seen.
@@ -187,15 +189,6 @@ struct Unclear {
     has_points: bool,
     separation: f64,
     number: u32,
-}
-
-/// A triangle, and how a part stands over its plane.
-struct Plane {
-    patch: u32,
-    facet: Facet,
-    extent: Extent,
-    /// What heights may be off by, in metres.
-    doubt: f64,
 }
 
 /// A part among the triangles.
@@ -293,12 +286,6 @@ impl Seen<'_> {
         }
     }
 
-    fn prism_over<'p>(&'p self, plane: &'p Plane) -> Prism<'p> {
-        let Plane { facet, extent, doubt, .. } = plane;
-        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
-        Prism { ground, standing, facet, extent, reach, doubt: *doubt, gate: None }
-    }
-
     /// Looks at a triangle that is near enough.
     fn look_on(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) {
         let (number, doubt) = (near.number, prism.doubt);
@@ -378,38 +365,6 @@ impl Seen<'_> {
                 self.refuse(prism, Refusal { is_own, is_apart: !overlapping, told }, known);
             }
         }
-    }
-
-    /// Makes the plane that of a triangle, and of how the part stands over it, which most often is that of the one before;
-    /// whether not all of the part is further from it than is wanted, on whichever side. In place: it is large.
-    fn is_within(&self, near: &NearTriangle, plane: &mut Option<Plane>) -> bool {
-        let (ground, standing, patch) = (self.asking.on.ground, self.standing, near.patch);
-        if let Some(plane) = plane.as_mut().filter(|plane| plane.patch == patch)
-            && plane.facet.move_on(ground, near.number, 0.25 * plane.doubt, standing.center)
-        {
-            return true;
-        }
-        let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return false };
-        // Twice: `move_on` lets others of the patch lie off the plane by a quarter of it.
-        let doubt = 2.0 * self.doubt_over(&facet);
-        let beyond = self.asking.reach + standing.radius + doubt;
-        // Most are out of reach by the box around the part: its vertices need not be looked at.
-        if facet.height(standing.middle).abs() - standing.reach_along(facet.normal) > beyond + doubt {
-            return false;
-        }
-        let mut extent = standing.extent(facet.normal, facet.origin());
-        if extent.low > beyond || -extent.high > beyond {
-            return false;
-        }
-        if !facet.has_in_front(ground, standing.center) {
-            if ground.is_one_sided() {
-                return false;
-            }
-            facet.turn_over();
-            extent = extent.turned_over();
-        }
-        *plane = Some(Plane { patch, facet, extent, doubt });
-        true
     }
 
     /// The face that the part turns to a normal.

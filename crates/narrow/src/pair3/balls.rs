@@ -36,7 +36,7 @@ struct Balls<'p> {
 /// What a sphere is asked beside another, a half-space, a capsule or a cuboid; nothing for all other pairs.
 impl Pair3<'_> {
     #[inline]
-    pub(super) fn verdict_of_balls(&self) -> Option<Verdict> {
+    pub(crate) fn verdict_of_balls(&self) -> Option<Verdict> {
         (self.balls().map(|balls| balls.verdict()))
             .or_else(|| self.on_plane().map(|ball| ball.verdict()))
             .or_else(|| self.ball_on_rod().map(|ball| ball.verdict()))

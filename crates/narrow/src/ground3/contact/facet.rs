@@ -237,7 +237,7 @@ impl Facet {
 
     /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner in it; of
     /// very many, of those that are looked at.
-    fn do_all_around(
+    pub(super) fn do_all_around(
         &self,
         ground: Ground,
         corner: usize,

@@ -1,0 +1,56 @@
+//! How a part stands over the plane of a triangle, which most often is that of the one before.
+
+use super::Seen;
+use super::facet::Facet;
+use super::prism::Prism;
+use super::standing::Extent;
+use asunder_geometry::NearTriangle;
+
+/// A triangle, and how a part stands over its plane.
+pub(super) struct Plane {
+    pub(super) patch: u32,
+    pub(super) facet: Facet,
+    pub(super) extent: Extent,
+    /// What heights may be off by, in metres.
+    pub(super) doubt: f64,
+}
+
+impl Seen<'_> {
+    /// Makes the plane that of a triangle, and of how the part stands over it, which most often is that of the one before;
+    /// whether not all of the part is further from it than is wanted, on whichever side. In place: it is large.
+    pub(super) fn is_within(&self, near: &NearTriangle, plane: &mut Option<Plane>) -> bool {
+        let (ground, standing, patch) = (self.asking.on.ground, self.standing, near.patch);
+        if let Some(plane) = plane.as_mut().filter(|plane| plane.patch == patch)
+            && plane.facet.move_on(ground, near.number, 0.25 * plane.doubt, standing.center)
+        {
+            return true;
+        }
+        let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return false };
+        // Twice: `move_on` lets others of the patch lie off the plane by a quarter of it.
+        let doubt = 2.0 * self.doubt_over(&facet);
+        let beyond = self.asking.reach + standing.radius + doubt;
+        // Most are out of reach by the box around the part: its vertices need not be looked at.
+        if facet.height(standing.middle).abs() - standing.reach_along(facet.normal) > beyond + doubt {
+            return false;
+        }
+        let mut extent = standing.extent(facet.normal, facet.origin());
+        if extent.low > beyond || -extent.high > beyond {
+            return false;
+        }
+        if !facet.has_in_front(ground, standing.center) {
+            if ground.is_one_sided() {
+                return false;
+            }
+            facet.turn_over();
+            extent = extent.turned_over();
+        }
+        *plane = Some(Plane { patch, facet, extent, doubt });
+        true
+    }
+
+    pub(super) fn prism_over<'p>(&'p self, plane: &'p Plane) -> Prism<'p> {
+        let Plane { facet, extent, doubt, .. } = plane;
+        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        Prism { ground, standing, facet, extent, reach, doubt: *doubt, gate: None }
+    }
+}
