@@ -120,12 +120,12 @@ impl Told for BallOnRod<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::says_as;
+    use super::super::balls::tests::is_said_as_of_a_part;
     use super::*;
     use crate::answer::{Tier, Verdict};
     use crate::numbers::Numbers;
     use asunder_geometry::glam::Quat;
-    use asunder_geometry::{Capsule3, Compound3, Pose3, Segment3, Sphere};
+    use asunder_geometry::{Capsule3, Pose3, Segment3, Sphere};
 
     #[test]
     fn touching_is_exact_at_the_side_and_at_either_end() {
@@ -181,16 +181,9 @@ mod tests {
             let here = Pose3::new(numbers.vector() + DVec3::X * far, turn).unwrap();
             let there = here.position() + numbers.vector() * if i % 2 == 0 { 0.3 } else { 3.0 };
             let there = Pose3::at(there).unwrap();
-            let part: Shape3 = Compound3::new([(Pose3::IDENTITY, ball.clone())]).unwrap().into();
-            for is_b in [false, true] {
-                let pair = |ball| match is_b {
-                    true => Pair3::new(ball, &there, &rod, &here),
-                    false => Pair3::new(&rod, &here, ball, &there),
-                };
-                match says_as(&pair(&ball), &pair(&part), 1e-6) {
-                    true => near += 1,
-                    false => apart += 1,
-                }
+            for is_near in is_said_as_of_a_part((&ball, &there), (&rod, &here)) {
+                near += u32::from(is_near);
+                apart += u32::from(!is_near);
             }
         }
         assert!(near > 1500 && apart > 3000, "{near} near, {apart} apart");

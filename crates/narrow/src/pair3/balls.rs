@@ -232,7 +232,7 @@ pub(super) mod tests {
 
     /// Checks that a pair says what the same pair does by the general path, with ends of points so near to each other, as a share of a
     /// metre and of how far they are from their bodies; whether they are near enough for a point.
-    pub(in crate::pair3) fn says_as(whole: &Pair3<'_>, general: &Pair3<'_>, near: f32) -> bool {
+    fn says_as(whole: &Pair3<'_>, general: &Pair3<'_>, near: f32) -> bool {
         assert_eq!(whole.overlaps(), general.overlaps());
         let found = [whole, general].map(|pair| pair.separation(f32::INFINITY));
         let [Separation3::Measured(one), Separation3::Measured(other)] = found else { panic!("no limit") };
@@ -257,6 +257,21 @@ pub(super) mod tests {
             assert!((one.separation - other.separation).abs() <= near, "{one:?} and not {other:?}");
         }
         !one.points.is_empty()
+    }
+
+    /// The same of a shape beside another, and of it as a part of a compound, in both orders.
+    pub(in crate::pair3) fn is_said_as_of_a_part(
+        (body, there): (&Shape3, &Pose3),
+        (other, here): (&Shape3, &Pose3),
+    ) -> [bool; 2] {
+        let part: Shape3 = Compound3::new([(Pose3::IDENTITY, body.clone())]).unwrap().into();
+        [false, true].map(|is_b| {
+            let pair = |body| match is_b {
+                true => Pair3::new(body, there, other, here),
+                false => Pair3::new(other, here, body, there),
+            };
+            says_as(&pair(body), &pair(&part), 1e-6)
+        })
     }
 
     fn ball(radius: f32) -> Shape3 {

@@ -148,12 +148,12 @@ impl Told for OnPlane<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::says_as;
+    use super::super::balls::tests::is_said_as_of_a_part;
     use super::*;
     use crate::answer::{Tier, Verdict};
     use crate::numbers::Numbers;
     use asunder_geometry::glam::Quat;
-    use asunder_geometry::{Capsule3, Compound3, Cuboid, HalfSpace, Hull, Pose3, Segment3, Sphere};
+    use asunder_geometry::{Capsule3, Cuboid, HalfSpace, Hull, Pose3, Segment3, Sphere};
 
     #[test]
     fn touching_is_exact() {
@@ -210,16 +210,9 @@ mod tests {
             let there = Pose3::new(there, turns[1]).unwrap();
             let Some(body) = shape(i % 11, &mut numbers) else { continue };
             let floor = Shape3::from(floor);
-            let part: Shape3 = Compound3::new([(Pose3::IDENTITY, body.clone())]).unwrap().into();
-            for is_b in [false, true] {
-                let pair = |body| match is_b {
-                    true => Pair3::new(body, &there, &floor, &here),
-                    false => Pair3::new(&floor, &here, body, &there),
-                };
-                match says_as(&pair(&body), &pair(&part), 1e-6) {
-                    true => near += 1,
-                    false => apart += 1,
-                }
+            for is_near in is_said_as_of_a_part((&body, &there), (&floor, &here)) {
+                near += u32::from(is_near);
+                apart += u32::from(!is_near);
             }
         }
         assert!(near > 3000 && apart > 2000, "{near} near, {apart} apart");
