@@ -214,8 +214,8 @@ impl Pair3<'_> {
         if let Some(on) = OnGround::of(self) {
             return self.first_touch_on(&on, passage, None);
         }
-        // Where that takes a tenth of looking ahead: what touches need not be looked at on its way.
-        if self.verdict_of_balls().is_some_and(|verdict| verdict.overlapping) {
+        // What touches already need not be looked at on its way, where that is told in a tenth of the time.
+        if self.verdict_in_closed_form().is_some_and(|verdict| verdict.overlapping) {
             return Some(self.touching_at_start());
         }
         let are_planes = |shape: &Shape3| matches!(shape, Shape3::HalfSpace(_));

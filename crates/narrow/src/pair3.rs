@@ -117,7 +117,7 @@ impl<'a> Pair3<'a> {
     }
 
     fn general_verdict(&self) -> Verdict {
-        if let Some(found) = self.verdict_of_balls() {
+        if let Some(found) = self.verdict_in_closed_form() {
             return found;
         }
         let mut tier = Tier::Bound;
@@ -172,7 +172,7 @@ impl<'a> Pair3<'a> {
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
             return found;
         }
-        if let Some(found) = self.separation_of_balls(limit) {
+        if let Some(found) = self.separation_in_closed_form(limit) {
             return found;
         }
         if let Some(on) = OnGround::of(self) {
@@ -192,7 +192,7 @@ impl<'a> Pair3<'a> {
     /// The closest points of shapes that do not overlap; nothing where they do. Cost: some support searches, each
     /// linear in the vertices.
     pub fn distance(&self) -> Option<Closest3> {
-        if let Some(found) = self.distance_of_balls() {
+        if let Some(found) = self.distance_in_closed_form() {
             return found;
         }
         if let Some(on) = OnGround::of(self) {
@@ -284,7 +284,7 @@ impl<'a> Pair3<'a> {
     }
 
     pub(crate) fn general_contact(&self, margin: f32, hint: Hint, manifolds: &mut impl Room) -> (Hint, Met) {
-        if let Some(found) = self.contact_of_balls(margin, manifolds) {
+        if let Some(found) = self.contact_in_closed_form(margin, manifolds) {
             return (Hint::NONE, found);
         }
         if let Some(found) = contact_on_ground(self, margin, manifolds) {

@@ -14,6 +14,7 @@
 //! 5. the gap between the two certified bounds, where a distance was iterated;
 //! 6. rounding the answer to f32: half an ulp.
 
+use asunder_geometry::glam::DVec3;
 pub(crate) use asunder_geometry::round_down;
 
 /// Everything about a pair that its error depends on, in metres.
@@ -36,7 +37,19 @@ pub(crate) const IN_SPACE: [f64; 2] = [44.0, 128.0];
 /// Roundings of a projection in the plane, where the stored matrix is used as it stands, of bodies and of parts.
 pub(crate) const IN_PLANE: [f64; 2] = [10.0, 16.0];
 
+/// At least the length of a vector: a sum of coordinates needs no root.
+#[inline]
+pub(crate) fn length_at_most(v: DVec3) -> f64 {
+    v.abs().element_sum()
+}
+
 impl Precision {
+    /// Of two bodies in space whose separation is a closed form, in the world's axes.
+    #[inline]
+    pub(crate) const fn of_closed_form(reach: f64) -> Self {
+        Self { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[0] }
+    }
+
     /// Rounding of a projection in f64: below this, a sign means nothing.
     #[inline]
     pub(crate) fn projection(&self) -> f64 {

@@ -1,7 +1,7 @@
 //! What edges and corners of ground may say: convex ones give normals between those beside them, flat and concave ones
 //! none of their own; one-sided ground says nothing from behind.
 
-use super::scenes::{Random, body, grid, mesh};
+use super::scenes::{BODIES, Random, body, grid, mesh};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{Cuboid, HalfSpace, Pose3, Shape3, Sphere, TriMesh};
 use asunder_narrow::{Feature, Manifold3, Pair3};
@@ -316,25 +316,25 @@ fn a_riser_is_not_told_from_inside_the_step() {
     let mut told = 0;
     for round in 0..6000 {
         let half = [0; 3].map(|_| random.between(0.05, 0.2) as f32);
-        let body = match round % 3 {
+        let shape = match round % 3 {
             0 => cuboid(half[0], half[1], half[2]),
             1 => Cuboid::from_half_extents(Vec3::from(half)).unwrap().rounded(0.02).unwrap().into(),
-            _ => super::scenes::body(round / 3 % super::scenes::BODIES),
+            _ => body(round / 3 % BODIES),
         };
         let lean = random.vector() * [1e-6, 1e-3, 0.01][round % 3];
         let turn = Quat::from_xyzw(lean.x as f32, lean.y as f32, lean.z as f32, 1.0);
         let place = |height: f64, x: f64| Pose3::new([x, height, 0.3], turn).unwrap();
         // On either tread, up to its edge.
         let (level, from, to) = [(0.8, -0.9, 0.0), (0.4, 0.0, 0.5)][round % 2];
-        let bounds = body.bounds(&place(0.0, 0.0), 0.0);
+        let bounds = shape.bounds(&place(0.0, 0.0), 0.0);
         let x = random.between(from - f64::from(bounds.min.x), to - f64::from(bounds.max.x));
         if bounds.max.x - bounds.min.x > (to - from) as f32 {
             continue;
         }
         let depth = [1e-5, 1e-4, 1e-3][round / 2 % 3];
         let pose = place(level - f64::from(bounds.min.y) - depth, x);
-        for manifold in manifolds(&body, &pose, &stairs, [0.02, 0.1, 0.3][round % 3]) {
-            assert!(-manifold.normal.x > -0.05, "{body:?} at {pose:?}: {manifold:?}");
+        for manifold in manifolds(&shape, &pose, &stairs, [0.02, 0.1, 0.3][round % 3]) {
+            assert!(-manifold.normal.x > -0.05, "{shape:?} at {pose:?}: {manifold:?}");
             told += 1;
         }
     }

@@ -314,3 +314,34 @@ fn the_box_around_many_parts_is_that_around_them_one_by_one() {
         }
     }
 }
+
+#[test]
+fn a_point_is_held_by_any_part() {
+    let mut random = Random::new(34);
+    let (mut held, mut free) = (0, 0);
+    for count in [2, FEW, 17, 60, 400] {
+        for far in [0.0, 3e4] {
+            let mut parts = parts(&mut random, count, (count as f64).sqrt());
+            for (pose, _) in &mut parts {
+                *pose = pose.shifted([far, 0.0]).unwrap();
+            }
+            let compound = Compound2::new(parts.iter().cloned()).unwrap();
+            for round in 0..1000 {
+                let (pose, shape) = &parts[round % parts.len()];
+                let way = direction(&mut random);
+                // On the surface of a part, beside it, or anywhere.
+                let point = match round % 3 {
+                    0 => pose.transform(shape.support(way).unwrap()),
+                    1 => pose.transform(shape.support(way).unwrap() * random.range(0.8, 1.2)),
+                    _ => DVec2::X * far + anywhere(&mut random, 1.2 * (count as f64).sqrt()),
+                };
+                let expected = parts.iter().any(|(pose, shape)| shape.contains(pose.transform_back(point)));
+                assert_eq!(compound.contains(point), expected, "{point} in {count} parts");
+                held += u32::from(expected);
+                free += u32::from(!expected);
+            }
+            assert!(!compound.contains(DVec2::NAN) && !compound.contains(DVec2::INFINITY));
+        }
+    }
+    assert!(held > 3000 && free > 1500, "{held} held, {free} free");
+}

@@ -95,12 +95,11 @@ fn ask<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, is_moved, reshaped, odometers, motions, persistent, .. } = world;
     let World { candidates, records, answered, scratch, .. } = world;
     let Scratch { pairs, chunk, settled, spare, last_candidates, last_records, last_answered, .. } = scratch;
-    // Without a pair there is a chunk still: of what is gone.
-    // Who comes into an empty world is asked about.
-    let asked = settled.iter().map(|settled| settled.tally.asked).sum();
-    let asked = if settled.is_empty() { pairs.len() } else { asked };
-    let size = chunk_of(pairs.len(), asked);
+    // Of a world's first pairs, all are asked about.
+    let asked = settled.iter().map(|settled| settled.tally.asked).reduce(|all, asked| all + asked);
+    let size = chunk_of(pairs.len(), asked.unwrap_or(pairs.len()));
     *chunk = size;
+    // Without a pair there is a chunk still: of what is gone.
     let records = records.chunks_of(pairs, size);
     let answered = room_for(records.len(), answered, Batch::clear);
     let settled = room_for(records.len(), settled, Settled::clear);

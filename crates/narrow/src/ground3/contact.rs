@@ -30,7 +30,8 @@
 //! That normal may be a bad one: of a box that leans over a cliff, a triangle of the cliff's top whose corner alone lies
 //! in the box is left by the box sideways along the cliff, which its neighbours refuse; straight up would throw the box
 //! onto the cliff. So triangles whose axis was refused wait until all others have been heard: where a move along
-//! one of their normals by its depth leaves such a triangle too, it has nothing to add (see `refused`).
+//! one of their normals by its depth leaves such a triangle too, it has nothing to add (see `refused`). Nor has
+//! two-sided ground that is seen from behind across a gap, where it lies below what the part stands on (`behind`).
 //!
 //! **The short way.** Where the lowest vertex of the part is over the triangle, in a gap of the cores it is the closest
 //! point, and the normal is the answer. In overlap by h, a direction that leans by the angle a over an edge r away is

@@ -50,10 +50,16 @@ impl<'a> Pair3<'a> {
 }
 
 impl Ball<'_> {
+    /// Of both bounding spheres, in metres.
+    #[inline]
+    fn outer_radii(&self) -> f64 {
+        f64::from(self.cuboid.outer_radius()) + f64::from(self.radius)
+    }
+
     /// Whether the bounding spheres are more than `limit` metres apart for certain.
     #[inline]
     fn is_far(&self, limit: f64) -> bool {
-        let reach = f64::from(self.cuboid.outer_radius()) + f64::from(self.radius) + limit;
+        let reach = self.outer_radii() + limit;
         // The subtraction of positions, three squares, three sums: eight roundings at most.
         self.pair.between.length_squared() > reach * reach * (1.0 + 8.0 * f64::EPSILON)
     }
@@ -101,15 +107,20 @@ impl Ball<'_> {
     #[inline]
     pub(super) fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Met {
         if self.is_far(reach_of(margin)) {
-            let radii = f64::from(self.cuboid.outer_radius()) + f64::from(self.radius);
+            // Roundings as in `is_far`.
             let apart = self.pair.between.length() * (1.0 - 8.0 * f64::EPSILON);
-            return Err(beyond(apart - radii, reach_of(margin)));
+            return Err(beyond(apart - self.outer_radii(), reach_of(margin)));
         }
         self.seen().contact(margin, manifolds)
     }
 }
 
 impl Told for Seen<'_> {
+    #[inline]
+    fn pair(&self) -> &Pair3<'_> {
+        self.ball.pair
+    }
+
     #[inline]
     fn separation(&self) -> f64 {
         self.separation
@@ -143,10 +154,10 @@ impl Told for Seen<'_> {
         if self.ball.is_b { [on_sphere, on_cuboid] } else { [on_cuboid, on_sphere] }
     }
 
-    #[inline]
     /// From the cuboid, in either order.
-    fn measured_from(&self) -> (bool, DVec3) {
-        (self.ball.is_b, self.ball.pair.between)
+    #[inline]
+    fn is_from_b(&self) -> bool {
+        self.ball.is_b
     }
 
     fn feature(&self) -> FeatureId {

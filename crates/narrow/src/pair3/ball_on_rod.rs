@@ -13,7 +13,7 @@ use super::Pair3;
 use super::balls::Told;
 use crate::feature::{Feature, FeatureId};
 use crate::polyhedron::slender::{Slender, across};
-use crate::precision::{IN_SPACE, Precision};
+use crate::precision::{Precision, length_at_most};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
 
@@ -51,11 +51,11 @@ impl Pair3<'_> {
         let radius = f64::from(sphere.radius());
         let place = rod.place_of(center);
         let foot = rod.at(place);
-        // Sums of coordinates bound lengths, and need no root.
-        let length = |v: DVec3| v.abs().element_sum();
-        let reach =
-            radius + f64::from(shape.outer_radius()) + length(shape.center().as_dvec3()) + length(center);
-        let precision = Precision { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[0] };
+        let reach = radius
+            + f64::from(shape.outer_radius())
+            + length_at_most(shape.center().as_dvec3())
+            + length_at_most(center);
+        let precision = Precision::of_closed_form(reach);
         let distance = (center - foot).length();
         Some(BallOnRod { pair: self, rod, center, radius, place, foot, distance, is_b, precision })
     }
@@ -79,6 +79,11 @@ impl BallOnRod<'_> {
 
 impl Told for BallOnRod<'_> {
     #[inline]
+    fn pair(&self) -> &Pair3<'_> {
+        self.pair
+    }
+
+    #[inline]
     fn separation(&self) -> f64 {
         self.distance - (self.radius + self.rod.radius)
     }
@@ -86,11 +91,6 @@ impl Told for BallOnRod<'_> {
     #[inline]
     fn precision(&self) -> &Precision {
         &self.precision
-    }
-
-    #[cold]
-    fn exactly(&self) -> bool {
-        self.pair.overlaps_exactly(&[])
     }
 
     #[inline]
@@ -105,11 +105,6 @@ impl Told for BallOnRod<'_> {
         let on_sphere = (outwards * -self.radius).as_vec3();
         let on_rod = (self.foot + outwards * self.rod.radius).as_vec3();
         if self.is_b { [on_sphere, on_rod] } else { [on_rod, on_sphere] }
-    }
-
-    #[inline]
-    fn measured_from(&self) -> (bool, DVec3) {
-        (false, self.pair.between)
     }
 
     fn feature(&self) -> FeatureId {

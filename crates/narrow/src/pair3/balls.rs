@@ -17,7 +17,7 @@ use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, 
 use crate::batch::{Met, beyond};
 use crate::exact::{self, Corner};
 use crate::feature::{Feature, FeatureId};
-use crate::precision::{IN_SPACE, Precision, at_least, signed};
+use crate::precision::{Precision, at_least, length_at_most, signed};
 use crate::room::Room;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -33,57 +33,50 @@ struct Balls<'p> {
     precision: Precision,
 }
 
-/// What a sphere is asked beside another, a half-space, a capsule or a cuboid; nothing for all other pairs.
+/// What is told at once of two spheres, of a sphere and a cuboid or a capsule, and of what is over a half-space; nothing of all other
+/// pairs.
 impl Pair3<'_> {
-    /// Whether there may be a closed form: asked first, since most pairs have none, and are told apart in some ns.
+    /// Itself, where there may be a closed form: asked first, since most pairs have none, and are told apart in some ns.
     #[inline(always)]
-    fn may_be_told(&self) -> bool {
-        let may_be = |shape: &Shape3| matches!(shape, Shape3::Sphere(_) | Shape3::HalfSpace(_));
-        may_be(self.shape_a) || may_be(self.shape_b)
+    fn with_closed_form(&self) -> Option<&Self> {
+        let may_have = |shape: &Shape3| matches!(shape, Shape3::Sphere(_) | Shape3::HalfSpace(_));
+        (may_have(self.shape_a) || may_have(self.shape_b)).then_some(self)
     }
 
     #[inline]
-    pub(crate) fn verdict_of_balls(&self) -> Option<Verdict> {
-        if !self.may_be_told() {
-            return None;
-        }
-        (self.balls().map(|balls| balls.verdict()))
-            .or_else(|| self.on_plane().map(|ball| ball.verdict()))
-            .or_else(|| self.ball_on_rod().map(|ball| ball.verdict()))
-            .or_else(|| self.ball().map(|ball| ball.verdict()))
+    pub(crate) fn verdict_in_closed_form(&self) -> Option<Verdict> {
+        let pair = self.with_closed_form()?;
+        (pair.balls().map(|balls| balls.verdict()))
+            .or_else(|| pair.on_plane().map(|ball| ball.verdict()))
+            .or_else(|| pair.ball_on_rod().map(|ball| ball.verdict()))
+            .or_else(|| pair.ball().map(|ball| ball.verdict()))
     }
 
     #[inline]
-    pub(super) fn separation_of_balls(&self, limit: f64) -> Option<Separation3> {
-        if !self.may_be_told() {
-            return None;
-        }
-        (self.balls().map(|balls| balls.within(limit)))
-            .or_else(|| self.on_plane().map(|ball| ball.within(limit)))
-            .or_else(|| self.ball_on_rod().map(|ball| ball.within(limit)))
-            .or_else(|| self.ball().map(|ball| ball.seen().within(limit)))
+    pub(super) fn separation_in_closed_form(&self, limit: f64) -> Option<Separation3> {
+        let pair = self.with_closed_form()?;
+        (pair.balls().map(|balls| balls.within(limit)))
+            .or_else(|| pair.on_plane().map(|ball| ball.within(limit)))
+            .or_else(|| pair.ball_on_rod().map(|ball| ball.within(limit)))
+            .or_else(|| pair.ball().map(|ball| ball.seen().within(limit)))
     }
 
     #[inline]
-    pub(super) fn distance_of_balls(&self) -> Option<Option<Closest3>> {
-        if !self.may_be_told() {
-            return None;
-        }
-        (self.balls().map(|balls| balls.distance()))
-            .or_else(|| self.on_plane().map(|ball| ball.distance()))
-            .or_else(|| self.ball_on_rod().map(|ball| ball.distance()))
-            .or_else(|| self.ball().map(|ball| ball.seen().distance()))
+    pub(super) fn distance_in_closed_form(&self) -> Option<Option<Closest3>> {
+        let pair = self.with_closed_form()?;
+        (pair.balls().map(|balls| balls.distance()))
+            .or_else(|| pair.on_plane().map(|ball| ball.distance()))
+            .or_else(|| pair.ball_on_rod().map(|ball| ball.distance()))
+            .or_else(|| pair.ball().map(|ball| ball.seen().distance()))
     }
 
     #[inline]
-    pub(super) fn contact_of_balls(&self, margin: f32, manifolds: &mut impl Room) -> Option<Met> {
-        if !self.may_be_told() {
-            return None;
-        }
-        (self.balls().map(|balls| balls.contact(margin, manifolds)))
-            .or_else(|| self.on_plane().map(|ball| ball.contact(margin, manifolds)))
-            .or_else(|| self.ball_on_rod().map(|ball| ball.contact(margin, manifolds)))
-            .or_else(|| self.ball().map(|ball| ball.contact(margin, manifolds)))
+    pub(super) fn contact_in_closed_form(&self, margin: f32, manifolds: &mut impl Room) -> Option<Met> {
+        let pair = self.with_closed_form()?;
+        (pair.balls().map(|balls| balls.contact(margin, manifolds)))
+            .or_else(|| pair.on_plane().map(|ball| ball.contact(margin, manifolds)))
+            .or_else(|| pair.ball_on_rod().map(|ball| ball.contact(margin, manifolds)))
+            .or_else(|| pair.ball().map(|ball| ball.contact(margin, manifolds)))
     }
 
     /// By integers, of shapes that need no axes for it; by which corners is where to begin.
@@ -97,26 +90,33 @@ impl Pair3<'_> {
         let (Shape3::Sphere(a), Shape3::Sphere(b)) = (self.shape_a, self.shape_b) else { return None };
         let radii = [a.radius(), b.radius()].map(f64::from);
         let (distance, both) = (self.between.length(), radii[0] + radii[1]);
-        let reach = both + self.between.abs().element_sum();
-        let precision = Precision { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[0] };
+        let reach = both + length_at_most(self.between);
+        let precision = Precision::of_closed_form(reach);
         Some(Balls { pair: self, radii, distance, separation: distance - both, precision })
     }
 }
 
 /// A separation in closed form, with all that is told of it.
 pub(super) trait Told {
+    fn pair(&self) -> &Pair3<'_>;
     /// In metres, off by less than the projection of [`Told::precision`].
     fn separation(&self) -> f64;
     fn precision(&self) -> &Precision;
     /// Whether they overlap, by integers.
-    fn exactly(&self) -> bool;
+    #[cold]
+    fn exactly(&self) -> bool {
+        self.pair().overlaps_exactly(&[])
+    }
     /// Unit axis in world axes, from A to B.
     fn normal(&self) -> Vec3;
     /// Where they are nearest to each other, or deepest in each other.
     fn anchors(&self) -> [Vec3; 2];
     fn feature(&self) -> FeatureId;
-    /// Whether points are measured from B, and B's position less A's, in world axes.
-    fn measured_from(&self) -> (bool, DVec3);
+    /// Whether points are measured from B.
+    #[inline]
+    fn is_from_b(&self) -> bool {
+        false
+    }
 
     /// Whether they overlap: by the number, and where it may be rounding, exactly.
     #[inline]
@@ -176,8 +176,7 @@ pub(super) trait Told {
         if let Some(manifold) = manifolds.room(separation) {
             (manifold.normal, manifold.separation, manifold.error) = (normal, separation, error);
             self.add_points(margin, manifold);
-            let (is_from_b, between) = self.measured_from();
-            manifold.plumb(is_from_b, between);
+            manifold.plumb(self.is_from_b(), self.pair().between);
         }
         Ok(overlapping)
     }
@@ -197,6 +196,11 @@ pub(super) trait Told {
 }
 
 impl Told for Balls<'_> {
+    #[inline]
+    fn pair(&self) -> &Pair3<'_> {
+        self.pair
+    }
+
     #[inline]
     fn separation(&self) -> f64 {
         self.separation
@@ -221,11 +225,6 @@ impl Told for Balls<'_> {
     fn anchors(&self) -> [Vec3; 2] {
         let axis = self.axis();
         [(axis * self.radii[0]).as_vec3(), (axis * -self.radii[1]).as_vec3()]
-    }
-
-    #[inline]
-    fn measured_from(&self) -> (bool, DVec3) {
-        (false, self.pair.between)
     }
 
     fn feature(&self) -> FeatureId {

@@ -16,7 +16,7 @@ use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, FeatureId};
 use crate::polyhedron::half_space::Plane;
 use crate::polyhedron::solid::Solid;
-use crate::precision::{IN_SPACE, Precision};
+use crate::precision::{Precision, length_at_most};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE};
@@ -34,12 +34,6 @@ pub(super) struct OnPlane<'p> {
     height: f64,
     radius: f64,
     precision: Precision,
-}
-
-/// At least the length: sums of coordinates need no root.
-#[inline]
-fn length(v: DVec3) -> f64 {
-    v.abs().element_sum()
 }
 
 impl Pair3<'_> {
@@ -61,13 +55,13 @@ impl Pair3<'_> {
                 return None;
             }
             _ => {
-                let outer = f64::from(shape.outer_radius()) + length(shape.center().as_dvec3());
+                let outer = f64::from(shape.outer_radius()) + length_at_most(shape.center().as_dvec3());
                 (shape.radius(), outer, plane.lowest_of(shape, (&of_shape.basis(), offset)))
             }
         };
         let (height, radius) = (normal.dot(lowest), f64::from(radius));
-        let reach = outer + length(offset);
-        let precision = Precision { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[0] };
+        let reach = outer + length_at_most(offset);
+        let precision = Precision::of_closed_form(reach);
         Some(OnPlane { pair: self, plane, shape, offset, lowest, height, radius, precision })
     }
 }
@@ -88,6 +82,11 @@ impl OnPlane<'_> {
 
 impl Told for OnPlane<'_> {
     #[inline]
+    fn pair(&self) -> &Pair3<'_> {
+        self.pair
+    }
+
+    #[inline]
     fn separation(&self) -> f64 {
         self.height - self.radius
     }
@@ -95,11 +94,6 @@ impl Told for OnPlane<'_> {
     #[inline]
     fn precision(&self) -> &Precision {
         &self.precision
-    }
-
-    #[cold]
-    fn exactly(&self) -> bool {
-        self.pair.overlaps_exactly(&[])
     }
 
     #[inline]
@@ -111,11 +105,6 @@ impl Told for OnPlane<'_> {
     fn anchors(&self) -> [Vec3; 2] {
         let normal = self.plane.normal;
         self.anchors_of([self.lowest - normal * self.radius, self.lowest - normal * self.height])
-    }
-
-    #[inline]
-    fn measured_from(&self) -> (bool, DVec3) {
-        (false, self.pair.between)
     }
 
     /// Of a sphere.

@@ -42,7 +42,7 @@ use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
 use crate::exact::Site3;
 use crate::feature::{Feature, FeatureId, Hint};
-use crate::precision::{IN_SPACE, Precision};
+use crate::precision::{IN_SPACE, Precision, length_at_most};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Basis3, Hull, Shape3};
@@ -123,12 +123,11 @@ impl<'a> Convex<'a> {
         };
         // What the distance iteration's steps are relative to: radii do not enter it.
         let size = core_size(shape_a) + core_size(shape_b);
-        // Sums of coordinates bound lengths, and need no root.
-        let length = |v: DVec3| v.abs().element_sum();
-        let off_center = length(shape_a.center().as_dvec3()) + length(shape_b.center().as_dvec3());
+        let off_center =
+            length_at_most(shape_a.center().as_dvec3()) + length_at_most(shape_b.center().as_dvec3());
         let precision = Precision {
             size,
-            reach: size + radii + off_center + length(offset) + summed,
+            reach: size + radii + off_center + length_at_most(offset) + summed,
             planarity: planarity(shape_a) + planarity(shape_b),
             roundings: IN_SPACE[usize::from(sites.iter().any(|site| site.part.is_some()))],
         };
@@ -146,7 +145,7 @@ impl<'a> Convex<'a> {
             [Some(plane), None] | [None, Some(plane)] => self.told(self.told_half_space(plane), limit),
             [None, None] => match self.slenders() {
                 Some([a, b]) => self.told(self.told_slender(&a, &b), limit),
-                None => self.with_solids(|a, b| self.probe_any_solids(a, b, asked)),
+                None => self.with_solids(|a, b| self.probe_solids(a, b, asked)),
             },
         }
     }
@@ -171,7 +170,7 @@ impl<'a> Convex<'a> {
             return (probe, false);
         }
         self.with_solids(|a, b| {
-            let probe = self.probe_any_solids(a, b, asked);
+            let probe = self.probe_solids(a, b, asked);
             let is_made = match &probe {
                 Probe::Near(near) if accept(near) => {
                     self.touch_solids((a, b), near, asked, touch);
@@ -181,14 +180,6 @@ impl<'a> Convex<'a> {
             };
             (probe, is_made)
         })
-    }
-
-    fn probe_any_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
-        if a.is_slender() && b.is_slender() {
-            self.told(self.told_slender(&Slender::of_solid(a), &Slender::of_solid(b)), asked.limit)
-        } else {
-            self.probe_solids(a, b, asked)
-        }
     }
 
     /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
@@ -211,13 +202,7 @@ impl<'a> Convex<'a> {
         match self.planes() {
             [None, None] => match self.slenders() {
                 Some([a, b]) => self.told_verdict(&self.told_slender(&a, &b)),
-                None => self.with_solids(|a, b| {
-                    if a.is_slender() && b.is_slender() {
-                        let told = self.told_slender(&Slender::of_solid(a), &Slender::of_solid(b));
-                        return self.told_verdict(&told);
-                    }
-                    self.verdict_of_solids(a, b)
-                }),
+                None => self.with_solids(|a, b| self.verdict_of_solids(a, b)),
             },
             [Some(a), Some(b)] => self.told_verdict(&self.told_half_spaces(a, b)),
             [Some(plane), None] | [None, Some(plane)] => self.told_verdict(&self.told_half_space(plane)),
@@ -235,13 +220,10 @@ impl<'a> Convex<'a> {
             return self.told_ball(ball).separation <= 0.0;
         }
         match self.planes() {
-            [None, None] => self.with_solids(|a, b| {
-                if a.is_slender() && b.is_slender() {
-                    let [a, b] = [Slender::of_solid(a), Slender::of_solid(b)];
-                    return self.told_slender(&a, &b).separation <= 0.0;
-                }
-                self.guess_of_solids(a, b)
-            }),
+            [None, None] => match self.slenders() {
+                Some([a, b]) => self.told_slender(&a, &b).separation <= 0.0,
+                None => self.with_solids(|a, b| self.guess_of_solids(a, b)),
+            },
             [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
             [Some(plane), None] | [None, Some(plane)] => self.told_half_space(plane).separation <= 0.0,
         }
@@ -263,11 +245,13 @@ impl<'a> Convex<'a> {
                 *touch = ball.touch(near.separation.into(), self.on_surfaces(ball.points(), ball.axis()));
                 return true;
             }
-            Evidence::Slender(nearest) if let Some([a, b]) = self.slenders() => {
-                *touch = slender::touch([&a, &b], nearest, margin, preference);
+            Evidence::Slender(nearest) => {
+                if let Some([a, b]) = self.slenders() {
+                    *touch = slender::touch([&a, &b], nearest, margin, preference);
+                }
                 return true;
             }
-            _ => {
+            Evidence::Axes(..) => {
                 self.with_solids(|a, b| self.touch_solids((a, b), near, asked, touch));
                 return true;
             }
@@ -297,19 +281,11 @@ impl<'a> Convex<'a> {
     /// The same for what is seen as solids.
     fn touch_solids(&self, (a, b): (&Solid, &Solid), near: &Near, asked: Asked, touch: &mut Touch) {
         let (margin, preference) = (asked.limit, self.preference());
-        match &near.evidence {
-            Evidence::Axes(axes, witness) => {
-                let last = last_of(asked.hint);
-                let even = self.even_depth();
-                let near = self.same_place();
-                let ask = Ask { axes, witness: witness.as_ref(), margin, preference, even, near, last };
-                touch_into(a, b, &ask, touch);
-            }
-            Evidence::Slender(nearest) => {
-                let [a, b] = [Slender::of_solid(a), Slender::of_solid(b)];
-                *touch = slender::touch([&a, &b], nearest, margin, preference);
-            }
-            Evidence::HalfSpace(_) | Evidence::HalfSpaces(..) | Evidence::Ball(_) => {}
+        if let Evidence::Axes(axes, witness) = &near.evidence {
+            let (even, last) = (self.even_depth(), last_of(asked.hint));
+            let near = self.same_place();
+            let ask = Ask { axes, witness: witness.as_ref(), margin, preference, even, near, last };
+            touch_into(a, b, &ask, touch);
         }
     }
 
@@ -334,7 +310,7 @@ impl<'a> Convex<'a> {
         [plane(self.shape_a, false), plane(self.shape_b, true)]
     }
 
-    /// Both as what they are without their radius, where they are points and segments for certain.
+    /// Both as what they are without their radius, where they are points and segments.
     fn slenders(&self) -> Option<[Slender; 2]> {
         let a = Slender::of(self.shape_a, (&IDENTITY, DVec3::ZERO))?;
         Some([a, Slender::of(self.shape_b, (&self.relative, self.offset))?])

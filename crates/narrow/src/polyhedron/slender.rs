@@ -25,8 +25,7 @@ pub(crate) struct Slender {
 }
 
 impl Slender {
-    /// Of a shape with its axes and its origin there, if it is one for certain: to make a [`Solid`] of it takes as long as to find
-    /// closest points.
+    /// Of a shape with its axes and its origin there, if it is one: to make a [`Solid`] of it takes as long as to find closest points.
     #[inline]
     pub(crate) fn of(shape: &Shape3, (basis, origin): (&Basis3, DVec3)) -> Option<Self> {
         let [from, to] = match shape {
@@ -35,10 +34,15 @@ impl Slender {
             }
             Shape3::Capsule(capsule) => capsule.segment().ends(),
             Shape3::Segment(segment) => segment.ends(),
+            Shape3::Hull(hull) => match *hull.vertices() {
+                [only] => [only; 2],
+                [from, to] => [from, to],
+                _ => return None,
+            },
             _ => return None,
         };
         let ends = [origin + basis.turn(from.as_dvec3()), origin + basis.turn(to.as_dvec3())];
-        Some(Self { ends, is_point: false, radius: shape.radius().into() })
+        Some(Self { ends, is_point: from == to, radius: shape.radius().into() })
     }
 
     /// Of a core that has neither faces nor more than two vertices.

@@ -1,4 +1,5 @@
-//! Triangles of two-sided ground that are seen from behind, across a gap: they wait until all others have been heard.
+//! Triangles of two-sided ground that are seen from behind, across a gap: they wait until all others have been looked at, but for those
+//! whose axis was refused (`refused`). After those, they would be held to be explained by normals that only stand in.
 //!
 //! ```text
 //! a normal that was heard, of ground around one of the triangle's corners, and the triangle's own no nearer to it than a little less
@@ -26,7 +27,7 @@ pub(super) type AllBehind = ArrayVec<NearTriangle, MOST_BEHIND>;
 const ASIDE: f64 = 0.125;
 
 impl Seen<'_> {
-    /// Keeps a triangle until all others have been heard, if it is to wait; whether it did.
+    /// Keeps a triangle until all others have been looked at, if it is to wait; whether it did.
     pub(super) fn leaves_behind(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) -> bool {
         let separation = prism.extent.low - self.standing.radius;
         !prism.facet.is_front && separation > prism.doubt && known.behind.try_push(*near).is_ok()

@@ -48,6 +48,15 @@ impl Seen<'_> {
         true
     }
 
+    /// The same of a triangle by its own plane, however far it is: nothing where it is not seen.
+    pub(super) fn plane_of(&self, number: u32) -> Option<Plane> {
+        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let facet = Facet::seen(ground, number, standing.center)?;
+        let (extent, doubt) = (standing.extent(facet.normal, facet.origin()), self.doubt_over(&facet));
+        Some(Plane { patch: ground.patch(number), facet, extent, doubt })
+    }
+
+    /// The triangle, the part over it, and what is asked of both.
     pub(super) fn prism_over<'p>(&'p self, plane: &'p Plane) -> Prism<'p> {
         let Plane { facet, extent, doubt, .. } = plane;
         let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);

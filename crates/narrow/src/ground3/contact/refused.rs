@@ -13,8 +13,8 @@
 
 use super::facet::{Facet, is_same};
 use super::groups::MOST_GROUPS;
+use super::over::Plane;
 use super::prism::Prism;
-use super::standing::Extent;
 use super::{Known, Seen};
 use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
@@ -23,8 +23,7 @@ use core::f64::consts::FRAC_1_SQRT_2;
 
 /// A triangle whose axis was refused, and how the part stands over it.
 struct Refused {
-    facet: Facet,
-    extent: Extent,
+    plane: Plane,
     refusal: Refusal,
 }
 
@@ -59,16 +58,12 @@ impl Seen<'_> {
     /// Keeps a triangle whose axis was refused until all others have been heard.
     pub(super) fn refuse(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
         let number = prism.facet.number;
-        let is_seen = || prism.facet.has_own_plane() || self.seen(number).is_some();
-        if known.refused.is_full() || !is_seen() {
+        let is_seen = || {
+            prism.facet.has_own_plane() || Facet::seen(prism.ground, number, self.standing.center).is_some()
+        };
+        if !is_seen() || known.refused.try_push((number, refusal)).is_err() {
             self.add_in_place(prism, refusal.told, known);
-            return;
         }
-        let _ = known.refused.try_push((number, refusal));
-    }
-
-    fn seen(&self, number: u32) -> Option<Facet> {
-        Facet::seen(self.asking.on.ground, number, self.standing.center)
     }
 
     /// Adds points of triangles whose axis was refused, by their own normals.
@@ -84,7 +79,7 @@ impl Seen<'_> {
         }
         let (by_now, deepest) = (known.heard(), known.groups.least().min(0.0));
         self.add_those(false, known, |refused, known| {
-            let is_far = |by: &&Heard| refused.facet.normal.dot(by.0) < FRAC_1_SQRT_2;
+            let is_far = |by: &&Heard| refused.plane.facet.normal.dot(by.0) < FRAC_1_SQRT_2;
             // What a gap parts from the part is clear of it before any move, which shows nothing: the floor beside a wall was told by one
             // corner. Only what would be told as deeper than all else is left out.
             let may_be_freed = !refused.refusal.is_apart || self.is_deeper(refused, deepest);
@@ -98,33 +93,27 @@ impl Seen<'_> {
 
     /// Adds points of those whose axis is nearly their own normal, or of the others, but for what is freed.
     fn add_those(&self, is_own: bool, known: &mut Known, is_freed: impl Fn(&Refused, &mut Known) -> bool) {
-        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
-        // One by one: all of them are large.
         for place in 0..known.refused.len() {
             let (number, refusal) = known.refused[place];
-            let Some(facet) = (refusal.is_own == is_own).then(|| self.seen(number)).flatten() else {
-                continue;
-            };
-            let extent = standing.extent(facet.normal, facet.origin());
-            let refused = Refused { facet, extent, refusal };
-            if is_freed(&refused, known) {
-                continue;
+            if refusal.is_own == is_own
+                && let Some(plane) = self.plane_of(number)
+            {
+                let refused = Refused { plane, refusal };
+                if !is_freed(&refused, known) {
+                    self.add_in_place(&self.prism_over(&refused.plane), refusal.told, known);
+                }
             }
-            let Refused { facet, extent, refusal } = &refused;
-            let doubt = self.doubt_over(facet);
-            let prism = Prism { ground, standing, facet, extent, reach, doubt, gate: None };
-            self.add_in_place(&prism, refusal.told, known);
         }
     }
 
     /// Whether the part is deeper in a triangle, along its own normal, than was found along another.
     fn is_deeper(&self, refused: &Refused, least: f64) -> bool {
-        refused.extent.low - self.standing.radius < least - self.standing.slack
+        refused.plane.extent.low - self.standing.radius < least - self.standing.slack
     }
 
     /// Whether a normal frees a triangle, as the part's lowest vertex shows.
     fn is_freed(&self, refused: &Refused, by: Heard) -> bool {
-        let facet = &refused.facet;
+        let facet = &refused.plane.facet;
         self.is_deeper(refused, by.1) && !is_same(facet.normal, by.0) && self.is_left_below(facet, by)
     }
 
@@ -141,7 +130,7 @@ impl Seen<'_> {
     /// The same where that vertex is beside all ground: as any axis shows of a cuboid, of others the face that they turn to the normal.
     fn is_freed_by_face(&self, refused: &Refused, (normal, least): Heard, known: &mut Known) -> bool {
         let standing = self.standing;
-        let facet = &refused.facet;
+        let facet = &refused.plane.facet;
         if !self.is_deeper(refused, least) {
             return false;
         }

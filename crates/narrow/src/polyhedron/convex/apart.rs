@@ -19,9 +19,6 @@ impl Convex<'_> {
         };
         let beyond = limit + self.radii + self.precision.projection();
         self.with_solids(|a, b| {
-            if a.is_slender() && b.is_slender() {
-                return Gap::Unclear;
-            }
             // Nobody need search for a common point of what is apart by far.
             let found = match self.direction_apart() {
                 Some(direction) => Found::Nothing(direction),
