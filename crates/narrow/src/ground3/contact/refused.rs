@@ -39,8 +39,8 @@ pub(super) struct Refusal {
 }
 
 /// Most triangles that wait until all others have been seen: by their numbers, and seen anew then, which takes less than what was
-/// asked before. Those beyond are told at once, and nothing frees them: with 32, one in forty crates on stairs of many pieces, a millimetre
-/// deep, was told of a riser half a metre beyond it.
+/// asked before. Those beyond are told at once, and nothing frees them: with 32 and a margin of 0.3 m, one in forty bodies on stairs of many pieces, a millimetre
+/// deep at most, was told to be more than 5 cm deep in one of them.
 const MOST_REFUSED: usize = 256;
 
 pub(super) type AllRefused = ArrayVec<(u32, Refusal), MOST_REFUSED>;
