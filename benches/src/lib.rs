@@ -10,6 +10,7 @@
 //! - [`certain`]: yes or no that is never wrong, beside the first tier alone.
 //! - [`error`]: speed against error, on easy pairs and hard ones, beside textbook SAT and parry3d in f32 and f64; steadiness;
 //!   time against vertices.
+//! - [`shapes`]: every pair of shapes, and what is asked of one alone.
 //! - [`world`]: whole frames, beside the [`lean`] pipeline over parry3d.
 //! - [`mesh`]: bodies, questions and casts on triangle meshes, beside parry3d's `TriMesh`.
 //!
@@ -31,4 +32,5 @@ pub mod parry;
 pub mod race;
 pub mod report;
 pub mod row;
+pub mod shapes;
 pub mod world;

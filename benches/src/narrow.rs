@@ -17,7 +17,7 @@
 //! double-double ([`Judge`], [`Accuracy`]). Depths of manifolds are those of their deepest
 //! points. Rows of growing hulls also tell the slowest single pair.
 
-mod both;
+pub(crate) mod both;
 mod cached;
 
 use crate::accuracy::Accuracy;

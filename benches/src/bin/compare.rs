@@ -1,4 +1,4 @@
-//! Prints our times beside parry3d's: `compare broad|narrow|world|mesh|certain [--json] [--quick]
+//! Prints our times beside parry3d's: `compare broad|narrow|shapes|world|mesh|certain [--json] [--quick]
 //! [--save]`.
 
 use asunder_benches::broad::growth::{self, GrowthRow};
@@ -8,7 +8,7 @@ use asunder_benches::judge::Judge;
 use asunder_benches::report::cpu::Processor;
 use asunder_benches::report::{Data, KeptRow, kept};
 use asunder_benches::row::{Row, heading, heading_with_accuracy, heading_with_figures};
-use asunder_benches::{broad, certain, flat, mesh, narrow, world};
+use asunder_benches::{broad, certain, flat, mesh, narrow, shapes, world};
 use clap::{Args, Parser, Subcommand};
 use std::error::Error;
 use std::path::Path;
@@ -27,6 +27,8 @@ enum Part {
     Broad(BroadOptions),
     /// One question about many pairs of shapes.
     Narrow(Options),
+    /// Every pair of shapes, and what is asked of one alone.
+    Shapes(Options),
     /// Whole frames, from poses to contact points.
     World(WorldOptions),
     /// Bodies, questions, rays and casts on triangle meshes, and making one.
@@ -81,7 +83,9 @@ impl Part {
         match self {
             Self::Broad(broad) => &broad.all,
             Self::World(world) => &world.all,
-            Self::Narrow(options) | Self::Mesh(options) | Self::Certain(options) => options,
+            Self::Narrow(options) | Self::Shapes(options) | Self::Mesh(options) | Self::Certain(options) => {
+                options
+            }
         }
     }
 
@@ -89,6 +93,7 @@ impl Part {
         match self {
             Self::Broad(_) => "broad",
             Self::Narrow(_) => "narrow",
+            Self::Shapes(_) => "shapes",
             Self::World(_) => "world",
             Self::Mesh(_) => "mesh",
             Self::Certain(_) => "certain",
@@ -98,7 +103,7 @@ impl Part {
     fn heading(&self) -> String {
         match self {
             Self::Certain(_) => certain::heading(),
-            Self::Narrow(_) => heading_with_accuracy(),
+            Self::Narrow(_) | Self::Shapes(_) => heading_with_accuracy(),
             Self::Broad(_) => heading_with_figures(),
             Self::World(_) => world::heading(),
             Self::Mesh(_) => heading(),
@@ -210,6 +215,12 @@ fn measure(part: &Part, tell: &mut impl FnMut(Row)) -> Result<(), Box<dyn Error>
             }
             for case in flat::cases().iter().filter(|case| wanted(&flat::name(case))) {
                 tell(flat::measure(case, &effort));
+            }
+        }
+        Part::Shapes(_) => {
+            let mut judge = Judge::default();
+            for case in shapes::cases().iter().filter(|case| wanted(&shapes::name(case))) {
+                tell(shapes::measure(case, &effort, &mut judge)?);
             }
         }
         Part::Certain(_) => {

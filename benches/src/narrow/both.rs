@@ -13,7 +13,7 @@ use parry3d::query::{self, ContactManifold, DefaultQueryDispatcher, PersistentQu
 use parry3d::shape::SharedShape;
 
 /// A pair, in our types and in parry3d's.
-pub(super) struct Both {
+pub(crate) struct Both {
     ours: PosedPair3,
     shapes: [SharedShape; 2],
     poses: [Pose; 2],
@@ -24,7 +24,7 @@ pub(super) type Manifolds = Vec<ContactManifold<(), ()>>;
 
 impl Both {
     /// The pairs in both types; nothing where parry3d refuses a hull.
-    pub(super) fn all(pairs: &[PosedPair3], shapes: &mut Shapes) -> Option<Vec<Self>> {
+    pub(crate) fn all(pairs: &[PosedPair3], shapes: &mut Shapes) -> Option<Vec<Self>> {
         let both = pairs.iter().map(|pair| {
             Some(Self {
                 shapes: [shapes.convert(&pair.shape_a)?, shapes.convert(&pair.shape_b)?],
@@ -35,7 +35,7 @@ impl Both {
         both.collect()
     }
 
-    pub(super) fn pair(&self) -> Pair3<'_> {
+    pub(crate) fn pair(&self) -> Pair3<'_> {
         Pair3::new(&self.ours.shape_a, &self.ours.pose_a, &self.ours.shape_b, &self.ours.pose_b)
     }
 
@@ -48,8 +48,13 @@ impl Both {
         [self.ours.pose_a, self.ours.pose_b]
     }
 
+    /// Shapes and poses as parry3d has them.
+    pub(crate) fn of_peer(&self) -> (&[SharedShape; 2], &[Pose; 2]) {
+        (&self.shapes, &self.poses)
+    }
+
     /// Our answer: something of it, so that none of it can be left out.
-    pub(super) fn ask(&self, operation: Operation) -> f32 {
+    pub(crate) fn ask(&self, operation: Operation) -> f32 {
         let pair = self.pair();
         match operation {
             Operation::Boolean => f32::from(u8::from(pair.overlaps())),
@@ -66,7 +71,7 @@ impl Both {
     }
 
     /// Our answer, to be judged.
-    pub(super) fn said(&self, operation: Operation) -> Said {
+    pub(crate) fn said(&self, operation: Operation) -> Said {
         let pair = self.pair();
         match operation {
             Operation::Boolean => Said { touching: pair.overlaps(), separation: None },
@@ -128,13 +133,13 @@ fn of_depths(separations: impl Iterator<Item = f32>) -> Said {
 
 /// parry3d, with manifolds whose memory is kept from pair to pair.
 #[derive(Default)]
-pub(super) struct Peer {
+pub(crate) struct Peer {
     manifolds: Manifolds,
 }
 
 impl Peer {
     /// Its answer: something of it, so that none of it can be left out.
-    pub(super) fn ask(&mut self, operation: Operation, both: &Both) -> f32 {
+    pub(crate) fn ask(&mut self, operation: Operation, both: &Both) -> f32 {
         let ([a, b], [pose_a, pose_b]) = (&both.shapes, &both.poses);
         let (a, b) = (&*a.0, &*b.0);
         match operation {
@@ -152,7 +157,7 @@ impl Peer {
     }
 
     /// Its answer, to be judged.
-    pub(super) fn said(&mut self, operation: Operation, both: &Both) -> Said {
+    pub(crate) fn said(&mut self, operation: Operation, both: &Both) -> Said {
         let ([a, b], [pose_a, pose_b]) = (&both.shapes, &both.poses);
         let (a, b) = (&*a.0, &*b.0);
         match operation {
