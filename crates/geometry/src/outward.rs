@@ -123,7 +123,7 @@ fn greatest(lanes: [f32; 8]) -> f32 {
 
 /// The box from `low` to `high` about a position, grown by `grow` metres.
 #[inline]
-fn around(low: DVec3, high: DVec3, pose: &Pose3, grow: f64) -> Aabb3 {
+pub(crate) fn around(low: DVec3, high: DVec3, pose: &Pose3, grow: f64) -> Aabb3 {
     let p = pose.position();
     let lost = lost(p.abs().element_sum(), low.abs().max(high.abs()).element_sum(), grow);
     let x = interval(p.x, low.x, high.x, grow, lost);

@@ -1,7 +1,7 @@
 //! Spheres.
 
 use crate::aabb::Aabb3;
-use crate::outward::around3;
+use crate::outward::around;
 use crate::pose3::Pose3;
 use crate::radius::{RadiusError, check_round};
 use glam::DVec3;
@@ -57,6 +57,7 @@ impl Sphere {
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
-        around3(core::iter::once(DVec3::ZERO), pose, f64::from(margin) + f64::from(self.radius))
+        // No axes: no rotation moves the centre.
+        around(DVec3::ZERO, DVec3::ZERO, pose, f64::from(margin) + f64::from(self.radius))
     }
 }

@@ -83,6 +83,7 @@ mod precision;
 mod room;
 mod shadow;
 mod touch;
+mod triangle;
 mod whole2;
 mod whole3;
 

@@ -1,13 +1,17 @@
 //! One pair in space.
 
 mod ball;
+mod ball_on_faces;
+mod ball_on_hull;
 mod ball_on_rod;
+mod ball_on_triangle;
 mod balls;
 mod compounds;
 mod nearest;
 mod on_plane;
 mod part;
 mod parts;
+mod rods;
 
 use crate::answer::{Closest3, Manifold3, Measured3, Separation3, Tier, Verdict};
 use crate::batch::{Met, beyond};

@@ -14,7 +14,7 @@ use asunder_geometry::tolerance::{ALIGNED_FACES, MAX_HULL_VERTICES};
 /// Half-edges of a hull with the most vertices: so many edges, each seen from both of its ends.
 const MAX_HALF_EDGES: usize = 2 * (3 * MAX_HULL_VERTICES - 6);
 
-/// Share of a rod's length by which a place on it may be past its end, and count as the end.
+/// Share of a rod's length by which a place on it may be past its end, and count as the end; and of a stretch that is none.
 const SHARE: f64 = 1e-9;
 
 /// An edge of a core, or all of a segment.
@@ -130,7 +130,8 @@ pub(super) fn shared_stretch(
     let on_a = |end: usize| FeatureId::new(a.vertices[end], b.edge);
     let begin = if low.0 >= 0.0 { (low.0, on_b(low.1)) } else { (0.0, on_a(0)) };
     let end = if high.0 <= end_a { (high.0, on_b(high.1)) } else { (end_a, on_a(1)) };
-    if begin.0 >= end.0 {
+    // End to end they share nothing but rounding.
+    if begin.0 + SHARE * end_a >= end.0 {
         return none;
     }
     let places = |place: f64| [place / end_a, (place - from_b) / (to_b - from_b)];

@@ -6,6 +6,7 @@ use super::standing::Standing;
 use super::unsaid::Unsaid;
 use super::{Known, Seen};
 use crate::feature::Feature;
+use crate::triangle::nearest_on_edges;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
 
@@ -137,25 +138,10 @@ impl Seen<'_> {
 /// What of a triangle is nearest to a point, and where: over the triangle's face that is the point as it is given, and its foot
 /// is the caller's to take.
 pub(super) fn nearest_to(facet: &Facet, point: DVec3) -> (Furthest, DVec3) {
-    let mut best: Option<(f64, Furthest, DVec3)> = None;
-    for edge in 0..3 {
-        let (from, along) = facet.edge(edge);
-        let from_start = point - from;
-        if facet.inwards(along).dot(from_start) >= 0.0 {
-            continue;
-        }
-        let share = from_start.dot(along) / along.length_squared();
-        let (feature, at) = if share <= 0.0 {
-            (Furthest::Corner(edge), from)
-        } else if share >= 1.0 {
-            (Furthest::Corner((edge + 1) % 3), facet.corners[(edge + 1) % 3])
-        } else {
-            (Furthest::Edge(edge), from + along * share)
-        };
-        let squared = (point - at).length_squared();
-        if best.is_none_or(|(least, ..)| squared < least) {
-            best = Some((squared, feature, at));
-        }
+    match nearest_on_edges(|edge| facet.edge(edge), |along| facet.inwards(along), point) {
+        None => (Furthest::Face, point),
+        Some((edge, place, at)) if place <= 0.0 => (Furthest::Corner(edge), at),
+        Some((edge, place, at)) if place >= 1.0 => (Furthest::Corner((edge + 1) % 3), at),
+        Some((edge, _, at)) => (Furthest::Edge(edge), at),
     }
-    best.map_or((Furthest::Face, point), |(_, feature, at)| (feature, at))
 }

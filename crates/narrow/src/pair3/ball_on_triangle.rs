@@ -1,0 +1,156 @@
+//! A sphere and a triangle that are parts of nothing: answered at once, in the triangle's axes.
+//!
+//! ```text
+//! separation    |centre - the point of the triangle nearest to it| - radius: no more than that, and no less than what a projection on
+//!               that axis shows of all three corners; where those two differ by more than half the bound of projections, as beside
+//!               needles, others are asked
+//! normal        the face's where that point is inside of it, or the centre lies on the triangle; else along both
+//! yes or no     the number's beyond twice the bound, else by integers
+//! ```
+//! The general path sees a solid with two faces, looks for the closest points of that and a point, and names a feature for them: a
+//! manifold takes 860 ns there and 280 here (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
+
+use super::Pair3;
+use super::ball_on_faces::{BallOnFaces, Nearest};
+use crate::feature::Feature;
+use crate::precision::{Precision, length_at_most};
+use crate::triangle::nearest_on_edges;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Shape3, Triangle3};
+
+impl Pair3<'_> {
+    #[inline]
+    pub(super) fn ball_on_triangle(&self) -> Option<BallOnFaces<'_>> {
+        let (sphere, shape, pose, is_b) = match (self.shape_a, self.shape_b) {
+            (Shape3::Sphere(sphere), shape) => (sphere, shape, &self.pose_b, true),
+            (shape, Shape3::Sphere(sphere)) => (sphere, shape, &self.pose_a, false),
+            _ => return None,
+        };
+        let Shape3::Triangle(triangle) = shape else { return None };
+        let (basis, radius) = (pose.basis(), f64::from(sphere.radius()));
+        let center = basis.turn_back(if is_b { -self.between } else { self.between });
+        let reach = radius
+            + f64::from(triangle.outer_radius())
+            + length_at_most(triangle.center().as_dvec3())
+            + length_at_most(center);
+        let precision = Precision::of_closed_form(reach);
+        let nearest = nearest_on_triangle(triangle, center, precision.projection())?;
+        Some(BallOnFaces { pair: self, shape, basis, nearest, radius, is_b, precision })
+    }
+}
+
+/// What of a triangle is nearest to a point, where a projection is off by less than `doubt`; nothing where that would be more than half
+/// of it.
+#[inline]
+fn nearest_on_triangle(triangle: &Triangle3, point: DVec3, doubt: f64) -> Option<Nearest> {
+    let corners = triangle.vertices().map(|corner| corner.as_dvec3());
+    let [normal, _] = triangle.normals();
+    let edge = |i: usize| (corners[i], corners[(i + 1) % 3] - corners[i]);
+    let height = normal.dot(point - corners[0]);
+    let (side, face) = if height < 0.0 { (-normal, Feature::Face(1)) } else { (normal, Feature::Face(0)) };
+    let nearest = match nearest_on_edges(edge, |along| normal.cross(along), point) {
+        None => {
+            let foot = point - normal * height;
+            Nearest { foot, outwards: side, feature: face, distance: height.abs(), slack: 0.0 }
+        }
+        Some((number, place, foot)) => {
+            let (between, beside) = (point - foot, feature_on(number, place));
+            let distance = between.length();
+            let is_on = distance <= doubt;
+            let (outwards, feature) = if is_on { (side, face) } else { (between / distance, beside) };
+            Nearest { foot, outwards, feature, distance, slack: 0.0 }
+        }
+    };
+    let highest =
+        corners.iter().map(|corner| nearest.outwards.dot(*corner)).fold(f64::NEG_INFINITY, f64::max);
+    let at_least = nearest.outwards.dot(point) - highest;
+    (nearest.distance - at_least <= 0.5 * doubt).then_some(nearest)
+}
+
+/// An edge, or the corner at its end.
+fn feature_on(edge: usize, place: f64) -> Feature {
+    match place {
+        _ if place <= 0.0 => Feature::Vertex(edge as u32),
+        _ if place >= 1.0 => Feature::Vertex(((edge + 1) % 3) as u32),
+        _ => Feature::Edge(edge as u32),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::balls::tests::is_said_as_of_a_part;
+    use super::*;
+    use crate::answer::{Tier, Verdict};
+    use crate::numbers::Numbers;
+    use asunder_geometry::glam::{Quat, Vec3};
+    use asunder_geometry::{Pose3, Sphere};
+
+    fn triangle(corners: [DVec3; 3]) -> Option<Shape3> {
+        let [a, b, c] = corners.map(|corner| corner.as_vec3());
+        Triangle3::new(a, b, c).ok().map(Shape3::from)
+    }
+
+    #[test]
+    fn touching_is_exact_over_the_face_at_an_edge_and_at_a_corner() {
+        let shape = triangle([DVec3::ZERO, DVec3::X * 12.0, DVec3::Y * 12.0]).unwrap();
+        let ball: Shape3 = Sphere::new(5.0).unwrap().into();
+        // A place, and a way of length 5 out from there.
+        for (place, way) in [
+            (DVec3::new(3.0, 3.0, 0.0), DVec3::Z * -5.0),
+            (DVec3::new(4.0, 0.0, 0.0), DVec3::new(0.0, -3.0, 4.0)),
+            (DVec3::ZERO, DVec3::new(-4.0, -3.0, 0.0)),
+        ] {
+            let verdict = |longer: f64| {
+                let there = Pose3::at(place + way * longer).unwrap();
+                let told = Pair3::new(&shape, &Pose3::IDENTITY, &ball, &there).verdict();
+                assert_eq!(told, Pair3::new(&ball, &there, &shape, &Pose3::IDENTITY).verdict());
+                told
+            };
+            assert_eq!(verdict(1.0), Verdict { overlapping: true, tier: Tier::Exact }, "{place}");
+            assert_eq!(
+                verdict(1.0 + f64::EPSILON),
+                Verdict { overlapping: false, tier: Tier::Exact },
+                "{place}"
+            );
+            assert_eq!(verdict(1.1), Verdict { overlapping: false, tier: Tier::Bound });
+            assert_eq!(verdict(0.9), Verdict { overlapping: true, tier: Tier::Bound });
+        }
+    }
+
+    #[test]
+    fn a_centre_on_the_triangle_has_its_normal() {
+        let shape = triangle([DVec3::ZERO, DVec3::X * 4.0, DVec3::Y * 4.0]).unwrap();
+        let ball: Shape3 = Sphere::new(0.5).unwrap().into();
+        for place in [DVec3::new(1.0, 1.0, 0.0), DVec3::new(2.0, 0.0, 0.0), DVec3::ZERO, DVec3::X * 4.0] {
+            let there = Pose3::at(place).unwrap();
+            let manifold = Pair3::new(&shape, &Pose3::IDENTITY, &ball, &there).manifold(0.0).unwrap();
+            assert_eq!((manifold.separation, manifold.normal), (-0.5, Vec3::Z), "{place}");
+        }
+    }
+
+    /// The general path, which parts of compounds take, says the same; of needles, too, which it is left to.
+    #[test]
+    fn a_part_of_a_compound_says_the_same() {
+        let mut numbers = Numbers::new(78);
+        let (mut near, mut apart) = (0, 0);
+        for i in 0..4000 {
+            let [a, b, mut c] = [numbers.vector(), numbers.vector(), numbers.vector()];
+            if i % 5 == 0 {
+                c = a + (b - a) * 0.4 + c * 1e-6;
+            }
+            let Some(shape) = triangle([a, b, c]) else { continue };
+            let q = [numbers.vector(), numbers.vector()];
+            let turn = Quat::from_xyzw(q[0].x as f32, q[0].y as f32, q[0].z as f32, q[1].x as f32);
+            let ball = Shape3::from(Sphere::new((0.1 + 0.5 * q[1].y.abs()) as f32).unwrap());
+            let far = if i % 3 == 0 { 1e7 } else { 0.0 };
+            let here = Pose3::new(numbers.vector() + DVec3::X * far, turn).unwrap();
+            let there = here.position() + numbers.vector() * if i % 2 == 0 { 0.3 } else { 3.0 };
+            let there = Pose3::at(there).unwrap();
+            for is_near in is_said_as_of_a_part((&ball, &there), (&shape, &here)) {
+                near += u32::from(is_near);
+                apart += u32::from(!is_near);
+            }
+        }
+        assert!(near > 1500 && apart > 3000, "{near} near, {apart} apart");
+    }
+}
