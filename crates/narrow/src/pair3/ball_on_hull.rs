@@ -15,25 +15,81 @@
 
 use super::Pair3;
 use super::ball_on_faces::{BallOnFaces, Nearest};
+use super::balls::Told;
+use crate::answer::{Tier, Verdict};
 use crate::feature::Feature;
 use crate::polyhedron::convex::IDENTITY;
 use crate::polyhedron::solid::Solid;
 use crate::precision::{Precision, length_at_most};
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Hull, Shape3};
+use asunder_geometry::{Basis3, Hull, Shape3};
 
 /// Steps after which others are asked.
 const MAX_STEPS: usize = 32;
 
+/// A sphere and a hull with faces, and the centre as the hull sees it.
+struct Seen<'p> {
+    shape: &'p Shape3,
+    hull: &'p Hull,
+    /// The hull's axes in the world.
+    basis: Basis3,
+    center: DVec3,
+    /// Of the sphere, in metres.
+    radius: f64,
+    is_b: bool,
+    precision: Precision,
+}
+
 impl Pair3<'_> {
+    /// What is told of a sphere and a hull whose bounding spheres are within a limit.
     #[inline]
-    pub(super) fn ball_on_hull(&self) -> Option<BallOnFaces<'_>> {
+    pub(super) fn ball_on_hull(&self, limit: f64) -> Option<BallOnFaces<'_>> {
+        let seen = self.ball_by_hull(limit)?;
+        let nearest = seen.with_walk(|walk| walk.nearest(seen.hull.dimension() == 3, &seen.precision))?;
+        let Seen { shape, basis, radius, is_b, precision, .. } = seen;
+        Some(BallOnFaces { pair: self, shape, basis, nearest, radius, is_b, precision })
+    }
+
+    /// Whether a sphere and a hull overlap, if that can be told without proof of what is nearest, or with it.
+    #[inline]
+    pub(super) fn verdict_on_hull(&self) -> Option<Verdict> {
+        let seen = self.ball_by_hull(0.0)?;
+        let told = |overlapping| Some(Verdict { overlapping, tier: Tier::Bound });
+        let doubt = 2.0 * seen.precision.projection() + 4.0 * seen.precision.planarity;
+        let radii = seen.radius + f64::from(seen.hull.radius());
+        let from_middle = (seen.center - seen.hull.center().as_dvec3()).length();
+        if from_middle + doubt < seen.radius + f64::from(seen.hull.inner_radius()) {
+            return told(true);
+        }
+        let known = seen.with_walk(|walk| {
+            let (face, beyond) = walk.foremost()?;
+            if beyond - doubt > radii {
+                return Some(false);
+            }
+            if seen.hull.dimension() == 3 && beyond + doubt < radii.min(0.0) {
+                return Some(true);
+            }
+            // What is somewhere on the hull is no nearer than what is nearest.
+            (walk.from(face).is_some_and(|(foot, _)| (walk.point - foot).length() + doubt < radii))
+                .then_some(true)
+        });
+        match known {
+            Some(overlapping) => told(overlapping),
+            None => self.ball_on_hull(0.0).map(|ball| ball.verdict()),
+        }
+    }
+
+    #[inline]
+    fn ball_by_hull(&self, limit: f64) -> Option<Seen<'_>> {
         let (sphere, shape, pose, is_b) = match (self.shape_a, self.shape_b) {
             (Shape3::Sphere(sphere), shape) => (sphere, shape, &self.pose_b, true),
             (shape, Shape3::Sphere(sphere)) => (sphere, shape, &self.pose_a, false),
             _ => return None,
         };
         let Shape3::Hull(hull) = shape else { return None };
+        if self.gap_of_spheres() > limit {
+            return None;
+        }
         let (basis, radius) = (pose.basis(), f64::from(sphere.radius()));
         let center = basis.turn_back(if is_b { -self.between } else { self.between });
         let reach = radius
@@ -42,11 +98,16 @@ impl Pair3<'_> {
             + length_at_most(center);
         let planarity = f64::from(Hull::planarity_error(hull));
         let precision = Precision { planarity, ..Precision::of_closed_form(reach) };
-        let core = shape.core();
+        Some(Seen { shape, hull, basis, center, radius, is_b, precision })
+    }
+}
+
+impl Seen<'_> {
+    #[inline]
+    fn with_walk<R>(&self, ask: impl FnOnce(&Walk) -> R) -> R {
+        let core = self.shape.core();
         let solid = Solid::new(&core, IDENTITY, DVec3::ZERO, 0.0);
-        let walk = Walk { solid: &solid, heights: core.heights(), point: center };
-        let nearest = walk.nearest(hull.dimension() == 3, &precision)?;
-        Some(BallOnFaces { pair: self, shape, basis, nearest, radius, is_b, precision })
+        ask(&Walk { solid: &solid, heights: core.heights(), point: self.center })
     }
 }
 
@@ -67,6 +128,7 @@ struct Walk<'s> {
 }
 
 impl Walk<'_> {
+    /// What is nearest; nothing where that is not proved.
     fn nearest(&self, has_inside: bool, precision: &Precision) -> Option<Nearest> {
         let (face, beyond) = self.foremost()?;
         let slack = 4.0 * precision.planarity;
@@ -78,40 +140,40 @@ impl Walk<'_> {
         if has_inside && beyond <= 0.0 {
             return Some(over(face, beyond));
         }
+        let (foot, feature) = match self.from(face)? {
+            (_, At::Face(face)) => return Some(over(face, self.height(face))),
+            (foot, At::Edge(edge)) => (foot, Feature::Edge(self.solid.topology.edge_of(edge) as u32)),
+            (foot, At::Vertex(vertex)) => (foot, Feature::Vertex(vertex as u32)),
+        };
+        let (between, doubt) = (self.point - foot, precision.projection());
+        let distance = between.length();
+        if distance <= doubt {
+            return Some(over(face, beyond));
+        }
+        let outwards = between / distance;
+        let at_least = outwards.dot(self.point) - self.solid.support(outwards).reach;
+        let nearest = Nearest { foot, outwards, feature, distance, slack: 0.0 };
+        (distance - at_least <= 0.5 * doubt).then_some(nearest)
+    }
+
+    /// The walk from a face to what should be nearest, and the place on that.
+    fn from(&self, face: usize) -> Option<(DVec3, At)> {
         let mut at = At::Face(face);
         for _ in 0..MAX_STEPS {
-            let (foot, feature) = match at {
-                At::Face(face) => match self.side_beyond(face) {
-                    Some(edge) => {
-                        at = At::Edge(edge);
-                        continue;
-                    }
-                    None => return Some(over(face, self.height(face))),
-                },
-                At::Edge(edge) => match self.on_edge(edge) {
-                    Ok(foot) => (foot, Feature::Edge(self.solid.topology.edge_of(edge) as u32)),
-                    Err(next) => {
-                        at = next;
-                        continue;
-                    }
-                },
-                At::Vertex(vertex) => match self.edge_towards(vertex) {
-                    Some(edge) => {
-                        at = At::Edge(edge);
-                        continue;
-                    }
-                    None => (self.solid.point(vertex), Feature::Vertex(vertex as u32)),
-                },
+            let next = match at {
+                At::Face(face) => self
+                    .side_beyond(face)
+                    .map(At::Edge)
+                    .ok_or_else(|| self.point - self.solid.normal(face) * self.height(face)),
+                At::Edge(edge) => self.beside_edge(edge),
+                At::Vertex(vertex) => {
+                    self.edge_towards(vertex).map(At::Edge).ok_or_else(|| self.solid.point(vertex))
+                }
             };
-            let (between, doubt) = (self.point - foot, precision.projection());
-            let distance = between.length();
-            if distance <= doubt {
-                return Some(over(face, beyond));
+            match next {
+                Ok(next) => at = next,
+                Err(foot) => return Some((foot, at)),
             }
-            let outwards = between / distance;
-            let at_least = outwards.dot(self.point) - self.solid.support(outwards).reach;
-            let nearest = Nearest { foot, outwards, feature, distance, slack: 0.0 };
-            return (distance - at_least <= 0.5 * doubt).then_some(nearest);
         }
         None
     }
@@ -148,18 +210,18 @@ impl Walk<'_> {
         side
     }
 
-    /// The point's foot on an edge, or what is nearer.
-    fn on_edge(&self, half_edge: usize) -> Result<DVec3, At> {
+    /// What is nearer than an edge, or the point's foot on that.
+    fn beside_edge(&self, half_edge: usize) -> Result<At, DVec3> {
         let topology = self.solid.topology;
         let (from, to) = self.solid.edge(half_edge);
         let (start, end) = topology.ends(half_edge);
         let (along, away) = (to - from, self.point - from);
         let place = away.dot(along) / along.length_squared();
         if place <= 0.0 {
-            return Err(At::Vertex(start));
+            return Ok(At::Vertex(start));
         }
         if place >= 1.0 {
-            return Err(At::Vertex(end));
+            return Ok(At::Vertex(end));
         }
         let foot = from + along * place;
         let edges = topology.half_edges();
@@ -167,10 +229,10 @@ impl Walk<'_> {
         for (face, along) in [(face, along), (other, -along)] {
             let face = usize::from(face);
             if self.solid.normal(face).cross(along).dot(self.point - foot) > 0.0 {
-                return Err(At::Face(face));
+                return Ok(At::Face(face));
             }
         }
-        Ok(foot)
+        Err(foot)
     }
 
     /// The edge from a corner that leads the most towards the point, if any does.
@@ -193,7 +255,6 @@ impl Walk<'_> {
 mod tests {
     use super::super::balls::tests::is_said_as_of_a_part;
     use super::*;
-    use crate::answer::{Tier, Verdict};
     use crate::numbers::Numbers;
     use asunder_geometry::glam::{Quat, Vec3};
     use asunder_geometry::{Pose3, Sphere};

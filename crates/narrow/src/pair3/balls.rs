@@ -50,7 +50,7 @@ impl Pair3<'_> {
             .or_else(|| pair.on_plane().map(|ball| ball.verdict()))
             .or_else(|| pair.ball_on_rod().map(|ball| ball.verdict()))
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.verdict()))
-            .or_else(|| pair.ball_on_hull().map(|ball| ball.verdict()))
+            .or_else(|| pair.verdict_on_hull())
             .or_else(|| pair.rods().map(|rods| rods.verdict()))
             .or_else(|| pair.ball().map(|ball| ball.verdict()))
     }
@@ -62,7 +62,7 @@ impl Pair3<'_> {
             .or_else(|| pair.on_plane().map(|ball| ball.within(limit)))
             .or_else(|| pair.ball_on_rod().map(|ball| ball.within(limit)))
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.within(limit)))
-            .or_else(|| pair.ball_on_hull().map(|ball| ball.within(limit)))
+            .or_else(|| pair.ball_on_hull(limit).map(|ball| ball.within(limit)))
             .or_else(|| pair.rods().map(|rods| rods.within(limit)))
             .or_else(|| pair.ball().map(|ball| ball.seen().within(limit)))
     }
@@ -74,7 +74,7 @@ impl Pair3<'_> {
             .or_else(|| pair.on_plane().map(|ball| ball.distance()))
             .or_else(|| pair.ball_on_rod().map(|ball| ball.distance()))
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.distance()))
-            .or_else(|| pair.ball_on_hull().map(|ball| ball.distance()))
+            .or_else(|| pair.ball_on_hull(f64::INFINITY).map(|ball| ball.distance()))
             .or_else(|| pair.rods().map(|rods| rods.distance()))
             .or_else(|| pair.ball().map(|ball| ball.seen().distance()))
     }
@@ -86,7 +86,7 @@ impl Pair3<'_> {
             .or_else(|| pair.on_plane().map(|ball| ball.contact(margin, manifolds)))
             .or_else(|| pair.ball_on_rod().map(|ball| ball.contact(margin, manifolds)))
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.contact(margin, manifolds)))
-            .or_else(|| pair.ball_on_hull().map(|ball| ball.contact(margin, manifolds)))
+            .or_else(|| pair.ball_on_hull(reach_of(margin)).map(|ball| ball.contact(margin, manifolds)))
             .or_else(|| pair.rods().map(|rods| rods.contact(margin, manifolds)))
             .or_else(|| pair.ball().map(|ball| ball.contact(margin, manifolds)))
     }
