@@ -107,7 +107,8 @@ impl Seen<'_> {
     fn with_walk<R>(&self, ask: impl FnOnce(&Walk) -> R) -> R {
         let core = self.shape.core();
         let solid = Solid::new(&core, IDENTITY, DVec3::ZERO, 0.0);
-        ask(&Walk { solid: &solid, heights: core.heights(), point: self.center })
+        let (normals, heights) = (core.normals(), core.heights());
+        ask(&Walk { solid: &solid, normals, heights, point: self.center })
     }
 }
 
@@ -123,6 +124,7 @@ enum At {
 struct Walk<'s> {
     solid: &'s Solid<'s>,
     /// Of its faces.
+    normals: &'s [DVec3],
     heights: &'s [f64],
     point: DVec3,
 }
@@ -133,7 +135,7 @@ impl Walk<'_> {
         let (face, beyond) = self.foremost()?;
         let slack = 4.0 * precision.planarity;
         let over = |face: usize, distance: f64| {
-            let outwards = self.solid.normal(face);
+            let outwards = self.normals[face];
             let feature = Feature::Face(face as u32);
             Nearest { foot: self.point - outwards * distance, outwards, feature, distance, slack }
         };
@@ -141,7 +143,11 @@ impl Walk<'_> {
             return Some(over(face, beyond));
         }
         let (foot, feature) = match self.from(face)? {
-            (_, At::Face(face)) => return Some(over(face, self.height(face))),
+            (_, At::Face(face)) => {
+                // What is behind the face is over another: the walk went astray.
+                let height = self.height(face);
+                return (height >= -precision.projection()).then(|| over(face, height));
+            }
             (foot, At::Edge(edge)) => (foot, Feature::Edge(self.solid.topology.edge_of(edge) as u32)),
             (foot, At::Vertex(vertex)) => (foot, Feature::Vertex(vertex as u32)),
         };
@@ -164,11 +170,12 @@ impl Walk<'_> {
                 At::Face(face) => self
                     .side_beyond(face)
                     .map(At::Edge)
-                    .ok_or_else(|| self.point - self.solid.normal(face) * self.height(face)),
+                    .ok_or_else(|| self.point - self.normals[face] * self.height(face)),
                 At::Edge(edge) => self.beside_edge(edge),
-                At::Vertex(vertex) => {
-                    self.edge_towards(vertex).map(At::Edge).ok_or_else(|| self.solid.point(vertex))
-                }
+                At::Vertex(vertex) => self
+                    .edge_towards(vertex)
+                    .map(At::Edge)
+                    .ok_or_else(|| self.solid.vertices[vertex].as_dvec3()),
             };
             match next {
                 Ok(next) => at = next,
@@ -178,28 +185,37 @@ impl Walk<'_> {
         None
     }
 
+    #[inline(always)]
     fn height(&self, face: usize) -> f64 {
-        self.solid.normal(face).dot(self.point) - self.heights[face]
+        self.normals[face].dot(self.point) - self.heights[face]
     }
 
     /// The face that has the point furthest in front of it, and how far; of equals, the first.
+    #[inline]
     fn foremost(&self) -> Option<(usize, f64)> {
-        let mut best = None;
-        for face in 0..self.solid.face_count() {
-            let height = self.height(face);
-            if best.is_none_or(|(_, most)| height > most) {
-                best = Some((face, height));
-            }
+        let (mut face, mut most) = (usize::MAX, f64::NEG_INFINITY);
+        for (number, (normal, height)) in self.normals.iter().zip(self.heights).enumerate() {
+            let beyond = normal.dot(self.point) - height;
+            let is_more = beyond > most;
+            face = if is_more { number } else { face };
+            most = if is_more { beyond } else { most };
         }
-        best
+        (face != usize::MAX).then_some((face, most))
+    }
+
+    /// Where a half-edge starts, and the way from there.
+    #[inline(always)]
+    fn edge(&self, half_edge: usize) -> (DVec3, DVec3) {
+        let (from, to) = self.solid.topology.ends(half_edge);
+        let [from, to] = [from, to].map(|vertex| self.solid.vertices[vertex].as_dvec3());
+        (from, to - from)
     }
 
     /// The half-edge around a face that the point is beyond the most, if it is beyond any.
     fn side_beyond(&self, face: usize) -> Option<usize> {
-        let (normal, mut most, mut side) = (self.solid.normal(face), 0.0, None);
+        let (normal, mut most, mut side) = (self.normals[face], 0.0, None);
         for half_edge in self.solid.topology.face_half_edges(face) {
-            let (from, to) = self.solid.edge(half_edge);
-            let along = to - from;
+            let (from, along) = self.edge(half_edge);
             // Not by lengths: their squares keep the order.
             let out = along.cross(normal).dot(self.point - from);
             let beyond = out * out.abs() / along.length_squared();
@@ -213,9 +229,9 @@ impl Walk<'_> {
     /// What is nearer than an edge, or the point's foot on that.
     fn beside_edge(&self, half_edge: usize) -> Result<At, DVec3> {
         let topology = self.solid.topology;
-        let (from, to) = self.solid.edge(half_edge);
+        let (from, along) = self.edge(half_edge);
         let (start, end) = topology.ends(half_edge);
-        let (along, away) = (to - from, self.point - from);
+        let away = self.point - from;
         let place = away.dot(along) / along.length_squared();
         if place <= 0.0 {
             return Ok(At::Vertex(start));
@@ -228,7 +244,7 @@ impl Walk<'_> {
         let (face, other) = (edges[half_edge].face, edges[usize::from(edges[half_edge].twin)].face);
         for (face, along) in [(face, along), (other, -along)] {
             let face = usize::from(face);
-            if self.solid.normal(face).cross(along).dot(self.point - foot) > 0.0 {
+            if self.normals[face].cross(along).dot(self.point - foot) > 0.0 {
                 return Ok(At::Face(face));
             }
         }
@@ -237,10 +253,10 @@ impl Walk<'_> {
 
     /// The edge from a corner that leads the most towards the point, if any does.
     fn edge_towards(&self, vertex: usize) -> Option<usize> {
-        let away = self.point - self.solid.point(vertex);
+        let away = self.point - self.solid.vertices[vertex].as_dvec3();
         let (mut most, mut edge) = (0.0, None);
         for &half_edge in self.solid.topology.leaving(vertex) {
-            let along = self.solid.edge_direction(half_edge.into());
+            let (_, along) = self.edge(half_edge.into());
             let towards = away.dot(along);
             let share = towards * towards.abs() / along.length_squared();
             if share > most {
