@@ -11,15 +11,14 @@
 //! 330 ns there and 60 here, of a cuboid 340 and 260, its distance 110 and 40 (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-26).
 
 use super::balls::Told;
-use super::{Pair3, reach_of};
+use super::{IDENTITY, Pair3, reach_of};
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, FeatureId};
 use crate::polyhedron::half_space::Plane;
-use crate::polyhedron::solid::Solid;
 use crate::precision::{Precision, length_at_most};
-use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE};
+use asunder_geometry::{Basis3, Shape3};
 
 /// A half-space and another shape, as they stand.
 pub(super) struct OnPlane<'p> {
@@ -27,7 +26,8 @@ pub(super) struct OnPlane<'p> {
     /// In world axes, about the half-space's position.
     plane: Plane,
     shape: &'p Shape3,
-    /// The shape's position from the half-space's, in metres.
+    /// The shape's axes in the world, which a sphere does not need, and its position from the half-space's, in metres.
+    basis: Basis3,
     offset: DVec3,
     /// The vertex of its core that is lowest over the plane, and its height.
     lowest: DVec3,
@@ -49,20 +49,21 @@ impl Pair3<'_> {
         let normal = of_plane.basis().turn(half_space.unit_normal());
         let plane = Plane { normal, origin: DVec3::ZERO, is_b };
         let offset = if is_b { -self.between } else { self.between };
-        let (radius, outer, lowest) = match shape {
-            Shape3::Sphere(sphere) => (sphere.radius(), sphere.radius().into(), offset),
+        let (basis, radius, outer, lowest) = match shape {
+            Shape3::Sphere(sphere) => (IDENTITY, sphere.radius(), sphere.radius().into(), offset),
             Shape3::HalfSpace(_) | Shape3::Compound(_) | Shape3::TriMesh(_) | Shape3::HeightField(_) => {
                 return None;
             }
             _ => {
                 let outer = f64::from(shape.outer_radius()) + length_at_most(shape.center().as_dvec3());
-                (shape.radius(), outer, plane.lowest_of(shape, (&of_shape.basis(), offset)))
+                let basis = of_shape.basis();
+                (basis, shape.radius(), outer, plane.lowest_of(shape, (&basis, offset)))
             }
         };
         let (height, radius) = (normal.dot(lowest), f64::from(radius));
         let reach = outer + length_at_most(offset);
         let precision = Precision::of_closed_form(reach);
-        Some(OnPlane { pair: self, plane, shape, offset, lowest, height, radius, precision })
+        Some(OnPlane { pair: self, plane, shape, basis, offset, lowest, height, radius, precision })
     }
 }
 
@@ -122,11 +123,9 @@ impl Told for OnPlane<'_> {
         if let Shape3::Sphere(_) = self.shape {
             return self.add_point(manifold);
         }
-        let core = self.shape.core();
-        let pose = if self.plane.is_b { &self.pair.pose_a } else { &self.pair.pose_b };
-        let solid = Solid::new(&core, pose.basis(), self.offset, self.radius);
         let slacks = [self.of_shape(FACE_PREFERENCE), self.of_shape(EVEN_DEPTH)];
-        for point in self.plane.touch(&solid, reach_of(margin), slacks).points {
+        let frame = (&self.basis, self.offset);
+        for point in self.plane.touch_shape(self.shape, frame, reach_of(margin), slacks).points {
             let of_both = if self.plane.is_b { [point.on_a, point.on_b] } else { [point.on_b, point.on_a] };
             let [anchor_a, anchor_b] = self.anchors_of(of_both);
             let (separation, feature) = (point.separation as f32, point.feature);

@@ -238,7 +238,8 @@ impl<'a> Convex<'a> {
             Evidence::HalfSpaces(a, b) => (a, b),
             Evidence::HalfSpace(plane) => {
                 let slacks = [preference, self.even_depth()];
-                *touch = self.with_core_over(plane, |core| plane.touch(core, margin, slacks));
+                let (shape, frame) = self.shape_over(plane);
+                *touch = plane.touch_shape(shape, frame, margin, slacks);
                 return true;
             }
             Evidence::Ball(ball) => {
@@ -322,12 +323,6 @@ impl<'a> Convex<'a> {
             true => (self.shape_a, (&IDENTITY, DVec3::ZERO)),
             false => (self.shape_b, (&self.relative, self.offset)),
         }
-    }
-
-    fn with_core_over<R>(&self, plane: &Plane, ask: impl FnOnce(&Solid) -> R) -> R {
-        let (shape, (basis, origin)) = self.shape_over(plane);
-        let core = shape.core();
-        ask(&Solid::new(&core, *basis, origin, f64::from(shape.radius())))
     }
 
     pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {

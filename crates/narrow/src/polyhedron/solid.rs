@@ -127,9 +127,7 @@ impl<'a> Solid<'a> {
         if !self.is_slender() {
             return Some(self.normal(face));
         }
-        let along = (self.point(self.vertices.len() - 1) - self.point(0)).try_normalize()?;
-        let across = towards - along * along.dot(towards);
-        (across.length_squared() > 1.0 - ALIGNED_FACES * ALIGNED_FACES).then(|| across.normalize())
+        across_segment(self.point(self.vertices.len() - 1) - self.point(0), towards)
     }
 
     /// Where an edge starts and where it leads, from its lower half-edge.
@@ -371,6 +369,14 @@ impl<'a> Solid<'a> {
         let ends = [(one, other), (other, one)];
         self.topology.edges().iter().map(|&e| e as usize).find(|&e| ends.contains(&self.topology.ends(e)))
     }
+}
+
+/// [`Solid::outwards`] of a segment, by the way from one end to the other; nothing of a point.
+#[inline]
+pub(super) fn across_segment(way: DVec3, towards: DVec3) -> Option<DVec3> {
+    let along = way.try_normalize()?;
+    let across = towards - along * along.dot(towards);
+    (across.length_squared() > 1.0 - ALIGNED_FACES * ALIGNED_FACES).then(|| across.normalize())
 }
 
 /// The corner of a cuboid that is furthest along a direction in its own axes; of equals, the lowest.
