@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 /// One row of `compare`, as plain columns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct KeptRow {
-    /// Which part of `compare`: `narrow`, `broad`, `mesh` ...
+    /// Which part of `compare`: `narrow`, `shapes`, `broad`, `mesh` ...
     pub part: String,
     /// The case.
     pub row: String,

@@ -39,6 +39,7 @@ pub(super) fn table(data: &Data) -> Table {
         error_rows(data),
         vertex_rows(data),
         kept_rows(data, "narrow"),
+        kept_rows(data, "shapes"),
         broad_rows(data),
         kept_rows(data, "broad"),
         frame_rows(data),
@@ -225,8 +226,8 @@ const SHOWN: [&str; 11] = [
 /// The same of shapes in the plane.
 const SHOWN_IN_PLANE: [&str; 2] = ["mixed/boolean", "mixed/manifold"];
 
-/// Rows of a part of `compare`. A pair of shapes is named by the shape first, anything on a mesh by what happens first,
-/// a question to boxes by its scene.
+/// Rows of a part of `compare`. Pairs of shapes are named by the shape first, or by both, anything on a mesh by what happens
+/// first, a question to boxes by its scene.
 fn kept_rows(data: &Data, part: &str) -> Vec<Measured> {
     let of_row = |row: &KeptRow| {
         let (first, rest) = row.row.split_once('/')?;
@@ -241,9 +242,14 @@ fn kept_rows(data: &Data, part: &str) -> Vec<Measured> {
                 let (scene, question) = rest.rsplit_once('/').filter(|_| first == "query")?;
                 (question.to_string(), scene.to_string())
             }
+            "shapes" => (rest.to_string(), first.to_string()),
             _ => (first.to_string(), rest.to_string()),
         };
-        let prefix = if part == "mesh" { "mesh " } else { "" };
+        let prefix = match part {
+            "mesh" => "mesh ",
+            "shapes" => "shapes ",
+            _ => "",
+        };
         Some(Measured {
             group,
             label,
@@ -278,6 +284,8 @@ mod tests {
             kept("narrow", "box/mixed/manifold", 200.0, 500.0),
             noisy,
             kept("narrow", "box/turned/separation", 1.0, 1.0),
+            kept("shapes", "ball+ball/cast", 2.0, 4.0),
+            kept("shapes", "ball+box/cast", 2.0, 1.0),
             kept("broad", "query/gas/100k/ray first", 2.0, 1.0),
             kept("broad", "gas/100k", 1.0, 2.0),
         ];
@@ -287,6 +295,7 @@ mod tests {
             text,
             [
                 "`box/mixed/manifold` | 200 ns | 500 ns | 2.50 | hull8 **0.50** ± | ",
+                "`shapes ball+ball/cast` | 2.0 ns | 4.0 ns | 2.00 | ball+box **0.50** | ",
                 "`query/gas/100k/ray first` | 2.0 ns | 1.0 ns | **0.50** |  | ",
             ]
         );

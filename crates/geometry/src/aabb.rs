@@ -120,6 +120,37 @@ impl Aabb2 {
     pub fn union(&self, other: &Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
+
+    /// Half way between both corners, in metres. No overflow: corners may be as far out as f32 goes.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb2, glam::Vec2};
+    /// let crate_ = Aabb2::new(Vec2::ONE, Vec2::splat(3.0));
+    /// assert_eq!((crate_.center(), crate_.half_extents()), (Vec2::splat(2.0), Vec2::ONE));
+    /// ```
+    #[inline]
+    pub fn center(&self) -> Vec2 {
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    /// Half of its width along each axis, in metres; below zero where it is empty.
+    #[inline]
+    pub fn half_extents(&self) -> Vec2 {
+        self.max * 0.5 - self.min * 0.5
+    }
+
+    /// What both have in common; nothing where they have not even a point.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb2, glam::Vec2};
+    /// let (one, other) = (Aabb2::new(Vec2::ZERO, Vec2::ONE), Aabb2::new(Vec2::splat(0.5), Vec2::splat(2.0)));
+    /// assert_eq!(one.intersection(&other), Some(Aabb2::new(Vec2::splat(0.5), Vec2::ONE)));
+    /// assert_eq!(one.intersection(&Aabb2::new(Vec2::splat(1.5), Vec2::splat(2.0))), None);
+    /// ```
+    #[inline]
+    pub fn intersection(&self, other: &Self) -> Option<Self> {
+        self.overlaps(other).then(|| Self { min: self.min.max(other.min), max: self.max.min(other.max) })
+    }
 }
 
 impl Aabb3 {
@@ -150,6 +181,37 @@ impl Aabb3 {
     #[inline]
     pub fn union(&self, other: &Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// Half way between both corners, in metres. No overflow: corners may be as far out as f32 goes.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb3, glam::Vec3};
+    /// let crate_ = Aabb3::new(Vec3::ONE, Vec3::splat(3.0));
+    /// assert_eq!((crate_.center(), crate_.half_extents()), (Vec3::splat(2.0), Vec3::ONE));
+    /// ```
+    #[inline]
+    pub fn center(&self) -> Vec3 {
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    /// Half of its width along each axis, in metres; below zero where it is empty.
+    #[inline]
+    pub fn half_extents(&self) -> Vec3 {
+        self.max * 0.5 - self.min * 0.5
+    }
+
+    /// What both have in common; nothing where they have not even a point.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb3, glam::Vec3};
+    /// let (one, other) = (Aabb3::new(Vec3::ZERO, Vec3::ONE), Aabb3::new(Vec3::splat(0.5), Vec3::splat(2.0)));
+    /// assert_eq!(one.intersection(&other), Some(Aabb3::new(Vec3::splat(0.5), Vec3::ONE)));
+    /// assert_eq!(one.intersection(&Aabb3::new(Vec3::splat(1.5), Vec3::splat(2.0))), None);
+    /// ```
+    #[inline]
+    pub fn intersection(&self, other: &Self) -> Option<Self> {
+        self.overlaps(other).then(|| Self { min: self.min.max(other.min), max: self.max.min(other.max) })
     }
 }
 

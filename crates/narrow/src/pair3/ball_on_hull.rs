@@ -159,7 +159,7 @@ impl Walk<'_> {
         let outwards = between / distance;
         let at_least = outwards.dot(self.point) - self.solid.support(outwards).reach;
         let nearest = Nearest { foot, outwards, feature, distance, slack: 0.0 };
-        (distance - at_least <= 0.5 * doubt).then_some(nearest)
+        precision.is_proved(distance, at_least).then_some(nearest)
     }
 
     /// The walk from a face to what should be nearest, and the place on that.

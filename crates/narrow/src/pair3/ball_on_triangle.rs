@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! separation    |centre - the point of the triangle nearest to it| - radius: no more than that, and no less than what a projection on
-//!               that axis shows of all three corners; where those two differ by more than half the bound of projections, as beside
-//!               needles, others are asked
+//!               that axis shows of all three corners; where those two differ by more than an eighth of the bound of projections,
+//!               as beside needles, others are asked
 //! normal        the face's where that point is inside of it, or the centre lies on the triangle; else along both
 //! yes or no     the number's beyond twice the bound, else by integers
 //! ```
@@ -34,15 +34,14 @@ impl Pair3<'_> {
             + length_at_most(triangle.center().as_dvec3())
             + length_at_most(center);
         let precision = Precision::of_closed_form(reach);
-        let nearest = nearest_on_triangle(triangle, center, precision.projection())?;
+        let nearest = nearest_on_triangle(triangle, center, &precision)?;
         Some(BallOnFaces { pair: self, shape, basis, nearest, radius, is_b, precision })
     }
 }
 
-/// What of a triangle is nearest to a point, where a projection is off by less than `doubt`; nothing where that would be more than half
-/// of it.
+/// What of a triangle is nearest to a point; nothing where that is not proved.
 #[inline]
-fn nearest_on_triangle(triangle: &Triangle3, point: DVec3, doubt: f64) -> Option<Nearest> {
+fn nearest_on_triangle(triangle: &Triangle3, point: DVec3, precision: &Precision) -> Option<Nearest> {
     let corners = triangle.vertices().map(|corner| corner.as_dvec3());
     let [normal, _] = triangle.normals();
     let edge = |i: usize| (corners[i], corners[(i + 1) % 3] - corners[i]);
@@ -56,7 +55,7 @@ fn nearest_on_triangle(triangle: &Triangle3, point: DVec3, doubt: f64) -> Option
         Some((number, place, foot)) => {
             let (between, beside) = (point - foot, feature_on(number, place));
             let distance = between.length();
-            let is_on = distance <= doubt;
+            let is_on = distance <= precision.projection();
             let (outwards, feature) = if is_on { (side, face) } else { (between / distance, beside) };
             Nearest { foot, outwards, feature, distance, slack: 0.0 }
         }
@@ -64,7 +63,7 @@ fn nearest_on_triangle(triangle: &Triangle3, point: DVec3, doubt: f64) -> Option
     let highest =
         corners.iter().map(|corner| nearest.outwards.dot(*corner)).fold(f64::NEG_INFINITY, f64::max);
     let at_least = nearest.outwards.dot(point) - highest;
-    (nearest.distance - at_least <= 0.5 * doubt).then_some(nearest)
+    precision.is_proved(nearest.distance, at_least).then_some(nearest)
 }
 
 /// An edge, or the corner at its end.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! separation    of the closest points of two segments, in closed form (polyhedron::slender), less both radii; where a projection on
-//!               their axis shows less, by more than half the bound of projections, others are asked
+//!               their axis shows less, by more than an eighth of the bound of projections, others are asked
 //! yes or no     the number's beyond twice the bound, else by integers
 //! points        one, or both ends of the stretch along which they lie side by side
 //! ```
@@ -51,10 +51,8 @@ impl Pair3<'_> {
         let reach = of_shape(self.shape_a) + of_shape(self.shape_b) + length_at_most(self.between);
         let precision = Precision::of_closed_form(reach);
         let nearest = nearest(&rods[0], &rods[1], precision.projection());
-        if nearest.distance - nearest.at_least > 0.5 * precision.projection() {
-            return None;
-        }
-        Some(Rods { pair: self, rods, nearest, precision })
+        let is_proved = precision.is_proved(nearest.distance, nearest.at_least);
+        is_proved.then_some(Rods { pair: self, rods, nearest, precision })
     }
 }
 
