@@ -240,12 +240,7 @@ impl Pair3<'_> {
 
     /// The first touch with a half-space of what is certainly apart from it at the start, in closed form.
     fn end_on_plane(&self, passage: &Passage) -> Option<Option<Impact3>> {
-        let is_plane = |shape: &Shape3| matches!(shape, Shape3::HalfSpace(_));
-        let has_parts = |shape: &Shape3| matches!(shape, Shape3::Compound(_));
-        if !is_plane(self.shape_a) && !is_plane(self.shape_b)
-            || has_parts(self.shape_a)
-            || has_parts(self.shape_b)
-        {
+        if [self.shape_a, self.shape_b].iter().any(|shape| matches!(shape, Shape3::Compound(_))) {
             return None;
         }
         let whole = |i: usize, shape| Part::whole(shape, &passage.bases[i]);

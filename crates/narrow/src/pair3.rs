@@ -40,6 +40,7 @@ pub(crate) use parts::Parts;
 /// | sphere, capsule, segment among themselves | closest points of segments, in closed form | the same | one, or two where they lie side by side |
 /// | sphere, cuboid | the centre held to the cuboid; inside, its nearest face | the same | one |
 /// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, crossing edges, or edges side by side |
+/// | sphere, triangle or hull | inside, the face that is least deep; else the closest point, found by a walk from face to edge to corner, and proved by a projection | the same | one |
 /// | anything else of cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | as for cuboids |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 /// | mesh or height field, anything | the least of its triangles' near the other | the same | a manifold for each normal of a part |

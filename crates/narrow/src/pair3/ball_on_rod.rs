@@ -10,10 +10,11 @@
 //! (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-26).
 
 use super::Pair3;
+use super::ball_on_faces::BesideBall;
 use super::balls::Told;
 use crate::feature::{Feature, FeatureId};
 use crate::polyhedron::slender::{Slender, across};
-use crate::precision::{Precision, length_at_most};
+use crate::precision::Precision;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
 
@@ -37,25 +38,15 @@ pub(super) struct BallOnRod<'p> {
 impl Pair3<'_> {
     #[inline]
     pub(super) fn ball_on_rod(&self) -> Option<BallOnRod<'_>> {
-        let (sphere, shape, pose, is_b) = match (self.shape_a, self.shape_b) {
-            (Shape3::Sphere(sphere), rod @ (Shape3::Capsule(_) | Shape3::Segment(_))) => {
-                (sphere, rod, &self.pose_b, true)
-            }
-            (rod @ (Shape3::Capsule(_) | Shape3::Segment(_)), Shape3::Sphere(sphere)) => {
-                (sphere, rod, &self.pose_a, false)
-            }
-            _ => return None,
-        };
+        let beside = self.beside_ball()?;
+        let BesideBall { shape, pose, is_b, center, radius } = beside;
+        if !matches!(shape, Shape3::Capsule(_) | Shape3::Segment(_)) {
+            return None;
+        }
         let rod = Slender::of(shape, (&pose.basis(), DVec3::ZERO))?;
-        let center = if is_b { -self.between } else { self.between };
-        let radius = f64::from(sphere.radius());
         let place = rod.place_of(center);
         let foot = rod.at(place);
-        let reach = radius
-            + f64::from(shape.outer_radius())
-            + length_at_most(shape.center().as_dvec3())
-            + length_at_most(center);
-        let precision = Precision::of_closed_form(reach);
+        let precision = beside.precision();
         let distance = (center - foot).length();
         Some(BallOnRod { pair: self, rod, center, radius, place, foot, distance, is_b, precision })
     }

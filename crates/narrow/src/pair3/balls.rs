@@ -47,7 +47,7 @@ impl Pair3<'_> {
     pub(crate) fn verdict_in_closed_form(&self) -> Option<Verdict> {
         let pair = self.with_closed_form()?;
         (pair.balls().map(|balls| balls.verdict()))
-            .or_else(|| pair.on_plane().map(|ball| ball.verdict()))
+            .or_else(|| pair.on_plane().map(|over| over.verdict()))
             .or_else(|| pair.ball_on_rod().map(|ball| ball.verdict()))
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.verdict()))
             .or_else(|| pair.verdict_on_hull())
@@ -59,7 +59,7 @@ impl Pair3<'_> {
     pub(super) fn separation_in_closed_form(&self, limit: f64) -> Option<Separation3> {
         let pair = self.with_closed_form()?;
         (pair.balls().map(|balls| balls.within(limit)))
-            .or_else(|| pair.on_plane().map(|ball| ball.within(limit)))
+            .or_else(|| pair.on_plane().map(|over| over.within(limit)))
             .or_else(|| pair.ball_on_rod().map(|ball| ball.within(limit)))
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.within(limit)))
             .or_else(|| pair.ball_on_hull(limit).map(|ball| ball.within(limit)))
@@ -71,7 +71,7 @@ impl Pair3<'_> {
     pub(super) fn distance_in_closed_form(&self) -> Option<Option<Closest3>> {
         let pair = self.with_closed_form()?;
         (pair.balls().map(|balls| balls.distance()))
-            .or_else(|| pair.on_plane().map(|ball| ball.distance()))
+            .or_else(|| pair.on_plane().map(|over| over.distance()))
             .or_else(|| pair.ball_on_rod().map(|ball| ball.distance()))
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.distance()))
             .or_else(|| pair.ball_on_hull(f64::INFINITY).map(|ball| ball.distance()))
@@ -83,7 +83,7 @@ impl Pair3<'_> {
     pub(super) fn contact_in_closed_form(&self, margin: f32, manifolds: &mut impl Room) -> Option<Met> {
         let pair = self.with_closed_form()?;
         (pair.balls().map(|balls| balls.contact(margin, manifolds)))
-            .or_else(|| pair.on_plane().map(|ball| ball.contact(margin, manifolds)))
+            .or_else(|| pair.on_plane().map(|over| over.contact(margin, manifolds)))
             .or_else(|| pair.ball_on_rod().map(|ball| ball.contact(margin, manifolds)))
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.contact(margin, manifolds)))
             .or_else(|| pair.ball_on_hull(reach_of(margin)).map(|ball| ball.contact(margin, manifolds)))

@@ -131,11 +131,13 @@ pub(crate) fn nearest(a: &Slender, b: &Slender, rounding: f64) -> Nearest {
     }
     let straight = (on_b - on_a) / distance;
     let clean = square_to(on_b - on_a, [along_a, along_b], places).unwrap_or(straight);
-    let (normal, at_least) = [straight, clean]
-        .map(|normal| (normal, bound(normal)))
-        .into_iter()
-        .reduce(|best, next| if next.1 > best.1 { next } else { best })
-        .unwrap_or((straight, bound(straight)));
+    let better = |best: (DVec3, f64), next: (DVec3, f64)| if next.1 > best.1 { next } else { best };
+    let shown = |normal: DVec3| (normal, bound(normal));
+    let (mut normal, mut at_least) = better(shown(straight), shown(clean));
+    if distance - at_least > rounding {
+        // Long ones that all but touch: the way from one to the other is mostly rounding.
+        (normal, at_least) = better((normal, at_least), shown(across(along_a, along_b, on_b - on_a)));
+    }
     Nearest { distance, at_least, normal, on_a, on_b, places }
 }
 

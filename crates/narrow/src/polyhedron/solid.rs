@@ -322,6 +322,12 @@ impl<'a> Solid<'a> {
         self.position + self.forth(self.center)
     }
 
+    /// Radius of a sphere about the centre that lies inside the core, in metres; below zero where the centre does not.
+    #[inline]
+    pub(crate) const fn inner_radius(&self) -> f64 {
+        self.inner_radius
+    }
+
     /// Half of a segment about the centre on which a ball of [`ARM_SHARE`](asunder_geometry::tolerance::ARM_SHARE) of the inner
     /// radius stays inside, in the frame of the pair.
     #[inline]
