@@ -71,21 +71,18 @@ impl Topology {
             }
         }
         // Twins: sort half-edges by their undirected edge; the two of an edge come to stand side by side.
-        let ends = |h: &HalfEdge| (h.origin, half_edges[h.next as usize].origin);
-        let mut order: Vec<(u16, u16, u16)> = half_edges
-            .iter()
-            .enumerate()
-            .map(|(i, h)| {
-                let (from, to) = ends(h);
-                (from.min(to), from.max(to), i as u16)
-            })
-            .collect();
+        // By one number each, which is compared at once.
+        let undirected = |(i, h): (usize, &HalfEdge)| {
+            let (from, to) = (h.origin, half_edges[h.next as usize].origin);
+            u64::from(from.min(to)) << 32 | u64::from(from.max(to)) << 16 | i as u64
+        };
+        let mut order: Vec<u64> = half_edges.iter().enumerate().map(undirected).collect();
         order.sort_unstable();
         for two in order.windows(2) {
-            let ((a0, a1, first), (b0, b1, second)) = (two[0], two[1]);
-            if (a0, a1) == (b0, b1) {
-                half_edges[first as usize].twin = second;
-                half_edges[second as usize].twin = first;
+            if two[0] >> 16 == two[1] >> 16 {
+                let [first, second] = [two[0] as u16, two[1] as u16];
+                half_edges[usize::from(first)].twin = second;
+                half_edges[usize::from(second)].twin = first;
             }
         }
         let edges = (0..half_edges.len() as u16).filter(|&i| i < half_edges[i as usize].twin).collect();
@@ -182,10 +179,20 @@ impl Topology {
 
 /// Half-edges by their origins, ascending in each; where those of each vertex begin, and at last where all end.
 fn by_origin(half_edges: &[HalfEdge]) -> (Box<[u16]>, Box<[u16]>) {
-    let mut order: Vec<u16> = (0..half_edges.len() as u16).collect();
-    order.sort_by_key(|&i| half_edges[i as usize].origin);
-    let vertices = half_edges.iter().map(|h| h.origin + 1).max().unwrap_or(0);
-    let begin = |vertex| order.partition_point(|&i| half_edges[i as usize].origin < vertex) as u16;
-    let first = (0..=vertices).map(begin).collect();
-    (order.into(), first)
+    let vertices = half_edges.iter().map(|h| usize::from(h.origin) + 1).max().unwrap_or(0);
+    // Counted, and then put where the count says.
+    let mut first = vec![0_u16; vertices + 1];
+    for half_edge in half_edges {
+        first[usize::from(half_edge.origin) + 1] += 1;
+    }
+    for vertex in 0..vertices {
+        first[vertex + 1] += first[vertex];
+    }
+    let (mut order, mut next) = (vec![0_u16; half_edges.len()], first.clone());
+    for (number, half_edge) in (0..).zip(half_edges) {
+        let place = &mut next[usize::from(half_edge.origin)];
+        order[usize::from(*place)] = number;
+        *place += 1;
+    }
+    (order.into(), first.into())
 }

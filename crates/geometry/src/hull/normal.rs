@@ -148,21 +148,30 @@ pub(super) fn areas_and_normals<Index: Copy + Into<u32>>(
     (areas, normals)
 }
 
+/// Four numbers in one, the first the highest.
+fn in_one([a, b, c, d]: [u32; 4]) -> u128 {
+    u128::from(a) << 96 | u128::from(b) << 64 | u128::from(c) << 32 | u128::from(d)
+}
+
 /// For each face, the face across each of its edges.
 pub(super) fn neighbours<Index: Copy + Into<u32>>(faces: &[Vec<Index>]) -> Vec<Vec<usize>> {
-    let mut sides: Vec<(u32, u32, usize, usize)> = Vec::with_capacity(3 * faces.len());
-    for (index, face) in faces.iter().enumerate() {
-        for (i, &from) in face.iter().enumerate() {
-            let (from, to): (u32, u32) = (from.into(), face[(i + 1) % face.len()].into());
-            sides.push((from.min(to), from.max(to), index, i));
+    // By one number each, which is compared at once: the edge, the face, and its place there.
+    let mut sides: Vec<u128> = Vec::with_capacity(3 * faces.len());
+    for (index, face) in (0..).zip(faces) {
+        for (place, &from) in (0..).zip(face) {
+            let next = place as usize + 1;
+            let (from, to): (u32, u32) =
+                (from.into(), face[if next == face.len() { 0 } else { next }].into());
+            sides.push(in_one([from.min(to), from.max(to), index, place]));
         }
     }
     sides.sort_unstable();
     let mut neighbours: Vec<Vec<usize>> =
         faces.iter().enumerate().map(|(index, face)| vec![index; face.len()]).collect();
     for two in sides.windows(2) {
-        let ((a0, a1, first, i), (b0, b1, second, j)) = (two[0], two[1]);
-        if (a0, a1) == (b0, b1) {
+        if two[0] >> 64 == two[1] >> 64 {
+            let [(first, i), (second, j)] =
+                [two[0], two[1]].map(|side| ((side as u64 >> 32) as usize, side as u32 as usize));
             neighbours[first][i] = second;
             neighbours[second][j] = first;
         }
