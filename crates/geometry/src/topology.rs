@@ -55,8 +55,9 @@ impl Topology {
 
     /// Joins face loops, counter-clockwise seen from outside, into half-edges.
     pub(crate) fn from_loops<'a>(loops: impl Iterator<Item = &'a [u16]>) -> Self {
-        let mut half_edges: Vec<HalfEdge> = Vec::new();
-        let mut first_of_face = Vec::new();
+        let faces = loops.size_hint().0;
+        let mut half_edges: Vec<HalfEdge> = Vec::with_capacity(4 * faces);
+        let mut first_of_face = Vec::with_capacity(faces);
         for (face, vertices) in loops.enumerate() {
             let first = half_edges.len();
             first_of_face.push(first as u16);

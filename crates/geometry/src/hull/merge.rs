@@ -56,7 +56,7 @@ fn merge_once(points: &[Vec3], facets: &[Vec<u32>], tolerance: f64) -> Vec<Vec<u
     let mut is_taken = vec![false; facets.len()];
     let mut tries = vec![(0, 0); facets.len()];
     let mut outline = Outline { after: vec![NONE; points.len()], length: 0 };
-    let mut faces = Vec::new();
+    let mut faces = Vec::with_capacity(facets.len());
     for (_, seed) in by_area {
         if !is_taken[seed] {
             faces.push(sheet.grow(seed, &mut is_taken, &mut tries, &mut outline));

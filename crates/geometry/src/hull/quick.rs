@@ -16,6 +16,7 @@
 
 use super::HullError;
 use super::predicate::{Filter, affine_basis, canonical, is_collinear, outside, planar_hull};
+use crate::tolerance::MAX_HULL_VERTICES;
 use core::cmp::Reverse;
 use glam::{DVec3, Vec3};
 use std::collections::BinaryHeap;
@@ -98,7 +99,8 @@ impl<'a> Growth<'a> {
             filter: Filter::of(points),
             measure,
             count: 4,
-            triangles: Vec::new(),
+            // A point joins some six.
+            triangles: Vec::with_capacity(6 * points.len().min(MAX_HULL_VERTICES)),
             waits_after: vec![NONE; points.len()],
             furthest: BinaryHeap::new(),
             border_from: vec![NONE; points.len()],
