@@ -4,10 +4,10 @@
 use super::Pair3;
 use super::balls::Told;
 use crate::feature::{Feature, FeatureId};
-use crate::precision::{Precision, length_at_most};
+use crate::precision::Precision;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_PLACE;
-use asunder_geometry::{Basis3, Pose3, Shape3};
+use asunder_geometry::{Basis3, Shape3};
 
 /// A sphere and a triangle or a hull, as they stand.
 pub(super) struct BallOnFaces<'p> {
@@ -35,43 +35,6 @@ pub(super) struct Nearest {
     pub(super) distance: f64,
     /// By how much that may be off because a face is not quite flat.
     pub(super) slack: f64,
-}
-
-/// A sphere that is part of nothing, and what is beside it.
-pub(super) struct BesideBall<'p> {
-    pub(super) shape: &'p Shape3,
-    pub(super) pose: &'p Pose3,
-    /// Whether that is B.
-    pub(super) is_b: bool,
-    /// The sphere's centre from its position, in world axes, and the sphere's radius, in metres.
-    pub(super) center: DVec3,
-    pub(super) radius: f64,
-}
-
-impl Pair3<'_> {
-    /// What is beside a sphere; of two, beside the first.
-    #[inline(always)]
-    pub(super) fn beside_ball(&self) -> Option<BesideBall<'_>> {
-        let (sphere, shape, pose, is_b) = match (self.shape_a, self.shape_b) {
-            (Shape3::Sphere(sphere), shape) => (sphere, shape, &self.pose_b, true),
-            (shape, Shape3::Sphere(sphere)) => (sphere, shape, &self.pose_a, false),
-            _ => return None,
-        };
-        let center = if is_b { -self.between } else { self.between };
-        Some(BesideBall { shape, pose, is_b, center, radius: sphere.radius().into() })
-    }
-}
-
-impl BesideBall<'_> {
-    /// All lengths that enter.
-    #[inline]
-    pub(super) fn precision(&self) -> Precision {
-        let reach = self.radius
-            + f64::from(self.shape.outer_radius())
-            + length_at_most(self.shape.center().as_dvec3())
-            + length_at_most(self.center);
-        Precision::of_closed_form(reach)
-    }
 }
 
 impl BallOnFaces<'_> {

@@ -15,8 +15,8 @@
 //! takes 2,100 ns there and 390 here with hulls of 16 (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
 
 use super::Pair3;
-use super::ball_on_faces::{BallOnFaces, BesideBall, Nearest};
-use super::balls::Told;
+use super::ball_on_faces::{BallOnFaces, Nearest};
+use super::balls::{BesideBall, Told};
 use crate::answer::{Tier, Verdict};
 use crate::feature::Feature;
 use crate::polyhedron::convex::IDENTITY;
@@ -289,7 +289,7 @@ impl Walk<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::is_said_as_of_a_part;
+    use super::super::balls::tests::{is_said_as_of_a_part, touch_exactly};
     use super::*;
     use crate::numbers::Numbers;
     use asunder_geometry::glam::{Quat, Vec3};
@@ -307,20 +307,7 @@ mod tests {
             (DVec3::new(4.0, 0.0, 0.0), DVec3::new(0.0, -3.0, 4.0)),
             (DVec3::ZERO, DVec3::new(-4.0, -3.0, 0.0)),
         ] {
-            let verdict = |longer: f64| {
-                let there = Pose3::at(place + way * longer).unwrap();
-                let told = Pair3::new(&shape, &Pose3::IDENTITY, &ball, &there).verdict();
-                assert_eq!(told, Pair3::new(&ball, &there, &shape, &Pose3::IDENTITY).verdict());
-                told
-            };
-            assert_eq!(verdict(1.0), Verdict { overlapping: true, tier: Tier::Exact }, "{place}");
-            assert_eq!(
-                verdict(1.0 + f64::EPSILON),
-                Verdict { overlapping: false, tier: Tier::Exact },
-                "{place}"
-            );
-            assert_eq!(verdict(1.1), Verdict { overlapping: false, tier: Tier::Bound });
-            assert_eq!(verdict(0.9), Verdict { overlapping: true, tier: Tier::Bound });
+            touch_exactly([&shape, &ball], place, way);
         }
     }
 

@@ -10,8 +10,7 @@
 //! (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-26).
 
 use super::Pair3;
-use super::ball_on_faces::BesideBall;
-use super::balls::Told;
+use super::balls::{BesideBall, Told};
 use crate::feature::{Feature, FeatureId};
 use crate::polyhedron::slender::{Slender, across};
 use crate::precision::Precision;

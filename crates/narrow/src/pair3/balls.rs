@@ -19,8 +19,8 @@ use crate::exact::{self, Corner};
 use crate::feature::{Feature, FeatureId};
 use crate::precision::{Precision, at_least, length_at_most, signed};
 use crate::room::Room;
-use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{Pose3, Shape3};
 
 /// Two spheres, as they stand.
 struct Balls<'p> {
@@ -105,6 +105,43 @@ impl Pair3<'_> {
         let reach = both + length_at_most(self.between);
         let precision = Precision::of_closed_form(reach);
         Some(Balls { pair: self, radii, distance, separation: distance - both, precision })
+    }
+}
+
+/// A sphere that is part of nothing, and what is beside it.
+pub(super) struct BesideBall<'p> {
+    pub(super) shape: &'p Shape3,
+    pub(super) pose: &'p Pose3,
+    /// Whether that is B.
+    pub(super) is_b: bool,
+    /// The sphere's centre from its position, in world axes, and the sphere's radius, in metres.
+    pub(super) center: DVec3,
+    pub(super) radius: f64,
+}
+
+impl Pair3<'_> {
+    /// What is beside a sphere; of two, beside the first.
+    #[inline(always)]
+    pub(super) fn beside_ball(&self) -> Option<BesideBall<'_>> {
+        let (sphere, shape, pose, is_b) = match (self.shape_a, self.shape_b) {
+            (Shape3::Sphere(sphere), shape) => (sphere, shape, &self.pose_b, true),
+            (shape, Shape3::Sphere(sphere)) => (sphere, shape, &self.pose_a, false),
+            _ => return None,
+        };
+        let center = if is_b { -self.between } else { self.between };
+        Some(BesideBall { shape, pose, is_b, center, radius: sphere.radius().into() })
+    }
+}
+
+impl BesideBall<'_> {
+    /// All lengths that enter.
+    #[inline]
+    pub(super) fn precision(&self) -> Precision {
+        let reach = self.radius
+            + f64::from(self.shape.outer_radius())
+            + length_at_most(self.shape.center().as_dvec3())
+            + length_at_most(self.center);
+        Precision::of_closed_form(reach)
     }
 }
 
@@ -263,7 +300,7 @@ impl Balls<'_> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use asunder_geometry::{Compound3, Pose3, Sphere};
+    use asunder_geometry::{Compound3, Sphere};
 
     /// Checks that a pair says what the same pair does by the general path, with ends of points so near to each other, as a share of a
     /// metre and of how far they are from their bodies; whether they are near enough for a point.
@@ -314,6 +351,21 @@ pub(super) mod tests {
             };
             says_as(&pair(body), &pair(&part), 1e-6)
         })
+    }
+
+    /// Checks that a shape and one that a way of whole length, or of quarters, leads to, touch there, in both orders, and nowhere beyond.
+    pub(in crate::pair3) fn touch_exactly([shape, other]: [&Shape3; 2], place: DVec3, way: DVec3) {
+        let verdict = |longer: f64| {
+            let there = Pose3::at(place + way * longer).unwrap();
+            let told = Pair3::new(shape, &Pose3::IDENTITY, other, &there).verdict();
+            assert_eq!(told, Pair3::new(other, &there, shape, &Pose3::IDENTITY).verdict(), "{place}");
+            told
+        };
+        let (exact, by_bound) = (Tier::Exact, Tier::Bound);
+        assert_eq!(verdict(1.0), Verdict { overlapping: true, tier: exact }, "{place}");
+        assert_eq!(verdict(1.0 + f64::EPSILON), Verdict { overlapping: false, tier: exact }, "{place}");
+        assert_eq!(verdict(1.1), Verdict { overlapping: false, tier: by_bound }, "{place}");
+        assert_eq!(verdict(0.9), Verdict { overlapping: true, tier: by_bound }, "{place}");
     }
 
     fn ball(radius: f32) -> Shape3 {

@@ -110,9 +110,8 @@ impl Rods<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::is_said_as_of_a_part;
+    use super::super::balls::tests::{is_said_as_of_a_part, touch_exactly};
     use super::*;
-    use crate::answer::{Tier, Verdict};
     use crate::numbers::Numbers;
     use asunder_geometry::glam::Quat;
     use asunder_geometry::{Capsule3, Pose3, Segment3};
@@ -129,20 +128,7 @@ mod tests {
             (capsule(DVec3::X * -2.0, DVec3::X * 2.0, 3.0), DVec3::new(1.0, 4.0, 0.0)),
             (capsule(DVec3::X * -1.0, DVec3::X * 1.0, 3.0), DVec3::X * -7.0),
         ] {
-            let verdict = |longer: f64| {
-                let there = Pose3::at(way * longer).unwrap();
-                let told = Pair3::new(&rod, &Pose3::IDENTITY, &other, &there).verdict();
-                assert_eq!(told, Pair3::new(&other, &there, &rod, &Pose3::IDENTITY).verdict());
-                told
-            };
-            assert_eq!(verdict(1.0), Verdict { overlapping: true, tier: Tier::Exact }, "{way}");
-            assert_eq!(
-                verdict(1.0 + f64::EPSILON),
-                Verdict { overlapping: false, tier: Tier::Exact },
-                "{way}"
-            );
-            assert_eq!(verdict(1.1), Verdict { overlapping: false, tier: Tier::Bound });
-            assert_eq!(verdict(0.9), Verdict { overlapping: true, tier: Tier::Bound });
+            touch_exactly([&rod, &other], DVec3::ZERO, way);
         }
     }
 
