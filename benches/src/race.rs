@@ -39,6 +39,22 @@ impl Race {
         (found, found_by_peer)
     }
 
+    /// Turns of so many until it is over, and what is said of what both found first.
+    pub fn run<A, B>(
+        effort: &Effort,
+        count: usize,
+        mut ours: impl FnMut() -> A,
+        mut peer: impl FnMut() -> B,
+        says: impl Fn(A, B) -> String,
+    ) -> (Self, String) {
+        let (mut race, mut said) = (Self::default(), None);
+        while !race.is_over(effort) {
+            let (found, found_by_peer) = race.turn(count, &mut ours, &mut peer);
+            said.get_or_insert_with(|| says(found, found_by_peer));
+        }
+        (race, said.unwrap_or_default())
+    }
+
     /// Whether one side has spent the time of a variant.
     pub fn is_spent(&self, effort: &Effort) -> bool {
         self.ours.spent().max(self.peer.spent()) > effort.nanoseconds()

@@ -302,14 +302,11 @@ fn casts(pairs: &[(PosedPair3, DVec3)], effort: &Effort, mut row: Row) -> Result
         query::cast_shapes(pose_a, *displacement, &*a.0, pose_b, Vector::ZERO, &*b.0, options)
             .is_ok_and(|hit| hit.is_some())
     };
-    let mut race = Race::default();
-    while !race.is_over(effort) {
-        let (hits, peer_hits) =
-            race.turn(PAIRS, || sets.iter().filter(ours).count(), || sets.iter().filter(peer).count());
-        if row.note.is_empty() {
-            row.remark(&format!("{hits} of {PAIRS} meet, the peer's {peer_hits}"));
-        }
-    }
+    let counts = (|| sets.iter().filter(ours).count(), || sets.iter().filter(peer).count());
+    let (race, said) = Race::run(effort, PAIRS, counts.0, counts.1, |hits, peer_hits| {
+        format!("{hits} of {PAIRS} meet, the peer's {peer_hits}")
+    });
+    row.remark(&said);
     race.tell(&mut row, "parry3d");
     Ok(row)
 }

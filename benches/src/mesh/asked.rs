@@ -53,19 +53,11 @@ fn falls(terrain: &Terrain, low: f64, high: f64) -> Vec<(DVec3, Vec3)> {
 }
 
 /// The whole set in turns, until rounds or time are up.
-fn in_turns(
-    effort: &Effort,
-    mut row: Row,
-    mut ours: impl FnMut() -> usize,
-    mut peer: impl FnMut() -> usize,
-) -> Row {
-    let mut race = Race::default();
-    while !race.is_over(effort) {
-        let (hits, peer_hits) = race.turn(QUESTIONS, &mut ours, &mut peer);
-        if row.note.is_empty() {
-            row.remark(&format!("{hits} of {QUESTIONS} say yes, the peer's {peer_hits}"));
-        }
-    }
+fn in_turns(effort: &Effort, mut row: Row, ours: impl FnMut() -> usize, peer: impl FnMut() -> usize) -> Row {
+    let (race, said) = Race::run(effort, QUESTIONS, ours, peer, |hits, peer_hits| {
+        format!("{hits} of {QUESTIONS} say yes, the peer's {peer_hits}")
+    });
+    row.remark(&said);
     race.tell(&mut row, PEER);
     row
 }

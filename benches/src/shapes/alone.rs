@@ -42,19 +42,11 @@ fn ones(kind: Kind) -> Result<Vec<One>, Box<dyn Error>> {
 }
 
 /// What both sides say to all, in turns.
-fn in_turns(
-    effort: &Effort,
-    mut row: Row,
-    mut ours: impl FnMut() -> f32,
-    mut peer: impl FnMut() -> f32,
-) -> Row {
-    let mut race = Race::default();
-    while !race.is_over(effort) {
-        let (found, found_by_peer) = race.turn(PAIRS, &mut ours, &mut peer);
-        if row.note.is_empty() {
-            row.remark(&format!("the answers sum up to {found}, the peer's to {found_by_peer}"));
-        }
-    }
+fn in_turns(effort: &Effort, mut row: Row, ours: impl FnMut() -> f32, peer: impl FnMut() -> f32) -> Row {
+    let (race, said) = Race::run(effort, PAIRS, ours, peer, |found, found_by_peer| {
+        format!("the answers sum up to {found}, the peer's to {found_by_peer}")
+    });
+    row.remark(&said);
     race.tell(&mut row, "parry3d");
     row
 }

@@ -105,11 +105,10 @@ impl Told for BallOnRod<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::is_said_as_of_a_part;
+    use super::super::balls::tests::{Counts, any_ball, pose_and_place, says_as_a_part};
     use super::*;
     use crate::answer::{Tier, Verdict};
     use crate::numbers::Numbers;
-    use asunder_geometry::glam::Quat;
     use asunder_geometry::{Capsule3, Pose3, Segment3, Sphere};
 
     #[test]
@@ -151,26 +150,19 @@ mod tests {
     #[test]
     fn a_part_of_a_compound_says_the_same() {
         let mut numbers = Numbers::new(77);
-        let (mut near, mut apart) = (0, 0);
-        for i in 0..4000 {
+        let mut counts = Counts::default();
+        for i in 0..4000_u32 {
             let (from, to) = (numbers.vector().as_vec3(), numbers.vector().as_vec3());
             let rod = match i % 4 {
                 0 => Segment3::new(from, to).map(Shape3::from).ok(),
                 _ => Capsule3::new(from, to, 0.3).map(Shape3::from).ok(),
             };
             let Some(rod) = rod else { continue };
-            let q = [numbers.vector(), numbers.vector()];
-            let turn = Quat::from_xyzw(q[0].x as f32, q[0].y as f32, q[0].z as f32, q[1].x as f32);
-            let ball = Shape3::from(Sphere::new((0.1 + 0.5 * q[1].y.abs()) as f32).unwrap());
-            let far = if i % 3 == 0 { 1e7 } else { 0.0 };
-            let here = Pose3::new(numbers.vector() + DVec3::X * far, turn).unwrap();
-            let there = here.position() + numbers.vector() * if i % 2 == 0 { 0.3 } else { 3.0 };
+            let ball = any_ball(&mut numbers);
+            let (here, there) = pose_and_place(&mut numbers, i, 0.3);
             let there = Pose3::at(there).unwrap();
-            for is_near in is_said_as_of_a_part((&ball, &there), (&rod, &here)) {
-                near += u32::from(is_near);
-                apart += u32::from(!is_near);
-            }
+            says_as_a_part((&ball, &there), (&rod, &here), &mut counts);
         }
-        assert!(near > 1500 && apart > 3000, "{near} near, {apart} apart");
+        assert!(counts.near > 1500 && counts.apart > 3000, "{counts:?}");
     }
 }

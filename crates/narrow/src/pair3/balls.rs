@@ -300,6 +300,8 @@ impl Balls<'_> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::numbers::Numbers;
+    use asunder_geometry::glam::Quat;
     use asunder_geometry::{Compound3, Sphere};
 
     /// Checks that a pair says what the same pair does by the general path, with ends of points so near to each other, as a share of a
@@ -338,19 +340,47 @@ pub(super) mod tests {
         !one.points.is_empty()
     }
 
-    /// The same of a shape beside another, and of it as a part of a compound, in both orders.
-    pub(in crate::pair3) fn is_said_as_of_a_part(
+    /// How many pairs were near enough for a point, and how many were not.
+    #[derive(Debug, Default)]
+    pub(in crate::pair3) struct Counts {
+        pub(in crate::pair3) near: u32,
+        pub(in crate::pair3) apart: u32,
+    }
+
+    /// Any rotation, of any length.
+    pub(in crate::pair3) fn any_turn(numbers: &mut Numbers) -> Quat {
+        let [v, w] = [numbers.vector(), numbers.vector()];
+        Quat::from_xyzw(v.x as f32, v.y as f32, v.z as f32, w.x as f32)
+    }
+
+    /// A pose, every third time far from the origin, and a place near it: by so much, or every other time by three.
+    pub(in crate::pair3) fn pose_and_place(numbers: &mut Numbers, i: u32, near: f64) -> (Pose3, DVec3) {
+        let far = if i.is_multiple_of(3) { 1e7 } else { 0.0 };
+        let here = Pose3::new(numbers.vector() + DVec3::X * far, any_turn(numbers)).unwrap();
+        let there = here.position() + numbers.vector() * if i.is_multiple_of(2) { near } else { 3.0 };
+        (here, there)
+    }
+
+    /// A sphere of 0.1 to 0.6 m.
+    pub(in crate::pair3) fn any_ball(numbers: &mut Numbers) -> Shape3 {
+        ball((0.1 + 0.5 * numbers.vector().y.abs()) as f32)
+    }
+
+    /// Checks the same of a shape beside another, and of it as a part of a compound, in both orders.
+    pub(in crate::pair3) fn says_as_a_part(
         (body, there): (&Shape3, &Pose3),
         (other, here): (&Shape3, &Pose3),
-    ) -> [bool; 2] {
+        counts: &mut Counts,
+    ) {
         let part: Shape3 = Compound3::new([(Pose3::IDENTITY, body.clone())]).unwrap().into();
-        [false, true].map(|is_b| {
+        for is_b in [false, true] {
             let pair = |body| match is_b {
                 true => Pair3::new(body, there, other, here),
                 false => Pair3::new(other, here, body, there),
             };
-            says_as(&pair(body), &pair(&part), 1e-6)
-        })
+            let is_near = says_as(&pair(body), &pair(&part), 1e-6);
+            *(if is_near { &mut counts.near } else { &mut counts.apart }) += 1;
+        }
     }
 
     /// Checks that a shape and one that a way of whole length, or of quarters, leads to, touch there, in both orders, and nowhere beyond.

@@ -136,11 +136,10 @@ impl Told for OnPlane<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::is_said_as_of_a_part;
+    use super::super::balls::tests::{Counts, any_turn, says_as_a_part};
     use super::*;
     use crate::answer::{Tier, Verdict};
     use crate::numbers::Numbers;
-    use asunder_geometry::glam::Quat;
     use asunder_geometry::{Capsule3, Cuboid, HalfSpace, Hull, Pose3, Segment3, Sphere};
 
     #[test]
@@ -183,27 +182,20 @@ mod tests {
     #[test]
     fn a_part_of_a_compound_says_the_same() {
         let mut numbers = Numbers::new(99);
-        let (mut near, mut apart) = (0, 0);
+        let mut counts = Counts::default();
         for i in 0..6000 {
             let normal = numbers.vector();
             let Ok(floor) = HalfSpace::new(normal.as_vec3()) else { continue };
-            let mut turn = || {
-                let q = [numbers.vector(), numbers.vector()];
-                Quat::from_xyzw(q[0].x as f32, q[0].y as f32, q[0].z as f32, q[1].x as f32)
-            };
-            let turns = [turn(), turn()];
+            let turns = [any_turn(&mut numbers), any_turn(&mut numbers)];
             let far = if i % 3 == 0 { 1e7 } else { 0.0 };
             let here = Pose3::new(numbers.vector() + DVec3::X * far, turns[0]).unwrap();
             let there = here.position() + numbers.vector() * if i % 2 == 0 { 1.0 } else { 300.0 };
             let there = Pose3::new(there, turns[1]).unwrap();
             let Some(body) = shape(i % 11, &mut numbers) else { continue };
             let floor = Shape3::from(floor);
-            for is_near in is_said_as_of_a_part((&body, &there), (&floor, &here)) {
-                near += u32::from(is_near);
-                apart += u32::from(!is_near);
-            }
+            says_as_a_part((&body, &there), (&floor, &here), &mut counts);
         }
-        assert!(near > 3000 && apart > 2000, "{near} near, {apart} apart");
+        assert!(counts.near > 3000 && counts.apart > 2000, "{counts:?}");
     }
 
     /// All corners of a cube on its floor, by whichever is B.
