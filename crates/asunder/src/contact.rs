@@ -10,11 +10,12 @@ use asunder_narrow::{Hint, Manifold2, Manifold3};
 /// use asunder::{Collider3, Contact3, Cuboid, Pose3, World3, glam::Vec3};
 /// let mut world = World3::new();
 /// let unit = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5))?);
-/// let below = world.insert(unit.clone().fixed());
-/// let above = world.insert(unit.at(Pose3::at([0.0, 0.75, 0.0])?));
+/// let below = world.insert(unit.clone().fixed().user_data(7));
+/// let above = world.insert(unit.at(Pose3::at([0.0, 0.75, 0.0])?).user_data(8));
 /// world.update();
 /// let contact: Contact3 = world.contact(above, below).ok_or("they touch")?;
 /// assert_eq!((contact.a, contact.b), (below, above), "by their slots, whichever was asked about first");
+/// assert_eq!(contact.user_data, (7, 8));
 /// assert!(contact.overlapping && contact.is_new && !contact.sensor && !contact.speculative);
 /// assert_eq!((contact.manifolds.len(), contact.manifolds[0].normal), (1, Vec3::Y));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -25,6 +26,8 @@ pub struct Contact<'a, K, M> {
     pub a: K,
     /// The other body.
     pub b: K,
+    /// What the game keeps with `a` and with `b`, as of the last update: see [`Collider::user_data`](crate::Collider::user_data).
+    pub user_data: (u64, u64),
     /// Whether either is a sensor: then there are no manifolds.
     pub sensor: bool,
     /// Whether they share a point now; touching counts.

@@ -94,8 +94,8 @@ pub use asunder_geometry::{
     EdgeArc, EdgeOctet, ExtentError, FaceOctet, Ground, HalfEdge, HalfPlane, HalfSpace, HeightField,
     HeightFieldError, Hull, HullError, HullFault, MassError, MassProperties2, MassProperties3, MeshError,
     Motion2, Motion3, NearTriangle, Part2, Part3, Polygon, PolygonError, Pose2, Pose3, PoseError, Prominent,
-    RadiusError, Ray2, Ray3, RayError, Rect, Rotation2, Run, Segment2, Segment3, Shape2, Shape3, Sphere,
-    Topology, TriMesh, Triangle3, Turn3, VertexError, VertexOctet, decompose, glam, tolerance,
+    RadiusError, Ray2, Ray3, RayError, Rect, Rotation2, Run, ScaleError, Segment2, Segment3, Shape2, Shape3,
+    Sphere, Topology, TriMesh, Triangle3, Turn3, VertexError, VertexOctet, decompose, glam, tolerance,
 };
 pub use asunder_narrow::{
     ArrayVec, Closest2, Closest3, ContactPoint2, ContactPoint3, ContactPoints, Feature, FeatureId, Impact2,

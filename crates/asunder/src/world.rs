@@ -261,12 +261,12 @@ impl<S: Space> World<S> {
     // A game reads all of them each frame.
     #[inline]
     fn show_record<'a>(&'a self, number: usize, record: &Record<S::Key>) -> Contact<'a, S::Key, S::Manifold> {
-        let Record { keys: (a, b), sensor, overlapping, is_new, speculative, .. } = *record;
+        let Record { keys: (a, b), user_data, sensor, overlapping, is_new, speculative, .. } = *record;
         let manifolds = match &self.edited {
             Some(edited) => edited.of(number),
             None => manifolds_at(&record.manifolds, &self.answered),
         };
-        Contact { a, b, sensor, overlapping, is_new, speculative, manifolds }
+        Contact { a, b, user_data, sensor, overlapping, is_new, speculative, manifolds }
     }
 
     /// The number of the record of two bodies.

@@ -37,6 +37,7 @@ mod rect;
 mod relative;
 #[cfg(feature = "serde")]
 mod saved;
+mod scaled;
 mod segment;
 mod shape;
 mod sphere;
@@ -72,6 +73,7 @@ pub use pose3::{Basis3, Pose3, PoseError};
 pub use radius::RadiusError;
 pub use ray::{Ray2, Ray3, RayError};
 pub use rect::Rect;
+pub use scaled::ScaleError;
 pub use segment::{Capsule2, Capsule3, CapsuleError, Segment2, Segment3};
 pub use shape::{Shape2, Shape3};
 pub use sphere::Sphere;

@@ -210,6 +210,14 @@ impl Hull {
         self.data.error
     }
 
+    /// The same, of points that may lie further outside, in metres, than those it was made from. For one that nobody shares.
+    pub(crate) fn left_out(mut self, error: f64) -> Self {
+        if let Some(data) = Arc::get_mut(&mut self.data) {
+            data.error = data.error.max(round_up(error));
+        }
+        self
+    }
+
     /// The box around the posed shape, grown by `margin` metres and rounded outwards: wider than it need be by less than a
     /// millionth of how far the vertices are from the origin. Cost: linear in the vertices, eight at a time.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {

@@ -252,6 +252,14 @@ impl Polygon {
         self.data.error
     }
 
+    /// The same, of points that may lie further outside, in metres, than those it was made from. For one that nobody shares.
+    pub(crate) fn left_out(mut self, error: f64) -> Self {
+        if let Some(data) = Arc::get_mut(&mut self.data) {
+            data.error = data.error.max(round_up(error));
+        }
+        self
+    }
+
     /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding. Cost: linear in the
     /// vertices.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {

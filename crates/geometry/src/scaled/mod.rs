@@ -1,0 +1,170 @@
+//! Shapes made larger, smaller or flatter: what a scene's nodes, and assets in other units, ask for.
+//!
+//! A scaled shape is a new one, made from the old one's vertices times the factors, each rounded once to f32: powers of two
+//! are exact. What is derived (faces, normals, radii, which triangles share a plane) is derived anew.
+
+mod plane;
+mod space;
+
+use crate::chain::ChainError;
+use crate::compound::CompoundError;
+use crate::direction::DirectionError;
+use crate::extent::ExtentError;
+use crate::height_field::HeightFieldError;
+use crate::hull::HullError;
+use crate::mesh::MeshError;
+use crate::polygon::PolygonError;
+use crate::pose3::PoseError;
+use crate::radius::RadiusError;
+use crate::segment::CapsuleError;
+use crate::vertex::VertexError;
+
+/// Why a shape cannot be scaled by some factors.
+///
+/// ```
+/// use asunder_geometry::{Cuboid, ScaleError, Shape3, Sphere, glam::Vec3};
+/// let ball = Shape3::from(Sphere::new(0.5)?);
+/// assert_eq!(ball.scaled(Vec3::new(2.0, 1.0, 2.0)), Err(ScaleError::Round));
+/// assert_eq!(ball.scaled(Vec3::new(1.0, 0.0, 1.0)), Err(ScaleError::Factor { axis: 1, value: 0.0 }));
+/// let house = Shape3::from(Cuboid::from_half_extents(Vec3::new(5.0, 3.0, 4.0))?);
+/// let refused = house.scaled(Vec3::splat(1e6)).unwrap_err();
+/// assert!(matches!(refused, ScaleError::Extent(_)) && refused.to_string().contains("above 1000000 m"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ScaleError {
+    /// A factor is zero, NaN or infinite.
+    Factor {
+        /// Which axis, 0 for x.
+        axis: usize,
+        /// What was given.
+        value: f32,
+    },
+    /// A round shape, or a rounding, would not stay round: the factors differ in size.
+    Round,
+    /// A height field would be turned upside down, or its columns and rows mirrored.
+    Mirrored,
+    /// What would become of a rectangle or a cuboid.
+    Extent(ExtentError),
+    /// What would become of a radius.
+    Radius(RadiusError),
+    /// What would become of a capsule.
+    Capsule(CapsuleError),
+    /// What would become of a segment or a triangle.
+    Vertex(VertexError),
+    /// What would become of a half-plane or a half-space.
+    Direction(DirectionError),
+    /// What would become of a polygon.
+    Polygon(PolygonError),
+    /// What would become of a hull.
+    Hull(HullError),
+    /// What would become of a chain.
+    Chain(ChainError),
+    /// What would become of a compound.
+    Compound(CompoundError),
+    /// Where a part of a compound would be.
+    Pose(PoseError),
+    /// What would become of a triangle mesh.
+    Mesh(MeshError),
+    /// What would become of a height field.
+    HeightField(HeightFieldError),
+}
+
+impl ScaleError {
+    /// What the shape that would result is refused for.
+    fn inner(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Factor { .. } | Self::Round | Self::Mirrored => None,
+            Self::Extent(error) => Some(error),
+            Self::Radius(error) => Some(error),
+            Self::Capsule(error) => Some(error),
+            Self::Vertex(error) => Some(error),
+            Self::Direction(error) => Some(error),
+            Self::Polygon(error) => Some(error),
+            Self::Hull(error) => Some(error),
+            Self::Chain(error) => Some(error),
+            Self::Compound(error) => Some(error),
+            Self::Pose(error) => Some(error),
+            Self::Mesh(error) => Some(error),
+            Self::HeightField(error) => Some(error),
+        }
+    }
+}
+
+impl core::fmt::Display for ScaleError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match (self, self.inner()) {
+            (_, Some(error)) => write!(f, "the scaled shape is refused: {error}"),
+            (Self::Factor { axis, value }, _) => {
+                write!(
+                    f,
+                    "factor {value} on axis {axis} makes no shape: give a finite number that is not zero"
+                )
+            }
+            (Self::Mirrored, _) => {
+                write!(
+                    f,
+                    "a height field cannot be mirrored: give positive factors, or make a triangle mesh of it"
+                )
+            }
+            _ => write!(
+                f,
+                "a round shape stays round only with one factor for all axes: give that, or make a hull of it"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for ScaleError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        self.inner()
+    }
+}
+
+/// `From` for every error that a constructor has.
+macro_rules! refused_by {
+    ($($variant:ident($error:ty)),+ $(,)?) => { $(
+        impl From<$error> for ScaleError {
+            fn from(error: $error) -> Self {
+                Self::$variant(error)
+            }
+        }
+    )+ };
+}
+
+refused_by!(
+    Extent(ExtentError),
+    Radius(RadiusError),
+    Capsule(CapsuleError),
+    Vertex(VertexError),
+    Direction(DirectionError),
+    Polygon(PolygonError),
+    Hull(HullError),
+    Chain(ChainError),
+    Compound(CompoundError),
+    Pose(PoseError),
+    Mesh(MeshError),
+    HeightField(HeightFieldError),
+);
+
+/// Refuses what is no factor.
+fn check(factors: &[f32]) -> Result<(), ScaleError> {
+    match factors.iter().position(|factor| !factor.is_finite() || *factor == 0.0) {
+        Some(axis) => Err(ScaleError::Factor { axis, value: factors[axis] }),
+        None => Ok(()),
+    }
+}
+
+/// A radius times the size that all factors share: nothing stays nothing under any factors.
+fn scaled_radius(radius: f32, factors: &[f32]) -> Result<f32, ScaleError> {
+    let size = factors[0].abs();
+    match radius {
+        0.0 => Ok(0.0),
+        _ if factors.iter().all(|factor| factor.abs() == size) => Ok(radius * size),
+        _ => Err(ScaleError::Round),
+    }
+}
+
+#[cfg(test)]
+mod tests;
