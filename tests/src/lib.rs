@@ -59,22 +59,22 @@ pub mod solver;
 /// The guide's pages: what they show must run.
 #[cfg(doctest)]
 mod guide {
-    #[doc = include_str!("../../docs/guide/game-loops.md")]
+    #[doc = include_str!("../../crates/asunder/guide/game-loops.md")]
     struct GameLoops;
-    #[doc = include_str!("../../docs/guide/events.md")]
+    #[doc = include_str!("../../crates/asunder/guide/events.md")]
     struct Events;
-    #[doc = include_str!("../../docs/guide/determinism.md")]
+    #[doc = include_str!("../../crates/asunder/guide/determinism.md")]
     struct Determinism;
-    #[doc = include_str!("../../docs/guide/margins.md")]
+    #[doc = include_str!("../../crates/asunder/guide/margins.md")]
     struct Margins;
-    #[doc = include_str!("../../docs/guide/queries.md")]
+    #[doc = include_str!("../../crates/asunder/guide/queries.md")]
     struct Queries;
-    #[doc = include_str!("../../docs/guide/characters.md")]
+    #[doc = include_str!("../../crates/asunder/guide/characters.md")]
     struct Characters;
-    #[doc = include_str!("../../docs/guide/levels.md")]
+    #[doc = include_str!("../../crates/asunder/guide/levels.md")]
     struct Levels;
-    #[doc = include_str!("../../docs/guide/solvers.md")]
+    #[doc = include_str!("../../crates/asunder/guide/solvers.md")]
     struct Solvers;
-    #[doc = include_str!("../../docs/guide/units.md")]
+    #[doc = include_str!("../../crates/asunder/guide/units.md")]
     struct Units;
 }

@@ -3,14 +3,14 @@
 
 mod units;
 
-use asunder_geometry::{Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Shape2, Shape3};
+use asunder_geometry::{Pose2, Pose3};
 use asunder_narrow::{
     Answer, Batch2, Batch3, Hint, Job2, Job3, Manifold2, Manifold3, Pair2, Pair3, Separation2, Separation3,
     collide2, collide3,
 };
 use asunder_tests::answers::{Asked, Asked2, Asked3};
 use asunder_tests::cases::{Case2, Case3, Random};
-use glam::{DVec2, DVec3, Quat};
+use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
 const GAPS: [f64; 6] = [1e-2, 1e-5, 1e-8, -1e-8, -1e-5, -1e-2];
 
@@ -152,28 +152,6 @@ fn how_long_a_quaternion_is() {
     }
 }
 
-fn scaled3(shape: &Shape3, factor: f32) -> Shape3 {
-    match shape {
-        Shape3::Cuboid(cuboid) => Cuboid::from_half_extents(cuboid.half_extents() * factor).unwrap().into(),
-        Shape3::Hull(hull) => {
-            let points: Vec<_> = hull.vertices().iter().map(|&v| v * factor).collect();
-            Hull::from_points(&points).unwrap().into()
-        }
-        other => unreachable!("made of cuboids and hulls, not {other:?}"),
-    }
-}
-
-fn scaled2(shape: &Shape2, factor: f32) -> Shape2 {
-    match shape {
-        Shape2::Rect(rect) => Rect::from_half_extents(rect.half_extents() * factor).unwrap().into(),
-        Shape2::Polygon(polygon) => {
-            let points: Vec<_> = polygon.vertices().iter().map(|&v| v * factor).collect();
-            Polygon::new(&points).unwrap().into()
-        }
-        other => unreachable!("made of rectangles and polygons, not {other:?}"),
-    }
-}
-
 /// A scene of pebbles and a scene of mountains: in powers of two every bit of the answer follows.
 #[test]
 fn units_of_length() {
@@ -184,9 +162,9 @@ fn units_of_length() {
             let wide = f64::from(factor);
             let moved = |pose: &Pose3| Pose3::new(pose.position() * wide, pose.rotation()).unwrap();
             let large = Case3 {
-                shape_a: scaled3(&case.shape_a, factor),
+                shape_a: case.shape_a.scaled(Vec3::splat(factor)).unwrap(),
                 pose_a: moved(&case.pose_a),
-                shape_b: scaled3(&case.shape_b, factor),
+                shape_b: case.shape_b.scaled(Vec3::splat(factor)).unwrap(),
                 pose_b: moved(&case.pose_b),
             };
             let (one, other) = (pair3(&case), pair3(&large));
@@ -201,9 +179,9 @@ fn units_of_length() {
             let case = mixed_case2(&mut random, round);
             let moved = |pose: &Pose2| Pose2::new(pose.position() * wide, pose.rotation()).unwrap();
             let large = Case2 {
-                shape_a: scaled2(&case.shape_a, factor),
+                shape_a: case.shape_a.scaled(Vec2::splat(factor)).unwrap(),
                 pose_a: moved(&case.pose_a),
-                shape_b: scaled2(&case.shape_b, factor),
+                shape_b: case.shape_b.scaled(Vec2::splat(factor)).unwrap(),
                 pose_b: moved(&case.pose_b),
             };
             let (one, other) = (pair2(&case), pair2(&large));

@@ -158,10 +158,11 @@ pub(super) fn together(rows: &[KeptRow]) -> String {
     origins.sort();
     origins.dedup();
     format!(
-        "\n\nIn all {} rows of `compare`'s narrow phase, {} answers: {} of ours are off by more than 1e-5 of size (the largest error is \
-         {}) and {} contacts are missed; of parry3d's {} are off and {} missed. Time of one thread, medians, both sides in \
-         turns; `mesh` rows are of 1,000 bodies a frame, a ray, a cast, a triangle. `cargo run --release -p asunder-benches \
-         --bin compare -- narrow --save`, `-- mesh --save`, `-- broad --only query --save`; {}.",
+        "\n\nIn all {} rows of `compare`'s narrow phase, {} answers were checked: {} of ours are off by more than 1e-5 of the \
+         size (the largest error is {}) and {} contacts are missed; of parry3d's, {} are off and {} missed. Times are medians \
+         on one thread, with both engines taking turns; a `mesh` row is the time of a frame of 1,000 bodies, of one query, or \
+         per triangle built. `cargo run --release -p asunder-benches --bin compare -- narrow --save`, `-- mesh --save`, \
+         `-- broad --only query --save`; {}.",
         judged.len(),
         sum(|row| row.judged),
         sum(|row| row.off),

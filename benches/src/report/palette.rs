@@ -54,9 +54,9 @@ pub const STAGES: [RGBColor; 6] = [
 /// ```
 pub fn look(method: &str) -> Look {
     let (name, color, mark) = match method {
-        "certain" => ("asunder certain", OURS, Mark::Disc),
+        "certain" => ("asunder", OURS, Mark::Disc),
         "asunder" => ("asunder", OURS, Mark::Disc),
-        "fast" => ("asunder fast", RGBColor(86, 180, 233), Mark::Disc),
+        "fast" => ("asunder guess", RGBColor(86, 180, 233), Mark::Disc),
         "batched-boxes" => ("asunder 8 boxes", RGBColor(0, 158, 115), Mark::Disc),
         "parry-f32" | "parry3d" => ("parry3d", PEER, Mark::Square),
         "parry-f64" => ("parry3d f64", RGBColor(230, 159, 0), Mark::Square),

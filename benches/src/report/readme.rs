@@ -1,4 +1,4 @@
-//! README's part: four plots, one table and the losses, between two marks, from saved data alone.
+//! README's part: four plots, one table of headlines and the rest folded away, and the losses, between two marks, from saved data alone.
 
 use super::data::{Data, Section};
 use super::losses::of_kept;
@@ -10,6 +10,12 @@ use super::summary;
 const PLOTS: [&str; 4] = ["error-3d-near-touching", "gap-3d-apart", "broad-gas", "frame-stages"];
 /// Where they lie, from the root.
 pub const FOLDER: &str = "docs/figures";
+
+/// Who is who in the plots and in the losses.
+const METHODS: &str = "In the plots and below, *asunder* is `Pair3::separation` and its like, *asunder 8 boxes* the same for eight pairs of boxes at \
+    once (`separations3`), and *asunder guess* what the first tier of precision alone would say (`guess`), to show what the others are \
+    for: no world uses it. *Textbook* is a plain separating axis test, *lean parry3d* a small world over parry3d's tree and \
+    manifolds; both stand in `benches`.";
 
 const BEGIN: &str = "<!-- figures:begin ";
 const END: &str = "<!-- figures:end -->";
@@ -52,9 +58,10 @@ pub fn part(data: &Data) -> String {
             format!("<img src=\"{FOLDER}/{file}.svg\" alt=\"{question}\" width=\"410\">\n")
         })
         .collect();
-    let table = summary::table(data).to_markdown();
+    let [headlines, others] = summary::tables(data).map(|table| table.to_markdown());
+    let folded = format!("<details><summary>All other rows</summary>\n\n{others}\n</details>\n");
     format!(
-        "<p>\n{plots}</p>\n\n{table}\n{} {}{}\n\n{}",
+        "<p>\n{plots}</p>\n\n{headlines}\n{folded}\n{} {}{}\n\n{METHODS}\n\n{}",
         summary::READING,
         origins(data),
         super::kept::together(&data.kept),

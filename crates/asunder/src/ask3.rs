@@ -1,4 +1,4 @@
-//! Questions to a world in space, in plain types.
+//! Queries to a world in space, in plain types.
 
 use crate::query::{
     Asked, CastAnswer3, Filter3, Met, NearAnswer3, RayAnswer3, bodies_along, bodies_along_ray, bodies_near,
@@ -11,14 +11,14 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Pose3, Ray3, Shape3};
 use core::ops::ControlFlow;
 
-/// # Questions
-/// Questions see bodies where they are, also before the next update. Any number of threads may ask at once. What
+/// # Queries
+/// Queries see bodies where they are, also before the next update. Any number of threads may ask at once. What
 /// comes in a list is sorted by distance, then by the bodies' slots (lists without distances by slots), and lists
 /// are cleared first; visitors get answers in no promised order, until they break off. A [`Filter3`] says whom a
-/// question may find.
+/// query may find.
 ///
-/// Cost: the first question makes a tree of all boxes, in 50 to 120 ns a body, and it is kept while few bodies move; of
-/// those that have moved since, a second one is made by the first question after an update. Then, a question takes
+/// Cost: the first query makes a tree of all boxes, in 50 to 120 ns per body, and it is kept while few bodies move; of
+/// those that have moved since, a second one is made by the first query after an update. Then, a query takes
 /// a walk down both trees, and the narrow phase of every body whose box is met. Once memory is there, nothing
 /// allocates but the caller's lists.
 impl World<Volume> {
@@ -161,8 +161,8 @@ impl World<Volume> {
         bodies_over(self, at, filter).visit(|Met(body)| visitor(body))
     }
 
-    /// The body closest to a point, both in metres, and the closest point on it, if one is within a distance; of
-    /// bodies equally near, that of the lowest slot. A body that holds the point is at distance 0.
+    /// The body closest to a point, and the closest point on it, if that is within a distance (all in metres); of bodies
+    /// equally near, the one in the lowest slot. A body that contains the point is at distance 0.
     ///
     /// A NaN counts as no limit, and a negative distance as zero. Nothing is near a point that is not finite, or
     /// beyond 1e9 m on an axis.
@@ -386,9 +386,9 @@ impl World<Volume> {
     /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of
     /// bodies met at the same time, that of the lowest slot. One that it touches already is met at fraction 0.
     ///
-    /// A displacement of zero meets what the shape overlaps, but for one-sided ground that it is behind, and one that is not finite
-    /// meets nothing. Who goes on along what it met keeps a skin of a tenth of a millimetre: normals are f32, and so a speed that was
-    /// cleared of one still goes in.
+    /// A displacement of zero meets what the shape overlaps, except one-sided ground that it is behind; one that is not
+    /// finite meets nothing. To slide on along what was met, keep a skin of a tenth of a millimetre: normals are f32, so a
+    /// velocity from which the normal was removed still points slightly into the surface.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Filter3, Pose3, Shape3, World3, glam::{DVec3, Vec3}};
@@ -411,10 +411,10 @@ impl World<Volume> {
         bodies_along(self, from, displacement, filter).first()
     }
 
-    /// What a moved shape runs into next, as [`World::cast_shape`] tells it, where what it touches at the start is passed over:
-    /// along a floor to the wall, though both be one body. What counts as level with what is touched,
-    /// [`Pair3::next_impact`](crate::Pair3::next_impact) says, and of other bodies, as the tiles of a floor,
-    /// [`next_impact_beside`](crate::Pair3::next_impact_beside). It passes whichever way the shape goes: into the floor as well.
+    /// What a moved shape runs into next: like [`World::cast_shape`], but what it touches at the start is passed over, even if
+    /// the displacement leads into it. So a ball on a floor finds the wall, even where both are one body. Whatever is level
+    /// with what is touched is passed over, too: by the rule of [`Pair3::next_impact`](crate::Pair3::next_impact), and for
+    /// other bodies, like the tiles of a floor, by that of [`next_impact_beside`](crate::Pair3::next_impact_beside).
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, TriMesh, World3, glam::Vec3};

@@ -51,18 +51,18 @@ use core::ops::{Add, Mul, Neg, Sub};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walk<N> {
-    /// Which way is up, of any length but zero. Zero for a character that knows no ground, as one that flies.
+    /// Which way is up; its length does not matter. Zero for a character that has no ground, such as one that flies.
     pub up: N,
     /// The gap that is kept to everything. At first a hundredth of the shape's bounding radius.
     pub skin: f32,
     /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: what is steeper is a
     /// wall. At first 0.7, 45.6 degrees; a NaN counts as that.
     pub steepest: f32,
-    /// The height of steps that are climbed, up to half a skin more or less, 0 for none; what is higher is a wall. At first 0.35 of
-    /// the shape's bounding radius: a third of a metre for a grown-up.
+    /// The highest step that is climbed, give or take half a skin; 0 for none. Anything higher is a wall. Default: 0.35 of the
+    /// shape's bounding radius, a third of a metre for a grown-up.
     pub step: f32,
-    /// How far down the ground is followed by who stood on it and does not go up, 0 for not at all. At first as
-    /// high as a step.
+    /// How far down a character follows the ground that it stood on, unless it moves up; 0 to switch that off. Default: as
+    /// much as `step`.
     pub snap: f32,
 }
 

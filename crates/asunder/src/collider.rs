@@ -16,9 +16,9 @@ use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Layers {
-    /// A bit a group that the body is in.
+    /// One bit for each group that the body is in.
     pub member_of: u32,
-    /// A bit a group that the body meets.
+    /// One bit for each group that the body meets.
     pub collides_with: u32,
 }
 
@@ -251,24 +251,25 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Marks a body that only senses: its contacts have no manifolds. It meets what others meet, other sensors among it; and, if
-    /// it is fixed, nothing that is fixed, as a lift may be: leave a sensor unfixed that is to see those.
+    /// Marks a body that only senses: its contacts have no manifolds. It meets the same bodies as a solid one would, and
+    /// other sensors. If it is fixed it meets nothing fixed, so a sensor that has to notice a fixed lift must not be fixed.
     #[must_use]
     pub fn sensor(mut self) -> Self {
         self.sensor = true;
         self
     }
 
-    /// Marks a body that must not pass through anything that it does not touch at the start, of ground
-    /// and compounds part by part: an update says what it runs into first during its motion, if it is given one
-    /// ([`World3::set_motion`](crate::World3::set_motion), [`World3::impacts`](crate::World3::impacts)).
+    /// Marks a body that must not pass through things. If it is given a motion
+    /// ([`World3::set_motion`](crate::World3::set_motion)), the update says what it runs into first
+    /// ([`World3::impacts`](crate::World3::impacts)); stopping it there is up to the game. Whatever it touches at the start
+    /// is left out; of ground and compounds, only the parts that it touches.
     #[must_use]
     pub fn bullet(mut self) -> Self {
         self.bullet = true;
         self
     }
 
-    /// Lets the body take no part, until it is enabled: it pairs with nobody, and no question finds it.
+    /// Lets the body take no part, until it is enabled: it pairs with nobody, and no query finds it.
     #[must_use]
     pub fn disabled(mut self) -> Self {
         self.disabled = true;

@@ -34,14 +34,15 @@ pub struct Contact<'a, K, M> {
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
-    /// Whether they are further apart than their margins, and here for what their motions may bring. A solver that lets no point
-    /// close by more than its separation lets nothing through. Touches nobody until they overlap.
+    /// Whether they are further apart than their margins, and listed only because their motions may bring them together. A
+    /// solver that lets no point close by more than its separation lets nothing through. Such a pair does not count as
+    /// touching, and has no `Began`, until it overlaps.
     pub speculative: bool,
-    /// One manifold for each pair of convex parts within the margins, on ground one for each normal of each part; and, where the
-    /// bodies have motions, of parts that these may bring together, in this contact too where other parts touch: a solver that
-    /// knows no speculative points leaves out those whose separation is more than both margins. Normals point
-    /// from `a` to `b`. None for a sensor, nor for two half-spaces that overlap without end: fix all but one of those, as
-    /// a level's are, and they never pair.
+    /// One manifold for each pair of convex parts within the margins; on ground, one for each normal of each part. Where the
+    /// bodies have motions, also manifolds of parts that these may bring together, even if other parts touch: a solver that
+    /// does not handle speculative points leaves out those whose separation is more than both margins. Normals point from
+    /// `a` to `b`. Empty for a sensor, and for two half-spaces that overlap without end: make all of those fixed, as a level's
+    /// are, and they never pair.
     pub manifolds: &'a [M],
 }
 

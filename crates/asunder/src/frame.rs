@@ -46,8 +46,8 @@ impl<S: Space> World<S> {
     /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where
     /// few bodies move, else in all bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow
     /// phase of every candidate of which one body moved, but for those that were apart by more than they went since.
-    /// Contacts of bodies that hardly move against each other, by 2^-15 of the smaller or by 2^-10 where they stand
-    /// broadly, cost a fraction of new ones.
+    /// While two bodies move against each other by no more than 2^-15 of the smaller bounding radius (2^-10 where they rest on
+    /// a broad patch, up to 2^-8 on ground), their contact is moved along for a fraction of the cost of a new one.
     pub fn update(&mut self) {
         self.update_with(&Hooks::new());
     }

@@ -101,20 +101,20 @@ impl<'a, S: Space> Hooks<'a, S> {
     }
 
     /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on
-    /// agree. A pair that is refused is no candidate, and no bullet of it runs into the other; a contact that it had ends. For
-    /// [`World::set_max_pairs`] it counts: that bounds what is asked.
+    /// agree. A refused pair is not a candidate: a contact that it had ends, and a bullet of it does not run into the other.
+    /// It still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are asked.
     #[must_use]
     pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
         self.pair = Some(may_meet);
         self
     }
 
-    /// Hands over every contact that has manifolds, to be edited, speculative ones too. Impacts of bullets are no contacts and are
-    /// not handed over: to let bullets through, refuse the pair in [`pair`](Self::pair). A bullet that stands on what the
-    /// hook took away stands on nothing.
+    /// Hands over every contact that has manifolds, to be edited, speculative ones too. Impacts of bullets are not contacts
+    /// and are not handed over: to let bullets through, refuse the pair in [`pair`](Self::pair). A bullet counts as
+    /// standing only on manifolds that the hook has left: without those of its floor, the next tile may stop it.
     ///
-    /// By then the update's events are written. Where the hook panics, and the game goes on, contacts are as they were found,
-    /// there are no impacts, and motions are left for the next update.
+    /// The update's events are already written when the hook runs. If the hook panics and the game goes on, contacts are as
+    /// they were found, there are no impacts, and motions are kept for the next update.
     #[must_use]
     pub fn contact(mut self, edit: &'a (dyn Fn(Meeting<'_, S>) + Sync)) -> Self {
         self.contact = Some(edit);

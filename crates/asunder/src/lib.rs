@@ -1,9 +1,9 @@
 //! A collision engine for games: which bodies touch, how deep, and how sure it is.
 //!
-//! A world holds bodies, each a shape with a pose: convex, a compound of such, or ground. Move them as your game pleases and call `update` once a
-//! frame: a broad phase sorts and sweeps their boxes, a narrow phase runs the separating axis test on the pairs left,
-//! and the world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]). It moves nothing
-//! itself.
+//! A world holds bodies. Each has a pose and a shape: a convex one, a compound of convex parts, or ground. Move them as
+//! your game pleases and call `update` once a frame: a broad phase sorts and sweeps their boxes, a narrow phase tests
+//! the candidate pairs, and the world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]). It
+//! moves nothing itself.
 //!
 //! ```
 //! use asunder::{Collider3, Cuboid, Event3, Pose3, World3, glam::Vec3};
@@ -30,35 +30,44 @@
 //! - Bodies: [`Collider3`] of any [`Shape3`], at a [`Pose3`]; [`Layers`], owners and sensors say who meets whom.
 //! - A frame: [`World3::set_pose`], [`World3::update`], [`World3::events`], [`World3::contacts_of`].
 //! - Fast things: [`World3::set_motion`], [`Collider3::bullet`], [`World3::impacts`].
-//! - Questions: [`World3::cast_ray`], [`World3::cast_shape`], [`World3::overlapping`], [`World3::closest`], with a
+//! - Queries (ray casts, shape casts, overlap tests, what is nearest): [`World3::cast_ray`], [`World3::cast_shape`], [`World3::overlapping`], [`World3::closest`], with a
 //!   [`Filter3`].
 //! - Characters: [`World3::move_and_slide`], with a [`Walk3`].
 //! - Two shapes without a world: [`Pair3`].
+//! - The [`guide`] has a page on each of these, with whole examples.
 //!
-//! All of it is there in the plane as well, with a 2 in place of the 3. The crates `asunder_geometry` and
-//! `asunder_narrow`, which some examples on these pages name, are parts of this one: what a game needs of them is here under
-//! the same name, `asunder::Pose3`. Who writes a world of their own finds jobs, batches and hints in `asunder_narrow`.
+//! # Words
+//! A **candidate** is a pair whose boxes overlap; a **contact**, a candidate within the sum of both margins, or one that this frame's motions
+//! may bring there (then it is *speculative*). Two bodies **overlap** while they share a point, and are **touching**
+//! ([`World3::is_touching`]) from then until they are further apart than their margins: from `Began` to `Ended`. The page on
+//! [`events`](guide::events) has this as a table.
+//!
+//! All of it is there in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
+//! `asunder_geometry` or `asunder_narrow`, the crates that this one is built on: what a game needs of them is re-exported
+//! here under the same name (`asunder::Pose3`). To write a world of your own, see the jobs, batches and hints in
+//! `asunder_narrow`.
 //!
 //! # Debug builds
-//! Of a game they run its dependencies unoptimised, and this one tens of times slower than it need be, unless the game's
-//! Cargo.toml says otherwise: `[profile.dev.package."*"]` with `opt-level = 3`. Frames and questions are compiled with this
-//! crate, and not with the game, visitors of questions aside.
+//! A debug build of a game leaves its dependencies unoptimised, which makes this one tens of times slower than it has to
+//! be. Put `[profile.dev.package."*"]` with `opt-level = 3` into the game's Cargo.toml. Updates and queries are compiled
+//! with this crate, so that this covers them, except the `visit_*` calls, which are compiled with your closure.
 //!
 //! # How sure the answers are
 //! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches
 //! it, and one a rounding away does not. Every separation carries an `error` in metres that the truth lies within.
 //! Both are about the **true shape**: the convex hull of the stored f32 vertices, grown by the stored radius,
 //! turned by the matrix of the stored rotation (in space M(q)/|q|^2, of whatever length q is) and moved by the f64
-//! position, exactly. The separation is the maximum over unit n of (min over B of n.x - max over A of n.x): the
-//! distance in a gap, minus the least translation that parts the shapes in overlap; it is at most zero exactly when
-//! they overlap.
+//! position, exactly. The separation is the maximum over unit n of (min over B of n.x - max over A of n.x). Where the
+//! shapes are apart, it is their distance; where they overlap, it is minus the length of the shortest translation that
+//! separates them. It is at most zero exactly when they overlap.
 //!
 //! # Feature flags
-//! - `parallel` (default): refit, sweep, collide and impacts on rayon's threads. Every output is bit-equal with and without. A
-//!   world of some hundred bodies is as fast without.
+//! - `parallel` (default): refit, sweep, collide and impacts run on rayon's threads. Every output is bit-equal with and
+//!   without. For a few hundred bodies leave it out: threads gain nothing there, and may cost a little. For many, let the game's main thread be one of
+//!   the pool: see [`game_loops`](guide::game_loops).
 //! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and
-//!   serde's traits for bodies, shapes, poses, rays, keys, events and manifolds. What comes in is checked as by the
-//!   constructors.
+//!   serde's traits for bodies, shapes, poses, rays, keys, events and manifolds. Whatever is loaded passes the same
+//!   checks as in the constructors.
 #![deny(missing_docs)]
 
 mod any_world;
@@ -73,6 +82,8 @@ mod copy;
 mod debug;
 mod event;
 mod frame;
+#[cfg(all(doc, not(doctest)))]
+pub mod guide;
 mod hooks;
 mod motion;
 mod odometer;

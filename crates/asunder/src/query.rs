@@ -1,7 +1,7 @@
-//! Questions to a world: what is here, what is in the way, what is near.
+//! Queries to a world: what is here, what is in the way, what is near.
 //!
 //! ```text
-//! index       which boxes a question is about, nearest first, from two trees and a list
+//! index       which boxes a query is about, nearest first, from two trees and a list
 //! walk        box after box: filter, the narrow phase, the box around the body as it stands; the best, all, or whatever comes
 //! questions   each as the boxes that it is about and what it asks of a body
 //! space       the narrow phase's part, for the plane and for space

@@ -5,7 +5,7 @@
 //!              which bodies moved or changed since the last update, and how far they went; motions; candidates with hints,
 //!              and what is moved along or stays apart; contacts; events; impacts; counts
 //! worked out   boxes, filters, the contacts of each body: functions of the bodies and contacts
-//! dropped      the memory of the broad phase, whose list depends on the boxes alone, and of the questions; scratch; times
+//! dropped      the memory of the broad phase, whose list depends on the boxes alone, and of the queries; scratch; times
 //! ```
 //! The world and its bodies are taken apart field by field, without `..`: what is added to them must be sorted into
 //! one of these rows before this compiles again.

@@ -45,12 +45,12 @@ impl core::error::Error for StaleKey {}
 /// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future. No type for serde itself: what is stored
 /// is a snapshot.
 ///
-/// Memory, beside the shapes' own data: at most 450 bytes a body and 1,600 a candidate pair in space, 400 and 1,300
-/// in the plane; and 1,300 for each manifold beyond one a pair, which bodies on ground and compounds have. That is of the most
-/// bodies, pairs and manifolds that there have been: a world gives nothing back, but a clone of it takes no more than it
-/// needs, empty slots of bodies aside. In a scene that goes on as it did, an update allocates nothing, if it is called inside a thread pool
-/// (`rayon::ThreadPool::install`) or the feature `parallel` is off; from outside, rayon takes a block for its queue
-/// now and then. Nor does a world that is written over another by `clone_from`, in such a scene.
+/// Memory, not counting the shapes' own data: at most 450 bytes per body and 1,600 per candidate pair in space, 400 and
+/// 1,300 in the plane; and 1,300 for each manifold beyond the first of a pair, as on ground and with compounds. What counts is
+/// the greatest number of bodies, pairs and manifolds so far: a world gives nothing back, but a clone takes no more than it
+/// needs, apart from empty slots of bodies. In a steady scene an update allocates nothing if it is called inside a thread
+/// pool (`rayon::ThreadPool::install`) or if the feature `parallel` is off; from outside, rayon allocates a block for its
+/// queue now and then. Overwriting a world by `clone_from` allocates nothing in such a scene, either.
 #[derive(Debug)]
 pub struct World<S: Space> {
     pub(crate) bodies: SlotMap<S::Key, Collider<S>>,
@@ -73,7 +73,7 @@ pub struct World<S: Space> {
     /// What bodies are about to do, until the next update.
     pub(crate) motions: Motions<S>,
     pub(crate) max_pairs: usize,
-    /// What questions are asked of; nothing that an output depends on.
+    /// What queries are asked of; nothing that an output depends on.
     pub(crate) questions: Boxes<S>,
 
     pub(crate) candidates: Vec<Candidate<S::Key>>,

@@ -11,8 +11,8 @@ use asunder_narrow::{Impact3, Pair3};
 
 /// A world of bodies in space.
 ///
-/// Insert bodies, move them, [`update`](World::update) once a frame, and read what touches. What is read between
-/// two updates is as of the last one; what is asked about a body leaves out bodies removed since.
+/// Insert bodies, move them, [`update`](World::update) once a frame, and read what touches. Contacts, candidates and events
+/// are those of the last update; calls about one body, such as `contacts_of`, leave out bodies that were removed since.
 ///
 /// ```
 /// use asunder::{Collider3, Cuboid, Layers, Pose3, Sphere, World3, glam::Vec3};
@@ -100,7 +100,7 @@ impl World<Volume> {
         self.move_body(key, pose)
     }
 
-    /// Moves many bodies, in this order. Cost: some 5 to 11 ns a body that is in the cache, 50 of one that must be fetched;
+    /// Moves many bodies, in this order. Cost: some 5 to 11 ns per body that is in the cache, 50 of one that must be fetched;
     /// their boxes, 25 ns each, are made by the next update, in parallel.
     ///
     /// # Errors
@@ -116,10 +116,10 @@ impl World<Volume> {
     /// Says what a body is about to do in this frame: the next update looks ahead that far, and then forgets it.
     /// Its pose stays.
     ///
-    /// Contacts that the motion may bring are among [`contacts`](Self::contacts), as speculative ones: all pairs
-    /// whose separation is at most their margins and what their motions bring them nearer, which is an upper bound
-    /// and at most 1e6 m. For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. Sensors do
-    /// not look ahead, but for bullets.
+    /// Contacts that the motion may bring are among [`contacts`](Self::contacts), as speculative ones: all pairs whose
+    /// separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer their motions
+    /// can bring them. For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. A pair with a sensor
+    /// has no speculative contact; impacts do include sensors.
     ///
     /// A body that sleeps is woken. Of a compound, every part within that reach has a manifold: thousands of parts
     /// are better put into the world as bodies of their own, with one owner.
@@ -131,9 +131,10 @@ impl World<Volume> {
     }
 
     /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the
-    /// way, and the first body that is none. What a bullet overlaps at the start is a contact, and not among them; of a level in one piece,
-    /// whose floor it touches, the walls are: see [`Pair3::next_impact`](crate::Pair3::next_impact). What is flush with what it touches,
-    /// as the next tile of a floor, is passed over: [`next_impact_beside`](crate::Pair3::next_impact_beside).
+    /// way, and the first body that is not one. A body that the bullet overlaps at the start is a contact and not listed here.
+    /// If it has several parts (a level in one piece), the parts that the bullet does not touch, such as the walls, still
+    /// count: see [`Pair3::next_impact`](crate::Pair3::next_impact). Whatever is flush with what the bullet touches, like the
+    /// next tile of a floor, is passed over: [`next_impact_beside`](crate::Pair3::next_impact_beside).
     pub fn impacts(&self) -> &[Hit3] {
         &self.impacts
     }
@@ -187,9 +188,9 @@ impl World<Volume> {
         Ok(Pair3::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 
-    /// Gives a body another shape. A contact stays if they touch with it, and ends at the next update if they are but within their
-    /// margins; with an equal shape nothing ends. What becomes ground is
-    /// fixed, and stays so with other shapes: [`replace`](Self::replace) makes it free again.
+    /// Gives a body another shape. A contact goes on if the bodies touch with the new shape; if they are only within their
+    /// margins it ends at the next update. Setting an equal shape ends nothing. A body that becomes ground becomes fixed, and
+    /// stays so when it gets another shape later: [`set_fixed`](Self::set_fixed) makes it free again.
     ///
     /// # Errors
     /// A stale key.
@@ -232,8 +233,8 @@ impl World<Volume> {
         self.bodies.get(key).map(|body| &body.pose)
     }
 
-    /// Makes a body one that notices and is not touched, or one that is solid. A contact that goes on goes on as the other kind:
-    /// without a new `Began`, and its `Ended` says what it was last.
+    /// Makes a body a sensor, or solid again. A contact that goes on simply becomes one of the other kind: there is no new
+    /// `Began`, and its `Ended` tells which kind it was last.
     ///
     /// # Errors
     /// A stale key.
@@ -351,7 +352,7 @@ impl World<Volume> {
     }
 
     /// Takes a body out of the game without removing it: its contacts end at the next update, it pairs with nobody,
-    /// and no question finds it.
+    /// and no query finds it.
     ///
     /// # Errors
     /// A stale key.
@@ -361,8 +362,8 @@ impl World<Volume> {
 
     /// Notes that a body is at rest. Another pose wakes it.
     ///
-    /// A note for the game and its solver, which [`Filter3`](crate::Filter3) and hooks can read: the world carries
-    /// on the contacts of whatever does not move as it is, and never takes a body's word for that.
+    /// This is only a note for the game and its solver, which [`Filter3`](crate::Filter3) and hooks can read. The world
+    /// itself does not rely on it: it sees which bodies did not move, and keeps their contacts without computing them anew.
     ///
     /// # Errors
     /// A stale key.
@@ -378,8 +379,8 @@ impl World<Volume> {
         self.set_asleep(key, false)
     }
 
-    /// Makes another body of it under the same key, and returns what it was: for all that has no call of its own. A
-    /// motion that it was given in this frame is forgotten.
+    /// Replaces the whole body under the same key and returns the old one: for changes that have no call of their own. A
+    /// motion that it was given for this frame is forgotten.
     ///
     /// # Errors
     /// A stale key.
@@ -392,9 +393,9 @@ impl World<Volume> {
         self.candidates.iter().map(|candidate| candidate.keys)
     }
 
-    /// Pairs whose boxes overlapped and whose filters agreed, those of one body, with bodies that are still there, in order of
-    /// the other's slot; none for a stale key. Whom the body may meet next, and why the narrow phase was asked about it:
-    /// [`contacts_of`](Self::contacts_of) are those of them that are within their margins.
+    /// The candidate pairs of one body: those whose boxes overlapped and whose filters agreed. Pairs with bodies removed
+    /// since are left out. In order of the other's slot; empty for a stale key. They show whom the body may meet next;
+    /// [`contacts_of`](Self::contacts_of) has only those within their margins.
     ///
     /// Cost: linear in the candidates of lower slots, some 1 ns each, since no frame makes a list for it. For many bodies,
     /// rather go through [`candidates`](Self::candidates) once.

@@ -44,7 +44,8 @@ pub enum Tier {
     /// distance in closed form. For the rest a search for an axis that parts them, or for corners around a common
     /// point.
     Bound,
-    /// For those that went by axes: the same search.
+    /// For pairs that `Bound` tests by axes (cuboids, polygons of few edges) and cannot settle: the search that it uses for
+    /// all other shapes.
     Double,
     /// Exact arithmetic.
     Exact,
@@ -134,8 +135,8 @@ pub enum Separation3 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured2 {
-    /// Metres: positive the distance, negative minus the least translation that parts them. Not positive exactly
-    /// when the shapes overlap.
+    /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest translation
+    /// that separates them. At most zero exactly when they overlap.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -159,8 +160,8 @@ pub struct Measured2 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured3 {
-    /// Metres: positive the distance, negative minus the least translation that parts them. Not positive exactly
-    /// when the shapes overlap.
+    /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest translation
+    /// that separates them. At most zero exactly when they overlap.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -350,12 +351,12 @@ pub struct Manifold3 {
     pub part_b: u32,
     /// Unit normal in world axes, from A to B.
     pub normal: Vec3,
-    /// Separation of the two parts, in metres. The least of the points' own is within `error` of it, plus 2e-6 of the
-    /// smaller bounding radius: what a steady choice of the reference may cost. Of four points, which may stand for more, and of
-    /// fewer on ground made of triangles, where several triangles' may be one, it is up to 2^-15 of the smaller bounding diameter
-    /// above that: what a steady choice may cost. Where ground bends little by little, by less than gives normals, what stands up
-    /// between the points is in the separation and in none of them: up to 2^-11 of the smaller bounding radius. So is how deep a
-    /// needle of ground is, where ground refuses the direction of that: its points are along its own normal.
+    /// Separation of the two parts, in metres. The least separation of the points is within `error` of it, plus 2e-6 of the
+    /// smaller bounding radius, with three exceptions. Where there are four points, which may stand for more, and on ground
+    /// made of triangles, the points may lie higher than that by up to 2^-15 of the smaller bounding diameter: the price of a
+    /// choice that is steady from frame to frame. Where ground bends in steps too small to give normals, what stands up between
+    /// the points counts here and in no point: up to 2^-11 of the smaller bounding radius. So does the depth of a needle-thin
+    /// triangle along a direction that the ground refuses.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,

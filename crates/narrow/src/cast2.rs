@@ -128,13 +128,13 @@ impl Pair2<'_> {
 
     /// [`impact`](Self::impact), of bodies that may touch already: what they run into next.
     ///
-    /// Parts of chains and of compounds that touch at the start are no answer, and neither is what is level with
-    /// them. Level is what lies no more than a 64th of the body's thickness away from it at the start, along the normal
-    /// that it is met with, and no deeper than that 64th at the end, beyond what the motion goes into what is touched
-    /// anyway; and, of a compound, what is flush with what it touches, as long as it is never deeper below that than
-    /// half of its thickness. The thickness is the radius of a ball in the body's middle. So a ball on a level's floor,
-    /// pressed to it by its weight, runs over the floor's vertices, and into the level's walls, steps and ramps. A motion
-    /// that sinks a body into its floor by all its thickness leads it under what stands there.
+    /// Parts of chains and of compounds that touch at the start are left out, and so is what is level with them. A part is
+    /// level if, along the normal that it would be met with, it is at most a 64th of the body's thickness away at the start
+    /// and the motion leads at most that far into it, not counting what the motion leads into the touched parts anyway. A
+    /// part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper below
+    /// that than half its thickness. The thickness is the radius of a ball in the body's middle. So a ball that its weight
+    /// presses on a level's floor crosses the floor's vertices and still runs into the level's walls, steps and ramps. A motion
+    /// that sinks a body into its floor by its whole thickness leads it under what stands there.
     ///
     /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at the
     /// start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as half a
@@ -162,9 +162,10 @@ impl Pair2<'_> {
     /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as well, as the
     /// next of the tiles that a floor is made of; but for parts of ground that it touches too, which has no such seams.
     ///
-    /// Flush is what stands up no higher than what is touched, by a 64th of the thickness of the thinner part, as long as A is
-    /// never deeper below that than half of that thickness: who is stuck deeper is led over nothing. Half-spaces are flush with
-    /// nothing. An axis that is not of length 1 counts for nothing. Cost: as the next impact; where there is one, another search.
+    /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A never
+    /// sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual. Half-spaces are
+    /// never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where there is one, another
+    /// search.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rect, Shape2, glam::Vec2};

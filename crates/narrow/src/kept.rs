@@ -11,7 +11,7 @@
 //! A pair of parts that has a place keeps it while it touches, whichever is the deepest: a body that rests on four
 //! legs would else have others each frame. Free places go to the deepest.
 //!
-//! Hammers of 2, 4 and 8 parts that touch, nanoseconds a pair without and with (AMD EPYC, Zen 4, 2026-11-21): of
+//! Hammers of 2, 4 and 8 parts that touch, nanoseconds per pair without and with (AMD EPYC, Zen 4, 2026-11-21): of
 //! hulls of 32, 3817, 4057, 5043 to 2713, 3326, 4320, and on a slab 1882, 3030, 5555 to 1291, 2427, 4755. Of boxes,
 //! whose fifteen axes cost no more than a proof, 1599, 1952, 3155 to 1707, 2028, 3090: their hint is no gain in
 //! time, and is kept for the face that points stand on.

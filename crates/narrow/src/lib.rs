@@ -16,8 +16,8 @@
 //! separation      max over unit n of (min over B of n.x - max over A of n.x)
 //! size            the sum of both bounding radii
 //! ```
-//! The separation is the Euclidean distance in a gap, and minus the least translation that parts the shapes in overlap.
-//! Shapes are closed: touching counts as overlapping.
+//! Where the shapes are apart, the separation is their Euclidean distance; where they overlap, it is minus the length of the
+//! shortest translation that separates them. Shapes are closed: touching counts as overlapping.
 //!
 //! - `overlaps` is exact. [`Tier`] says what it took.
 //! - Every separation, distance and manifold has an `error`: |true - reported| <= error, in metres.

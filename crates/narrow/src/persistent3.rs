@@ -17,10 +17,10 @@ use solids::Solids;
 /// Manifolds, and how their two bodies stood to each other when they were made: until they drift, they are moved along for
 /// a fraction of what new ones cost.
 ///
-/// Bodies that rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of
-/// the smaller bounding radius, or by 2^-10 where they stand on each other broadly, the manifold holds: the same points of
-/// the same features, with separations and a normal measured anew. Whether the shapes overlap, or are within the margin,
-/// is for certain what it was: where that is too close to call, there is nothing to be moved along.
+/// Bodies at rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of the
+/// smaller bounding radius (2^-10 where they rest on a broad patch), the manifold is reused: the same points of the same
+/// features, with separations and the normal updated. It is certain that the shapes still overlap, or are still within the
+/// margin, as before; a pair too close to either limit for that is not kept at all.
 ///
 /// On ground made of triangles the same goes for all manifolds of a body of one part, up to 2^-8 of its radius, and no
 /// further than the margin; the ground must not have moved at all.

@@ -14,7 +14,7 @@
 //! one step: a search that fails goes on in the next, for a few frames.
 //!
 //! Two hammers that drift, each of 2, 4 and 8 parts, `cargo run --release -p asunder-benches --bin compounds`
-//! (nanoseconds a pair without a hint and with, AMD EPYC, Zen 4, 2026-11-21):
+//! (nanoseconds per pair without a hint and with, AMD EPYC, Zen 4, 2026-11-21):
 //!
 //! | apart, and | boxes | hulls of 32 |
 //! |---|---|---|

@@ -21,7 +21,7 @@ const STRIDE: f64 = 0.05;
 /// Boxes that move in a scene that is otherwise still.
 const STILL_MOVERS: usize = 100;
 
-/// The named scenes of moving boxes. Cost of making one: some tens of nanoseconds a box.
+/// The named scenes of moving boxes. Cost of making one: some tens of nanoseconds per box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BoxScene {
     /// A cube with one overlap for two boxes; all boxes move by 5 % of their size a frame.

@@ -13,7 +13,7 @@ use crate::random::Random;
 use asunder_geometry::Aabb3;
 use glam::{DVec3, Vec3};
 
-/// The named scenes. Cost of making one: some tens of nanoseconds a box.
+/// The named scenes. Cost of making one: some tens of nanoseconds per box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum HurtScene {
     /// Needles through all of a cube, a third along each axis, with one overlap for ten.

@@ -3,12 +3,12 @@
 mod bodies;
 
 use asunder_geometry::tolerance::{MAX_POSITION, MAX_RADIUS, MIN_RADIUS};
-use asunder_geometry::{Pose2, Pose3};
+use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 use asunder_narrow::{Pair2, Pair3, Separation2, Separation3, Verdict};
 use asunder_scenes::hard::{FAMILIES2, FAMILIES3};
 use asunder_tests::cases::{Case2, Case3, Random};
-use bodies::{Reach, Scaled, power_of_two};
-use glam::{DVec2, DVec3};
+use bodies::{InUnits, Reach, power_of_two};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// Hard pairs and random ones in space.
 fn cases3(each: usize, seed: u64) -> Vec<Case3> {
@@ -33,20 +33,48 @@ fn cases2(each: usize, seed: u64) -> Vec<Case2> {
 /// The same pair in other units, if every number of it keeps all its bits there and all shapes their vertices in order.
 fn in_units3(case: &Case3, k: i32) -> Option<Case3> {
     Some(Case3 {
-        shape_a: case.shape_a.scaled(k)?,
-        pose_a: case.pose_a.scaled(k)?,
-        shape_b: case.shape_b.scaled(k)?,
-        pose_b: case.pose_b.scaled(k)?,
+        shape_a: case.shape_a.in_units(k)?,
+        pose_a: case.pose_a.in_units(k)?,
+        shape_b: case.shape_b.in_units(k)?,
+        pose_b: case.pose_b.in_units(k)?,
     })
 }
 
 fn in_units2(case: &Case2, k: i32) -> Option<Case2> {
     Some(Case2 {
-        shape_a: case.shape_a.scaled(k)?,
-        pose_a: case.pose_a.scaled(k)?,
-        shape_b: case.shape_b.scaled(k)?,
-        pose_b: case.pose_b.scaled(k)?,
+        shape_a: case.shape_a.in_units(k)?,
+        pose_a: case.pose_a.in_units(k)?,
+        shape_b: case.shape_b.in_units(k)?,
+        pose_b: case.pose_b.in_units(k)?,
     })
+}
+
+/// `scaled` makes the very shapes that are made here number by number.
+#[test]
+fn scaled_shapes_are_those_in_other_units() {
+    let mut count = 0;
+    let factor = |k: i32| power_of_two(k) as f32;
+    for (case, k) in cases3(3, 77).iter().flat_map(|case| [-9, 1, 12].map(|k| (case, k))) {
+        for shape in [&case.shape_a, &case.shape_b] {
+            let Some(by_number) = shape.in_units(k) else { continue };
+            let scaled = shape.scaled(Vec3::splat(factor(k))).unwrap();
+            assert_eq!(scaled.core().vertices(), by_number.core().vertices(), "2^{k} {shape:?}");
+            let sizes = |shape: &Shape3| (shape.radius(), shape.outer_radius(), shape.center());
+            assert_eq!(sizes(&scaled), sizes(&by_number), "2^{k} {shape:?}");
+            count += 1;
+        }
+    }
+    for (case, k) in cases2(3, 77).iter().flat_map(|case| [-9, 1, 12].map(|k| (case, k))) {
+        for shape in [&case.shape_a, &case.shape_b] {
+            let Some(by_number) = shape.in_units(k) else { continue };
+            let scaled = shape.scaled(Vec2::splat(factor(k))).unwrap();
+            assert_eq!(scaled.core().vertices(), by_number.core().vertices(), "2^{k} {shape:?}");
+            let sizes = |shape: &Shape2| (shape.radius(), shape.outer_radius(), shape.center());
+            assert_eq!(sizes(&scaled), sizes(&by_number), "2^{k} {shape:?}");
+            count += 1;
+        }
+    }
+    assert!(count > 2000, "{count}");
 }
 
 /// Everything that a pair answers, as numbers.

@@ -41,11 +41,11 @@ impl World<Volume> {
     /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius
     /// clear of them.
     ///
-    /// One push out of what it is deepest in is tried first; where it suffices, no shorter way leads out of that
-    /// body. Else it is pushed out of all planes of its contacts at once, sixteen times. Where that does not lead
-    /// out, it is wedged: then it is told as not free, where the deepest of its overlaps was least. A path to there
-    /// is not looked for: of a thin wall it may come out on the other side. Cost: a round is a question for boxes,
-    /// and a manifold for each body met.
+    /// First it is pushed out of the body that it is deepest in; if that is enough, there is no shorter way out of that body.
+    /// Otherwise it is pushed out of all contact planes at once, and so on, up to sixteen times. If it still overlaps
+    /// something, it is wedged: `is_free` is false, and `pose` is the one tried whose deepest overlap was shallowest. No path
+    /// is looked for: a shape in a thin wall may come out on the other side. Cost: a round is a query for boxes, and a
+    /// manifold for each body met.
     ///
     /// ```
     /// use asunder::{Sphere, Cuboid, Collider3, Filter3, Pose3, Shape3, World3, glam::Vec3};
@@ -66,13 +66,13 @@ impl World<Volume> {
     ///
     /// - Where it overlaps solids, it is freed first, much as by [`depenetrate`](World::depenetrate). From then on it
     ///   moves by casts alone: it never enters anything, nor passes through, however far it goes.
-    /// - What can be walked on takes all that goes down: nobody slides off. What is steeper is a wall, and a slope
-    ///   to slide down for who falls.
-    /// - Who stands on ground climbs one step a call, and follows ground downwards. A displacement that leads up is
-    ///   a jump, which does neither and finds no ground: what a lift carries upwards goes into the pose, not into
-    ///   the displacement.
-    /// - It is moved by no more than the displacement, a step and a snap, and three skins; what it took to free it
-    ///   comes on top.
+    /// - On ground that it can walk on, downward motion is cancelled, so it does not slide off. Steeper ground is a wall when
+    ///   walked into, and a slope to slide down when falling.
+    /// - Standing on ground, it climbs at most one step per call and follows the ground downwards. A displacement that points
+    ///   up is a jump: it does neither and finds no ground. So add what a lift carries upwards to the pose, not to the
+    ///   displacement.
+    /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting what it took to
+    ///   free it.
     /// - A displacement that is not finite counts as none. Half-spaces do not move.
     ///
     /// Cost: a cast for each wall, and two for the ground; three more before a wall that may be a step.

@@ -1,4 +1,4 @@
-//! What a question is answered with.
+//! What a query is answered with.
 
 use crate::space::{BodyKey2, BodyKey3};
 use crate::world::slot_of;

@@ -1,10 +1,10 @@
-//! Whom a question is about.
+//! Whom a query is about.
 
 use crate::collider::{Collider, Layers};
 use crate::space::{Plane, Space, Volume};
 use core::fmt;
 
-/// Which bodies a question may find; use it as [`Filter2`] or [`Filter3`].
+/// Which bodies a query may find; use it as [`Filter2`] or [`Filter3`].
 ///
 /// Every condition must hold. Without any, all bodies are found, sensors among them.
 ///
@@ -42,7 +42,7 @@ pub struct Filter<'a, S: Space> {
 
 type Only<'a, S> = &'a (dyn Fn(<S as Space>::Key, &Collider<S>) -> bool + Sync);
 
-/// Which bodies of a [`World2`](crate::World2) a question may find.
+/// Which bodies of a [`World2`](crate::World2) a query may find.
 ///
 /// ```
 /// use asunder::{Circle, Collider2, Filter2, World2};
@@ -54,7 +54,7 @@ type Only<'a, S> = &'a (dyn Fn(<S as Space>::Key, &Collider<S>) -> bool + Sync);
 /// ```
 pub type Filter2<'a> = Filter<'a, Plane>;
 
-/// Which bodies of a [`World3`](crate::World3) a question may find. See [`Filter`].
+/// Which bodies of a [`World3`](crate::World3) a query may find. See [`Filter`].
 pub type Filter3<'a> = Filter<'a, Volume>;
 
 impl<'a, S: Space> Filter<'a, S> {

@@ -1,18 +1,18 @@
-//! The boxes that questions are asked of first, kept while few bodies move.
+//! The boxes that queries are asked of first, kept while few bodies move.
 //!
 //! ```text
 //! rest     a tree of all boxes, as they were when it was made
 //! moved    a tree of those that changed since
 //! recent   a list of those that changed since that one was made
 //! ```
-//! A body counts in the last of the three that it is in. Trees are made by the first question that needs them,
+//! A body counts in the last of the three that it is in. Trees are made by the first query that needs them,
 //! behind `&World`, and not at all in a world that is never asked; a list that has grown too long is given up, with
 //! the tree before it.
 //!
 //! 1. Two trees instead of one and a list: where a twentieth of all bodies moves every frame, a list of them would
-//!    have to be gone through by every question, and a tree of all would have to be made anew every frame.
+//!    have to be gone through by every query, and a tree of all would have to be made anew every frame.
 //! 2. A list instead of two trees: a game that moves one body, asks, and moves the next, would make the second tree
-//!    for every question.
+//!    for every query.
 //!
 //! No answer depends on which of them a body is in: see [`walk`](super::walk).
 
@@ -90,8 +90,8 @@ const fn most_changed(at_rest: usize) -> usize {
     64 + at_rest / 4
 }
 
-/// Boxes in the list, before the second tree is made anew. A question takes some 45 ns for each, and the tree as
-/// much for each in it: between one question a move and many, a root keeps both small.
+/// Boxes in the list, before the second tree is made anew. A query takes some 45 ns for each, and the tree as
+/// much for each in it: between one query a move and many, a root keeps both small.
 const fn most_recent(changed: usize) -> usize {
     16 + (2 * changed).isqrt()
 }

@@ -1,4 +1,4 @@
-//! Questions, each as the boxes that it is about and what it asks of a body.
+//! Queries, each as the boxes that it is about and what it asks of a body.
 
 use super::answer::Met;
 use super::filter::Filter;

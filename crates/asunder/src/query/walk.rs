@@ -12,7 +12,7 @@ use core::cell::Cell;
 use core::ops::ControlFlow;
 use std::thread::LocalKey;
 
-/// Which boxes a question is about.
+/// Which boxes a query is about.
 pub(crate) enum Reach<B> {
     /// Those that overlap a box.
     Over(B),
@@ -23,11 +23,11 @@ pub(crate) enum Reach<B> {
 }
 
 thread_local! {
-    /// Scratch memory of whoever asks on this thread. A question within a question finds none, and gets its own.
+    /// Scratch memory of whoever asks on this thread. A query within a query finds none, and gets its own.
     static QUEUE: Cell<Queue> = Cell::new(Queue::new());
 }
 
-/// Lends what a thread keeps from one question to the next.
+/// Lends what a thread keeps from one query to the next.
 pub(super) fn with_kept<T: Default, R>(
     place: &'static LocalKey<Cell<T>>,
     ask: impl FnOnce(&mut T) -> R,
@@ -117,7 +117,7 @@ pub(crate) trait Asks<S: Space, A>: Fn(S::Key, &Collider<S>) -> Option<A> {}
 
 impl<S: Space, A, F: Fn(S::Key, &Collider<S>) -> Option<A>> Asks<S, A> for F {}
 
-/// A question to all bodies that a filter lets pass.
+/// A query to all bodies that a filter lets pass.
 pub(crate) struct Question<'q, S: Space, F> {
     pub(super) world: &'q World<S>,
     pub(super) filter: &'q Filter<'q, S>,

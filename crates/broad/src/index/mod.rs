@@ -15,7 +15,7 @@
 //! 1. Eight boxes a node in rows: one instruction tests eight. A node is four cache lines; a third of the
 //!    time is spent waiting for the first.
 //! 2. AVX2 by hand (wide): 1.2 to 1.4 times. The compiler makes four lanes and four single ones of the loops.
-//! 3. A sort instead of splits by cost: built in 42 ns a box, where parry3d's binned build takes 450 to 500.
+//! 3. A sort instead of splits by cost: built in 42 ns per box, where parry3d's binned build takes 450 to 500.
 //! 4. Giants apart: 300 walls of 60 m among 100,000 boxes of 1 m make a box's overlaps 1.4 times as dear as without
 //!    walls, not 2 times; rays 1.3 times, not 1.8.
 //! 5. Small pieces lie in their parent: fewer nodes, and none that holds a single box (not measured by itself).
@@ -90,7 +90,7 @@ impl<B: Bounds> Index<B> {
 
     /// Forgets all boxes, and takes these instead. Boxes that are empty sets are never found.
     ///
-    /// Only the first 2^31 boxes are looked at. Cost: 50 to 120 ns a box, and 80 bytes a box, of which 16 are
+    /// Only the first 2^31 boxes are looked at. Cost: 50 to 120 ns per box, and 80 bytes per box, of which 16 are
     /// scratch memory.
     pub fn build(&mut self, boxes: &[B]) {
         self.build_from(boxes, |_| true);

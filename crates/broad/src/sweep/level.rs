@@ -77,7 +77,7 @@ pub(crate) fn overfull(column: &ColumnEntries<'_>, grid: &Grid, crowd: usize) ->
 
 /// Whether a column that is swept as it is takes longer than a walk by segments.
 ///
-/// Candidates that codes cannot part cost more, by far: clumps far smaller than a code take 3 ns a candidate in place of
+/// Candidates that codes cannot part cost more, by far: clumps far smaller than a code take 3 ns per candidate in place of
 /// 0.17 (Zen 4, 2026-11-22). So some candidates are looked at.
 #[inline(never)]
 fn is_hard(

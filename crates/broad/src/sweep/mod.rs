@@ -25,7 +25,7 @@
 //! found again in every column that both boxes share.
 //!
 //! # What each technique bought
-//! At 10,000 boxes of `gas` and `pile`, ns a box in all, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep
+//! At 10,000 boxes of `gas` and `pile`, ns per box in all, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep
 //! takes 1,240.
 //!
 //! | technique | gas | pile |
@@ -40,11 +40,11 @@
 //! | 7. the owner in two bits of the place; lanes with equal codes told by the lanes; one box a hit and round | 28.6 | 77 |
 //!
 //! Tried without gain: bins for a quarter or for all of the boxes (1 %); runs of pairs by rank in eight lanes (15
-//! ns a pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
+//! ns per pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
 //! %); codes and bins of a box by hand in AVX2, half the instructions (6 % slower).
 //!
-//! 8. Segments, where the candidates that columns count cost more. The named scenes are as they were. ns a box, and in how many
-//!    budgets of 80 ns a box and 20 a pair, by `compare -- broad --hurt` (AMD EPYC, Zen 4, 2 virtual cores, one thread,
+//! 8. Segments, where the candidates that columns count cost more. The named scenes are as they were. ns per box, and in how many
+//!    budgets of 80 ns per box and 20 a pair, by `compare -- broad --hurt` (AMD EPYC, Zen 4, 2 virtual cores, one thread,
 //!    2026-11-22; quarters, and halves of 300,000, before: in a run of their own):
 //!
 //! | boxes | 30,000 before | after | 100,000 before | after | 300,000 before | after |
@@ -153,7 +153,7 @@ impl Sweep {
     ///
     /// `admit` is asked once for each pair of overlapping boxes, the smaller number first, in any order and from
     /// any thread: bit tests on layers and owners belong here. Boxes behind the first 2^29 are not looked at. Cost:
-    /// some 30 ns a box and 10 ns a pair.
+    /// some 30 ns per box and 10 ns per pair.
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty.

@@ -1,7 +1,7 @@
 //! Pairs in order: a radix sort, least digit first, over no more bits than the numbers have.
 //!
-//! A digit costs 2 to 3.5 ns a pair, whatever its size, as long as its counters are near. Of 10,000 boxes two digits
-//! of 14 bits take 5.9 ns a pair in place of 6.8 for three of 10 (AMD EPYC, Zen 4, 2026-11-22, medians in turns).
+//! A digit costs 2 to 3.5 ns per pair, whatever its size, as long as its counters are near. Of 10,000 boxes two digits
+//! of 14 bits take 5.9 ns per pair in place of 6.8 for three of 10 (AMD EPYC, Zen 4, 2026-11-22, medians in turns).
 //! Tried: digits of 14 and 17 bits for a million boxes (20 to 22 ns in place of 14.5: counters out of reach); pairs
 //! thrown into buckets that fit a cache by the top of the first number, then each bucket by digits (14.5 in place of
 //! 15.0 for a million boxes, 10.5 in place of 12 for 100,000 of `pile`, but 9 in place of 6.8 for those of `gas`).

@@ -84,7 +84,7 @@ impl<B: Bounds> Question<'_, B> {
     /// Hits to pairs that this column owns; returns how many.
     ///
     /// One box of every hit at a time, and the hits that have more once again: a loop over the boxes of each hit
-    /// would end where the processor does not expect it (2 ns a pair, Zen 4, 2026-11-21).
+    /// would end where the processor does not expect it (2 ns per pair, Zen 4, 2026-11-21).
     #[inline(always)]
     fn settle<const NESTED: bool>(
         &self,

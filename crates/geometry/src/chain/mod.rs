@@ -44,7 +44,7 @@ use tree::Tree;
 ///
 /// # Costs and limits
 /// A body's pair costs what the segments near it cost, and the logarithm of their number. A collider with this shape is
-/// fixed, whatever is said. 16 to 17 bytes a vertex. Thin ground lets fast bodies through unless they are bullets or
+/// fixed, whatever is said. 16 to 17 bytes per vertex. Thin ground lets fast bodies through unless they are bullets or
 /// cast: where something has an inside, a [`HalfPlane`](crate::HalfPlane) or compound stops them better.
 ///
 /// ```

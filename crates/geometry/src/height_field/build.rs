@@ -1,6 +1,6 @@
 //! What is worked out of a height field when it is made.
 //!
-//! A mark is two bytes a vertex. From the lowest bit, two each, seen from the front and from the back: the edge along x
+//! A mark is two bytes per vertex. From the lowest bit, two each, seen from the front and from the back: the edge along x
 //! that starts at the vertex, the one along z, the diagonal of the cell that starts there, and the vertex itself. Then one
 //! each of the three edges, where it bends low.
 
@@ -82,7 +82,7 @@ const DIAGONAL: usize = 4;
 const VERTEX: usize = 6;
 const LOW: usize = 8;
 
-/// Two bytes a vertex.
+/// Two bytes per vertex.
 struct Marks<'a> {
     grid: &'a Grid,
     marks: Vec<u16>,

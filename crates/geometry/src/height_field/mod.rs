@@ -72,7 +72,7 @@ struct Data {
 
 impl HeightField {
     /// A field from its heights, in metres, row by row, and how far apart they are: cell.x along x, cell.y along z.
-    /// Cost: a fifth of a microsecond a cell.
+    /// Cost: a fifth of a microsecond per cell.
     ///
     /// # Errors
     /// Fewer than 2 columns or rows, or too many; another number of heights; what is not finite or out of range; cells

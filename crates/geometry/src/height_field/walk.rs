@@ -8,7 +8,7 @@ use core::ops::{ControlFlow, Range};
 
 /// Cells on a side of a block.
 ///
-/// The tree of blocks takes 2 bytes a cell; smaller blocks take four times as much, and of larger ones more cells
+/// The tree of blocks takes 2 bytes per cell; smaller blocks take four times as much, and of larger ones more cells
 /// are looked at in vain.
 pub(super) const BLOCK: Block = Block { side: 4 };
 

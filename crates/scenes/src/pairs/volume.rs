@@ -9,7 +9,7 @@ use asunder_geometry::{Pose3, Shape3, Topology};
 use core::f64::consts::TAU;
 use glam::DVec3;
 
-/// `count` posed pairs of one family. Cost: some microseconds a pair, tens for many vertices.
+/// `count` posed pairs of one family. Cost: some microseconds per pair, tens for many vertices.
 ///
 /// For the sets that are sequences the list goes frame by frame, and `count` is rounded up to whole sequences: see
 /// [`frames3`].

@@ -14,13 +14,13 @@ pub(super) fn power_of_two(k: i32) -> f64 {
 }
 
 /// The same thing in units of 2^-k metres.
-pub(super) trait Scaled: Sized {
+pub(super) trait InUnits: Sized {
     /// Nothing where a number would be rounded, or a shape refused.
-    fn scaled(&self, k: i32) -> Option<Self>;
+    fn in_units(&self, k: i32) -> Option<Self>;
 }
 
-impl Scaled for f32 {
-    fn scaled(&self, k: i32) -> Option<Self> {
+impl InUnits for f32 {
+    fn in_units(&self, k: i32) -> Option<Self> {
         let product = f64::from(*self) * power_of_two(k);
         let value = product as f32;
         // Denormals in between would lose bits that squares of them need.
@@ -37,31 +37,31 @@ fn coordinate(value: f64, k: i32) -> Option<f64> {
 }
 
 fn vectors3(points: &[Vec3], k: i32) -> Option<Vec<Vec3>> {
-    points.iter().map(|p| Some(Vec3::new(p.x.scaled(k)?, p.y.scaled(k)?, p.z.scaled(k)?))).collect()
+    points.iter().map(|p| Some(Vec3::new(p.x.in_units(k)?, p.y.in_units(k)?, p.z.in_units(k)?))).collect()
 }
 
 fn vectors2(points: &[Vec2], k: i32) -> Option<Vec<Vec2>> {
-    points.iter().map(|p| Some(Vec2::new(p.x.scaled(k)?, p.y.scaled(k)?))).collect()
+    points.iter().map(|p| Some(Vec2::new(p.x.in_units(k)?, p.y.in_units(k)?))).collect()
 }
 
-impl Scaled for Pose3 {
-    fn scaled(&self, k: i32) -> Option<Self> {
+impl InUnits for Pose3 {
+    fn in_units(&self, k: i32) -> Option<Self> {
         let [x, y, z] = self.position().to_array().map(|x| coordinate(x, k));
         Self::new(DVec3::new(x?, y?, z?), self.rotation()).ok()
     }
 }
 
-impl Scaled for Pose2 {
-    fn scaled(&self, k: i32) -> Option<Self> {
+impl InUnits for Pose2 {
+    fn in_units(&self, k: i32) -> Option<Self> {
         let [x, y] = self.position().to_array().map(|x| coordinate(x, k));
         Self::new(DVec2::new(x?, y?), self.rotation()).ok()
     }
 }
 
-impl Scaled for Shape3 {
-    fn scaled(&self, k: i32) -> Option<Self> {
+impl InUnits for Shape3 {
+    fn in_units(&self, k: i32) -> Option<Self> {
         let vertices = vectors3(self.core().vertices(), k)?;
-        let radius = self.radius().scaled(k)?;
+        let radius = self.radius().in_units(k)?;
         Some(match self {
             Self::Sphere(_) => Sphere::new(radius).ok()?.into(),
             Self::Capsule(_) => Capsule3::new(vertices[0], vertices[1], radius).ok()?.into(),
@@ -89,17 +89,17 @@ impl Scaled for Shape3 {
             Self::HeightField(_) => return None,
             Self::Compound(compound) => {
                 let parts = compound.parts().iter();
-                let parts = parts.map(|part| Some((part.pose().scaled(k)?, part.shape().scaled(k)?)));
+                let parts = parts.map(|part| Some((part.pose().in_units(k)?, part.shape().in_units(k)?)));
                 Compound3::new(parts.collect::<Option<Vec<_>>>()?).ok()?.into()
             }
         })
     }
 }
 
-impl Scaled for Shape2 {
-    fn scaled(&self, k: i32) -> Option<Self> {
+impl InUnits for Shape2 {
+    fn in_units(&self, k: i32) -> Option<Self> {
         let vertices = vectors2(self.core().vertices(), k)?;
-        let radius = self.radius().scaled(k)?;
+        let radius = self.radius().in_units(k)?;
         Some(match self {
             Self::Circle(_) => Circle::new(radius).ok()?.into(),
             Self::Capsule(_) => Capsule2::new(vertices[0], vertices[1], radius).ok()?.into(),
@@ -116,7 +116,7 @@ impl Scaled for Shape2 {
             Self::Segment(_) => Segment2::new(vertices[0], vertices[1]).ok()?.into(),
             Self::Compound(compound) => {
                 let parts = compound.parts().iter();
-                let parts = parts.map(|part| Some((part.pose().scaled(k)?, part.shape().scaled(k)?)));
+                let parts = parts.map(|part| Some((part.pose().in_units(k)?, part.shape().in_units(k)?)));
                 Compound2::new(parts.collect::<Option<Vec<_>>>()?).ok()?.into()
             }
             Self::Chain(chain) => {

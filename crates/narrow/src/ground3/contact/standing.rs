@@ -179,7 +179,7 @@ impl<'s> Standing<'s> {
             }
         }
         // Tried: two more steps, each from the vertex furthest against the last direction. No call of the kernels less for
-        // cuboids or hulls of 32, and 5 % more instructions a frame of hulls (2026-11-22).
+        // cuboids or hulls of 32, and 5 % more instructions per frame of hulls (2026-11-22).
         self.is_apart_towards(self.center, facet, beyond)
     }
 

@@ -9,7 +9,7 @@
 //! A loop over the lanes, from memory to memory, is what LLVM turns into vector instructions of any width. Since
 //! all that a lane goes through is the code of one pair, its bits are those of one pair.
 //!
-//! What it bought on pairs that a broad phase hands over, in ns a pair (AMD EPYC, Zen 4, 2026-11-21):
+//! What it bought on pairs that a broad phase hands over, in ns per pair (AMD EPYC, Zen 4, 2026-11-21):
 //!
 //! | | yes or no | separation | contact points |
 //! |---|---|---|---|
