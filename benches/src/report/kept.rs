@@ -196,8 +196,10 @@ mod tests {
         assert!(kept.ours().is_some_and(Spread::is_wide) && !kept.peer().is_some_and(Spread::is_wide));
         assert_eq!(kept.found(), "3e-8 against 2e-3; parry3d 7 of 4,000 off by more than 1e-5");
         let text = together(&[kept, KeptRow::default()]);
-        assert!(text.contains("In all 1 rows of `compare`'s narrow phase, 4,000 answers: 0 of ours are off"));
-        assert!(text.contains("of parry3d's 7 are off and 2 missed"));
+        assert!(text.contains(
+            "In all 1 rows of `compare`'s narrow phase, 4,000 answers were checked: 0 of ours are off"
+        ));
+        assert!(text.contains("of parry3d's, 7 are off and 2 missed"));
         assert_eq!(together(&[]), "");
     }
 }

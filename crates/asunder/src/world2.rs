@@ -15,14 +15,16 @@ use asunder_narrow::{Impact2, Pair2};
 /// are those of the last update; calls about one body, such as `contacts_of`, leave out bodies that were removed since.
 ///
 /// ```
-/// use asunder::{Circle, Collider2, Layers, Pose2, Rect, World2, glam::Vec2};
+/// use asunder::{Collider2, Pose2, Rect, World2, glam::Vec2};
 /// let mut world = World2::new();
+/// // Insert bodies, and keep their keys.
 /// let unit = Rect::from_half_extents(Vec2::ONE)?;
 /// let a = world.insert(Collider2::new(unit));
 /// let b = world.insert(Collider2::new(unit).at(Pose2::at([8.0, 0.0])?));
 /// world.update();
 /// assert_eq!(world.contacts().len(), 0);
 ///
+/// // Each frame: move what moves, update, and read what touches and what changed.
 /// world.set_pose(b, Pose2::IDENTITY)?;
 /// world.update();
 /// assert!(world.is_touching(a, b));
@@ -30,6 +32,17 @@ use asunder_narrow::{Impact2, Pair2};
 /// assert_eq!(world.touching(b).collect::<Vec<_>>(), [a]);
 /// assert_eq!(world.contact(b, a), world.contacts_of(a).next());
 /// assert_eq!(world.events().len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Everything about a body may change while it lives:
+///
+/// ```
+/// use asunder::{Circle, Collider2, Layers, Pose2, Rect, World2, glam::Vec2};
+/// let mut world = World2::new();
+/// let unit = Rect::from_half_extents(Vec2::ONE)?;
+/// let [a, b] = [(); 2].map(|()| world.insert(Collider2::new(unit)));
+/// world.update();
 ///
 /// world.disable(b)?;
 /// world.update();

@@ -15,14 +15,16 @@ use asunder_narrow::{Impact3, Pair3};
 /// are those of the last update; calls about one body, such as `contacts_of`, leave out bodies that were removed since.
 ///
 /// ```
-/// use asunder::{Collider3, Cuboid, Layers, Pose3, Sphere, World3, glam::Vec3};
+/// use asunder::{Collider3, Cuboid, Pose3, World3, glam::Vec3};
 /// let mut world = World3::new();
+/// // Insert bodies, and keep their keys.
 /// let unit = Cuboid::from_half_extents(Vec3::ONE)?;
 /// let a = world.insert(Collider3::new(unit));
 /// let b = world.insert(Collider3::new(unit).at(Pose3::at([8.0, 0.0, 0.0])?));
 /// world.update();
 /// assert_eq!(world.contacts().len(), 0);
 ///
+/// // Each frame: move what moves, update, and read what touches and what changed.
 /// world.set_pose(b, Pose3::IDENTITY)?;
 /// world.update();
 /// assert!(world.is_touching(a, b));
@@ -30,6 +32,17 @@ use asunder_narrow::{Impact3, Pair3};
 /// assert_eq!(world.touching(b).collect::<Vec<_>>(), [a]);
 /// assert_eq!(world.contact(b, a), world.contacts_of(a).next());
 /// assert_eq!(world.events().len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Everything about a body may change while it lives:
+///
+/// ```
+/// use asunder::{Collider3, Cuboid, Layers, Pose3, Sphere, World3, glam::Vec3};
+/// let mut world = World3::new();
+/// let unit = Cuboid::from_half_extents(Vec3::ONE)?;
+/// let [a, b] = [(); 2].map(|()| world.insert(Collider3::new(unit)));
+/// world.update();
 ///
 /// world.disable(b)?;
 /// world.update();
