@@ -14,7 +14,7 @@ use core::ops::ControlFlow;
 /// # Queries
 /// Queries see bodies where they are, also before the next update. Any number of threads may ask at once. What
 /// comes in a list is sorted by distance, then by the bodies' slots (lists without distances by slots), and lists
-/// are cleared first; visitors get answers in no promised order, until they break off. A [`Filter2`] says whom a
+/// are cleared first; visitors get answers in no promised order, until they break off. A [`Filter2`] says which bodies a
 /// query may find.
 ///
 /// Cost: the first query makes a tree of all boxes, in 50 to 120 ns per body, and it is kept while few bodies move; of

@@ -47,7 +47,7 @@ pub struct Contact<'a, K, M> {
 }
 
 impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
-    /// Whom this body is in contact with; nothing if the contact is not its.
+    /// The other body of the contact, as this one sees it; `None` if this body is neither of the two.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, World2};

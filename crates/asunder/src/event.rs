@@ -81,7 +81,7 @@ impl<K: Copy + PartialEq> Event<K> {
         }
     }
 
-    /// Whom this body met or left; nothing if the event is not about it.
+    /// The body that this one met or left; `None` if the event is not about this body.
     pub fn other(&self, body: K) -> Option<K> {
         other_of(self.bodies(), body)
     }

@@ -85,12 +85,12 @@ impl World<Volume> {
         colliders.into_iter().map(|collider| self.insert(collider)).collect()
     }
 
-    /// Takes a body out and returns it; nothing for a stale key. Contacts of it that had begun end at the next update.
+    /// Takes a body out and returns it; `None` for a stale key. Contacts of it that had begun end at the next update.
     pub fn remove(&mut self, key: BodyKey3) -> Option<Collider3> {
         self.remove_body(key)
     }
 
-    /// The body of a key; nothing for a stale one.
+    /// The body of a key; `None` for a stale one.
     pub fn get(&self, key: BodyKey3) -> Option<&Collider3> {
         self.bodies.get(key)
     }
@@ -172,7 +172,7 @@ impl World<Volume> {
         self.hits_of(bullet)
     }
 
-    /// When two bodies first touch while both move and turn: conservative, with its error; nothing if they do not.
+    /// When two bodies first touch while both move and turn: conservative, with its error; `None` if they do not.
     /// What stands gets a motion of zero.
     ///
     /// ```
@@ -229,7 +229,7 @@ impl World<Volume> {
         self.change_body(key, |body| body.user_data = user_data)
     }
 
-    /// Where a body is; nothing for a stale key. Cost: constant.
+    /// Where a body is; `None` for a stale key. Cost: constant.
     ///
     /// ```
     /// use asunder::{Collider3, Pose3, Sphere, World3, glam::DVec3};

@@ -139,7 +139,7 @@ impl Aabb2 {
         self.max * 0.5 - self.min * 0.5
     }
 
-    /// What both have in common; nothing where they have not even a point.
+    /// What both have in common; `None` where they share no point.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, glam::Vec2};
@@ -201,7 +201,7 @@ impl Aabb3 {
         self.max * 0.5 - self.min * 0.5
     }
 
-    /// What both have in common; nothing where they have not even a point.
+    /// What both have in common; `None` where they share no point.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, glam::Vec3};

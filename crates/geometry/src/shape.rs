@@ -222,7 +222,7 @@ impl Shape2 {
     }
 
     /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first
-    /// vertex. Nothing for a half-plane, or a direction that is zero or not finite. Cost: linear in the vertices.
+    /// vertex. `None` for a half-plane, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec2>) -> Option<DVec2> {
         self.furthest_along(direction.into())
     }
@@ -344,7 +344,7 @@ impl Shape3 {
     }
 
     /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first
-    /// vertex. Nothing for a half-space, or a direction that is zero or not finite. Cost: linear in the vertices.
+    /// vertex. `None` for a half-space, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec3>) -> Option<DVec3> {
         self.furthest_along(direction.into())
     }

@@ -29,7 +29,7 @@
 //!
 //! `docs/accuracy.md` derives the bounds.
 //!
-//! Who asks about the same pairs frame after frame hands back the [`Hint`] that each answer left. Of bodies that hardly
+//! To ask about the same pairs frame after frame, hand back the [`Hint`] that each answer left. Of bodies that hardly
 //! move, a [`Persistent2`] or [`Persistent3`] moves last frame's manifold along, for a fraction of what a new one costs.
 //!
 //! ```

@@ -207,9 +207,9 @@ impl<S: Walks> Mover<'_, S> {
     /// What is left, turned along what was met.
     ///
     /// - What holds takes what goes down: nobody slides off ground that can be walked on.
-    /// - What is too steep is a wall to who would go up it, and a slope to who falls.
+    /// - What is too steep is a wall when walked into, and a slope when falling.
     /// - On ground one goes as fast uphill and downhill as on the level.
-    /// - What leans over is a wall to who walks. Turned along other walls first, and only then along the ceiling and the ground, the way
+    /// - What leans over is a wall when walking. Turned along other walls first, and only then along the ceiling and the ground, the way
     ///   could lead back to where it came from.
     fn way(&self, left: S::Point, bounds: &[Bound<S>]) -> S::Point {
         let Gait { up, .. } = self.gait;

@@ -1,4 +1,4 @@
-//! Whom a query is about.
+//! Which bodies a query is about.
 
 use crate::collider::{Collider, Layers};
 use crate::space::{Plane, Space, Volume};
@@ -77,7 +77,7 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out one body: who asks, say. A stale key leaves out nobody. Another call takes the place of the one before: several
+    /// Leaves out one body, such as the one that asks. A stale key leaves out nobody. Another call replaces the one before: several
     /// are left out by [`without_all`](Self::without_all), or by their owner.
     #[must_use]
     pub const fn without(mut self, body: S::Key) -> Self {
@@ -85,7 +85,7 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out some bodies: who asks, and what they carry. Another call takes the place of the one before. Cost: linear in
+    /// Leaves out some bodies, such as the one that asks and what it carries. Another call replaces the one before. Cost: linear in
     /// the bodies that are left out, for each that is met.
     ///
     /// ```
@@ -102,7 +102,7 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out all bodies of an owner, as the parts of who asks. Another call takes the place of the one before.
+    /// Leaves out all bodies of an owner, such as the parts of the one that asks. Another call replaces the one before.
     #[must_use]
     pub const fn without_owner(mut self, owner: u64) -> Self {
         self.without_owner = Some(owner);
