@@ -26,6 +26,11 @@ bench-compare base:
 hard:
     cargo run --release -p asunder-tests --bin hard
 
+# The same bits as WebAssembly (needs `rustup target add wasm32-wasip1`, and Node).
+wasm:
+    cargo build --release -p asunder --example fingerprints --target wasm32-wasip1
+    node crates/asunder/examples/wasi.mjs target/wasm32-wasip1/release/examples/fingerprints.wasm | diff - crates/asunder/examples/fingerprints.txt
+
 # Licences, advisories and sources of all dependencies (needs cargo-deny).
 deny:
     cargo deny check
