@@ -1,8 +1,8 @@
 //! Points and segments among themselves: what spheres and capsules are without their radius.
 //!
 //! ```text
-//! the closest points of two segments: the feet of their common perpendicular, if both lie within;
-//! else the least of the four ends against the other segment
+//! the closest points of two segments: by their two equations, clamped, where a projection on the way between them proves it
+//! else the feet of their common perpendicular, if both lie within, or the least of the four ends against the other segment
 //! ```
 //! A point is a segment of no length. Closed form in place of an iteration, and no face to test: such shapes have no
 //! inside, so that their separation is never below zero.
@@ -93,7 +93,49 @@ pub(crate) struct Nearest {
 }
 
 /// The closest points. Where they are closer than `rounding`, the way from one to the other is no axis.
+#[inline]
 pub(crate) fn nearest(a: &Slender, b: &Slender, rounding: f64) -> Nearest {
+    nearest_at_once(a, b, rounding).unwrap_or_else(|| nearest_of_all(a, b, rounding))
+}
+
+/// The closest points of two segments by one solution of their equations, clamped (Ericson, "Real-Time Collision Detection", 2005, 5.1.9);
+/// nothing of points, of segments that are all but parallel, and where a projection does not prove it to a sixteenth of the
+/// rounding: most pairs of capsules need neither the four ends nor another axis. Without it their distance takes 208 ns in place of 165, and
+/// their manifold 265 in place of 227 (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-27).
+#[inline]
+fn nearest_at_once(a: &Slender, b: &Slender, rounding: f64) -> Option<Nearest> {
+    if a.is_point || b.is_point {
+        return None;
+    }
+    let ([a0, a1], [b0, b1]) = (a.ends, b.ends);
+    let (along_a, along_b, between) = (a.along(), b.along(), b0 - a0);
+    let (aa, bb, ab) = (along_a.length_squared(), along_b.length_squared(), along_a.dot(along_b));
+    let (on_a, on_b) = (along_a.dot(between), along_b.dot(between));
+    let determinant = aa * bb - ab * ab;
+    // What is not a number passes here, and is not proved below.
+    if determinant <= 1e-4 * aa * bb {
+        return None;
+    }
+    let mut s = ((on_a * bb - on_b * ab) / determinant).clamp(0.0, 1.0);
+    let t = (ab * s - on_b) / bb;
+    let clamped = t.clamp(0.0, 1.0);
+    if clamped != t {
+        s = ((ab * clamped + on_a) / aa).clamp(0.0, 1.0);
+    }
+    let (on_a, on_b) = (a0 + along_a * s, b0 + along_b * clamped);
+    let distance = (on_b - on_a).length();
+    if distance <= rounding {
+        return None;
+    }
+    let normal = (on_b - on_a) / distance;
+    let at_least = normal.dot(b0).min(normal.dot(b1)) - normal.dot(a0).max(normal.dot(a1));
+    let is_proved = distance - at_least <= rounding / 16.0;
+    is_proved.then_some(Nearest { distance, at_least, normal, on_a, on_b, places: [s, clamped] })
+}
+
+/// The closest points of all that may be.
+#[inline(never)]
+fn nearest_of_all(a: &Slender, b: &Slender, rounding: f64) -> Nearest {
     let ([a0, a1], [b0, b1]) = (a.ends, b.ends);
     let (along_a, along_b) = (a.along(), b.along());
     let mut best = (f64::INFINITY, [0.0, 0.0]);
