@@ -290,7 +290,7 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Attaches a number of your own; events carry it, and [`get_user_data`](Self::get_user_data) reads it.
+    /// Attaches a number of your own; events and contacts carry it, and [`get_user_data`](Self::get_user_data) reads it.
     #[must_use]
     pub fn user_data(mut self, user_data: u64) -> Self {
         self.user_data = user_data;

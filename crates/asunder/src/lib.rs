@@ -37,7 +37,7 @@
 //! - The [`guide`] has a page on each of these, with whole examples.
 //!
 //! # Words
-//! A **candidate** is a pair whose boxes overlap; a **contact**, a candidate within the sum of both margins, or one that this frame's motions
+//! A **candidate** is a pair whose boxes, margins included, overlap, and that may meet; a **contact**, a candidate within the sum of both margins, or one that this frame's motions
 //! may bring there (then it is *speculative*). Two bodies **overlap** while they share a point, and are **touching**
 //! ([`World3::is_touching`]) from then until they are further apart than their margins: from `Began` to `Ended`. The page on
 //! [`events`](guide::events) has this as a table.

@@ -220,7 +220,7 @@ impl World<Volume> {
         self.change_body(key, |body| body.layers = layers)
     }
 
-    /// Attaches another number to a body. Events of later updates carry it; but an `Ended` carries what was
+    /// Attaches another number to a body. Events and contacts of later updates carry it; but an `Ended` carries what was
     /// attached at the last update at which the contact was there.
     ///
     /// # Errors

@@ -105,7 +105,7 @@ impl core::fmt::Display for ScaleError {
             (Self::Mirrored, _) => {
                 write!(
                     f,
-                    "a height field cannot be mirrored: give positive factors, or make a triangle mesh of it"
+                    "a height field cannot be mirrored: give positive factors, and turn the body for a half turn"
                 )
             }
             _ => write!(
@@ -158,12 +158,20 @@ fn check(factors: &[f32]) -> Result<(), ScaleError> {
 
 /// A radius times the size that all factors share: nothing stays nothing under any factors.
 fn scaled_radius(radius: f32, factors: &[f32]) -> Result<f32, ScaleError> {
-    let size = factors[0].abs();
     match radius {
         0.0 => Ok(0.0),
-        _ if factors.iter().all(|factor| factor.abs() == size) => Ok(radius * size),
+        _ if are_of_one_size(factors) => Ok(radius * factors[0].abs()),
         _ => Err(ScaleError::Round),
     }
+}
+
+fn are_of_one_size(factors: &[f32]) -> bool {
+    factors.iter().all(|factor| factor.abs() == factors[0].abs())
+}
+
+/// The greatest power of two that is no more than a finite number above zero: to divide by it rounds nothing.
+fn power_of_two_near(number: f64) -> f64 {
+    f64::from_bits(number.to_bits() & f64::INFINITY.to_bits())
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Scaled shapes in the plane.
 
-use super::{ScaleError, check, scaled_radius};
+use super::{ScaleError, are_of_one_size, check, power_of_two_near, scaled_radius};
 use crate::chain::Chain;
 use crate::circle::Circle;
 use crate::compound::{Compound2, Part2};
@@ -16,9 +16,10 @@ impl Shape2 {
     /// The shape with every local point multiplied by the factors: `Vec2::splat(1.0 / 32.0)` takes pixels to metres where a
     /// metre has 32 of them, and negative ones mirror. A new shape, which shares nothing with the old one.
     ///
-    /// Features keep their numbers, but where a mirror turns the way around a polygon or along a chain: both stay as they are seen,
-    /// counter-clockwise and with their front in front. Parts of a compound that are turned in it become polygons
-    /// under factors that differ. Cost: that of making the shape.
+    /// Vertices and edges keep their numbers, but for mirrors: a mirrored polygon is still counter-clockwise, and a mirrored chain still
+    /// has its front in front, so that both are numbered the other way around; corners of rectangles are numbered anew. Of turned parts
+    /// in a compound, rectangles become polygons under factors that differ. Vertices of a chain that come too close are dropped,
+    /// as in [`Chain::open`]. Cost: that of making the shape.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Rect, Shape2, glam::Vec2};
@@ -39,9 +40,12 @@ impl Shape2 {
         match self {
             Self::Compound(compound) => scaled_compound(compound, factors),
             Self::HalfPlane(half_plane) => {
-                // In f64, and the larger component 1: what is finite there may be neither in f32.
-                let normal = half_plane.normal().as_dvec2() / factors.as_dvec2();
-                Ok(HalfPlane::new((normal / normal.abs().max_element()).as_vec2())?.into())
+                let normal = half_plane.normal();
+                if are_of_one_size(&factors.to_array()) {
+                    return Ok(HalfPlane::new(normal * factors.signum())?.into());
+                }
+                let normal = normal.as_dvec2() / factors.as_dvec2();
+                Ok(HalfPlane::new((normal / power_of_two_near(normal.abs().max_element())).as_vec2())?.into())
             }
             Self::Chain(chain) => Ok(scaled_chain(chain, factors)?.into()),
             Self::Rect(rect) => {
@@ -62,6 +66,8 @@ fn do_mirror(factors: Vec2) -> bool {
 fn moved(shape: &Shape2, place: impl Fn(Vec2) -> Vec2, factors: Vec2) -> Result<Shape2, ScaleError> {
     let radius = scaled_radius(shape.radius(), &factors.to_array())?;
     Ok(match shape {
+        // A point: it has no radius that `Circle::new` would take.
+        Shape2::Circle(_) if radius == 0.0 => shape.clone(),
         Shape2::Circle(_) => Circle::new(radius)?.into(),
         Shape2::Capsule(capsule) => {
             let [from, to] = capsule.segment().ends().map(place);

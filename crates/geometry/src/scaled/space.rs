@@ -1,11 +1,11 @@
 //! Scaled shapes in space.
 
-use super::{ScaleError, check, scaled_radius};
+use super::{ScaleError, are_of_one_size, check, power_of_two_near, scaled_radius};
 use crate::compound::{Compound3, Part3};
 use crate::cuboid::Cuboid;
 use crate::half_space::HalfSpace;
 use crate::height_field::HeightField;
-use crate::hull::Hull;
+use crate::hull::{Hull, HullError};
 use crate::mesh::TriMesh;
 use crate::pose3::Pose3;
 use crate::segment::{Capsule3, Segment3};
@@ -18,9 +18,11 @@ impl Shape3 {
     /// The shape with every local point multiplied by the factors: `Vec3::splat(0.01)` takes centimetres to metres, and
     /// negative ones mirror. A new shape, which shares nothing with the old one.
     ///
-    /// Features keep their numbers wherever the shape keeps its form: vertices, triangles of a mesh, cells of a height field and
-    /// parts always. Parts of a compound that are turned in it become hulls under factors that differ.
-    /// Cost: that of making the shape.
+    /// Triangles of a mesh, cells of a height field and parts of a compound keep their numbers, and so do the vertices of solid hulls, but
+    /// where a hull becomes thousands of times flatter and loses some. A mirror numbers the corners of cuboids and of flat hulls anew.
+    /// Of turned parts in a compound, cuboids become hulls under factors that differ. A flat hull stays flat where its new vertices,
+    /// rounded, still lie in one plane: along two axes, or under powers of two; else it is a solid, as thick as a rounding. Triangles
+    /// that become too small are dropped, as in [`TriMesh::new`]. Cost: that of making the shape.
     ///
     /// ```
     /// use asunder_geometry::{Capsule3, Hull, Shape3, glam::Vec3};
@@ -38,15 +40,18 @@ impl Shape3 {
     ///
     /// # Errors
     /// A factor that is zero or not finite; a round shape or a rounding under factors that differ in size; a height field
-    /// under negative ones; a result that is out of range or has lost a dimension.
+    /// under negative ones; a result that is out of range, or a hull that has lost a dimension.
     pub fn scaled(&self, factors: Vec3) -> Result<Self, ScaleError> {
         check(&factors.to_array())?;
         match self {
             Self::Compound(compound) => scaled_compound(compound, factors),
             Self::HalfSpace(half_space) => {
-                // In f64, and the largest component 1: what is finite there may be neither in f32.
-                let normal = half_space.normal().as_dvec3() / factors.as_dvec3();
-                Ok(HalfSpace::new((normal / normal.abs().max_element()).as_vec3())?.into())
+                let normal = half_space.normal();
+                if are_of_one_size(&factors.to_array()) {
+                    return Ok(HalfSpace::new(normal * factors.signum())?.into());
+                }
+                let normal = normal.as_dvec3() / factors.as_dvec3();
+                Ok(HalfSpace::new((normal / power_of_two_near(normal.abs().max_element())).as_vec3())?.into())
             }
             Self::TriMesh(mesh) => Ok(scaled_mesh(mesh, factors)?.into()),
             Self::HeightField(field) => Ok(scaled_field(field, factors)?.into()),
@@ -64,6 +69,8 @@ fn moved(shape: &Shape3, place: impl Fn(Vec3) -> Vec3, factors: Vec3) -> Result<
     let radius = scaled_radius(shape.radius(), &factors.to_array())?;
     let all = || -> Vec<Vec3> { shape.core().vertices().iter().map(|&vertex| place(vertex)).collect() };
     Ok(match shape {
+        // A point: it has no radius that `Sphere::new` would take.
+        Shape3::Sphere(_) if radius == 0.0 => shape.clone(),
         Shape3::Sphere(_) => Sphere::new(radius)?.into(),
         Shape3::Capsule(capsule) => {
             let [from, to] = capsule.segment().ends().map(place);
@@ -80,6 +87,9 @@ fn moved(shape: &Shape3, place: impl Fn(Vec3) -> Vec3, factors: Vec3) -> Result<
         Shape3::Hull(hull) => {
             let is_solid = hull.dimension() == 3;
             let new = if is_solid { Hull::from_points(&all())? } else { Hull::of_any_dimension(&all())? };
+            if new.dimension() < hull.dimension() {
+                return Err(HullError::Flat { dimension: new.dimension() }.into());
+            }
             let error = f64::from(hull.error()) * f64::from(factors.abs().max_element());
             new.left_out(error).rounded(radius)?.into()
         }

@@ -150,6 +150,50 @@ fn planes_keep_their_side_under_any_factors() {
     assert!(steep.contains(DVec2::new(-0.25, -0.75)) && !steep.contains(DVec2::new(-0.25, -0.25)));
 }
 
+/// Found by fresh eyes: the normal was divided by its largest component, and so rounded, by a factor of one even.
+#[test]
+fn a_plane_keeps_its_bits_under_one_factor() {
+    let mut random = Rand32::new(35);
+    for _ in 0..200 {
+        let normal = corner(&mut random);
+        let slope = Shape3::from(HalfSpace::new(normal).unwrap());
+        for factor in [1.0, 2.0, 0.3, 1e-30] {
+            assert_eq!(slope.scaled(Vec3::splat(factor)).unwrap(), slope);
+        }
+        let mirrored = Shape3::from(HalfSpace::new(normal * Vec3::new(-1.0, 1.0, 1.0)).unwrap());
+        assert_eq!(slope.scaled(Vec3::new(-3.0, 3.0, 3.0)).unwrap(), mirrored);
+        let halved = Shape3::from(HalfSpace::new(normal * Vec3::new(1.0, 0.5, 1.0)).unwrap());
+        let Shape3::HalfSpace(scaled) = slope.scaled(Vec3::new(1.0, 2.0, 1.0)).unwrap() else {
+            unreachable!()
+        };
+        let Shape3::HalfSpace(halved) = halved else { unreachable!() };
+        // Exact up to one power of two for all.
+        let share = scaled.normal().x / halved.normal().x;
+        assert_eq!(halved.normal() * share, scaled.normal());
+        let slope = Shape2::from(HalfPlane::new(normal.truncate()).unwrap());
+        assert_eq!(slope.scaled(Vec2::splat(7.0)).unwrap(), slope);
+    }
+}
+
+#[test]
+fn points_stay_points_and_no_dimension_is_lost_unsaid() {
+    let (ball, disc) = (Shape3::from(Sphere::POINT), Shape2::from(Circle::POINT));
+    assert_eq!(
+        (ball.scaled(Vec3::new(1.0, 2.0, 3.0)), disc.scaled(Vec2::ONE)),
+        (Ok(ball.clone()), Ok(disc.clone()))
+    );
+    let square = [Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::new(1.0, 0.0, 1.0)];
+    let square = Shape3::from(Hull::of_any_dimension(&square).unwrap());
+    let refused =
+        square.scaled(Vec3::new(1.0, 1.0, 1e-45)).and_then(|thin| thin.scaled(Vec3::new(1.0, 1.0, 0.25)));
+    assert_eq!(refused, Err(ScaleError::Hull(HullError::Flat { dimension: 1 })));
+    let thread = Shape3::from(Hull::of_any_dimension(&[Vec3::ZERO, Vec3::X * 0.25]).unwrap());
+    assert_eq!(
+        thread.scaled(Vec3::new(1e-45, 1.0, 1.0)),
+        Err(ScaleError::Hull(HullError::Flat { dimension: 0 }))
+    );
+}
+
 #[test]
 fn a_field_keeps_its_holes_and_is_not_mirrored() {
     let heights: Vec<f32> = (0..12_u8).map(f32::from).collect();
