@@ -9,17 +9,19 @@
 //! node crates/asunder/examples/wasi.mjs target/wasm32-wasip1/release/examples/fingerprints.wasm | diff - crates/asunder/examples/fingerprints.txt
 //! ```
 //!
-//! The file was made by `cargo run --release -p asunder --example fingerprints > crates/asunder/examples/fingerprints.txt`, and is to be made
-//! again only where an output is meant to change.
+//! The golden table of `tests` holds more scenes, but stands on packages that cannot be built everywhere; this needs only the
+//! engine and its scenes. The file was made by
+//! `cargo run --release -p asunder --example fingerprints > crates/asunder/examples/fingerprints.txt`,
+//! and is to be made again only where an output is meant to change.
 
 use asunder::glam::{DVec3, Vec3};
 use asunder::{
-    BodyKey2, BodyKey3, Capsule3, Collider2, Collider3, Cuboid, Filter3, Hull, Motion3, Pose3, Ray3, Shape3,
-    Sphere, StaleKey, TriMesh, Walk3, World2, World3,
+    AnyWorld, BodyKey3, Capsule3, Collider, Collider2, Collider3, Cuboid, Filter3, Hull, MarginError,
+    Motion3, Pose3, Ray3, Shape3, Space, Sphere, StaleKey, TriMesh, Walk3, World, World3,
 };
 use asunder_scenes::random::Random;
 use asunder_scenes::terrain::Terrain;
-use asunder_scenes::worlds::{Replay2, Replay3, WorldScene};
+use asunder_scenes::worlds::{Body2, Body3, Replay2, Replay3, WorldScene};
 use std::error::Error;
 use std::fmt::{Debug, Write};
 
@@ -45,6 +47,11 @@ impl Fingerprint {
     fn add(&mut self, said: &impl Debug) -> std::fmt::Result {
         write!(self, "{said:?};")
     }
+
+    fn hear<S: Space>(&mut self, world: &World<S>) -> std::fmt::Result {
+        self.add(&AnyWorld::events(world))?;
+        AnyWorld::contacts(world).try_for_each(|contact| self.add(&contact))
+    }
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -60,42 +67,45 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn in_space(scene: WorldScene) -> Result<u64, Box<dyn Error>> {
     let mut replay = Replay3::new(scene, BODIES, 1);
-    let mut world = World3::new();
-    let mut keys: Vec<BodyKey3> = Vec::new();
-    for body in &replay.bodies {
-        let mut collider = Collider3::new(body.shape.clone()).at(body.pose).margin(0.01)?;
-        collider = if body.fixed { collider.fixed() } else { collider };
-        collider = body.owner.map_or(collider.clone(), |owner| collider.owner(owner));
-        keys.push(world.insert(collider));
-    }
-    let mut said = Fingerprint::START;
-    for frame in 0..FRAMES {
+    let collider = |body: &Body3| {
+        let collider = Collider3::new(body.shape.clone()).at(body.pose).margin(0.01)?;
+        let collider = if body.fixed { collider.fixed() } else { collider };
+        Ok::<_, MarginError>(if let Some(owner) = body.owner { collider.owner(owner) } else { collider })
+    };
+    let colliders = replay.bodies.iter().map(collider).collect::<Result<Vec<_>, _>>()?;
+    play(colliders, |frame| {
         replay.advance(frame);
-        let poses = replay.movers().iter().map(|&i| (keys[i as usize], replay.bodies[i as usize].pose));
-        world.set_poses(poses)?;
-        world.update();
-        said.add(&world.events())?;
-        world.contacts().try_for_each(|contact| said.add(&contact))?;
-    }
-    Ok(said.0)
+        replay.movers().iter().map(|&i| (i, replay.bodies[i as usize].pose)).collect()
+    })
 }
 
 fn in_plane(scene: WorldScene) -> Result<u64, Box<dyn Error>> {
     let mut replay = Replay2::new(scene, BODIES, 1);
-    let mut world = World2::new();
-    let mut keys: Vec<BodyKey2> = Vec::new();
-    for body in &replay.bodies {
+    let collider = |body: &Body2| {
         let collider = Collider2::new(body.shape.clone()).at(body.pose).margin(0.01)?;
-        keys.push(world.insert(if body.fixed { collider.fixed() } else { collider }));
-    }
+        Ok::<_, MarginError>(if body.fixed { collider.fixed() } else { collider })
+    };
+    let colliders = replay.bodies.iter().map(collider).collect::<Result<Vec<_>, _>>()?;
+    play(colliders, |frame| {
+        replay.advance(frame);
+        replay.movers().iter().map(|&i| (i, replay.bodies[i as usize].pose)).collect()
+    })
+}
+
+/// A world of these bodies, posed frame by frame: which of them, and where.
+fn play<S: Space>(
+    bodies: Vec<Collider<S>>,
+    mut poses: impl FnMut(u32) -> Vec<(u32, S::Pose)>,
+) -> Result<u64, Box<dyn Error>> {
+    let mut world = World::new();
+    let keys: Vec<S::Key> = bodies.into_iter().map(|body| AnyWorld::insert(&mut world, body)).collect();
     let mut said = Fingerprint::START;
     for frame in 0..FRAMES {
-        replay.advance(frame);
-        let poses = replay.movers().iter().map(|&i| (keys[i as usize], replay.bodies[i as usize].pose));
-        world.set_poses(poses)?;
+        for (body, pose) in poses(frame) {
+            AnyWorld::set_pose(&mut world, keys[body as usize], pose)?;
+        }
         world.update();
-        said.add(&world.events())?;
-        world.contacts().try_for_each(|contact| said.add(&contact))?;
+        said.hear(&world)?;
     }
     Ok(said.0)
 }
@@ -134,9 +144,8 @@ fn on_hills() -> Result<u64, Box<dyn Error>> {
             *way = if frame % 20 == 19 { -*way } else { *way };
         }
         world.update();
-        said.add(&world.events())?;
+        said.hear(&world)?;
         said.add(&world.impacts())?;
-        world.contacts().try_for_each(|contact| said.add(&contact))?;
         let slide =
             world.move_and_slide((&walker, &walks), Vec3::new(0.05, -0.02, 0.03), &walk, &Filter3::new());
         said.add(&slide)?;

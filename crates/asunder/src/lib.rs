@@ -30,17 +30,18 @@
 //! - Bodies: [`Collider3`] of any [`Shape3`], at a [`Pose3`]; [`Layers`], owners and sensors say who meets whom.
 //! - A frame: [`World3::set_pose`], [`World3::update`], [`World3::events`], [`World3::contacts_of`].
 //! - Fast things: [`World3::set_motion`], [`Collider3::bullet`], [`World3::impacts`].
-//! - Queries (ray casts, shape casts, overlap tests, what is nearest): [`World3::cast_ray`], [`World3::cast_shape`], [`World3::overlapping`], [`World3::closest`], with a
-//!   [`Filter3`].
+//! - Queries (ray casts, shape casts, overlap tests, what is nearest): [`World3::cast_ray`], [`World3::cast_shape`],
+//!   [`World3::overlapping`], [`World3::closest`], with a [`Filter3`].
 //! - Characters: [`World3::move_and_slide`], with a [`Walk3`].
 //! - Two shapes without a world: [`Pair3`].
 //! - The [`guide`] has a page on each of these, with whole examples.
 //!
 //! # Words
-//! A **candidate** is a pair whose boxes, margins included, overlap, and that may meet; a **contact**, a candidate within the sum of both margins, or one that this frame's motions
-//! may bring there (then it is *speculative*). Two bodies **overlap** while they share a point, and are **touching**
-//! ([`World3::is_touching`]) from then until they are further apart than their margins: from `Began` to `Ended`. The page on
-//! [`events`](guide::events) has this as a table.
+//! A **candidate** is a pair whose boxes, margins included, overlap, and that may meet; a **contact**, a candidate
+//! within the sum of both margins, or one that this frame's motions may bring there (then it is *speculative*). Two
+//! bodies **overlap** while they share a point, and are **touching** ([`World3::is_touching`]) from then until they are
+//! further apart than their margins: from `Began` to `Ended`. The page on [`events`](guide::events) has this as a
+//! table.
 //!
 //! All of it is there in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
 //! `asunder_geometry` or `asunder_narrow`, the crates that this one is built on: what a game needs of them is re-exported
@@ -63,8 +64,8 @@
 //!
 //! # Feature flags
 //! - `parallel` (default): refit, sweep, collide and impacts run on rayon's threads. Every output is bit-equal with and
-//!   without. For a few hundred bodies leave it out: threads gain nothing there, and may cost a little. For many, let the game's main thread be one of
-//!   the pool: see [`game_loops`](guide::game_loops).
+//!   without. For a few hundred bodies leave it out: threads gain nothing there, and may cost a little. For many, let
+//!   the game's main thread be one of the pool: see [`game_loops`](guide::game_loops).
 //! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and
 //!   serde's traits for bodies, shapes, poses, rays, keys, events and manifolds. Whatever is loaded passes the same
 //!   checks as in the constructors.

@@ -18,6 +18,7 @@ use crate::pose3::PoseError;
 use crate::radius::RadiusError;
 use crate::segment::CapsuleError;
 use crate::vertex::VertexError;
+use core::array;
 
 /// Why a shape cannot be scaled by some factors.
 ///
@@ -71,27 +72,6 @@ pub enum ScaleError {
     HeightField(HeightFieldError),
 }
 
-impl ScaleError {
-    /// What the shape that would result is refused for.
-    fn inner(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Factor { .. } | Self::Round | Self::Mirrored => None,
-            Self::Extent(error) => Some(error),
-            Self::Radius(error) => Some(error),
-            Self::Capsule(error) => Some(error),
-            Self::Vertex(error) => Some(error),
-            Self::Direction(error) => Some(error),
-            Self::Polygon(error) => Some(error),
-            Self::Hull(error) => Some(error),
-            Self::Chain(error) => Some(error),
-            Self::Compound(error) => Some(error),
-            Self::Pose(error) => Some(error),
-            Self::Mesh(error) => Some(error),
-            Self::HeightField(error) => Some(error),
-        }
-    }
-}
-
 impl core::fmt::Display for ScaleError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match (self, self.inner()) {
@@ -122,15 +102,25 @@ impl core::error::Error for ScaleError {
     }
 }
 
-/// `From` for every error that a constructor has.
+/// For every error that a constructor has: where it comes from, and that it is what the scaled shape is refused for.
 macro_rules! refused_by {
-    ($($variant:ident($error:ty)),+ $(,)?) => { $(
-        impl From<$error> for ScaleError {
-            fn from(error: $error) -> Self {
-                Self::$variant(error)
+    ($($variant:ident($error:ty)),+ $(,)?) => {
+        impl ScaleError {
+            fn inner(&self) -> Option<&(dyn core::error::Error + 'static)> {
+                match self {
+                    $(Self::$variant(error) => Some(error),)+
+                    Self::Factor { .. } | Self::Round | Self::Mirrored => None,
+                }
             }
         }
-    )+ };
+        $(
+            impl From<$error> for ScaleError {
+                fn from(error: $error) -> Self {
+                    Self::$variant(error)
+                }
+            }
+        )+
+    };
 }
 
 refused_by!(
@@ -169,9 +159,16 @@ fn are_of_one_size(factors: &[f32]) -> bool {
     factors.iter().all(|factor| factor.abs() == factors[0].abs())
 }
 
-/// The greatest power of two that is no more than a finite number above zero: to divide by it rounds nothing.
-fn power_of_two_near(number: f64) -> f64 {
-    f64::from_bits(number.to_bits() & f64::INFINITY.to_bits())
+/// The normal of a plane through the origin, under factors for its points. Bit for bit where they are of one size; else rounded once,
+/// since only a power of two is divided out so that it fits an f32.
+fn scaled_normal<const N: usize>(normal: [f32; N], factors: [f32; N]) -> [f32; N] {
+    if are_of_one_size(&factors) {
+        return array::from_fn(|axis| normal[axis] * factors[axis].signum());
+    }
+    let normal: [f64; N] = array::from_fn(|axis| f64::from(normal[axis]) / f64::from(factors[axis]));
+    let largest = normal.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
+    let power_of_two = f64::from_bits(largest.to_bits() & f64::INFINITY.to_bits());
+    normal.map(|component| (component / power_of_two) as f32)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Scaled shapes in the plane.
 
-use super::{ScaleError, are_of_one_size, check, power_of_two_near, scaled_radius};
+use super::{ScaleError, check, scaled_normal, scaled_radius};
 use crate::chain::Chain;
 use crate::circle::Circle;
 use crate::compound::{Compound2, Part2};
@@ -16,10 +16,10 @@ impl Shape2 {
     /// The shape with every local point multiplied by the factors: `Vec2::splat(1.0 / 32.0)` takes pixels to metres where a
     /// metre has 32 of them, and negative ones mirror. A new shape, which shares nothing with the old one.
     ///
-    /// Vertices and edges keep their numbers, but for mirrors: a mirrored polygon is still counter-clockwise, and a mirrored chain still
-    /// has its front in front, so that both are numbered the other way around; corners of rectangles are numbered anew. Of turned parts
-    /// in a compound, rectangles become polygons under factors that differ. Vertices of a chain that come too close are dropped,
-    /// as in [`Chain::open`]. Cost: that of making the shape.
+    /// Vertices and edges keep their numbers, except under a mirror: a mirrored polygon is still counter-clockwise, and a
+    /// mirrored chain still has its front in front, so both are numbered the other way around; corners of rectangles are
+    /// renumbered. Rectangles that are turned in a compound become polygons if the factors differ. Vertices of a chain that
+    /// come too close are dropped, as in [`Chain::open`]. Cost: that of making the shape.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Rect, Shape2, glam::Vec2};
@@ -40,12 +40,8 @@ impl Shape2 {
         match self {
             Self::Compound(compound) => scaled_compound(compound, factors),
             Self::HalfPlane(half_plane) => {
-                let normal = half_plane.normal();
-                if are_of_one_size(&factors.to_array()) {
-                    return Ok(HalfPlane::new(normal * factors.signum())?.into());
-                }
-                let normal = normal.as_dvec2() / factors.as_dvec2();
-                Ok(HalfPlane::new((normal / power_of_two_near(normal.abs().max_element())).as_vec2())?.into())
+                let normal = scaled_normal(half_plane.normal().to_array(), factors.to_array());
+                Ok(HalfPlane::new(Vec2::from_array(normal))?.into())
             }
             Self::Chain(chain) => Ok(scaled_chain(chain, factors)?.into()),
             Self::Rect(rect) => {

@@ -1,6 +1,6 @@
 //! Scaled shapes in space.
 
-use super::{ScaleError, are_of_one_size, check, power_of_two_near, scaled_radius};
+use super::{ScaleError, check, scaled_normal, scaled_radius};
 use crate::compound::{Compound3, Part3};
 use crate::cuboid::Cuboid;
 use crate::half_space::HalfSpace;
@@ -18,11 +18,12 @@ impl Shape3 {
     /// The shape with every local point multiplied by the factors: `Vec3::splat(0.01)` takes centimetres to metres, and
     /// negative ones mirror. A new shape, which shares nothing with the old one.
     ///
-    /// Triangles of a mesh, cells of a height field and parts of a compound keep their numbers, and so do the vertices of solid hulls, but
-    /// where a hull becomes thousands of times flatter and loses some. A mirror numbers the corners of cuboids and of flat hulls anew.
-    /// Of turned parts in a compound, cuboids become hulls under factors that differ. A flat hull stays flat where its new vertices,
-    /// rounded, still lie in one plane: along two axes, or under powers of two; else it is a solid, as thick as a rounding. Triangles
-    /// that become too small are dropped, as in [`TriMesh::new`]. Cost: that of making the shape.
+    /// Triangles of a mesh, cells of a height field and parts of a compound keep their numbers. So do the vertices of solid
+    /// hulls, unless a hull becomes thousands of times flatter and loses some. A mirror renumbers the corners of cuboids
+    /// and of flat hulls. Cuboids that are turned in a compound become hulls if the factors differ. A flat hull stays flat
+    /// if its new vertices, rounded, still lie in one plane (along two axes, or under powers of two); otherwise it becomes a
+    /// solid, as thick as a rounding. Triangles that become too small are dropped, as in [`TriMesh::new`]. Cost: that of
+    /// making the shape.
     ///
     /// ```
     /// use asunder_geometry::{Capsule3, Hull, Shape3, glam::Vec3};
@@ -46,12 +47,8 @@ impl Shape3 {
         match self {
             Self::Compound(compound) => scaled_compound(compound, factors),
             Self::HalfSpace(half_space) => {
-                let normal = half_space.normal();
-                if are_of_one_size(&factors.to_array()) {
-                    return Ok(HalfSpace::new(normal * factors.signum())?.into());
-                }
-                let normal = normal.as_dvec3() / factors.as_dvec3();
-                Ok(HalfSpace::new((normal / power_of_two_near(normal.abs().max_element())).as_vec3())?.into())
+                let normal = scaled_normal(half_space.normal().to_array(), factors.to_array());
+                Ok(HalfSpace::new(Vec3::from_array(normal))?.into())
             }
             Self::TriMesh(mesh) => Ok(scaled_mesh(mesh, factors)?.into()),
             Self::HeightField(field) => Ok(scaled_field(field, factors)?.into()),
@@ -85,8 +82,7 @@ fn moved(shape: &Shape3, place: impl Fn(Vec3) -> Vec3, factors: Vec3) -> Result<
             Triangle3::new(a, b, c)?.into()
         }
         Shape3::Hull(hull) => {
-            let is_solid = hull.dimension() == 3;
-            let new = if is_solid { Hull::from_points(&all())? } else { Hull::of_any_dimension(&all())? };
+            let new = Hull::of_any_dimension(&all())?;
             if new.dimension() < hull.dimension() {
                 return Err(HullError::Flat { dimension: new.dimension() }.into());
             }
