@@ -34,7 +34,12 @@
 //!   [`World3::overlapping`], [`World3::closest`], with a [`Filter3`].
 //! - Characters: [`World3::move_and_slide`], with a [`Walk3`].
 //! - Two shapes without a world: [`Pair3`].
-//! - The [`guide`] has a page on each of these, with whole examples.
+//! - The [`guide`] has pages on most of these, with whole examples.
+//!
+//! All of it is there in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
+//! `asunder_geometry` or `asunder_narrow`, the crates that this one is built on: what a game needs of them is re-exported
+//! here under the same name (`asunder::Pose3`). To write a world of your own, see the jobs, batches and hints in
+//! `asunder_narrow`.
 //!
 //! # Words
 //! A **candidate** is a pair whose boxes, margins included, overlap, and that may meet; a **contact**, a candidate
@@ -42,11 +47,6 @@
 //! bodies **overlap** while they share a point, and are **touching** ([`World3::is_touching`]) from then until they are
 //! further apart than their margins: from `Began` to `Ended`. The page on [`events`](guide::events) has this as a
 //! table.
-//!
-//! All of it is there in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
-//! `asunder_geometry` or `asunder_narrow`, the crates that this one is built on: what a game needs of them is re-exported
-//! here under the same name (`asunder::Pose3`). To write a world of your own, see the jobs, batches and hints in
-//! `asunder_narrow`.
 //!
 //! # Debug builds
 //! A debug build of a game leaves its dependencies unoptimised, which makes this one tens of times slower than it has to
