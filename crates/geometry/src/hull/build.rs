@@ -118,7 +118,7 @@ impl Hull {
             let points: Vec<Vec3> = solid.kept.iter().map(|&i| cloud.points[i as usize]).collect();
             let Merged { faces, inside } = merge_facets(&points, &facets, COPLANAR * 0.5 * cloud.scale);
             if inside.is_empty() {
-                return solid.finish(&faces);
+                return solid.finish(&faces, &facets);
             }
             let (count, turned_out) = (points.len(), inside.len());
             // What shrinks slowly from far too many will not end up small enough; and it would be slow.
@@ -190,14 +190,15 @@ impl Solid<'_> {
             .into_iter()
             .map(|facet| facet.into_iter().map(|i| corners.binary_search(&i).unwrap_or(0) as u32).collect())
             .collect();
-        self.finish(&facets)
+        self.finish(&facets, &facets)
     }
 
-    /// Derives everything else from the loops of places in `kept`.
-    fn finish(self, faces: &[Vec<u32>]) -> Result<Hull, HullError> {
+    /// Derives everything else from the loops of places in `kept`: faces, and the exact facets that they were merged of.
+    fn finish(self, faces: &[Vec<u32>], facets: &[Vec<u32>]) -> Result<Hull, HullError> {
         let at = |i: &u32| self.cloud.points[*i as usize];
         let source: Vec<u32> = self.kept.iter().map(|&i| self.cloud.source[i as usize]).collect();
-        Hull::of_faces(self.kept.iter().map(at).collect(), faces.to_vec(), &source, |hull| {
+        let loops = [faces.to_vec(), facets.to_vec()];
+        Hull::of_faces(self.kept.iter().map(at).collect(), loops, &source, |hull| {
             let error = self.outlying + hull.furthest_outside(self.dropped.iter().map(|i| at(i).as_dvec3()));
             if error > 0.0 { round_up(error + 64.0 * f64::EPSILON * self.cloud.scale) } else { 0.0 }
         })
@@ -205,12 +206,12 @@ impl Solid<'_> {
 }
 
 impl Hull {
-    /// A hull from the vertices in the order of a cloud, the faces as loops of them, and where in the user's list each
-    /// vertex stood. Numbers first, which must depend on nothing but the places and which of them share a face, so that
+    /// A hull from the vertices in the order of a cloud, the faces and the exact facets as loops of them, and where in the user's
+    /// list each vertex stood. Numbers first, which must depend on nothing but the places and which of them share a face, so that
     /// a stored hull gets the same ones when it comes back; then the user's order.
     pub(super) fn of_faces(
         vertices: Vec<Vec3>,
-        faces: Vec<Vec<u32>>,
+        [faces, facets]: [Vec<Vec<u32>>; 2],
         source: &[u32],
         error: impl FnOnce(&HullData) -> f32,
     ) -> Result<Self, HullError> {
@@ -218,19 +219,34 @@ impl Hull {
         if count > MAX_HULL_VERTICES {
             return Err(HullError::TooManyVertices { at_least: count });
         }
+        let (faces, facets) = (canonical(faces), canonical(facets));
         let loops: Vec<Vec<u16>> =
-            canonical(faces).iter().map(|face| face.iter().map(|&i| i as u16).collect()).collect();
+            faces.iter().map(|face| face.iter().map(|&i| i as u16).collect()).collect();
         let mut hull = solid_data(vertices, &loops)?;
+        if faces != facets {
+            hull.facets = in_triangles(&facets);
+        }
+        hull.put_center_outside();
         hull.error = error(&hull);
         let mut in_order: Vec<usize> = (0..count).collect();
         in_order.sort_unstable_by_key(|&place| source[place]);
-        renumber(&mut hull, loops, &in_order);
+        renumber(&mut hull, loops, facets, &in_order);
         Ok(Self { data: Arc::new(hull.finished()), radius: 0.0 })
     }
 }
 
+/// Loops in canonical order, as fans from their lowest corners.
+fn in_triangles(loops: &[Vec<u32>]) -> Box<[[u8; 3]]> {
+    // There are no more than 256 vertices.
+    let fan = |face: &[u32]| -> Vec<[u8; 3]> {
+        let [first, rest @ ..] = face else { return Vec::new() };
+        rest.windows(2).map(|two| [*first, two[0], two[1]].map(|i| i as u8)).collect()
+    };
+    loops.iter().flat_map(|face| fan(face)).collect()
+}
+
 /// Puts vertices in a new order, which names the old places, and faces in the order of their loops.
-fn renumber(hull: &mut HullData, loops: Vec<Vec<u16>>, in_order: &[usize]) {
+fn renumber(hull: &mut HullData, loops: Vec<Vec<u16>>, mut facets: Vec<Vec<u32>>, in_order: &[usize]) {
     let mut number = vec![0_u16; in_order.len()];
     for (new, &place) in (0..).zip(in_order) {
         number[place] = new;
@@ -246,6 +262,10 @@ fn renumber(hull: &mut HullData, loops: Vec<Vec<u16>>, in_order: &[usize]) {
         })
         .collect();
     faces.sort_by(|a, b| a.0.cmp(&b.0));
+    if !hull.facets.is_empty() {
+        facets.iter_mut().flatten().for_each(|i| *i = number[*i as usize].into());
+        hull.facets = in_triangles(&canonical(facets));
+    }
     hull.topology = Topology::from_loops(faces.iter().map(|face| face.0.as_slice()));
     hull.normals = faces.iter().map(|face| face.1).collect();
     hull.vertices = in_order.iter().map(|&place| hull.vertices[place]).collect();
@@ -275,6 +295,7 @@ fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullE
         vertices: vertices.into(),
         topology,
         normals,
+        facets: Box::new([]),
         octets: Octets::default(),
         center,
         outer_radius,
@@ -282,8 +303,7 @@ fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullE
         inner_arm: Vec3::ZERO,
         planarity_error: round_up(planarity),
         error: 0.0,
-    }
-    .with_center_outside())
+    })
 }
 
 /// Centre of volume in f64, by tetrahedra from the first vertex.

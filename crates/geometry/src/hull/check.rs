@@ -2,6 +2,8 @@
 
 use super::cloud::half_diagonal;
 use super::normal::{area_vector, is_noise};
+use super::predicate::outside;
+use super::quick::hull_facets;
 use super::{Hull, distance};
 use crate::tolerance::COPLANAR;
 use crate::topology::Topology;
@@ -241,18 +243,26 @@ impl<'a> Examiner<'a> {
         }
     }
 
-    /// The distance is that to the nearest triangle of any face, which a face that is not quite flat has inside.
+    /// Of a solid, by facets that are found anew: faces are flat up to rounding only.
     fn containing(&self, points: &[Vec3]) -> Result<(), HullFault> {
-        let allowed = f64::from(self.hull.error()) + f64::from(self.hull.planarity_error()) + self.slack;
-        let is_solid = self.hull.dimension() == 3;
-        for (index, point) in points.iter().map(|point| point.as_dvec3()).enumerate() {
-            if is_solid && (0..self.faces.len()).all(|face| self.height(face, point) <= 0.0) {
-                continue;
-            }
+        let allowed = f64::from(self.hull.error()) + self.slack;
+        let found =
+            if self.hull.dimension() == 3 { hull_facets(self.hull.vertices()) } else { Ok(Vec::new()) };
+        let Ok(facets) = found else { return Err(HullFault::BadRadius) };
+        let known = self.hull.vertices();
+        let facets: Vec<Vec<usize>> =
+            facets.iter().map(|facet| facet.iter().map(|&i| i as usize).collect()).collect();
+        let is_outside = |point: Vec3| {
+            facets.iter().any(|facet| {
+                outside(&[known[facet[0]], known[facet[1]], known[facet[2]], point], [0, 1, 2], 3) > 0.0
+            })
+        };
+        let surface = if facets.is_empty() { &self.faces } else { &facets };
+        for (index, &point) in points.iter().enumerate() {
+            let place = point.as_dvec3();
             let distance =
-                self.faces.iter().map(|face| self.distance(face, point)).fold(f64::INFINITY, f64::min);
-            let is_beyond = (0..self.hull.normals().len()).any(|face| self.height(face, point) > allowed);
-            if distance > allowed && (is_beyond || !is_solid) {
+                surface.iter().map(|face| self.distance(face, place)).fold(f64::INFINITY, f64::min);
+            if distance > allowed && (facets.is_empty() || is_outside(point)) {
                 return Err(HullFault::PointOutside { index, distance });
             }
         }

@@ -8,8 +8,8 @@ use robust::{Coord, Coord3D, orient2d, orient3d};
 impl Hull {
     /// Whether the closed shape holds a local point, in metres.
     ///
-    /// Without rounding, a hull of dimension 3 holds what no face has outside. A flat hull, a segment and a point
-    /// hold what lies in them exactly. With rounding, what is within the radius of the nearest feature. Cost: a dot
+    /// Without rounding, decided exactly: the hull of the vertices, also where facets were merged into a face that is flat up to
+    /// rounding only. With rounding, what is within the radius of the nearest feature. Cost: a dot
     /// product a face; on the surface and beyond an edge, linear in the faces' corners.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
@@ -69,8 +69,8 @@ impl HullData {
         most
     }
 
-    /// An upper bound on a point's distance from the hull: its distance to the nearest triangle of any face, or zero
-    /// where no face has it outside.
+    /// An upper bound on a point's distance from the hull: its distance to the nearest triangle of any facet, or zero
+    /// where none has it outside.
     pub(super) fn distance_outside(&self, p: DVec3) -> f64 {
         if self.dimension == 3 && !self.is_outside(p) {
             return 0.0;
@@ -102,23 +102,28 @@ impl HullData {
         most
     }
 
+    /// Whether a point lies strictly outside of any facet: exact.
     fn is_outside(&self, p: DVec3) -> bool {
-        self.normals.iter().enumerate().any(|(face, normal)| {
-            let height = |i: usize| normal.dot(p - self.vertices[i].as_dvec3());
-            self.topology.face_vertices(face).map(height).fold(f64::INFINITY, f64::min) > 0.0
+        // `robust` calls the side from which a triangle's corners run clockwise the positive one.
+        self.triangles().any(|corners| {
+            let [a, b, c] = corners.map(exact);
+            orient3d(a, b, c, exact(p)) < 0.0
         })
     }
 
-    /// Every face as a fan of triangles. A segment is a triangle without area, and so is a point.
+    /// Every facet as a fan of triangles. A segment is a triangle without area, and so is a point.
     fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
         let vertex = |i: usize| self.vertices[i].as_dvec3();
-        (0..self.topology.face_count()).flat_map(move |face| {
+        let is_merged = !self.facets.is_empty();
+        let faces = if is_merged { 0 } else { self.topology.face_count() };
+        let of_faces = (0..faces).flat_map(move |face| {
             let around = self.topology.face_vertices(face);
             let count = around.len();
             let corner = move |place: usize| around.clone().nth(place).map_or(DVec3::ZERO, vertex);
             (1..count.saturating_sub(1).max(2))
                 .map(move |i| [corner(0), corner(i % count), corner((i + 1) % count)])
-        })
+        });
+        self.facets.iter().map(move |facet| facet.map(|i| vertex(i.into()))).chain(of_faces)
     }
 }
 
@@ -143,16 +148,19 @@ pub(super) fn to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let (u, v, w) = (b - a, c - a, p - a);
     let normal = u.cross(v);
     let area = normal.length_squared();
-    let (s, t) = (w.cross(v).dot(normal) / area, u.cross(w).dot(normal) / area);
-    if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
-        // The edges only add a bound where the weights are badly conditioned.
-        let across = (u * s + v * t - w).length();
-        if area > 1e-6 * u.length_squared() * v.length_squared() {
-            return across;
-        }
-        return across.min(to_edges(p, [a, b, c]));
+    let weights = |w: DVec3| (w.cross(v).dot(normal) / area, u.cross(w).dot(normal) / area);
+    let across = |(s, t): (f64, f64)| {
+        let is_within = s >= 0.0 && t >= 0.0 && s + t <= 1.0;
+        is_within.then(|| (u * s + v * t - w).length())
+    };
+    let first = weights(w);
+    if area > 1e-6 * u.length_squared() * v.length_squared() {
+        return across(first).unwrap_or_else(|| to_edges(p, [a, b, c]));
     }
-    to_edges(p, [a, b, c])
+    // Badly conditioned: what is left is small, and so is what its weights are off by. The edges add a bound.
+    let more = weights(w - u * first.0 - v * first.1);
+    let second = (first.0 + more.0, first.1 + more.1);
+    [first, second].into_iter().filter_map(across).fold(to_edges(p, [a, b, c]), f64::min)
 }
 
 fn to_edges(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {

@@ -102,11 +102,12 @@ impl Hull {
         if dimension > 0 && outer_radius < MIN_RADIUS {
             return Err(HullError::TooSmall { radius: outer_radius });
         }
-        Ok(HullData {
+        let mut hull = HullData {
             dimension,
             vertices: vertices.into(),
             topology,
             normals: Box::new([]),
+            facets: Box::new([]),
             octets: Octets::default(),
             center,
             outer_radius: outer_radius.max(MIN_RADIUS),
@@ -114,8 +115,9 @@ impl Hull {
             inner_arm: Vec3::ZERO,
             planarity_error: 0.0,
             error: 0.0,
-        }
-        .with_center_outside())
+        };
+        hull.put_center_outside();
+        Ok(hull)
     }
 }
 

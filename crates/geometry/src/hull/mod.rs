@@ -56,6 +56,8 @@ struct HullData {
     vertices: Box<[Vec3]>,
     topology: Topology,
     normals: Box<[DVec3]>,
+    /// The exact surface in triangles, where a face was merged of facets that are not in one plane; else empty, and faces are facets.
+    facets: Box<[[u8; 3]]>,
     octets: Octets,
     center: Vec3,
     outer_radius: f32,
@@ -234,14 +236,12 @@ impl HullData {
         self
     }
 
-    /// The same with the inscribed radius made negative where the centre lies outside, so that it holds with rounding
-    /// too.
-    fn with_center_outside(mut self) -> Self {
+    /// Makes the inscribed radius negative where the centre lies outside, so that it holds with rounding too.
+    fn put_center_outside(&mut self) {
         if self.inner_radius <= 0.0 {
             let distance = self.distance_outside(self.center.as_dvec3());
             self.inner_radius = 0.0 - round_up(distance * (1.0 + 8.0 * f64::EPSILON));
         }
-        self
     }
 }
 

@@ -8,6 +8,7 @@
 use super::check::Examiner;
 use super::cloud::{Cloud, half_diagonal};
 use super::predicate::is_collinear;
+use super::quick::hull_facets;
 use super::{Hull, HullError, HullFault};
 use crate::tolerance::{MAX_HULL_VERTICES, MAX_RADIUS, MERGED_PLANARITY};
 use glam::Vec3;
@@ -132,7 +133,8 @@ impl Hull {
             .iter()
             .map(|face| face.iter().map(|&vertex| place[usize::from(vertex)]).collect())
             .collect();
-        let hull = Self::of_faces(cloud.points, faces, &cloud.source, |_| error)?;
+        let facets = hull_facets(&cloud.points)?;
+        let hull = Self::of_faces(cloud.points, [faces, facets], &cloud.source, |_| error)?;
         let examiner = Examiner::of(&hull, vertices);
         examiner.normals()?;
         examiner.spheres()?;

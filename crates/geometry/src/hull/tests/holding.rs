@@ -2,7 +2,9 @@
 
 use super::clouds::{Random, nasty};
 use crate::hull::Hull;
-use glam::DVec3;
+use crate::hull::predicate::outside;
+use crate::hull::wrap::enumerate_facets;
+use glam::{DVec3, Vec3};
 
 #[test]
 fn faces_tell_what_all_triangles_tell() {
@@ -30,4 +32,53 @@ fn faces_tell_what_all_triangles_tell() {
         }
     }
     assert!(inside > 10_000 && outside > 10_000, "{inside} inside, {outside} outside");
+}
+
+/// By the facets that gift wrapping finds, and determinants: where faces are merged, too.
+#[test]
+fn a_hull_holds_what_no_exact_facet_has_outside() {
+    let (mut inside, mut between, mut merged) = (0, 0, 0);
+    for seed in 0..600 {
+        let mut random = Random::new(seed);
+        // Plates from thicker than rounding down to no more than that, and turned lattices.
+        let thickness = [1.0, 1e-3, 1e-5, 1e-6, 3e-7][seed as usize % 5];
+        let turn = random.turn();
+        let points: Vec<Vec3> = (0..12 + random.below(20))
+            .map(|i| match seed % 3 {
+                0 => Vec3::new((i % 3) as f32, (i / 3 % 3) as f32, (i / 9) as f32 * thickness),
+                1 => random.vector() * Vec3::new(1.0, 1.0, thickness),
+                _ => random.vector().with_z(0.0).normalize() + Vec3::Z * (thickness * (i % 2) as f32),
+            })
+            .map(|point| turn * point)
+            .collect();
+        let Ok(hull) = Hull::from_points(&points) else { continue };
+        merged += usize::from(!hull.data.facets.is_empty());
+        let vertices = hull.vertices().to_vec();
+        let facets = enumerate_facets(&vertices).unwrap();
+        for round in 0..60 {
+            let weights = [0; 3].map(|_| random.vector().x.abs());
+            let mut corner = || vertices[random.below(vertices.len())];
+            let mean = (corner() * weights[0] + corner() * weights[1] + corner() * weights[2])
+                / weights.iter().sum::<f32>();
+            let p = mean + random.vector() * [0.0, 1e-8, 1e-7, 1e-6, 0.1][round % 5];
+            let with: Vec<Vec3> = vertices.iter().copied().chain([p]).collect();
+            let is_outside = facets
+                .iter()
+                .any(|facet| outside(&with, [facet[0], facet[1], facet[2]], vertices.len() as u32) > 0.0);
+            assert_eq!(hull.contains(p), !is_outside, "{p:?} of seed {seed}: {points:?}");
+            inside += usize::from(!is_outside);
+            // What is in front of no face by all its corners.
+            let height = |normal: &DVec3, face: usize| {
+                let corners = hull.topology().face_vertices(face);
+                corners.map(|i| normal.dot((p - vertices[i]).as_dvec3())).fold(f64::INFINITY, f64::min)
+            };
+            let is_behind_faces =
+                hull.normals().iter().enumerate().all(|(face, normal)| height(normal, face) <= 0.0);
+            between += usize::from(is_outside && is_behind_faces);
+        }
+    }
+    assert!(
+        inside > 3000 && between > 300 && merged > 100,
+        "{inside} inside, {between} beside merged faces, {merged} with them"
+    );
 }
