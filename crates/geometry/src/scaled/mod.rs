@@ -32,7 +32,7 @@ use core::array;
 /// assert!(matches!(refused, ScaleError::Extent(_)) && refused.to_string().contains("above 1000000 m"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ScaleError {
     /// A factor is zero, NaN or infinite.
@@ -66,6 +66,13 @@ pub enum ScaleError {
     Compound(CompoundError),
     /// Where a part of a compound would be.
     Pose(PoseError),
+    /// What a part of a compound is refused for.
+    Part {
+        /// Its index in the compound.
+        part: usize,
+        /// Of that part.
+        error: Box<ScaleError>,
+    },
     /// What would become of a triangle mesh.
     Mesh(MeshError),
     /// What would become of a height field.
@@ -75,6 +82,7 @@ pub enum ScaleError {
 impl core::fmt::Display for ScaleError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match (self, self.inner()) {
+            (Self::Part { part, error }, _) => write!(f, "part {part} of the compound: {error}"),
             (_, Some(error)) => write!(f, "the scaled shape is refused: {error}"),
             (Self::Factor { axis, value }, _) => {
                 write!(
@@ -109,6 +117,7 @@ macro_rules! refused_by {
             fn inner(&self) -> Option<&(dyn core::error::Error + 'static)> {
                 match self {
                     $(Self::$variant(error) => Some(error),)+
+                    Self::Part { error, .. } => Some(error),
                     Self::Factor { .. } | Self::Round | Self::Mirrored => None,
                 }
             }
@@ -137,6 +146,14 @@ refused_by!(
     Mesh(MeshError),
     HeightField(HeightFieldError),
 );
+
+/// The parts of a compound, each scaled, or what the first that cannot be is refused for.
+fn all_scaled<P, S>(parts: &[P], scaled: impl Fn(&P) -> Result<S, ScaleError>) -> Result<Vec<S>, ScaleError> {
+    let of_part = |(part, of): (usize, &P)| {
+        scaled(of).map_err(|error| ScaleError::Part { part, error: Box::new(error) })
+    };
+    parts.iter().enumerate().map(of_part).collect()
+}
 
 /// Refuses what is no factor.
 fn check(factors: &[f32]) -> Result<(), ScaleError> {

@@ -1,6 +1,6 @@
 //! Scaled shapes in the plane.
 
-use super::{ScaleError, check, scaled_normal, scaled_radius};
+use super::{ScaleError, all_scaled, check, scaled_normal, scaled_radius};
 use crate::chain::Chain;
 use crate::circle::Circle;
 use crate::compound::{Compound2, Part2};
@@ -100,8 +100,7 @@ fn scaled_compound(compound: &Compound2, factors: Vec2) -> Result<Shape2, ScaleE
         let place = |vertex: Vec2| -> Vec2 { (pose.turn(vertex.as_dvec2()) * factors.as_dvec2()).as_vec2() };
         Ok((Pose2::at(position)?, moved(shape, place, factors)?))
     };
-    let parts: Result<Vec<_>, _> = compound.parts().iter().map(scaled).collect();
-    Ok(Compound2::new(parts?)?.into())
+    Ok(Compound2::new(all_scaled(compound.parts(), scaled)?)?.into())
 }
 
 fn scaled_chain(chain: &Chain, factors: Vec2) -> Result<Chain, ScaleError> {

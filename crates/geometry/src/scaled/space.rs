@@ -1,6 +1,6 @@
 //! Scaled shapes in space.
 
-use super::{ScaleError, check, scaled_normal, scaled_radius};
+use super::{ScaleError, all_scaled, check, scaled_normal, scaled_radius};
 use crate::compound::{Compound3, Part3};
 use crate::cuboid::Cuboid;
 use crate::half_space::HalfSpace;
@@ -106,8 +106,7 @@ fn scaled_compound(compound: &Compound3, factors: Vec3) -> Result<Shape3, ScaleE
         let place = |vertex: Vec3| (basis.turn(vertex.as_dvec3()) * factors.as_dvec3()).as_vec3();
         Ok((Pose3::at(position)?, moved(shape, place, factors)?))
     };
-    let parts: Result<Vec<_>, _> = compound.parts().iter().map(scaled).collect();
-    Ok(Compound3::new(parts?)?.into())
+    Ok(Compound3::new(all_scaled(compound.parts(), scaled)?)?.into())
 }
 
 fn scaled_mesh(mesh: &TriMesh, factors: Vec3) -> Result<TriMesh, ScaleError> {

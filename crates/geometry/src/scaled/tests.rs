@@ -269,7 +269,12 @@ fn what_is_out_of_range_is_refused_with_its_reason() {
     assert!(matches!(hull.scaled(Vec3::splat(1e9)), Err(ScaleError::Hull(_))));
     assert!(matches!(hull.scaled(Vec3::splat(f32::MAX)), Err(ScaleError::Hull(_))));
     assert!(matches!(hull.scaled(Vec3::new(1.0, 1.0, 1e-45)), Ok(_) | Err(ScaleError::Hull(_))));
-    let far = Compound3::new([(Pose3::at([1e5, 0.0, 0.0]).unwrap(), hull)]).unwrap();
-    let refused = Shape3::from(far).scaled(Vec3::splat(1e5)).unwrap_err();
+    let far = Compound3::new([(Pose3::IDENTITY, ball.clone()), (Pose3::at([1e5, 0.0, 0.0]).unwrap(), hull)]);
+    let far = Shape3::from(far.unwrap());
+    let refused = far.scaled(Vec3::splat(1e5)).unwrap_err();
+    let ScaleError::Part { part: 1, error } = &refused else { panic!("{refused}") };
+    assert!(refused.to_string().contains("part 1 ") && refused.to_string().ends_with(&error.to_string()));
     assert!(core::error::Error::source(&refused).is_some(), "{refused}");
+    let flattened = far.scaled(Vec3::new(1.0, 2.0, 1.0));
+    assert_eq!(flattened, Err(ScaleError::Part { part: 0, error: Box::new(ScaleError::Round) }));
 }
