@@ -75,6 +75,8 @@ mod guide {
     struct Levels;
     #[doc = include_str!("../../crates/asunder/guide/solvers.md")]
     struct Solvers;
+    #[doc = include_str!("../../crates/asunder/guide/solvers-3d.md")]
+    struct Solvers3d;
     #[doc = include_str!("../../crates/asunder/guide/units.md")]
     struct Units;
 }

@@ -9,6 +9,7 @@
 //! | [`levels`] | triangle meshes, height fields and chains; ghost collisions; hulls against meshes |
 //! | [`margins`] | how large a margin should be |
 //! | [`solvers`] | a whole small solver, and what a solver wants from contacts |
+//! | [`solvers_3d`] | the same solver for space |
 //! | [`determinism`] | equal bits everywhere, rollback, save games |
 //! | [`units`] | units, ranges, shapes in other sizes |
 
@@ -32,6 +33,9 @@ pub mod margins {}
 
 #[doc = include_str!("../guide/solvers.md")]
 pub mod solvers {}
+
+#[doc = include_str!("../guide/solvers-3d.md")]
+pub mod solvers_3d {}
 
 #[doc = include_str!("../guide/determinism.md")]
 pub mod determinism {}
