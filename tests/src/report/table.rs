@@ -177,15 +177,16 @@ pub fn header(truth_every: usize) -> String {
     format!("| {} |\n| {} |", names.join(" | "), rule.join(" | "))
 }
 
-/// The whole report in Markdown: how it was made, what its columns mean, the rows and their sum.
+/// The whole report in Markdown: what it says in short, how it was made, what its columns mean, the rows and their sum.
 ///
 /// ```
 /// use asunder_tests::report::{Row, markdown};
 /// let page = markdown(&[Row::default()], 8, &["Made by a test.".to_string()]);
-/// assert!(page.contains("Made by a test.") && page.contains("| **all** |"));
+/// assert!(page.contains("Made by a test.") && page.contains("asunder 0, parry3d 0 of 0") && page.contains("| **all** |"));
 /// ```
 pub fn markdown(rows: &[Row], truth_every: usize, made: &[String]) -> String {
-    let mut page = String::from("# Hard cases\n\n");
+    let all = sum(rows);
+    let mut page = format!("# Hard cases\n\n{}", summary(&all));
     for line in made {
         page.push_str(&format!("- {line}\n"));
     }
@@ -193,7 +194,7 @@ pub fn markdown(rows: &[Row], truth_every: usize, made: &[String]) -> String {
     page.push_str(MEANING);
     page.push_str(&header(truth_every));
     page.push('\n');
-    for row in rows.iter().chain([&sum(rows)]) {
+    for row in rows.iter().chain([&all]) {
         page.push_str(&row.to_line());
         page.push('\n');
     }
@@ -201,13 +202,31 @@ pub fn markdown(rows: &[Row], truth_every: usize, made: &[String]) -> String {
 }
 
 const MEANING: &str = "\
-`overlaps` is the certain answer, `guess` its first tier alone. Yes or no is judged on every case by exact arithmetic; for the
-peers only where shapes are strictly apart or strictly overlap. Errors are the largest |separation - truth|, over the sum of
-the bounding radii or, in a gap wider than that, over the gap. Error / bound is the same over the error that we report: a
-bound is broken above 1. Regret is what the separation along our normal lacks of the best. At odds: a sign, a distance or a manifold that does not go
-with `overlaps`. Times are medians of thread CPU time, yes or no, in turns. A dash: not asked, or no such shape.
+## The columns
+
+- A family is `hard/NAME` in space, `hard2/NAME` in the plane. Yes or no is judged on every case by exact arithmetic; for parry3d
+  only where shapes are strictly apart or strictly overlap.
+- `overlaps` is the certain answer, `guess` its first tier of precision alone.
+- Errors are the largest |separation - truth|, over the sum of the bounding radii or, in a gap wider than that, over the gap.
+- Error / bound is the same over the error that we report: a bound is broken above 1.
+- Normal's regret is what the separation along our normal lacks of the best.
+- At odds: a sign, a distance or a manifold that does not go with `overlaps`.
+- % bound / f64 / exact: which tier settled our yes or no (`docs/accuracy.md`).
+- Times are medians of thread CPU time for a yes or no, in turns. A dash: not asked, or no such shape.
 
 ";
+
+/// What all rows together say, in one paragraph.
+fn summary(all: &Row) -> String {
+    let Row { cases, wrong, broken_bounds, at_odds, parry_f32, parry_f64, .. } = all;
+    let asked = |peer: &Peer| format!("{} of {}", peer.wrong, peer.answered);
+    format!(
+        "Of {cases} cases, wrong answers to \"do they touch?\": asunder {wrong}, parry3d {}, parry3d in f64 {}. Error bounds of asunder \
+         that were broken: {broken_bounds}; numbers, distances and manifolds at odds with its yes or no: {at_odds}.\n\n",
+        asked(parry_f32),
+        asked(parry_f64),
+    )
+}
 
 /// All rows added up; times are left out, and shares are of all cases.
 fn sum(rows: &[Row]) -> Row {
