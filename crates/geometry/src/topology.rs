@@ -54,7 +54,9 @@ impl Topology {
     pub(crate) const NO_TWIN: u16 = u16::MAX;
 
     /// Joins face loops, counter-clockwise seen from outside, into half-edges.
-    pub(crate) fn from_loops<'a>(loops: impl Iterator<Item = &'a [u16]>) -> Self {
+    pub(crate) fn from_loops<'a, Vertex: Copy + Into<u32> + 'a>(
+        loops: impl Iterator<Item = &'a [Vertex]>,
+    ) -> Self {
         let faces = loops.size_hint().0;
         let mut half_edges: Vec<HalfEdge> = Vec::with_capacity(4 * faces);
         let mut first_of_face = Vec::with_capacity(faces);
@@ -64,7 +66,7 @@ impl Topology {
             for (i, &origin) in vertices.iter().enumerate() {
                 let next = first + (i + 1) % vertices.len();
                 half_edges.push(HalfEdge {
-                    origin,
+                    origin: origin.into() as u16,
                     twin: Self::NO_TWIN,
                     next: next as u16,
                     face: face as u16,
@@ -112,7 +114,7 @@ impl Topology {
     /// Two vertices and the edge between them, with one face loop there and back.
     pub(crate) fn segment() -> &'static Self {
         static SEGMENT: LazyLock<Topology> =
-            LazyLock::new(|| Topology::from_loops(core::iter::once([0, 1].as_slice())));
+            LazyLock::new(|| Topology::from_loops(core::iter::once([0_u16, 1].as_slice())));
         &SEGMENT
     }
 

@@ -11,9 +11,10 @@
 //! gives [`Hull::error`].
 
 use super::cloud::Cloud;
+use super::distance::Surface;
+use super::loops::Loops;
 use super::merge::{Merged, merge_facets};
 use super::normal::{areas_and_normals, neighbours};
-use super::predicate::canonical;
 use super::quick::{Growth, Measure, hull_facets};
 use super::{Hull, HullData, HullError};
 use crate::octets::Octets;
@@ -111,14 +112,15 @@ impl Hull {
     }
 
     /// Merges the facets of a hull within the cloud, which the cloud leaves by at most `outlying` metres.
-    fn polished(cloud: &Cloud, facets: Vec<Vec<u32>>, outlying: f64) -> Result<Self, HullError> {
+    fn polished(cloud: &Cloud, facets: Loops, outlying: f64) -> Result<Self, HullError> {
         let mut solid = Solid { cloud, kept: corners_of(&facets), dropped: Vec::new(), outlying };
         let mut facets = solid.numbered_by_kept(facets);
         loop {
             let points: Vec<Vec3> = solid.kept.iter().map(|&i| cloud.points[i as usize]).collect();
-            let Merged { faces, inside } = merge_facets(&points, &facets, COPLANAR * 0.5 * cloud.scale);
+            let Merged { faces, inside, normals } =
+                merge_facets(&points, &facets, COPLANAR * 0.5 * cloud.scale);
             if inside.is_empty() {
-                return solid.finish(&faces, &facets);
+                return solid.finish(Made { faces, facets, normals });
             }
             let (count, turned_out) = (points.len(), inside.len());
             // What shrinks slowly from far too many will not end up small enough; and it would be slow.
@@ -143,8 +145,8 @@ impl Hull {
     }
 }
 
-fn corners_of(facets: &[Vec<u32>]) -> Vec<u32> {
-    let mut corners: Vec<u32> = facets.iter().flatten().copied().collect();
+fn corners_of(facets: &Loops) -> Vec<u32> {
+    let mut corners = facets.corners().to_vec();
     corners.sort_unstable();
     corners.dedup();
     corners
@@ -159,11 +161,8 @@ struct Solid<'a> {
 }
 
 impl Solid<'_> {
-    fn numbered_by_kept(&self, mut facets: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
-        for corner in facets.iter_mut().flatten() {
-            *corner = self.kept.binary_search(corner).unwrap_or(0) as u32;
-        }
-        facets
+    fn numbered_by_kept(&self, facets: Loops) -> Loops {
+        facets.renumbered(|corner| self.kept.binary_search(&corner).unwrap_or(0) as u32)
     }
 
     /// What merging would flatten altogether, because its volume is no more than rounding: the exact facets of its
@@ -186,115 +185,98 @@ impl Solid<'_> {
                 stays
             })
             .collect();
-        let facets: Vec<Vec<u32>> = facets
-            .into_iter()
-            .map(|facet| facet.into_iter().map(|i| corners.binary_search(&i).unwrap_or(0) as u32).collect())
-            .collect();
-        self.finish(&facets, &facets)
+        let facets = facets.renumbered(|i| corners.binary_search(&i).unwrap_or(0) as u32);
+        self.finish(Made { faces: facets.clone(), facets, normals: None })
     }
 
-    /// Derives everything else from the loops of places in `kept`: faces, and the exact facets that they were merged of.
-    fn finish(self, faces: &[Vec<u32>], facets: &[Vec<u32>]) -> Result<Hull, HullError> {
+    /// Derives everything else from the loops of places in `kept`.
+    fn finish(self, made: Made) -> Result<Hull, HullError> {
         let at = |i: &u32| self.cloud.points[*i as usize];
         let source: Vec<u32> = self.kept.iter().map(|&i| self.cloud.source[i as usize]).collect();
-        let loops = [faces.to_vec(), facets.to_vec()];
-        Hull::of_faces(self.kept.iter().map(at).collect(), loops, &source, |hull| {
-            let error = self.outlying + hull.furthest_outside(self.dropped.iter().map(|i| at(i).as_dvec3()));
+        Hull::of_faces(self.kept.iter().map(at).collect(), made, &source, |surface| {
+            let error =
+                self.outlying + surface.furthest_outside(self.dropped.iter().map(|i| at(i).as_dvec3()));
             if error > 0.0 { round_up(error + 64.0 * f64::EPSILON * self.cloud.scale) } else { 0.0 }
         })
     }
 }
 
+/// Faces, and the exact facets that they were merged of.
+pub(super) struct Made {
+    pub(super) faces: Loops,
+    pub(super) facets: Loops,
+    /// Of the faces, where they are the facets in canonical order.
+    pub(super) normals: Option<Vec<DVec3>>,
+}
+
 impl Hull {
-    /// A hull from the vertices in the order of a cloud, the faces and the exact facets as loops of them, and where in the user's
-    /// list each vertex stood. Numbers first, which must depend on nothing but the places and which of them share a face, so that
+    /// A hull from the vertices in the order of a cloud, and where in the user's list each
+    /// vertex stood. Numbers first, which must depend on nothing but the places and which of them share a face, so that
     /// a stored hull gets the same ones when it comes back; then the user's order.
     pub(super) fn of_faces(
         vertices: Vec<Vec3>,
-        [faces, facets]: [Vec<Vec<u32>>; 2],
+        Made { faces, facets, normals }: Made,
         source: &[u32],
-        error: impl FnOnce(&HullData) -> f32,
+        error: impl FnOnce(Surface<'_>) -> f32,
     ) -> Result<Self, HullError> {
         let count = vertices.len();
         if count > MAX_HULL_VERTICES {
             return Err(HullError::TooManyVertices { at_least: count });
         }
-        let (faces, facets) = (canonical(faces), canonical(facets));
-        let loops: Vec<Vec<u16>> =
-            faces.iter().map(|face| face.iter().map(|&i| i as u16).collect()).collect();
-        let mut hull = solid_data(vertices, &loops)?;
-        if faces != facets {
-            hull.facets = in_triangles(&facets);
-        }
-        hull.put_center_outside();
-        hull.error = error(&hull);
+        let (faces, facets) = (faces.canonical(), facets.canonical());
+        let normals = normals.unwrap_or_else(|| areas_and_normals(&vertices, &faces, &neighbours(&faces)).1);
+        let mut hull = measured(&vertices, &faces, &normals)?;
+        let triangles = in_triangles(&facets);
+        let surface = Surface { dimension: 3, vertices: &vertices, facets: &triangles };
+        hull.error = error(surface);
+        hull.inner_radius = surface.inner_radius(hull.center, hull.inner_radius);
         let mut in_order: Vec<usize> = (0..count).collect();
         in_order.sort_unstable_by_key(|&place| source[place]);
-        renumber(&mut hull, loops, facets, &in_order);
+        let is_merged = faces != facets;
+        // Vertices in the user's order, and faces in that of their loops then.
+        let mut number = vec![0_u32; count];
+        for (new, &place) in (0..).zip(&in_order) {
+            number[place] = new;
+        }
+        let (faces, normals) = faces.renumbered(|i| number[i as usize]).in_order(&normals);
+        hull.topology = Topology::from_loops(faces.iter());
+        hull.normals = normals.into();
+        hull.vertices = in_order.iter().map(|&place| vertices[place]).collect();
+        hull.facets = match is_merged {
+            true => in_triangles(&facets.renumbered(|i| number[i as usize]).canonical()),
+            false => in_triangles(&faces),
+        };
         Ok(Self { data: Arc::new(hull.finished()), radius: 0.0 })
     }
 }
 
-/// Loops in canonical order, as fans from their lowest corners.
-fn in_triangles(loops: &[Vec<u32>]) -> Box<[[u8; 3]]> {
-    // There are no more than 256 vertices.
-    let fan = |face: &[u32]| -> Vec<[u8; 3]> {
-        let [first, rest @ ..] = face else { return Vec::new() };
-        rest.windows(2).map(|two| [*first, two[0], two[1]].map(|i| i as u8)).collect()
-    };
-    loops.iter().flat_map(|face| fan(face)).collect()
+/// Loops of no more than 256 vertices in triangles.
+fn in_triangles(loops: &Loops) -> Box<[[u8; 3]]> {
+    loops.fans().map(|corners| corners.map(|i| i as u8)).collect()
 }
 
-/// Puts vertices in a new order, which names the old places, and faces in the order of their loops.
-fn renumber(hull: &mut HullData, loops: Vec<Vec<u16>>, mut facets: Vec<Vec<u32>>, in_order: &[usize]) {
-    let mut number = vec![0_u16; in_order.len()];
-    for (new, &place) in (0..).zip(in_order) {
-        number[place] = new;
-    }
-    let mut faces: Vec<(Vec<u16>, DVec3)> = loops
-        .into_iter()
-        .zip(&hull.normals)
-        .map(|(face, &normal)| {
-            let mut face: Vec<u16> = face.into_iter().map(|i| number[i as usize]).collect();
-            let lowest = (0..face.len()).min_by_key(|&place| face[place]).unwrap_or(0);
-            face.rotate_left(lowest);
-            (face, normal)
-        })
-        .collect();
-    faces.sort_by(|a, b| a.0.cmp(&b.0));
-    if !hull.facets.is_empty() {
-        facets.iter_mut().flatten().for_each(|i| *i = number[*i as usize].into());
-        hull.facets = in_triangles(&canonical(facets));
-    }
-    hull.topology = Topology::from_loops(faces.iter().map(|face| face.0.as_slice()));
-    hull.normals = faces.iter().map(|face| face.1).collect();
-    hull.vertices = in_order.iter().map(|&place| hull.vertices[place]).collect();
-}
-
-fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullError> {
-    let topology = Topology::from_loops(loops.iter().map(Vec::as_slice));
-    let normals: Box<[DVec3]> = areas_and_normals(&vertices, loops, &neighbours(loops)).1.into();
-    let center = volume_center(&vertices, loops).as_vec3();
-    let from_center = |v: &Vec3| v.as_dvec3() - center.as_dvec3();
-    let outer = vertices.iter().map(|v| from_center(v).length()).fold(0.0, f64::max);
+/// Centre, radii and how flat the faces are; the rest is empty.
+fn measured(vertices: &[Vec3], faces: &Loops, normals: &[DVec3]) -> Result<HullData, HullError> {
+    let center = volume_center(vertices, faces).as_vec3();
+    let from_center: Vec<DVec3> = vertices.iter().map(|v| v.as_dvec3() - center.as_dvec3()).collect();
+    let outer = from_center.iter().map(|arm| arm.length()).fold(0.0, f64::max);
     let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
     if outer_radius < MIN_RADIUS {
         return Err(HullError::TooSmall { radius: outer_radius });
     }
     let (mut inner, mut planarity) = (f64::INFINITY, 0.0_f64);
-    for (normal, face) in normals.iter().zip(loops) {
-        let reach = |i: &u16| normal.dot(from_center(&vertices[*i as usize]));
-        let low = face.iter().map(reach).fold(f64::INFINITY, f64::min);
-        let high = vertices.iter().map(|v| normal.dot(from_center(v))).fold(f64::NEG_INFINITY, f64::max);
+    for (normal, face) in normals.iter().zip(faces.iter()) {
+        let low = face.iter().map(|&i| normal.dot(from_center[i as usize])).fold(f64::INFINITY, f64::min);
+        let high = from_center.iter().map(|&arm| normal.dot(arm)).fold(f64::NEG_INFINITY, f64::max);
         (inner, planarity) = (inner.min(low), planarity.max(high - low));
     }
     // The inscribed sphere must hold for the true shape, which lies within the planarity error of its faces.
     let inner_radius = round_down((inner - planarity - 8.0 * f64::EPSILON * outer).max(0.0));
     Ok(HullData {
         dimension: 3,
-        vertices: vertices.into(),
-        topology,
-        normals,
+        vertices: Box::new([]),
+        topology: Topology::point().clone(),
+        normals: Box::new([]),
         facets: Box::new([]),
         octets: Octets::default(),
         center,
@@ -307,17 +289,14 @@ fn solid_data(vertices: Vec<Vec3>, loops: &[Vec<u16>]) -> Result<HullData, HullE
 }
 
 /// Centre of volume in f64, by tetrahedra from the first vertex.
-fn volume_center(vertices: &[Vec3], loops: &[Vec<u16>]) -> DVec3 {
+fn volume_center(vertices: &[Vec3], faces: &Loops) -> DVec3 {
     let origin = vertices[0].as_dvec3();
-    let at = |i: u16| vertices[i as usize].as_dvec3() - origin;
     let (mut volume, mut moment) = (0.0, DVec3::ZERO);
-    for face in loops {
-        for two in face[1..].windows(2) {
-            let (a, b, c) = (at(face[0]), at(two[0]), at(two[1]));
-            let six_fold = a.cross(b).dot(c);
-            volume += six_fold;
-            moment += (a + b + c) * six_fold;
-        }
+    for corners in faces.fans() {
+        let [a, b, c] = corners.map(|i| vertices[i as usize].as_dvec3() - origin);
+        let six_fold = a.cross(b).dot(c);
+        volume += six_fold;
+        moment += (a + b + c) * six_fold;
     }
     // A sliver's volume may vanish in f64, and rounding may push the quotient out: any inner point will do then.
     let center = origin + moment / (4.0 * volume);

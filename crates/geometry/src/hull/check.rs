@@ -1,6 +1,7 @@
 //! Whether a hull is what it says, from its vertices and loops alone.
 
 use super::cloud::half_diagonal;
+use super::loops::Loops;
 use super::normal::{area_vector, is_noise};
 use super::predicate::outside;
 use super::quick::hull_facets;
@@ -247,22 +248,23 @@ impl<'a> Examiner<'a> {
     fn containing(&self, points: &[Vec3]) -> Result<(), HullFault> {
         let allowed = f64::from(self.hull.error()) + self.slack;
         let found =
-            if self.hull.dimension() == 3 { hull_facets(self.hull.vertices()) } else { Ok(Vec::new()) };
+            if self.hull.dimension() == 3 { hull_facets(self.hull.vertices()) } else { Ok(Loops::default()) };
         let Ok(facets) = found else { return Err(HullFault::BadRadius) };
         let known = self.hull.vertices();
-        let facets: Vec<Vec<usize>> =
-            facets.iter().map(|facet| facet.iter().map(|&i| i as usize).collect()).collect();
         let is_outside = |point: Vec3| {
-            facets.iter().any(|facet| {
-                outside(&[known[facet[0]], known[facet[1]], known[facet[2]], point], [0, 1, 2], 3) > 0.0
+            facets.fans().any(|[a, b, c]| {
+                outside(&[known[a as usize], known[b as usize], known[c as usize], point], [0, 1, 2], 3) > 0.0
             })
         };
-        let surface = if facets.is_empty() { &self.faces } else { &facets };
+        let surface: Vec<Vec<usize>> = match facets.len() {
+            0 => self.faces.clone(),
+            _ => facets.iter().map(|facet| facet.iter().map(|&i| i as usize).collect()).collect(),
+        };
         for (index, &point) in points.iter().enumerate() {
             let place = point.as_dvec3();
             let distance =
                 surface.iter().map(|face| self.distance(face, place)).fold(f64::INFINITY, f64::min);
-            if distance > allowed && (facets.is_empty() || is_outside(point)) {
+            if distance > allowed && (facets.len() == 0 || is_outside(point)) {
                 return Err(HullFault::PointOutside { index, distance });
             }
         }

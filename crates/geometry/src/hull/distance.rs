@@ -1,8 +1,9 @@
 //! How far from a hull a point is, and whether the hull holds it.
 
 use super::{Hull, HullData};
+use crate::outward::round_up;
 use crate::tolerance::MAX_RADIUS;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 impl Hull {
@@ -30,7 +31,7 @@ impl Hull {
         if self.data.dimension == 3 && beyond < -(rounding + 4.0 * f64::from(self.planarity_error())) {
             return true;
         }
-        self.data.distance_outside(point) <= radius
+        self.data.surface().distance_outside(point) <= radius
     }
 }
 
@@ -67,6 +68,26 @@ impl HullData {
             most = if beyond > most { beyond } else { most };
         }
         most
+    }
+
+    /// The exact surface.
+    #[inline]
+    pub(super) fn surface(&self) -> Surface<'_> {
+        Surface { dimension: self.dimension, vertices: &self.vertices, facets: &self.facets }
+    }
+}
+
+/// The exact facets of a hull, in triangles. A segment is a triangle without area, and so is a point.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<'a> {
+    pub(super) dimension: u8,
+    pub(super) vertices: &'a [Vec3],
+    pub(super) facets: &'a [[u8; 3]],
+}
+
+impl Surface<'_> {
+    fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> {
+        self.facets.iter().map(|corners| corners.map(|i| self.vertices[usize::from(i)].as_dvec3()))
     }
 
     /// An upper bound on a point's distance from the hull: its distance to the nearest triangle of any facet, or zero
@@ -111,19 +132,14 @@ impl HullData {
         })
     }
 
-    /// Every facet as a fan of triangles. A segment is a triangle without area, and so is a point.
-    fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
-        let vertex = |i: usize| self.vertices[i].as_dvec3();
-        let is_merged = !self.facets.is_empty();
-        let faces = if is_merged { 0 } else { self.topology.face_count() };
-        let of_faces = (0..faces).flat_map(move |face| {
-            let around = self.topology.face_vertices(face);
-            let count = around.len();
-            let corner = move |place: usize| around.clone().nth(place).map_or(DVec3::ZERO, vertex);
-            (1..count.saturating_sub(1).max(2))
-                .map(move |i| [corner(0), corner(i % count), corner((i + 1) % count)])
-        });
-        self.facets.iter().map(move |facet| facet.map(|i| vertex(i.into()))).chain(of_faces)
+    /// The radius of a ball about the centre inside, made negative where the centre lies outside, so that it holds with rounding
+    /// too.
+    pub(super) fn inner_radius(&self, center: Vec3, radius: f32) -> f32 {
+        if radius > 0.0 {
+            return radius;
+        }
+        let distance = self.distance_outside(center.as_dvec3());
+        0.0 - round_up(distance * (1.0 + 8.0 * f64::EPSILON))
     }
 }
 

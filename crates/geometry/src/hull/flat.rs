@@ -102,12 +102,17 @@ impl Hull {
         if dimension > 0 && outer_radius < MIN_RADIUS {
             return Err(HullError::TooSmall { radius: outer_radius });
         }
+        // A fan from the first vertex; of one or two, a triangle without area.
+        let last = vertices.len() - 1;
+        let facets = (0..(last).saturating_sub(1).max(1))
+            .map(|i| [0, (i + 1).min(last), (i + 2).min(last)].map(|i| i as u8))
+            .collect();
         let mut hull = HullData {
             dimension,
             vertices: vertices.into(),
             topology,
             normals: Box::new([]),
-            facets: Box::new([]),
+            facets,
             octets: Octets::default(),
             center,
             outer_radius: outer_radius.max(MIN_RADIUS),
@@ -116,7 +121,7 @@ impl Hull {
             planarity_error: 0.0,
             error: 0.0,
         };
-        hull.put_center_outside();
+        hull.inner_radius = hull.surface().inner_radius(center, 0.0);
         Ok(hull)
     }
 }

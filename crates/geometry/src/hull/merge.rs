@@ -10,6 +10,7 @@
 //! Growing from the largest facet measures distance from the best-conditioned plane, never from a sliver's. A region
 //! that would close around an island waits until the island is part of it, or leaves one facet out.
 
+use super::loops::Loops;
 use super::normal::{areas_and_normals, neighbours};
 use glam::{DVec3, Vec3};
 
@@ -22,59 +23,106 @@ const TRIES: u8 = 8;
 
 /// Faces as vertex loops, and the vertices that ended up inside one, ascending.
 pub(super) struct Merged {
-    pub(super) faces: Vec<Vec<u32>>,
+    pub(super) faces: Loops,
     pub(super) inside: Vec<u32>,
+    /// Of the faces, where none was merged: then they are the facets, in their order.
+    pub(super) normals: Option<Vec<DVec3>>,
 }
 
 /// Merges until every vertex that is inside a face is found, or nothing more can be merged. Cost: n log n, times
 /// rounds of which few hulls need more than two.
-pub(super) fn merge_facets(points: &[Vec3], facets: &[Vec<u32>], tolerance: f64) -> Merged {
-    let mut faces = facets.to_vec();
+pub(super) fn merge_facets(points: &[Vec3], facets: &Loops, tolerance: f64) -> Merged {
+    let sheet = Sheet::of(points, facets, tolerance);
+    if !sheet.has_flat_neighbours() {
+        return Merged { faces: facets.clone(), inside: Vec::new(), normals: Some(sheet.normals) };
+    }
+    let mut faces = sheet.merged();
+    let mut before = facets.len();
     loop {
-        let before = faces.len();
-        faces = merge_once(points, &faces, tolerance);
         let inside = not_visited(facets, &faces, points.len());
         if !inside.is_empty() || faces.len() == before {
-            return Merged { faces, inside };
+            return Merged { faces, inside, normals: None };
         }
+        before = faces.len();
+        faces = Sheet::of(points, &faces, tolerance).merged();
     }
 }
 
-fn not_visited(facets: &[Vec<u32>], faces: &[Vec<u32>], count: usize) -> Vec<u32> {
+fn not_visited(facets: &Loops, faces: &Loops, count: usize) -> Vec<u32> {
     let mut is_missing = vec![false; count];
-    facets.iter().flatten().for_each(|&i| is_missing[i as usize] = true);
-    faces.iter().flatten().for_each(|&i| is_missing[i as usize] = false);
+    facets.corners().iter().for_each(|&i| is_missing[i as usize] = true);
+    faces.corners().iter().for_each(|&i| is_missing[i as usize] = false);
     (0..count as u32).filter(|&i| is_missing[i as usize]).collect()
-}
-
-fn merge_once(points: &[Vec3], facets: &[Vec<u32>], tolerance: f64) -> Vec<Vec<u32>> {
-    let neighbours = neighbours(facets);
-    let (areas, normals) = areas_and_normals(points, facets, &neighbours);
-    let mut by_area: Vec<(f64, usize)> = areas.iter().map(|area| area.length()).zip(0..).collect();
-    by_area.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let sheet = Sheet { points, facets, neighbours, normals, tolerance };
-    let mut is_taken = vec![false; facets.len()];
-    let mut tries = vec![(0, 0); facets.len()];
-    let mut outline = Outline { after: vec![NONE; points.len()], length: 0 };
-    let mut faces = Vec::with_capacity(facets.len());
-    for (_, seed) in by_area {
-        if !is_taken[seed] {
-            faces.push(sheet.grow(seed, &mut is_taken, &mut tries, &mut outline));
-        }
-    }
-    faces
 }
 
 /// The facets of a hull, and what is known of each.
 struct Sheet<'a> {
     points: &'a [Vec3],
-    facets: &'a [Vec<u32>],
-    neighbours: Vec<Vec<usize>>,
+    facets: &'a Loops,
+    neighbours: Vec<u32>,
+    areas: Vec<DVec3>,
     normals: Vec<DVec3>,
     tolerance: f64,
 }
 
-impl Sheet<'_> {
+/// Midway between a facet's corners, along its normal.
+struct Level {
+    normal: DVec3,
+    origin: DVec3,
+    middle: f64,
+}
+
+impl<'a> Sheet<'a> {
+    fn of(points: &'a [Vec3], facets: &'a Loops, tolerance: f64) -> Self {
+        let neighbours = neighbours(facets);
+        let (areas, normals) = areas_and_normals(points, facets, &neighbours);
+        Self { points, facets, neighbours, areas, normals, tolerance }
+    }
+
+    fn level(&self, facet: usize) -> Level {
+        let around = self.facets.get(facet);
+        let (normal, origin) = (self.normals[facet], self.points[around[0] as usize].as_dvec3());
+        let level = Level { normal, origin, middle: 0.0 };
+        let (low, high) = around
+            .iter()
+            .map(|&i| level.height(self.points[i as usize]))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), height| (l.min(height), h.max(height)));
+        Level { middle: (low + high) * 0.5, ..level }
+    }
+
+    /// Whether a facet faces the way of a level, and all of it lies there.
+    fn is_flat(&self, facet: usize, level: &Level) -> bool {
+        let is_there =
+            |&i: &u32| (level.height(self.points[i as usize]) - level.middle).abs() <= self.tolerance;
+        self.normals[facet].dot(level.normal) > 0.5 && self.facets.get(facet).iter().all(is_there)
+    }
+
+    /// Whether any facet lies in the plane of one beside it.
+    fn has_flat_neighbours(&self) -> bool {
+        (0..self.facets.len()).any(|facet| {
+            let level = self.level(facet);
+            self.neighbours[self.facets.places(facet)]
+                .iter()
+                .any(|&neighbour| neighbour as usize != facet && self.is_flat(neighbour as usize, &level))
+        })
+    }
+
+    /// The largest facets first, each with all that grows onto it.
+    fn merged(&self) -> Loops {
+        let mut by_area: Vec<(f64, usize)> = self.areas.iter().map(|area| area.length()).zip(0..).collect();
+        by_area.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut is_taken = vec![false; self.facets.len()];
+        let mut tries = vec![(0, 0); self.facets.len()];
+        let mut outline = Outline { after: vec![NONE; self.points.len()], length: 0 };
+        let mut faces = Loops::default();
+        for (_, seed) in by_area {
+            if !is_taken[seed] {
+                faces.push(self.grow(seed, &mut is_taken, &mut tries, &mut outline));
+            }
+        }
+        faces
+    }
+
     /// The outline of the region around a seed. `tries` counts, for each facet, how often the seed (plus one) tried it.
     fn grow(
         &self,
@@ -83,33 +131,24 @@ impl Sheet<'_> {
         tries: &mut [(usize, u8)],
         outline: &mut Outline,
     ) -> Vec<u32> {
-        let normal = self.normals[seed];
-        let origin = self.points[self.facets[seed][0] as usize].as_dvec3();
-        let height = |i: u32| normal.dot(self.points[i as usize].as_dvec3() - origin);
-        let (low, high) = self.facets[seed]
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &i| (l.min(height(i)), h.max(height(i))));
-        let middle = (low + high) * 0.5;
-        let is_flat = |facet: usize| {
-            self.normals[facet].dot(normal) > 0.5
-                && self.facets[facet].iter().all(|&i| (height(i) - middle).abs() <= self.tolerance)
-        };
+        let level = self.level(seed);
         is_taken[seed] = true;
-        outline.start(&self.facets[seed]);
+        outline.start(self.facets.get(seed));
         let mut region = vec![seed];
         let mut next = 0;
         while next < region.len() {
-            for &neighbour in &self.neighbours[region[next]] {
+            for &neighbour in &self.neighbours[self.facets.places(region[next])] {
+                let neighbour = neighbour as usize;
                 if is_taken[neighbour] {
                     continue;
                 }
                 let (tried_by, count) = &mut tries[neighbour];
                 if *tried_by != seed + 1 {
-                    (*tried_by, *count) = (seed + 1, if is_flat(neighbour) { 0 } else { TRIES });
+                    (*tried_by, *count) = (seed + 1, if self.is_flat(neighbour, &level) { 0 } else { TRIES });
                 }
                 if *count < TRIES {
                     *count += 1;
-                    if outline.join(&self.facets[neighbour]) {
+                    if outline.join(self.facets.get(neighbour)) {
                         is_taken[neighbour] = true;
                         region.push(neighbour);
                     }
@@ -117,7 +156,13 @@ impl Sheet<'_> {
             }
             next += 1;
         }
-        outline.take(region.iter().flat_map(|&facet| &self.facets[facet]).copied())
+        outline.take(region.iter().flat_map(|&facet| self.facets.get(facet)).copied())
+    }
+}
+
+impl Level {
+    fn height(&self, place: Vec3) -> f64 {
+        self.normal.dot(place.as_dvec3() - self.origin)
     }
 }
 

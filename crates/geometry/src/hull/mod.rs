@@ -7,6 +7,7 @@ mod cloud;
 mod distance;
 mod error;
 mod flat;
+mod loops;
 mod merge;
 pub(crate) mod normal;
 mod predicate;
@@ -56,7 +57,8 @@ struct HullData {
     vertices: Box<[Vec3]>,
     topology: Topology,
     normals: Box<[DVec3]>,
-    /// The exact surface in triangles, where a face was merged of facets that are not in one plane; else empty, and faces are facets.
+    /// The exact surface in triangles: of faces that were merged, the facets that they were merged of. There are no more than 256
+    /// vertices.
     facets: Box<[[u8; 3]]>,
     octets: Octets,
     center: Vec3,
@@ -234,14 +236,6 @@ impl HullData {
         self.octets = Octets::new(&self.vertices, &self.normals, &self.topology);
         self.inner_arm = self.longest_arm();
         self
-    }
-
-    /// Makes the inscribed radius negative where the centre lies outside, so that it holds with rounding too.
-    fn put_center_outside(&mut self) {
-        if self.inner_radius <= 0.0 {
-            let distance = self.distance_outside(self.center.as_dvec3());
-            self.inner_radius = 0.0 - round_up(distance * (1.0 + 8.0 * f64::EPSILON));
-        }
     }
 }
 

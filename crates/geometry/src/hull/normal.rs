@@ -1,5 +1,6 @@
 //! Areas and normals of face loops.
 
+use super::loops::Loops;
 use glam::{DVec3, Vec3};
 
 /// Newell's area vector of a loop: twice the area, along the normal.
@@ -97,6 +98,10 @@ pub(crate) fn unit(area: DVec3) -> DVec3 {
 /// Only where corners differ by less than f64 resolves next to their distance from others.
 pub(super) fn is_noise(count: usize, corner: impl Fn(usize) -> Vec3) -> bool {
     let (area, lengths) = newell(count, corner);
+    is_lost(area, lengths)
+}
+
+fn is_lost(area: DVec3, lengths: f64) -> bool {
     area.length() <= 1e-13 * lengths
 }
 
@@ -112,29 +117,36 @@ fn longest_edges(count: usize, corner: impl Fn(usize) -> Vec3) -> Vec<(f64, usiz
 ///
 /// A face whose area is noise lies along its longest edge, up to rounding, and so in the plane of the face beyond: it
 /// takes that one's normal.
-pub(super) fn areas_and_normals<Index: Copy + Into<u32>>(
+pub(super) fn areas_and_normals(
     points: &[Vec3],
-    faces: &[Vec<Index>],
-    neighbours: &[Vec<usize>],
+    faces: &Loops,
+    neighbours: &[u32],
 ) -> (Vec<DVec3>, Vec<DVec3>) {
-    let corner = |face: usize, i: usize| points[faces[face][i].into() as usize];
-    let area = |face: usize| area_vector(faces[face].len(), |i| corner(face, i));
-    let areas: Vec<DVec3> = (0..faces.len()).map(area).collect();
+    let (mut areas, mut unknown) = (Vec::with_capacity(faces.len()), Vec::new());
+    for (face, around) in faces.iter().enumerate() {
+        let (area, lengths) = newell(around.len(), |i| points[around[i] as usize]);
+        if is_lost(area, lengths) {
+            unknown.push(face);
+        }
+        areas.push(area);
+    }
     let mut normals: Vec<DVec3> = areas.iter().copied().map(unit).collect();
-    let mut unknown: Vec<usize> =
-        (0..faces.len()).filter(|&f| is_noise(faces[f].len(), |i| corner(f, i))).collect();
+    if unknown.is_empty() {
+        return (areas, normals);
+    }
     let mut is_known = vec![true; faces.len()];
     unknown.iter().for_each(|&face| is_known[face] = false);
     while !unknown.is_empty() {
         let before = unknown.len();
         unknown.retain(|&face| {
-            let edges = longest_edges(faces[face].len(), |i| corner(face, i));
+            let (around, across) = (faces.get(face), &neighbours[faces.places(face)]);
+            let edges = longest_edges(around.len(), |i| points[around[i] as usize]);
             // What lies beyond a short edge may look anywhere.
             let long = edges.first().map_or(0.0, |edge| edge.0 * 0.25);
             let beyond = edges
                 .into_iter()
                 .take_while(|edge| edge.0 >= long)
-                .map(|(_, i)| neighbours[face][i])
+                .map(|(_, i)| across[i] as usize)
                 .find(|&neighbour| is_known[neighbour]);
             if let Some(neighbour) = beyond {
                 (normals[face], is_known[face]) = (normals[neighbour], true);
@@ -148,32 +160,24 @@ pub(super) fn areas_and_normals<Index: Copy + Into<u32>>(
     (areas, normals)
 }
 
-/// Four numbers in one, the first the highest.
-fn in_one([a, b, c, d]: [u32; 4]) -> u128 {
-    u128::from(a) << 96 | u128::from(b) << 64 | u128::from(c) << 32 | u128::from(d)
-}
-
-/// For each face, the face across each of its edges.
-pub(super) fn neighbours<Index: Copy + Into<u32>>(faces: &[Vec<Index>]) -> Vec<Vec<usize>> {
-    // By one number each, which is compared at once: the edge, the face, and its place there.
-    let mut sides: Vec<u128> = Vec::with_capacity(3 * faces.len());
-    for (index, face) in (0..).zip(faces) {
-        for (place, &from) in (0..).zip(face) {
-            let next = place as usize + 1;
-            let (from, to): (u32, u32) =
-                (from.into(), face[if next == face.len() { 0 } else { next }].into());
-            sides.push(in_one([from.min(to), from.max(to), index, place]));
+/// For each corner of each face, the face across the edge that starts there.
+pub(super) fn neighbours(faces: &Loops) -> Vec<u32> {
+    // By one number each, which is compared at once: the edge, and where it starts. There are less than 2^16 points.
+    let (mut sides, mut face_of) = (Vec::with_capacity(faces.corners().len()), Vec::new());
+    for (face, around) in (0..).zip(faces.iter()) {
+        let next = around.iter().skip(1).chain(around.first());
+        for (&from, &to) in around.iter().zip(next) {
+            let (low, high) = (u64::from(from.min(to)), u64::from(from.max(to)));
+            sides.push(low << 48 | high << 32 | face_of.len() as u64);
+            face_of.push(face);
         }
     }
     sides.sort_unstable();
-    let mut neighbours: Vec<Vec<usize>> =
-        faces.iter().enumerate().map(|(index, face)| vec![index; face.len()]).collect();
+    let mut neighbours = face_of.clone();
     for two in sides.windows(2) {
-        if two[0] >> 64 == two[1] >> 64 {
-            let [(first, i), (second, j)] =
-                [two[0], two[1]].map(|side| ((side as u64 >> 32) as usize, side as u32 as usize));
-            neighbours[first][i] = second;
-            neighbours[second][j] = first;
+        if two[0] >> 32 == two[1] >> 32 {
+            let [first, second] = [two[0], two[1]].map(|side| side as u32 as usize);
+            (neighbours[first], neighbours[second]) = (face_of[second], face_of[first]);
         }
     }
     neighbours

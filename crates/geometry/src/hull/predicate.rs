@@ -74,16 +74,6 @@ pub(super) fn planar_hull(points: &[Vec3], in_plane: &[u32], triangle: [u32; 3])
     hull
 }
 
-/// Facets in an order that depends on nothing but themselves: each loop from its lowest corner, the loops sorted.
-pub(super) fn canonical(mut facets: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
-    for facet in &mut facets {
-        let lowest = facet.iter().enumerate().min_by_key(|&(_, corner)| corner).map_or(0, |(place, _)| place);
-        facet.rotate_left(lowest);
-    }
-    facets.sort_unstable();
-    facets
-}
-
 /// How far the rounded height of a point above a triangle can be trusted.
 ///
 /// With u, v the triangle's sides and w the arm to the point, (u x v) . w in f64 is within 8 units of

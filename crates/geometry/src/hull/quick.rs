@@ -15,7 +15,8 @@
 //! what is left out small. Cost: about n log n.
 
 use super::HullError;
-use super::predicate::{Filter, affine_basis, canonical, is_collinear, outside, planar_hull};
+use super::loops::Loops;
+use super::predicate::{Filter, affine_basis, is_collinear, outside, planar_hull};
 use crate::tolerance::MAX_HULL_VERTICES;
 use core::cmp::Reverse;
 use glam::{DVec3, Vec3};
@@ -81,7 +82,7 @@ pub(super) struct Growth<'a> {
 /// Facets as vertex loops, counter-clockwise from outside, with no three corners on a line, in canonical order.
 ///
 /// The points must be finite and no two the same.
-pub(super) fn hull_facets(points: &[Vec3]) -> Result<Vec<Vec<u32>>, HullError> {
+pub(super) fn hull_facets(points: &[Vec3]) -> Result<Loops, HullError> {
     let mut growth = Growth::start(points, Measure::Height)?;
     growth.grow_while(|_, _| true);
     Ok(growth.facets())
@@ -291,9 +292,9 @@ impl<'a> Growth<'a> {
     }
 
     /// Joins triangles of one plane, exactly, and puts the facets in canonical order.
-    pub(super) fn facets(&self) -> Vec<Vec<u32>> {
+    pub(super) fn facets(&self) -> Loops {
         let mut is_taken: Vec<bool> = self.triangles.iter().map(|triangle| triangle.is_dropped).collect();
-        let mut facets = Vec::new();
+        let mut facets = Loops::with_room(is_taken.iter().filter(|is_taken| !**is_taken).count());
         let mut region: Vec<u32> = Vec::new();
         for seed in 0..self.triangles.len() {
             if core::mem::replace(&mut is_taken[seed], true) {
@@ -313,7 +314,7 @@ impl<'a> Growth<'a> {
             }
             let triangle = self.triangles[seed].corners;
             if region.len() == 1 {
-                facets.push(triangle.to_vec());
+                facets.push(triangle);
                 continue;
             }
             let mut corners: Vec<u32> =
@@ -322,7 +323,7 @@ impl<'a> Growth<'a> {
             corners.dedup();
             facets.push(planar_hull(self.points, &corners, triangle));
         }
-        canonical(facets)
+        facets.canonical()
     }
 
     /// Whether all corners of one triangle lie in the plane of another: exact.
@@ -419,7 +420,7 @@ mod tests {
         let cube: Vec<Vec3> =
             (0..8).map(|i| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32)).collect();
         let facets = hull_facets(&cube);
-        assert_eq!(facets.map(|facets| facets.iter().map(Vec::len).collect::<Vec<_>>()), Ok(vec![4; 6]));
+        assert_eq!(facets.map(|facets| facets.iter().map(<[u32]>::len).collect::<Vec<_>>()), Ok(vec![4; 6]));
     }
 
     #[test]

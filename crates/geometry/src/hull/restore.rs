@@ -5,6 +5,7 @@
 //! convex up to what merging may cost. All else is worked out again, by the code that worked it out first and from
 //! the same order of vertices and faces: the hull comes back equal in every bit.
 
+use super::build::Made;
 use super::check::Examiner;
 use super::cloud::{Cloud, half_diagonal};
 use super::predicate::is_collinear;
@@ -129,12 +130,10 @@ impl Hull {
         for (number, &source) in (0..).zip(&cloud.source) {
             place[source as usize] = number;
         }
-        let faces = faces
-            .iter()
-            .map(|face| face.iter().map(|&vertex| place[usize::from(vertex)]).collect())
-            .collect();
-        let facets = hull_facets(&cloud.points)?;
-        let hull = Self::of_faces(cloud.points, [faces, facets], &cloud.source, |_| error)?;
+        let placed = |face: &Vec<u16>| face.clone().into_iter().map(|vertex| place[usize::from(vertex)]);
+        let (faces, facets) = (faces.iter().map(placed).collect(), hull_facets(&cloud.points)?);
+        let made = Made { faces, facets, normals: None };
+        let hull = Self::of_faces(cloud.points, made, &cloud.source, |_| error)?;
         let examiner = Examiner::of(&hull, vertices);
         examiner.normals()?;
         examiner.spheres()?;

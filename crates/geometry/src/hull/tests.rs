@@ -320,7 +320,7 @@ fn a_tampered_hull_is_found_out() {
     let loops = |loops: &[&[u16]]| Topology::from_loops(loops.iter().copied());
     assert_eq!(loops(&[&[0, 1, 2]]).face_count(), 1);
     assert!(matches!(
-        tampered(|data| data.topology = Topology::from_loops([[0, 1, 2].as_slice()].into_iter())),
+        tampered(|data| data.topology = Topology::from_loops([[0_u16, 1, 2].as_slice()].into_iter())),
         Err(HullFault::Open { half_edge: 0 })
     ));
     let square = Hull::from_points(&points[..5]).unwrap();

@@ -11,16 +11,17 @@
 //! facets. It is slow, and obviously right: the oracle of the real builder, whose facets must be the same.
 
 use super::HullError;
-use super::predicate::{affine_basis, canonical, is_collinear, outside, planar_hull, turn_seen_along};
+use super::loops::Loops;
+use super::predicate::{affine_basis, is_collinear, outside, planar_hull, turn_seen_along};
 use glam::Vec3;
 use std::collections::BTreeSet;
 
 /// Facets as vertex loops, counter-clockwise from outside, with no three corners on a line.
 ///
 /// The points must be finite and no two the same.
-pub(super) fn enumerate_facets(points: &[Vec3]) -> Result<Vec<Vec<u32>>, HullError> {
+pub(super) fn enumerate_facets(points: &[Vec3]) -> Result<Loops, HullError> {
     affine_basis(points).map_err(|dimension| HullError::Flat { dimension })?;
-    let mut facets = Vec::new();
+    let mut facets = Loops::default();
     let mut known: BTreeSet<(u32, u32)> = BTreeSet::new();
     let mut open = vec![first_edge(points)];
     while let Some((p, q)) = open.pop() {
@@ -37,7 +38,7 @@ pub(super) fn enumerate_facets(points: &[Vec3]) -> Result<Vec<Vec<u32>>, HullErr
         }
         facets.push(facet);
     }
-    Ok(canonical(facets))
+    Ok(facets.canonical())
 }
 
 fn order(points: &[Vec3], a: u32, b: u32) -> core::cmp::Ordering {

@@ -23,7 +23,7 @@ fn faces_tell_what_all_triangles_tell() {
             let p = on + random.vector().as_dvec3() * away;
             let expected = match hull.dimension() < 3 && radius == 0.0 {
                 true => hull.data.bears(p),
-                false => hull.data.distance_outside(p) <= radius,
+                false => hull.data.surface().distance_outside(p) <= radius,
             };
             assert_eq!(hull.contains(p), expected, "{p} of seed {seed}");
             inside += u32::from(expected);
