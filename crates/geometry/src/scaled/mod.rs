@@ -66,7 +66,8 @@ pub enum ScaleError {
     Compound(CompoundError),
     /// Where a part of a compound would be.
     Pose(PoseError),
-    /// What a part of a compound is refused for.
+    /// What a part of a compound is refused for by itself; one that would be too far away is refused as
+    /// [`ScaleError::Compound`].
     Part {
         /// Its index in the compound.
         part: usize,

@@ -22,7 +22,7 @@ impl Shape3 {
     /// hulls, unless a hull becomes thousands of times flatter and loses some. A mirror renumbers the corners of cuboids
     /// and of flat hulls. Cuboids that are turned in a compound become hulls if the factors differ. A flat hull stays flat
     /// if its new vertices, rounded, still lie in one plane (along two axes, or under powers of two); otherwise it becomes a
-    /// solid, as thick as a rounding. Triangles that become too small are dropped, as in [`TriMesh::new`]. Cost: that of
+    /// solid, as thick as a rounding. [`Hull::error`] is scaled as well, without the roundings of new vertices. Triangles that become too small are dropped, as in [`TriMesh::new`]. Cost: that of
     /// making the shape.
     ///
     /// ```

@@ -23,6 +23,7 @@ fn faces_tell_what_all_triangles_tell() {
             let p = on + random.vector().as_dvec3() * away;
             let expected = match hull.dimension() < 3 && radius == 0.0 {
                 true => hull.data.bears(p),
+                false if radius == 0.0 => !hull.data.surface().is_outside(p),
                 false => hull.data.surface().distance_outside(p) <= radius,
             };
             assert_eq!(hull.contains(p), expected, "{p} of seed {seed}");
@@ -81,4 +82,60 @@ fn a_hull_holds_what_no_exact_facet_has_outside() {
         inside > 3000 && between > 300 && merged > 100,
         "{inside} inside, {between} beside merged faces, {merged} with them"
     );
+}
+
+/// Beside the surface by as little as f64 can say: by integers, and every plane through three vertices.
+#[test]
+fn a_hull_of_integers_holds_what_integers_say() {
+    const STEPS: f64 = (1_u64 << 60) as f64;
+    let (mut inside, mut outside) = (0, 0);
+    for seed in 0..300 {
+        let mut random = Random::new(seed);
+        let points: Vec<Vec3> = (0..12).map(|_| (random.vector() * 3.0).round()).collect();
+        let Ok(hull) = Hull::from_points(&points) else { continue };
+        let corners: Vec<[i128; 3]> =
+            hull.vertices().iter().map(|v| v.to_array().map(|c| c as i128)).collect();
+        let planes = planes_around(&corners);
+        for round in 0..120 {
+            let mut corner = || hull.vertices()[random.below(corners.len())].as_dvec3();
+            // On a corner, an edge, a face or between; then off by the least that counts, or not.
+            let on = corner().lerp(corner(), [0.0, 0.25, 0.5][round % 3]);
+            let on = on.lerp(corner(), [0.0, 0.0, 0.25, 0.5][round % 4]);
+            let off = |c: f64, way: usize| {
+                let least = if c == 0.0 { 1.0 / STEPS } else { c.abs().next_up() - c.abs() };
+                c + least * (way as f64 - 1.0)
+            };
+            let p = DVec3::from_array(on.to_array().map(|c| off(c, random.below(3))));
+            let steps = p.to_array().map(|c| (c * STEPS) as i128);
+            assert_eq!(p.to_array(), steps.map(|c| c as f64 / STEPS), "no bit is lost");
+            let height = |[normal, at]: &[[i128; 3]; 2]| -> i128 {
+                (0..3).map(|i| normal[i] * (steps[i] - (at[i] << 60))).sum()
+            };
+            let is_outside = planes.iter().any(|plane| height(plane) > 0);
+            assert_eq!(hull.contains(p), !is_outside, "{p:?} of seed {seed}: {points:?}");
+            inside += usize::from(!is_outside);
+            outside += usize::from(is_outside);
+        }
+    }
+    assert!(inside > 5000 && outside > 5000, "{inside} inside, {outside} outside");
+}
+
+/// Outward normals and a point of each plane through three corners that has none in front.
+fn planes_around(corners: &[[i128; 3]]) -> Vec<[[i128; 3]; 2]> {
+    let less = |a: [i128; 3], b: [i128; 3]| [0, 1, 2].map(|i| a[i] - b[i]);
+    let dot = |a: [i128; 3], b: [i128; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let mut planes = Vec::new();
+    for &a in corners {
+        for &b in corners {
+            for &c in corners {
+                let (u, v) = (less(b, a), less(c, a));
+                let normal =
+                    [0, 1, 2].map(|i| u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3]);
+                if normal != [0; 3] && corners.iter().all(|&d| dot(normal, less(d, a)) <= 0) {
+                    planes.push([normal, a]);
+                }
+            }
+        }
+    }
+    planes
 }
