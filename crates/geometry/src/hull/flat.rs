@@ -104,7 +104,7 @@ impl Hull {
         }
         // A fan from the first vertex; of one or two, a triangle without area.
         let last = vertices.len() - 1;
-        let facets = (0..(last).saturating_sub(1).max(1))
+        let facets = (0..last.saturating_sub(1).max(1))
             .map(|i| [0, (i + 1).min(last), (i + 2).min(last)].map(|i| i as u8))
             .collect();
         let mut hull = HullData {
