@@ -232,7 +232,6 @@ impl Hull {
         hull.inner_radius = surface.inner_radius(hull.center, hull.inner_radius);
         let mut in_order: Vec<usize> = (0..count).collect();
         in_order.sort_unstable_by_key(|&place| source[place]);
-        let is_merged = faces != facets;
         // Vertices in the user's order, and faces in that of their loops then.
         let mut number = vec![0_u32; count];
         for (new, &place) in (0..).zip(&in_order) {
@@ -242,16 +241,13 @@ impl Hull {
         hull.topology = Topology::from_loops(faces.iter());
         hull.normals = normals.into();
         hull.vertices = in_order.iter().map(|&place| vertices[place]).collect();
-        hull.facets = match is_merged {
-            true => in_triangles(&facets.renumbered(|i| number[i as usize]).canonical()),
-            false => in_triangles(&faces),
-        };
+        hull.facets = in_triangles(&facets.renumbered(|i| number[i as usize]).canonical());
         Ok(Self { data: Arc::new(hull.finished()), radius: 0.0 })
     }
 }
 
 /// Loops of no more than 256 vertices in triangles.
-fn in_triangles(loops: &Loops) -> Box<[[u8; 3]]> {
+pub(super) fn in_triangles(loops: &Loops) -> Box<[[u8; 3]]> {
     loops.fans().map(|corners| corners.map(|i| i as u8)).collect()
 }
 

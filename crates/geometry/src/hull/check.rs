@@ -1,11 +1,11 @@
 //! Whether a hull is what it says, from its vertices and loops alone.
 
+use super::Hull;
+use super::build::in_triangles;
 use super::cloud::half_diagonal;
-use super::loops::Loops;
+use super::distance::Surface;
 use super::normal::{area_vector, is_noise};
-use super::predicate::outside;
 use super::quick::hull_facets;
-use super::{Hull, distance};
 use crate::tolerance::COPLANAR;
 use crate::topology::Topology;
 use glam::{DVec3, Vec3};
@@ -247,36 +247,19 @@ impl<'a> Examiner<'a> {
     /// Of a solid, by facets that are found anew: faces are flat up to rounding only.
     fn containing(&self, points: &[Vec3]) -> Result<(), HullFault> {
         let allowed = f64::from(self.hull.error()) + self.slack;
-        let facets = match self.hull.dimension() {
-            3 => hull_facets(self.hull.vertices()).unwrap_or_default(),
-            _ => Loops::default(),
+        let own = self.hull.data.surface();
+        let anew = match hull_facets(own.vertices) {
+            Ok(facets) if own.dimension == 3 => in_triangles(&facets),
+            _ => own.facets.into(),
         };
-        let known = self.hull.vertices();
-        let is_outside = |point: Vec3| {
-            facets.fans().any(|[a, b, c]| {
-                outside(&[known[a as usize], known[b as usize], known[c as usize], point], [0, 1, 2], 3) > 0.0
-            })
-        };
-        let surface: Vec<Vec<usize>> = match facets.len() {
-            0 => self.faces.clone(),
-            _ => facets.iter().map(|facet| facet.iter().map(|&i| i as usize).collect()).collect(),
-        };
-        for (index, &point) in points.iter().enumerate() {
-            let place = point.as_dvec3();
-            let distance =
-                surface.iter().map(|face| self.distance(face, place)).fold(f64::INFINITY, f64::min);
-            if distance > allowed && (facets.len() == 0 || is_outside(point)) {
+        let surface = Surface { facets: &anew, ..own };
+        for (index, point) in points.iter().enumerate() {
+            let distance = surface.distance_outside(point.as_dvec3());
+            if distance > allowed {
                 return Err(HullFault::PointOutside { index, distance });
             }
         }
         Ok(())
-    }
-
-    fn distance(&self, face: &[usize], point: DVec3) -> f64 {
-        let corner = |i: usize| self.vertices[face[i % face.len()]];
-        (1..face.len().saturating_sub(1).max(2))
-            .map(|i| distance::to_triangle(point, [corner(0), corner(i), corner(i + 1)]))
-            .fold(f64::INFINITY, f64::min)
     }
 
     /// Two neighbours are one face if the smaller lies within the tolerance of the larger one's plane and both
