@@ -121,6 +121,25 @@ fn rounded_shapes_may_overlap_where_their_cores_do_not() {
     holds((&b, &there), (&a, &here));
 }
 
+/// Symptom: two plates, 2e-6 m thick and 4e-17 m apart, edge to edge: `distance` said 1.35e-6 m, within an error as large; a
+/// millionth of their size. Cause: the distance iteration stood on a pair of corners, the next was far away, and the step there was
+/// smaller than what that corner's place rounded.
+#[test]
+fn a_small_step_towards_a_far_corner_is_one() {
+    let plate = |x: f32, z: f32| Shape3::from(Cuboid::from_half_extents(Vec3::new(x, 1e-6, z)).unwrap());
+    let (a, b) = (plate(0.408_759_8, 0.308_964_8), plate(0.461_421_6, 0.703_943_85));
+    let turn = Quat::from_array([-0.127_667_55, -0.291_934_37, 0.858_011_5, 0.402_854_32]);
+    let place = [0xc000_58ab_4bc5_637c, 0x4010_c092_d8a1_1122, 0x3fd5_62bd_16bf_7bb4].map(f64::from_bits);
+    let here = Pose3::new(place, turn).unwrap();
+    let place = [0xc005_0454_f5b1_02d2, 0x4012_7f16_265b_c7de, 0xbfe3_806e_d123_c720].map(f64::from_bits);
+    let there = Pose3::at(place).unwrap();
+    for (one, other) in [((&a, &here), (&b, &there)), ((&b, &there), (&a, &here))] {
+        holds(one, other);
+        let found = Pair3::new(one.0, one.1, other.0, other.1).distance().expect("they are apart");
+        assert!(found.distance + found.error < 1e-9, "{found:?}");
+    }
+}
+
 /// Symptom: no manifold within a margin that was exactly the reported separation. Cause: that had been rounded
 /// down, and the margin was held against what it was rounded from.
 #[test]
