@@ -40,6 +40,7 @@ mod saved;
 mod scaled;
 mod segment;
 mod shape;
+mod shown;
 mod sphere;
 pub mod tolerance;
 mod topology;

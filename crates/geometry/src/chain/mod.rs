@@ -57,13 +57,12 @@ use tree::Tree;
 /// assert_eq!(island.segment(2).map(|segment| segment.ends()), Some([Vec2::Y, Vec2::ZERO]));
 /// # Ok::<(), asunder_geometry::ChainError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Chain {
     data: Arc<Data>,
     is_one_sided: bool,
 }
 
-#[derive(Debug)]
 struct Data {
     vertices: Box<[Vec2]>,
     is_closed: bool,

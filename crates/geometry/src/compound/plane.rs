@@ -29,14 +29,13 @@ use std::sync::Arc;
 /// assert!(hammer.contains(DVec2::new(0.0, 1.4)) && !hammer.contains(DVec2::X));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Compound2 {
     data: Arc<Data2>,
     center: Vec2,
     outer_radius: f32,
 }
 
-#[derive(Debug)]
 struct Data2 {
     parts: Box<[Part2]>,
     /// Their boxes, in the compound's axes; flat ones.

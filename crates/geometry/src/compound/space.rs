@@ -29,14 +29,13 @@ use std::sync::Arc;
 /// assert!(hammer.contains(DVec3::new(0.0, 1.4, 0.0)) && !hammer.contains(DVec3::X));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Compound3 {
     data: Arc<Data3>,
     center: Vec3,
     outer_radius: f32,
 }
 
-#[derive(Debug)]
 struct Data3 {
     parts: Box<[Part3]>,
     /// Their boxes, in the compound's axes.

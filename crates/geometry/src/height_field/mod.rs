@@ -49,13 +49,12 @@ use std::sync::Arc;
 /// assert!(slope.is_one_sided() && slope.contains(Vec3::new(3.0, 1.5, 4.0)));
 /// # Ok::<(), asunder_geometry::HeightFieldError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct HeightField {
     data: Arc<Data>,
     is_one_sided: bool,
 }
 
-#[derive(Debug)]
 struct Data {
     grid: Grid,
     /// Two bits for each edge that a vertex or its cell has, and two for the vertex: see [`build`].

@@ -45,13 +45,13 @@ use std::sync::Arc;
 /// assert_eq!(cube.error(), 0.0);
 /// # Ok::<(), asunder_geometry::HullError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Hull {
     data: Arc<HullData>,
     radius: f32,
 }
 
-#[derive(Debug, PartialEq)]
+#[derive(PartialEq)]
 struct HullData {
     dimension: u8,
     vertices: Box<[Vec3]>,

@@ -302,7 +302,7 @@ fn a_tampered_hull_is_found_out() {
     let points = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE, Vec3::new(1.0, 1.0, 0.0)];
     let tampered = |tamper: fn(&mut HullData)| {
         let hull = Hull::from_points(&points).unwrap();
-        let mut data = Arc::try_unwrap(hull.data).unwrap();
+        let mut data = Arc::into_inner(hull.data).unwrap();
         tamper(&mut data);
         Hull { data: Arc::new(data), radius: 0.0 }.check(&points)
     };

@@ -44,13 +44,12 @@ use std::sync::Arc;
 /// assert!(mesh.contains(Vec3::new(0.25, 0.0, 0.25)) && !mesh.contains(Vec3::new(0.25, 1e-9, 0.25)));
 /// # Ok::<(), asunder_geometry::MeshError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct TriMesh {
     data: Arc<Data>,
     is_one_sided: bool,
 }
 
-#[derive(Debug)]
 struct Data {
     vertices: Vec<Vec3>,
     /// By the least number of the vertices at a place.

@@ -36,13 +36,13 @@ pub(crate) use error::StoredPolygonError;
 /// assert_eq!(square.vertices().len(), 4, "the inner point is no vertex");
 /// # Ok::<(), asunder_geometry::PolygonError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Polygon {
     data: Arc<PolygonData>,
     radius: f32,
 }
 
-#[derive(Debug, PartialEq)]
+#[derive(PartialEq)]
 struct PolygonData {
     vertices: Box<[Vec2]>,
     normals: Box<[DVec2]>,
