@@ -3,6 +3,7 @@
 mod blades;
 mod close;
 mod hooks;
+mod middles;
 mod needles;
 mod peers;
 mod points;

@@ -121,7 +121,8 @@ impl Aabb2 {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Half way between both corners, in metres. No overflow: corners may be as far out as f32 goes.
+    /// Half way between both corners, in metres; 0 along an axis on which the box has no end on either side, as that of a half-space.
+    /// No overflow: corners may be as far out as f32 goes.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, glam::Vec2};
@@ -130,7 +131,9 @@ impl Aabb2 {
     /// ```
     #[inline]
     pub fn center(&self) -> Vec2 {
-        self.min * 0.5 + self.max * 0.5
+        let center = self.min * 0.5 + self.max * 0.5;
+        // Where it has no end on either side, both halves cancel to no number.
+        Vec2::select(center.is_nan_mask(), Vec2::ZERO, center)
     }
 
     /// Half of its width along each axis, in metres; below zero where it is empty.
@@ -183,7 +186,8 @@ impl Aabb3 {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Half way between both corners, in metres. No overflow: corners may be as far out as f32 goes.
+    /// Half way between both corners, in metres; 0 along an axis on which the box has no end on either side, as that of a half-space.
+    /// No overflow: corners may be as far out as f32 goes.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, glam::Vec3};
@@ -192,7 +196,9 @@ impl Aabb3 {
     /// ```
     #[inline]
     pub fn center(&self) -> Vec3 {
-        self.min * 0.5 + self.max * 0.5
+        let center = self.min * 0.5 + self.max * 0.5;
+        // Where it has no end on either side, both halves cancel to no number.
+        Vec3::select(center.is_nan_mask(), Vec3::ZERO, center)
     }
 
     /// Half of its width along each axis, in metres; below zero where it is empty.
@@ -304,6 +310,14 @@ mod tests {
         assert!(!everything.overlaps(&Aabb3::NOTHING));
         assert!(!Aabb3::NOTHING.overlaps(&Aabb3::NOTHING));
         assert!(!Aabb2::NOTHING.overlaps(&Aabb2::NOTHING));
+    }
+
+    #[test]
+    fn boxes_without_an_end_have_a_middle() {
+        let below = Aabb3::new(Vec3::NEG_INFINITY, Vec3::new(f32::INFINITY, 1.0, f32::INFINITY));
+        assert_eq!(below.center(), Vec3::new(0.0, f32::NEG_INFINITY, 0.0));
+        let all = Aabb2::new(Vec2::NEG_INFINITY, Vec2::INFINITY);
+        assert_eq!((all.center(), all.half_extents()), (Vec2::ZERO, Vec2::INFINITY));
     }
 
     #[test]

@@ -41,6 +41,12 @@ impl Rotation2 {
         Self { cos: (c / length) as f32, sin: (s / length) as f32 }
     }
 
+    /// The other way round, bit for bit.
+    pub(crate) fn reversed(self) -> Self {
+        // A difference, and no sign: there is no second zero.
+        Self { cos: self.cos, sin: 0.0 - self.sin }
+    }
+
     /// The rotation that was stored as these, bit for bit: [`Rotation2::new`] would round them once more.
     #[cfg(feature = "serde")]
     pub(crate) fn restored(cos: f32, sin: f32) -> Result<Self, StoredRotationError> {

@@ -75,7 +75,7 @@ impl Pose2 {
     /// let shown = tank.compose(&turret)?;
     /// assert_eq!((shown.position(), shown.turn(DVec2::X)), (DVec2::new(5.0, 3.0), DVec2::NEG_X));
     /// assert_eq!(shown.transform(Vec2::Y), tank.transform(turret.transform(Vec2::Y)));
-    /// assert_eq!(tank.compose(&Pose2::IDENTITY)?, tank);
+    /// assert_eq!((tank.compose(&Pose2::IDENTITY)?, Pose2::IDENTITY.compose(&tank)?), (tank, tank));
     /// # Ok::<(), asunder_geometry::PoseError>(())
     /// ```
     ///
@@ -138,6 +138,9 @@ impl Rotation2 {
     fn then(self, other: Self, sign: f64) -> Self {
         if other == Self::IDENTITY {
             return self;
+        }
+        if self == Self::IDENTITY {
+            return if sign > 0.0 { other } else { other.reversed() };
         }
         let [c, s] = [self.cos(), self.sin()].map(f64::from);
         let [x, y] = [f64::from(other.cos()), sign * f64::from(other.sin())];

@@ -49,6 +49,7 @@ struct PolygonData {
     extremes: [u16; 4],
     center: Vec2,
     outer_radius: f32,
+    /// Without the rounding; below zero where the centre lies outside.
     inner_radius: f32,
     error: f32,
 }
@@ -143,11 +144,13 @@ impl Polygon {
         let outer = vertices.iter().map(|v| from_center(v).length()).fold(0.0, f64::max);
         let inner =
             vertices.iter().zip(&normals).map(|(v, n)| n.dot(from_center(v))).fold(f64::INFINITY, f64::min);
+        // The rounded centre of a sliver may lie outside: as far as from the nearest edge.
+        let inner = if inner >= 0.0 { inner } else { -distance_from_edges(center.as_dvec2(), &vertices) };
         let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
         if outer_radius < MIN_RADIUS {
             return Err(PolygonError::TooSmall { radius: outer_radius });
         }
-        let inner_radius = round_down((inner - 8.0 * f64::EPSILON * outer).max(0.0));
+        let inner_radius = round_down(inner - 8.0 * f64::EPSILON * outer);
         let extremes = extremes(&vertices);
         let vertices = vertices.into();
         let data = PolygonData { vertices, normals, extremes, center, outer_radius, inner_radius, error };
@@ -239,10 +242,11 @@ impl Polygon {
         grown(self.data.outer_radius, self.radius)
     }
 
-    /// Radius of a circle about [`Polygon::center`] that lies inside the shape, in metres, rounded down.
+    /// Radius of a circle about [`Polygon::center`] that lies inside the shape, in metres, rounded down. Zero where there is none:
+    /// the centre of a sliver is rounded, and may lie beside it.
     #[inline]
     pub fn inner_radius(&self) -> f32 {
-        round_down(f64::from(self.data.inner_radius) + f64::from(self.radius))
+        round_down(f64::from(self.data.inner_radius) + f64::from(self.radius)).max(0.0)
     }
 
     /// A bound on how far outside the polygon any of the given points lies, in metres, rounded up: zero unless
@@ -346,6 +350,16 @@ fn extremes(vertices: &[Vec2]) -> [u16; 4] {
         // No polygon has more than 4096 vertices.
         best as u16
     })
+}
+
+/// How far a point is from the nearest edge, in metres; no less than the truth but for the rounding of a length.
+fn distance_from_edges(point: DVec2, vertices: &[Vec2]) -> f64 {
+    let from_edge = |[_, from, to]: [Vec2; 3]| {
+        let (from, along) = (from.as_dvec2(), to.as_dvec2() - from.as_dvec2());
+        let share = ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        (point - from - along * share).length()
+    };
+    corners(vertices).map(from_edge).fold(f64::INFINITY, f64::min)
 }
 
 /// The centre of area. Where rounding leaves a sliver none that lies in its box, the middle of the box.

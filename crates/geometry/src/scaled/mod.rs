@@ -105,17 +105,14 @@ impl core::fmt::Display for ScaleError {
     }
 }
 
-impl core::error::Error for ScaleError {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        self.inner()
-    }
-}
+// No source: what it would say stands in the text already, and who prints a chain of errors would read it twice.
+impl core::error::Error for ScaleError {}
 
-/// For every error that a constructor has: where it comes from, and that it is what the scaled shape is refused for.
+/// For every error that a constructor has: that it is what the scaled shape is refused for, and how it is printed.
 macro_rules! refused_by {
     ($($variant:ident($error:ty)),+ $(,)?) => {
         impl ScaleError {
-            fn inner(&self) -> Option<&(dyn core::error::Error + 'static)> {
+            fn inner(&self) -> Option<&dyn core::fmt::Display> {
                 match self {
                     $(Self::$variant(error) => Some(error),)+
                     Self::Part { error, .. } => Some(error),

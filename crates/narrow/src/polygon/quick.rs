@@ -45,7 +45,12 @@ impl Circles {
             Shape2::Polygon(polygon) => (polygon.center(), polygon.outer_radius(), polygon.inner_radius()),
             Shape2::Rect(rect) => (Vec2::ZERO, rect.outer_radius(), rect.inner_radius()),
             Shape2::Circle(circle) => (Vec2::ZERO, circle.radius(), circle.radius()),
-            Shape2::Capsule(_) | Shape2::Segment(_) => (shape.center(), shape.outer_radius(), shape.radius()),
+            Shape2::Capsule(_) | Shape2::Segment(_) => {
+                let center = shape.center();
+                // The middle was rounded: no further beside the segment than twice this.
+                let beside = f32::EPSILON * center.abs().element_sum();
+                (center, shape.outer_radius(), shape.radius() - beside)
+            }
             Shape2::HalfPlane(_) | Shape2::Compound(_) | Shape2::Chain(_) => return None,
         };
         Some(Self { center, outer, inner })

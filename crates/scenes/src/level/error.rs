@@ -157,14 +157,8 @@ impl fmt::Display for Fault {
     }
 }
 
-impl core::error::Error for LevelError {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Json(error) => Some(error),
-            Self::Content { fault, .. } => Some(fault),
-        }
-    }
-}
+// No source: the fault stands in the text already.
+impl core::error::Error for LevelError {}
 
 impl core::error::Error for Fault {}
 
