@@ -6,6 +6,7 @@ mod brute;
 mod curves;
 mod edges;
 mod fields;
+mod large;
 mod low_bends;
 mod normals;
 mod order;

@@ -164,7 +164,8 @@ pub struct Slide<K, O, N, P> {
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
     pub blocked: bool,
-    /// Whether it overlaps no solid now. Always so where it overlapped none before; exact.
+    /// Whether it overlaps no solid now, one-sided ground that it came through from behind aside. Always so where it overlapped none
+    /// before; exact.
     pub is_free: bool,
 }
 

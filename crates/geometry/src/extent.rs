@@ -51,13 +51,10 @@ impl core::fmt::Display for ExtentError {
                 write!(f, "half extent {value} on axis {axis} is not positive: give half of the full size")
             }
             Self::TooSmall { radius } => {
-                write!(f, "bounding radius {radius} m is below {MIN_RADIUS} m: use larger units")
+                write!(f, "bounding radius {radius} m is below {MIN_RADIUS} m: use smaller units")
             }
             Self::TooLarge { radius } => {
-                write!(
-                    f,
-                    "bounding radius {radius} m is above {MAX_RADIUS} m: use smaller units, or split it"
-                )
+                write!(f, "bounding radius {radius} m is above {MAX_RADIUS} m: use larger units, or split it")
             }
         }
     }

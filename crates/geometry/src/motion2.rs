@@ -84,8 +84,8 @@ impl Motion2 {
     /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second counter-clockwise about its
     /// position.
     ///
-    /// It ends where the body would, by `libm`, rounded to f32: the same bits on every platform. What turns by less than 1e-7 rad a step may
-    /// stand still, or turn by twice as much. On the way it turns the shorter way, so half a turn and more in one step is a wheel seen to
+    /// It ends where the body would, by `libm`, rounded to f32: the same bits on every platform. Turns of less than 1e-7 rad a step are lost
+    /// to f32: it stands still, or turns by up to twice as much. On the way it turns the shorter way, so half a turn and more in one step is a wheel seen to
     /// run backwards: take shorter steps.
     ///
     /// ```

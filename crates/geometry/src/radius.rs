@@ -43,12 +43,12 @@ impl core::fmt::Display for RadiusError {
             }
             Self::Negative { value } => write!(f, "radius {value} m is negative: give its magnitude"),
             Self::TooSmall { value } => {
-                write!(f, "radius {value} m is below {MIN_RADIUS:.6} m: use larger units")
+                write!(f, "radius {value} m is below {MIN_RADIUS:.6} m: use smaller units")
             }
             Self::TooLarge { reach } => {
                 write!(
                     f,
-                    "the shape would reach {reach} m, beyond {MAX_RADIUS} m: use smaller units, or split it"
+                    "the shape would reach {reach} m, beyond {MAX_RADIUS} m: use larger units, or split it"
                 )
             }
         }

@@ -7,7 +7,7 @@ use glam::Quat;
 impl Pose3 {
     /// Where something is in the world that has this pose in the axes of another: a lantern in a hand, a wheel on a cart.
     ///
-    /// Right to 2^-23 of a radian, and to that many distances from this pose; beside the identity exact. The rotation is of any
+    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; beside the identity it is exact. The rotation is of any
     /// length, as ever. [`Pose3::relative_to`] undoes it.
     ///
     /// ```
@@ -65,7 +65,7 @@ fn rounded(quaternion: [f64; 4]) -> Quat {
 impl Pose2 {
     /// Where something is in the world that has this pose in the axes of another: a turret on a tank.
     ///
-    /// Right to 2^-23 of a radian, and to that many distances from this pose; beside the identity exact. [`Pose2::relative_to`]
+    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; beside the identity it is exact. [`Pose2::relative_to`]
     /// undoes it.
     ///
     /// ```

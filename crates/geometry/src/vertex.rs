@@ -53,7 +53,7 @@ impl core::fmt::Display for VertexError {
             }
             Self::Collinear => write!(f, "the vertices lie on one line: use a segment"),
             Self::TooSmall { radius } => {
-                write!(f, "bounding radius {radius} m is below {MIN_RADIUS:.6} m: use larger units")
+                write!(f, "bounding radius {radius} m is below {MIN_RADIUS:.6} m: use smaller units")
             }
         }
     }

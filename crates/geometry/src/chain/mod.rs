@@ -237,8 +237,8 @@ impl Chain {
         self.visit_where(|other| bounds.overlaps(other), visit)
     }
 
-    /// The same for any question about boxes: where the answer is no, nothing in the box is visited. It must be yes for
-    /// a box around one for which it is yes.
+    /// The same for any question about boxes: where the answer is no, nothing in the box is visited. If it is yes for a
+    /// box, it must be yes for every box around that.
     pub fn visit_where(
         &self,
         meets: impl FnMut(&Aabb2) -> bool,

@@ -87,7 +87,8 @@ impl Compound3 {
     /// A compound from its parts and where they are.
     ///
     /// # Errors
-    /// No parts, or more than [`MAX_PARTS`]; a part that is a compound or unbounded, or that reaches beyond 1e6 m.
+    /// No parts, or more than [`MAX_PARTS`]; a part that is a compound, ground or unbounded, or that reaches beyond
+    /// 1e6 m.
     pub fn new(parts: impl IntoIterator<Item = (Pose3, Shape3)>) -> Result<Self, CompoundError> {
         Self::of(parts.into_iter().map(|(pose, shape)| Part3::new(pose, shape)).collect())
     }

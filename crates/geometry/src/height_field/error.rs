@@ -80,7 +80,10 @@ impl core::fmt::Display for HeightFieldError {
                 write!(f, "side {axis} of a cell, {value} m, is not finite and positive")
             }
             Self::NotFinite { column, row } => {
-                write!(f, "the height at column {column}, row {row} is not finite: make its cells holes")
+                write!(
+                    f,
+                    "the height at column {column}, row {row} is not finite: give any height that is, and make its cells holes afterwards"
+                )
             }
             Self::TooLarge { column, row } => {
                 write!(

@@ -21,8 +21,8 @@ use std::sync::Arc;
 ///
 #[doc = include_str!("../../doc/height_field.svg")]
 ///
-/// The vertex of column `c` and row `r` is at (c * cell.x, height, r * cell.y), rounded to f32: the first at the
-/// origin. A cell has four of them and two triangles, whose common edge runs from (c + 1, r) to (c, r + 1) in all
+/// The vertex of column `c` and row `r` is at (c * cell.x, height, r * cell.y), rounded to f32: the first at (0,
+/// height, 0). A cell has four of them and two triangles, whose common edge runs from (c + 1, r) to (c, r + 1) in all
 /// cells: one rule, so that what is drawn can follow it. Fronts look up. Cells may be holes.
 ///
 /// ```text
@@ -34,8 +34,8 @@ use std::sync::Arc;
 /// ```
 ///
 /// It is what a [`TriMesh`](crate::TriMesh) of these triangles would be, in a tenth of the memory: a set of points
-/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided), of bodies that are always fixed. Of what is
-/// deep in it, the two may tell different ones of several contacts: in which order triangles are looked at counts there.
+/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided), of bodies that are always fixed. Bodies that
+/// are sunk deep may get other contacts from the one than from the other, since triangles are looked at in another order.
 ///
 /// # Costs and limits
 /// From 2 to [`MAX_FIELD_SIDE`](crate::tolerance::MAX_FIELD_SIDE) columns and rows, within 1e6 m of the shape's

@@ -72,7 +72,7 @@ impl core::fmt::Display for HullError {
                 )
             }
             Self::TooSmall { radius } => {
-                write!(f, "bounding radius {radius} m is below {MIN_RADIUS:.6} m: use larger units")
+                write!(f, "bounding radius {radius} m is below {MIN_RADIUS:.6} m: use smaller units")
             }
             Self::Flat { dimension } => {
                 let what = ["are one point", "lie on one line", "lie in one plane"];

@@ -201,7 +201,7 @@ impl Hull {
     }
 
     /// How far any vertex lies beyond the lowest vertex of any face, along that face's normal, in metres: what
-    /// merging nearly coplanar facets cost. At most a few 1e-7 of the size.
+    /// merging nearly coplanar facets cost. At most 2e-6 of the size.
     #[inline]
     pub fn planarity_error(&self) -> f32 {
         self.data.planarity_error

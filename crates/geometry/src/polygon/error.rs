@@ -83,7 +83,7 @@ impl core::fmt::Display for PolygonError {
                 )
             }
             Self::TooSmall { radius } => {
-                write!(f, "bounding radius {radius} m is below {MIN_RADIUS} m: use larger units")
+                write!(f, "bounding radius {radius} m is below {MIN_RADIUS} m: use smaller units")
             }
             Self::Repeated { first, second } => {
                 write!(f, "points {first} and {second} are the same: leave one out, or use Polygon::hull_of")

@@ -13,6 +13,7 @@
 //! An axis is any: what all corners of both show along it is proved, however it was found. And any two points bound a
 //! separation from above.
 
+use super::contact::span_of;
 use super::near::{OnGround, SeenAt, grown_around};
 use crate::pair3::Part;
 use arrayvec::ArrayVec;
@@ -221,12 +222,12 @@ impl Corners {
             _ => {}
         }
         // Both points are points of the shapes up to rounding.
-        least.max(0.0) + self.doubt_beside(corners[0])
+        least.max(0.0) + self.doubt_beside(&corners)
     }
 
     /// Whether the sphere inside the part, or the cuboid that it is, certainly holds a point of a triangle.
     pub(crate) fn holds_some(&self, beside: &Beside) -> bool {
-        let doubt = self.doubt_beside(beside.corners[0]);
+        let doubt = self.doubt_beside(&beside.corners);
         let within = match self.extent {
             Extent::Cuboid(half) => (half - self.own(beside.near - self.origin).abs()).min_element(),
             Extent::Points(_) => f64::NEG_INFINITY,
@@ -239,9 +240,15 @@ impl Corners {
         (beside.near - self.center).length() - self.inner_radius
     }
 
-    /// What the distance of two points may be off by, in metres.
-    fn doubt_beside(&self, corner: DVec3) -> f64 {
-        1024.0 * f64::EPSILON * (self.lengths + corner.abs().element_sum())
+    /// What the distance of a point from one of a triangle may be off by, in metres.
+    fn doubt_beside(&self, corners: &[DVec3; 3]) -> f64 {
+        1024.0 * f64::EPSILON * self.lengths_with(corners)
+    }
+
+    /// The lengths that go into what is told of a triangle, in metres: the furthest corner's, too.
+    #[inline]
+    fn lengths_with(&self, corners: &[DVec3; 3]) -> f64 {
+        self.lengths + span_of(corners).element_sum()
     }
 
     /// How far the part reaches along a unit axis, in metres from the ground's origin; without end for a half-space. Cost:
@@ -276,7 +283,7 @@ impl Corners {
     pub(crate) fn beyond(&self, (axis, top): (DVec3, f64), beside: &Beside) -> f64 {
         let [a, b, c] = beside.corners;
         let least = axis.dot(a).min(axis.dot(b)).min(axis.dot(c));
-        least - top - 128.0 * f64::EPSILON * (self.lengths + least.abs() + a.abs().element_sum())
+        least - top - 128.0 * f64::EPSILON * (self.lengths_with(&beside.corners) + least.abs())
     }
 
     /// Whether it passes a triangle by while it is moved, for certain.
@@ -300,7 +307,8 @@ impl Corners {
 
     /// What both take up along a unit axis; the part beyond rounding.
     #[inline]
-    fn along(&self, axis: DVec3, [a, b, c]: [DVec3; 3]) -> Along {
+    fn along(&self, axis: DVec3, corners: [DVec3; 3]) -> Along {
+        let [a, b, c] = corners;
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
         match &self.extent {
             Extent::Cuboid(half) => {
@@ -318,7 +326,7 @@ impl Corners {
             }
         }
         let [on_b, on_c] = [axis.dot(b - a), axis.dot(c - a)];
-        let doubt = self.radius + 128.0 * f64::EPSILON * (self.lengths + a.abs().element_sum());
+        let doubt = self.radius + 128.0 * f64::EPSILON * self.lengths_with(&corners);
         Along {
             part: [from - doubt, to + doubt],
             triangle: [on_b.min(on_c).min(0.0), on_b.max(on_c).max(0.0)],

@@ -115,8 +115,8 @@ use prism::{Incident, Prism};
 use protrusion::Levels;
 use refused::{AllRefused, Refusal};
 use round::Round;
-pub(super) use standing::doubt_of;
 use standing::{Octets, Place, Standing};
+pub(super) use standing::{doubt_of, span_of};
 use unsaid::AllUnsaid;
 
 /// Triangles whose yes or no waits until all have been seen.
@@ -449,7 +449,7 @@ impl Seen<'_> {
     fn doubt_over(&self, facet: &Facet) -> f64 {
         let standing = self.standing;
         let lever = (standing.center - facet.origin()).abs().element_sum() + standing.outer_radius;
-        standing.doubt(facet.origin()) + facet.tilt * lever
+        standing.doubt(facet.span()) + facet.tilt * lever
     }
 }
 

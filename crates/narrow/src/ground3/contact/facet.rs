@@ -4,13 +4,14 @@
 //! ground around it. Directions of ground are taken without a side, so that the same holds from in front and behind.
 
 use super::ball::nearest_to;
+use super::standing::span_of;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_NORMAL;
 
-/// Triangles around a corner that are looked at, each way. More than that meet in no level that was meant to be one: then a corner
+/// Triangles around a corner that are looked at, each way. More than that meet at the poles of very fine spheres alone: such a corner
 /// gives no direction but its triangles' own.
-const MOST_AROUND: usize = 64;
+const MOST_AROUND: usize = 256;
 
 /// Cosine of the angle up to which a triangle's own normal leads as good as the same way as what ground refuses: 0.1 rad.
 const NEARLY: f64 = 0.995;
@@ -203,7 +204,7 @@ impl Facet {
         if self.is_front { self.normal } else { -self.normal }
     }
 
-    /// Walks over the other triangles around a corner, first one way and, where ground ends there, the other, as long as something
+    /// Walks over the other triangles around a corner, first one way and, where ground ends there, the other; as long as something
     /// holds of each: by its number, the place of the corner in it, and the place of the next corner on the way.
     fn walk_around(
         &self,
@@ -211,13 +212,12 @@ impl Facet {
         corner: usize,
         mut holds: impl FnMut(u32, usize, usize) -> bool,
     ) -> Around {
-        let mut ends = Around::Many;
         for way in [0, 2] {
-            ends = Around::Many;
+            let mut is_at_rim = false;
             let mut at = (self.number, (corner + way) % 3);
             for _ in 0..MOST_AROUND {
                 let Some((other, twin)) = ground.neighbor(at.0, at.1) else {
-                    ends = Around::Rim;
+                    is_at_rim = true;
                     break;
                 };
                 if other == self.number {
@@ -231,8 +231,11 @@ impl Facet {
                 }
                 at = (other, (there + way) % 3);
             }
+            if !is_at_rim {
+                return Around::Many;
+            }
         }
-        ends
+        Around::Rim
     }
 
     /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner in it; of
@@ -278,6 +281,13 @@ impl Facet {
     #[inline]
     pub(super) fn origin(&self) -> DVec3 {
         self.origin
+    }
+
+    /// How far out its corners lie along each axis: what is told of its edges is rounded as the furthest corner is, however near
+    /// the rest of it.
+    #[inline]
+    pub(super) fn span(&self) -> DVec3 {
+        span_of(&self.corners)
     }
 
     /// Where a half-edge starts, and its direction.

@@ -234,15 +234,17 @@ impl Prism<'_> {
     pub(super) fn does_cross(&self) -> bool {
         let Self { standing, facet, extent: &Extent { low, lowest, high, highest }, doubt, .. } = *self;
         let from = standing.point(lowest);
-        let is_inside = |point: DVec3| facet.inside(point, |_| true) > 2.0 * doubt;
+        let is_inside = |point: DVec3, beyond: f64| facet.inside(point, |_| true) > beyond;
         if low >= 0.0 {
-            return low < standing.radius - doubt && is_inside(from);
+            return low < standing.radius - doubt && is_inside(from, 2.0 * doubt);
         }
         if low >= -doubt || high <= doubt {
             return false;
         }
-        let share = low / (low - high);
-        is_inside(from + (standing.point(highest) - from) * share)
+        let (share, way) = (low / (low - high), standing.point(highest) - from);
+        // What heights are off by moves the crossing along a segment that is nearly level by far more.
+        let spread = way.length() / (high - low);
+        is_inside(from + way * share, 2.0 * doubt * (1.0 + spread))
     }
 
     fn pin(&self, on_body: DVec3, separation: f64, of_body: Feature) -> Pin {

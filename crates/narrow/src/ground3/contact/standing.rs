@@ -272,6 +272,12 @@ fn first(of: &[f64; 8], number: f64) -> usize {
     (0..8).fold(0, |bits, i| bits | usize::from(of[i] == number) << i).trailing_zeros() as usize % 8
 }
 
+/// How far out a triangle's corners lie along each axis, in metres.
+#[inline]
+pub(in crate::ground3) fn span_of([a, b, c]: &[DVec3; 3]) -> DVec3 {
+    a.abs().max(b.abs()).max(c.abs())
+}
+
 /// What a coordinate that such lengths went into, and a product of it with a unit vector, may be off by at most, beside
 /// a point of ground.
 #[inline]
