@@ -37,7 +37,7 @@ pub enum Event<K> {
         sensor: bool,
     },
     /// A contact that had begun is gone: the bodies are further apart than their margins, or may not meet any more,
-    /// or one was disabled or removed.
+    /// or one was disabled, removed, or given another shape with which they do not overlap.
     Ended {
         /// The body in the lower slot. Its key may be stale by now.
         a: K,

@@ -158,7 +158,7 @@ pub(crate) fn approach<S: Space>(bodies: [&Collider<S>; 2], motions: [Option<S::
     rounded_up(most).min(tolerance::MAX_RADIUS)
 }
 
-/// How far a point within `reach` comes by turning, in metres: so much of it, and never further than across.
+/// How far a point within `reach` comes by turning, in metres: `share` of the reach, and at most twice the reach.
 fn swing(turn_speed: f64, share: f64, reach: f64) -> f64 {
     // What does not turn has no share of a reach that may be infinite.
     if turn_speed > 0.0 { share.min(2.0) * reach } else { 0.0 }

@@ -66,7 +66,7 @@ impl Odometer {
         if self.travel.is_finite() { self.travel } else { 0.0 }
     }
 
-    /// Until when two bodies stay apart that are now, and are by so much further than they need to be.
+    /// The sum of both bodies' ways up to which they stay apart that are now `beyond` metres further apart than they need to be.
     #[inline]
     pub(crate) fn until([a, b]: [Self; 2], beyond: f32) -> f64 {
         (a.counted() + b.counted() + f64::from(beyond)).next_down().next_down()

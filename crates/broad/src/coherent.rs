@@ -52,7 +52,7 @@ pub struct CoherentSweep<B> {
     movers: Vec<u32>,
     /// Pairs of two boxes that have not.
     kept: Vec<PairId>,
-    /// Movers that did not move, a frame and mover.
+    /// Movers that stood still, summed over frames.
     idle: usize,
     sweep_of_movers: Sweep,
     moving: Vec<B>,
@@ -64,7 +64,7 @@ pub struct CoherentSweep<B> {
 asunder_geometry::copied!(CoherentSweep<B>, for [B: Bounds], { sweep, rest, is_kept, known, movers, kept, idle }
     but { sweep_of_movers, moving, among, fresh, order });
 
-/// Where more than one box of so many moves, all are swept.
+/// Where more than one box in so many moves, all are swept.
 pub(crate) const FEW: usize = 5;
 
 /// Looking up so many movers costs about as much as sweeping one box of all.

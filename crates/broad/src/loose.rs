@@ -5,7 +5,7 @@
 //! each frame, of the boxes that moved:
 //!   those that are still in their loose ones: the pairs of these are what they were
 //!   a few have left theirs: they get others, and are looked up                            coherent
-//!   many have: all get others, and are swept
+//!   many have: these get others, and all are swept
 //! of the pairs of loose boxes, those are told whose boxes overlap
 //! where that costs no less than sweeping the boxes, or the pairs of loose boxes are many more: no box is loose, and that is
 //!   tried again after twice as many frames each time
@@ -170,7 +170,7 @@ impl<B: Bounds> LooseSweep<B> {
         self.sweep.columns()
     }
 
-    /// Memory that is held for the next call, in bytes: that of [`CoherentSweep::bytes`]; where most boxes move, 36 a box
+    /// Memory that is held for the next call, in bytes: that of [`CoherentSweep::bytes`]; where most boxes move, 32 a box
     /// and 8 a pair more.
     pub fn bytes(&self) -> usize {
         self.sweep.bytes()

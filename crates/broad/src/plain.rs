@@ -53,7 +53,7 @@ impl PlainSweep {
     /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
     ///
     /// `admit` is asked once for each pair of overlapping boxes, the smaller number first, before the pair is made.
-    /// At most 2^32 boxes.
+    /// Fewer than 2^32 boxes.
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty.

@@ -136,7 +136,7 @@ pub enum Separation3 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured2 {
     /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest translation
-    /// that separates them. At most zero exactly when they overlap.
+    /// that separates them; of several parts, the least over pairs of those. At most zero exactly when they overlap.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -161,7 +161,7 @@ pub struct Measured2 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured3 {
     /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest translation
-    /// that separates them. At most zero exactly when they overlap.
+    /// that separates them; of several parts, the least over pairs of those. At most zero exactly when they overlap.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,

@@ -92,7 +92,7 @@ impl<'a> Pair3<'a> {
     /// Whether the shapes share a point, exactly; touching counts.
     ///
     /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which. Cost: fifteen axes for cuboids, all edges for polygons of few; else some
+    /// [`verdict`](Self::verdict) says which. Cost: fifteen axes for cuboids; else some
     /// support searches, each linear in the vertices; for shapes that touch up to rounding some microseconds more. Of
     /// ground, which knows no sides here, that for each triangle whose box a part's box meets; of two grounds, for each
     /// triangle of one that is near the other.

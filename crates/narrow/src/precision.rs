@@ -22,7 +22,7 @@ pub(crate) use asunder_geometry::round_down;
 pub(crate) struct Precision {
     /// Sum of the cores' bounding radii; a half-space has none.
     pub(crate) size: f64,
-    /// The largest coordinate that a projection can meet.
+    /// The sum of all lengths that go into a coordinate: no projection meets a greater one.
     pub(crate) reach: f64,
     /// Sum of the two planarity errors.
     pub(crate) planarity: f64,

@@ -77,8 +77,8 @@ fn does_any_stay<K: Key>(moved: &[u32], keys: &[K], tags: &[Tag], is_moved: &[bo
         || bodies.any(|((key, tag), is_moved)| !is_moved && !tag.is_fixed() && !key.is_null())
 }
 
-/// Makes the lists that were not needed as roomy as the others: so that a body that stays allocates nothing then, and what a
-/// world takes is settled as soon as if they took turns. Memory that nobody writes to costs no time.
+/// Makes the lists that were not needed as roomy as the others: so that a body that stays allocates nothing then, and memory
+/// stops growing as soon as if both lists took turns. Memory that nobody writes to costs no time.
 fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
     if others.len() < answered.len() {
         others.resize_with(answered.len(), Batch::default);

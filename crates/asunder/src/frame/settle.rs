@@ -35,7 +35,7 @@ pub(crate) struct Settled<S: Space> {
     pub(super) kept: Vec<(u32, S::Persistent)>,
     /// Places of what is kept no longer.
     pub(super) vacated: Vec<u32>,
-    /// Memory for one that is kept, at most: lent by what is everybody's.
+    /// Memory for one kept manifold at most, lent by the store that all share.
     spare: S::Spare,
     pub(super) tally: Tally,
 }

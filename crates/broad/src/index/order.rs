@@ -18,7 +18,7 @@ const MOST_BITS: usize = 32;
 /// Bits of a coordinate.
 const COORDINATE: u32 = 16;
 
-/// A box as wide as so many cells that hold a node each is a giant among the others.
+/// A giant is as wide as so many cells, of which each holds about one node's boxes.
 const GIANT: f64 = 4.0;
 
 /// Boxes of which none is a giant: too few for it to matter.

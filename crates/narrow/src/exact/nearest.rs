@@ -9,8 +9,8 @@
 //! three:          shares from the 2 x 2 system of their edges; the other corner on the side away from the origin
 //! four:           the origin is on the same side of all four faces
 //! ```
-//! G is the Gram matrix, `G[i][j] = p_i . p_j`. At most fifteen candidates, all tried: exactly one set of independent
-//! corners passes, whatever the rest is.
+//! G is the Gram matrix, `G[i][j] = p_i . p_j`. At most fifteen candidates, tried until one passes: at least one set of
+//! independent corners does, whatever the rest is, and all that do have the same nearest point.
 
 use super::Corner;
 use super::int::{Int, cross3, dot3, sum_of_products};
@@ -61,7 +61,7 @@ impl Simplex {
         self.corners.push(corner);
     }
 
-    /// One of the corners. All that carry the nearest point have the same projection on it.
+    /// One of the corners. All that carry the nearest point have the same projection on its direction.
     pub(super) fn first(&self) -> &[Int; 3] {
         &self.points[0]
     }

@@ -39,7 +39,7 @@ pub(super) struct Question<'a> {
     pub(super) offset: [Int; 3],
     /// Both radii together.
     pub(super) radii: Int,
-    /// The power of two that vertices are multiples of.
+    /// The exponent of the power of two that vertices are multiples of.
     pub(super) unit: i32,
 }
 
@@ -148,7 +148,7 @@ impl Question<'_> {
                 return true;
             }
             let (corner, least) = self.least(&towards);
-            // Once v is the nearest point of all, its own corners are the least: one of the two has been true.
+            // Once v is the nearest point of all, no corner is lower than v's own: then one of these two holds.
             if self.is_beyond(&least, &towards) || least >= reach {
                 return false;
             }

@@ -41,7 +41,7 @@ pub(crate) struct Corners {
     pub(crate) seen_at: SeenAt,
     /// How far the part reaches from there in every direction at least; below zero where it is beside that.
     inner_radius: f64,
-    /// Whether that is the part, and not a ball around it.
+    /// Whether `extent` is the part itself, and not a ball around it.
     has_all: bool,
     /// The part's axes and its origin in the ground's.
     axes: [DVec3; 3],
@@ -177,7 +177,7 @@ impl Corners {
         Beside { corners, near: nearest(self.center, corners), of: None }
     }
 
-    /// A triangle's point that is nearest to the point of a cuboid that is nearest to the one before, and so nearer, up to rounding.
+    /// One step closer, up to rounding: the cuboid's point nearest to the last of the triangle, and the triangle's nearest to that.
     pub(crate) fn narrowed(&self, beside: &Beside) -> Beside {
         let &Beside { corners, near, of } = beside;
         let Extent::Cuboid(half) = self.extent else { return *beside };

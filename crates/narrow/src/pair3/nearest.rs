@@ -12,8 +12,8 @@ use asunder_geometry::Basis3;
 impl<'a> Pair3<'a> {
     /// Asks about pairs of parts until it is enough: all that may be as near as the nearest so far.
     ///
-    /// Of a compound of many parts, those that are nearest to the other come first. Of two such, nobody is further than two that
-    /// are near each other. Of compounds of few, all in order.
+    /// Of a compound of many parts, those that are nearest to the other come first. Of two such, one pair that is
+    /// close is measured first, and what is further apart is passed over. Of compounds of few, all in order.
     pub(super) fn ask_nearest<P>(
         &self,
         bases: &[Basis3; 2],
@@ -22,7 +22,7 @@ impl<'a> Pair3<'a> {
     ) {
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let mut within = least.reach();
-        // Whom no tree hands over.
+        // A bound for parts that no tree hands over.
         least.give_up(if self.has_many_parts() { round_down(within) } else { f32::INFINITY });
         match [self.shape_a, self.shape_b].map(many3) {
             [Some(a), None] => {

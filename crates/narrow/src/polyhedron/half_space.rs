@@ -1,4 +1,4 @@
-//! A half-space against a core: two dot products for the nearest vertex, one axis in all.
+//! A half-space against a core: a search for the nearest vertex, one axis in all.
 //!
 //! Of all directions only the plane's own normal can show a gap or a finite depth, so the separation is exact up to
 //! rounding: the least height of a vertex over the plane.
@@ -65,7 +65,7 @@ impl Plane {
     }
 
     /// Two half-spaces: the distance of planes that look exactly away from each other; else they overlap without end.
-    /// Whether they do is asked only of those that may.
+    /// `are_opposed` is asked only where the planes are parallel up to rounding.
     pub(crate) fn separation_from(&self, other: &Self, are_opposed: impl FnOnce() -> bool) -> f64 {
         let may_be =
             self.normal.cross(other.normal).length() <= PARALLEL && self.normal.dot(other.normal) < 0.0;

@@ -146,7 +146,7 @@ fn of_four(corners: &Corners) -> Option<Found> {
     const SIDES: [[usize; 2]; 3] = [[0, 1], [1, 2], [0, 2]];
     let normals = SIDES.map(|[i, j]| corners.along(i).cross(corners.along(j)));
     let whole = normals[0].dot(corners.along(2));
-    // Of the corners across from the sides, in the origin; times the square of the whole.
+    // The origin's share of the corner opposite each side, times the square of the whole.
     let share = |side: usize, whole: f64| -normals[side].dot(corners.last().1) * whole;
     let shares = [share(0, whole), share(1, whole), share(2, -whole)];
     let is_inside = shares.iter().all(|&share| share > 0.0) && shares.iter().sum::<f64>() < whole * whole;

@@ -278,7 +278,7 @@ impl<'a> Solid<'a> {
         along.highest(self.vertex_octets) - along.doubt(self.extent)
     }
 
-    /// Whether a face may look along a unit direction up to [`ALIGNED_FACES`]; where none does, this mostly says so. Cost:
+    /// Whether a face may look along a unit direction up to [`ALIGNED_FACES`]; errs towards yes, never towards no. Cost:
     /// linear in the faces, eight at a time.
     #[inline]
     pub(super) fn may_look_along(&self, direction: DVec3) -> bool {

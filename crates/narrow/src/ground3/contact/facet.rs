@@ -13,7 +13,7 @@ use asunder_geometry::tolerance::SAME_NORMAL;
 /// gives no direction but its triangles' own.
 const MOST_AROUND: usize = 256;
 
-/// Cosine of the angle up to which a triangle's own normal leads as good as the same way as what ground refuses: 0.1 rad.
+/// Cosine of 0.1 rad: within that, a triangle's own normal may stand in for a direction that ground refuses.
 const NEARLY: f64 = 0.995;
 
 /// A triangle in the ground's axes, its normal on the side of the part that looks at it.

@@ -17,7 +17,7 @@ use crate::polyhedron::reduce::{Spot, pick_four};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
-/// Most normals of a part at a time. A body that touches more ground than this is kept by the deepest of it.
+/// Most normals of a part at a time. Of a body that touches ground of more, the deepest stay.
 pub(super) const MOST_GROUPS: usize = 16;
 
 /// Most points of a group before only its corners are kept.

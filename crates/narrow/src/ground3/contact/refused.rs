@@ -3,8 +3,8 @@
 //! ```text
 //! first those whose axis is nearly their own normal, then the others: told by their own normals, but for those that are freed
 //!     by a normal that was heard before all of them, by the part's lowest vertex
-//!     of the others, by any that is heard by then and far from their own; those that a gap parts from the part only if they would
-//!     be told as deeper than all else
+//!     those not nearly their own also by any that is heard by then and far from it; those that a gap parts from the part
+//!     only if they would be told as deeper than all else
 //! ```
 //! A normal frees a triangle if a move along it, by how deep the part was found along it, leaves the triangle, too. Of a crate that lies
 //! over the edge of a step, a millimetre deep in the tread and half a metre beyond the riser, the riser is freed by the tread.

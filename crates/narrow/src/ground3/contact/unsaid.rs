@@ -1,4 +1,4 @@
-//! What ground is near in a gap, along directions that it refused, and nobody told of.
+//! Triangles near the part, across a gap, that gave no point because ground refused their direction.
 //!
 //! What is nearest of all ground lies in its own Voronoi region, and ground lets it through. Not so
 //!

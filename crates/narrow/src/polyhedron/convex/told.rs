@@ -48,7 +48,7 @@ impl Ball {
         if self.is_b { [center, on_cuboid] } else { [on_cuboid, center] }
     }
 
-    /// The one point of the shapes that is meant by touching, where they are so far apart.
+    /// The contact point, at this separation.
     pub(super) fn touch(&self, separation: f64, [on_a, on_b]: [DVec3; 2]) -> Touch {
         let point = Point { separation, on_a, on_b, feature: self.feature() };
         Touch { normal: self.axis(), points: core::iter::once(point).collect(), of: None }

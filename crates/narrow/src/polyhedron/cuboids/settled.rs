@@ -1,7 +1,7 @@
 //! From fifteen separations to the best axis, and how much better the truth may be.
 //!
 //! ```text
-//! D = 1.5 P bounds what a separation in closed form is off by, times its axis' length     (docs/accuracy.md, 2)
+//! D = 1.5 P bounds the error of a separation times the length of its axis, in closed form  (docs/accuracy.md, 2)
 //! the best face is a lower bound b; an edge pair whose S + D <= (b + slack) length cannot matter, whatever its angle
 //! the others are normalised; the best of them counts if it beats the face
 //! ```

@@ -17,8 +17,8 @@
 //! takes (hulls of 8 to 32 vertices, counted by callgrind, 2026-11-24).
 //!
 //! The polygon is what an expanding polytope has to cover still, laid out flat (van den Bergen, "Proximity queries and
-//! penetration depth computation on 3D game objects", GDC 2001); that bounds by points of a sphere become discs is the
-//! stereographic projection.
+//! penetration depth computation on 3D game objects", GDC 2001); the stereographic
+//! projection makes a disc of each point's bound on the sphere of directions.
 
 use super::super::solid::Solid;
 use super::AxisOf;
