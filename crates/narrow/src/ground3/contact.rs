@@ -447,9 +447,8 @@ impl Seen<'_> {
 
     /// What a height over a triangle may be off by, in metres.
     fn doubt_over(&self, facet: &Facet) -> f64 {
-        let standing = self.standing;
-        let lever = (standing.center - facet.origin()).abs().element_sum() + standing.outer_radius;
-        standing.doubt(facet.span()) + facet.tilt * lever
+        let Standing { center, outer_radius, lengths, .. } = *self.standing;
+        facet.doubt((center, outer_radius), lengths)
     }
 }
 

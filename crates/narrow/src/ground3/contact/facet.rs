@@ -4,7 +4,7 @@
 //! ground around it. Directions of ground are taken without a side, so that the same holds from in front and behind.
 
 use super::ball::nearest_to;
-use super::standing::span_of;
+use super::standing::{doubt_of, span_of};
 use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_NORMAL;
@@ -283,11 +283,12 @@ impl Facet {
         self.origin
     }
 
-    /// How far out its corners lie along each axis: what is told of its edges is rounded as the furthest corner is, however near
-    /// the rest of it.
+    /// What a height over it, or a distance from its edges, may be off by for a part within a radius of a centre, into which such
+    /// lengths went; in metres. As much as the furthest corner is rounded, however near the rest.
     #[inline]
-    pub(super) fn span(&self) -> DVec3 {
-        span_of(&self.corners)
+    pub(super) fn doubt(&self, (center, radius): (DVec3, f64), lengths: f64) -> f64 {
+        let lever = (center - self.origin).abs().element_sum() + radius;
+        doubt_of(lengths, span_of(&self.corners)) + self.tilt * lever
     }
 
     /// Where a half-edge starts, and its direction.

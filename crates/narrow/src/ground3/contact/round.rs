@@ -126,8 +126,7 @@ impl Round {
     fn look_at(&self, ground: Ground, near: &NearTriangle, known: &mut Known) -> bool {
         let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return true };
         let height = facet.height(self.center);
-        let lever = (self.center - facet.origin()).abs().element_sum() + self.radius;
-        let doubt = doubt_of(self.lengths, facet.span()) + facet.tilt * lever;
+        let doubt = facet.doubt((self.center, self.radius), self.lengths);
         let most = self.reach + doubt;
         if height.abs() - self.radius > most || ground.is_one_sided() && height < 0.0 {
             return true;

@@ -49,7 +49,7 @@ pub(super) struct Standing<'s> {
     /// Points no further above the deepest are as deep as any where four of more are chosen, in metres.
     pub(super) even: f64,
     /// Lengths that enter a coordinate, in metres.
-    lengths: f64,
+    pub(super) lengths: f64,
 }
 
 /// How far a part reaches down and up.
