@@ -35,6 +35,7 @@ mod radius;
 mod ray;
 mod rect;
 mod relative;
+mod ring;
 #[cfg(feature = "serde")]
 mod saved;
 mod scaled;

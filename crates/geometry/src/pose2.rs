@@ -1,7 +1,7 @@
 //! Where a body is in the plane, and the exact meaning of its rotation.
 
 use crate::pose3::{PoseError, check_position, check_rotation};
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
 
 /// A rotation in the plane, stored as its cosine and sine.
 ///
@@ -208,6 +208,22 @@ impl Pose2 {
     #[inline]
     pub fn transform_back(&self, point: DVec2) -> DVec2 {
         self.turn_back(point - self.position)
+    }
+
+    /// The same as an affine matrix, which takes local points to the world: for renderers and scene graphs. What
+    /// [`Pose3::to_affine`](crate::Pose3::to_affine) says of cameras holds here, too.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rotation2, glam::{Affine2, DAffine2, DVec2, Vec2}};
+    /// let body = Pose2::new([1e6, 0.25], Rotation2::new(0.0, 1.0)?)?;
+    /// let eye = DVec2::new(1e6, 0.0);
+    /// let seen: Affine2 = (DAffine2::from_translation(-eye) * body.to_affine()).as_affine2();
+    /// assert_eq!(seen.transform_point2(Vec2::X), Vec2::new(0.0, 1.25));
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn to_affine(&self) -> DAffine2 {
+        DAffine2::from_cols(self.rotation.turn(DVec2::X), self.rotation.turn(DVec2::Y), self.position)
     }
 
     /// A local direction taken to world axes: where the body looks, say.

@@ -1,7 +1,7 @@
 //! Where a body is in space, and the exact meaning of its rotation.
 
 use crate::tolerance::MAX_POSITION;
-use glam::{DVec3, Quat};
+use glam::{DAffine3, DVec3, Quat};
 
 /// Why a pose was refused.
 ///
@@ -222,6 +222,27 @@ impl Pose3 {
     #[inline]
     pub fn transform_back(&self, point: DVec3) -> DVec3 {
         self.basis().turn_back(point - self.position)
+    }
+
+    /// The same as an affine matrix, which takes local points to the world: for renderers and scene graphs. Right to some
+    /// units of 2^-53; its 3 by 3 part is a rotation, whatever the quaternion's length.
+    ///
+    /// An f32 matrix of it is as coarse as the position is far away. Draw relative to the camera, and nothing trembles:
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, glam::{Affine3A, DAffine3, DVec3, Mat4, Quat, Vec3A}};
+    /// let body = Pose3::new([1e6, 2.0, 0.25], Quat::from_xyzw(0.0, 0.0, 3.0, 3.0))?;
+    /// let eye = DVec3::new(1e6, 0.0, 0.0);
+    /// let seen = DAffine3::from_translation(-eye) * body.to_affine();
+    /// assert_eq!(seen.as_affine3a().transform_point3a(Vec3A::X), Vec3A::new(0.0, 3.0, 0.25));
+    /// let matrix: Mat4 = Mat4::from(seen.as_affine3a());
+    /// assert_eq!(matrix.w_axis.to_array(), [0.0, 2.0, 0.25, 1.0]);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    #[inline]
+    pub fn to_affine(&self) -> DAffine3 {
+        let Basis3 { x, y, z } = self.basis();
+        DAffine3::from_cols(x, y, z, self.position)
     }
 
     /// A local direction taken to world axes: where the body looks, say.

@@ -80,11 +80,10 @@ impl<F: Fn(u32) -> Sides> Builder<'_, F> {
     fn split(&mut self, part: Part, depth: usize, parts: &mut Parts) {
         let Part { start, mut end, mut order } = part;
         if depth >= DEEP {
+            // Giants among giants would be set apart forever: so deep, they are split by count like all others.
             order = Order::Any;
         } else if order == Order::None {
             let ordinary = start + sort(&mut self.items[start..end], self.scratch, &self.sides);
-            // Giants among giants would be set apart forever: so deep, they are split by count like all others.
-            let ordinary = if depth < DEEP { ordinary } else { end };
             if ordinary < end {
                 parts.push(Part { start: ordinary, end, order: Order::None });
             }

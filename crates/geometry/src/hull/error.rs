@@ -52,6 +52,18 @@ pub enum HullError {
         /// What was asked for.
         max_vertices: usize,
     },
+    /// A prism or a pyramid of fewer sides than 3, or of more than its corners allow.
+    Sides {
+        /// What was asked for.
+        sides: usize,
+        /// The most.
+        most: usize,
+    },
+    /// A half height or a radius of a prism or a pyramid that is not positive and finite.
+    NotPositive {
+        /// In metres, as it was given.
+        value: f32,
+    },
 }
 
 impl core::fmt::Display for HullError {
@@ -87,6 +99,15 @@ impl core::fmt::Display for HullError {
                 write!(
                     f,
                     "a hull of at most {max_vertices} vertices cannot be made: ask for 4 to {MAX_HULL_VERTICES}"
+                )
+            }
+            Self::Sides { sides, most } => {
+                write!(f, "{sides} sides cannot be made a hull: ask for 3 to {most}")
+            }
+            Self::NotPositive { value } => {
+                write!(
+                    f,
+                    "a half height or radius of {value} m makes no hull: give one that is positive and finite"
                 )
             }
         }

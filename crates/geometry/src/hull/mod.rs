@@ -11,6 +11,7 @@ mod loops;
 mod merge;
 pub(crate) mod normal;
 mod predicate;
+mod prism;
 mod quick;
 #[cfg(feature = "serde")]
 mod restore;

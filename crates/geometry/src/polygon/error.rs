@@ -60,6 +60,16 @@ pub enum PolygonError {
     },
     /// Every vertex turns left, but the outline runs around more than once, as a star's does.
     WindsRepeatedly,
+    /// A regular polygon of fewer sides than 3, or of more than [`MAX_POLYGON_VERTICES`].
+    Sides {
+        /// What was asked for.
+        sides: usize,
+    },
+    /// A radius of a regular polygon that is not positive and finite.
+    NotPositive {
+        /// In metres, as it was given.
+        value: f32,
+    },
 }
 
 impl core::fmt::Display for PolygonError {
@@ -98,6 +108,12 @@ impl core::fmt::Display for PolygonError {
             }
             Self::WindsRepeatedly => {
                 write!(f, "the outline runs around more than once: use Polygon::hull_of")
+            }
+            Self::Sides { sides } => {
+                write!(f, "no polygon has {sides} sides: ask for 3 to {MAX_POLYGON_VERTICES}")
+            }
+            Self::NotPositive { value } => {
+                write!(f, "a radius of {value} m makes no polygon: give one that is positive and finite")
             }
         }
     }

@@ -4,6 +4,7 @@ use crate::aabb::Aabb2;
 use crate::outward::{around2, round_down, round_up};
 use crate::pose2::Pose2;
 use crate::radius::{RadiusError, check_rounding, grown};
+use crate::ring;
 use crate::tolerance::{MAX_POLYGON_VERTICES, MAX_RADIUS, MIN_RADIUS};
 use glam::{DVec2, Vec2};
 use predicate::{corners, direction_changes, first_repeated, is_before, order, orientation};
@@ -96,6 +97,33 @@ impl Polygon {
     /// Fewer than three points, points on one line, non-finite or out of range, too many vertices.
     pub fn hull_of(points: &[Vec2]) -> Result<Self, PolygonError> {
         Self::from_convex(hull_vertices(points)?, 0.0)
+    }
+
+    /// A regular polygon about its own origin, with a corner on the side of x; `radius`, in metres, is that of its corners.
+    ///
+    /// Corners that an f32 cannot tell from the line between their neighbours are left out: of some thousands, a few.
+    ///
+    /// ```
+    /// use asunder_geometry::{Polygon, PolygonError, glam::Vec2};
+    /// let diamond = Polygon::regular(2.0, 4)?;
+    /// let corners = [(-2.0, 0.0), (0.0, -2.0), (2.0, 0.0), (0.0, 2.0)].map(Vec2::from);
+    /// assert_eq!(diamond.vertices(), corners);
+    /// assert_eq!(Polygon::regular(2.0, 2).unwrap_err(), PolygonError::Sides { sides: 2 });
+    /// # Ok::<(), PolygonError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Fewer than 3 sides, or more than 4096; a radius that is not positive and finite; what [`Polygon::hull_of`] refuses
+    /// about the corners.
+    pub fn regular(radius: f32, sides: usize) -> Result<Self, PolygonError> {
+        if !(3..=MAX_POLYGON_VERTICES).contains(&sides) {
+            return Err(PolygonError::Sides { sides });
+        }
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(PolygonError::NotPositive { value: radius });
+        }
+        let corners: Vec<Vec2> = ring::corners(sides, radius).map(|corner| corner.as_vec2()).collect();
+        Self::hull_of(&corners)
     }
 
     /// The convex hull of any points with at most `max_vertices` vertices, chosen so that the points left outside are

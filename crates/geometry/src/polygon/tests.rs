@@ -176,3 +176,22 @@ fn a_sliver_that_f64_cannot_tell_from_a_line_has_a_centre_in_its_box() {
         assert!(sliver.vertices().iter().all(|v| v.as_dvec2().distance(sliver.center().into()) <= reach));
     }
 }
+
+#[test]
+fn regular_polygons_have_their_corners_and_refuse_what_has_none() {
+    for sides in (3..1500).chain([2048, 4096]) {
+        let regular = Polygon::regular(2.5, sides).unwrap();
+        let count = regular.vertices().len();
+        assert!(count <= sides && (count == sides || sides > 1000), "{sides} sides: {count}");
+        assert!(regular.vertices().iter().all(|v| (v.as_dvec2().length() - 2.5).abs() < 3e-7));
+        let within = 2.5 * libm::cos(core::f64::consts::PI / sides as f64);
+        assert!((f64::from(regular.inner_radius()) - within).abs() < 2e-6, "{sides} sides");
+    }
+    for sides in [0, 2, 4097, usize::MAX] {
+        assert_eq!(Polygon::regular(1.0, sides).unwrap_err(), PolygonError::Sides { sides });
+    }
+    for value in [0.0, -1.0, f32::INFINITY] {
+        assert_eq!(Polygon::regular(value, 5).unwrap_err(), PolygonError::NotPositive { value });
+    }
+    assert!(matches!(Polygon::regular(f32::NAN, 5), Err(PolygonError::NotPositive { .. })));
+}

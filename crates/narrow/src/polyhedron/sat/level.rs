@@ -34,7 +34,8 @@ impl Level {
         let mut neighbour = None;
         for &half_edge in solid.topology.leaving(deepest) {
             let (_, to) = solid.topology.ends(half_edge.into());
-            if place(to) > most {
+            // A ball's core is one vertex, and its only edge leads back to it.
+            if to == deepest || place(to) > most {
                 continue;
             }
             let face = solid.topology.half_edges()[usize::from(half_edge)].face as usize;

@@ -64,17 +64,16 @@ impl Hinted {
     pub(crate) fn walk(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Ended {
         let (mut at, mut most) = (*self, self.axis.separation);
         let least = -precision.doubt_of_depth();
-        for walk in 0..MOST_WALKS {
+        for _ in 0..MOST_WALKS {
             if at.axis.separation >= least {
                 return Ended::Apart(at.axis);
             }
             match at.judged((a, b), precision) {
                 Judged::Best(axes) => return Ended::Best(axes),
-                Judged::Beaten(direction) if walk < MOST_WALKS => {
+                Judged::Beaten(direction) => {
                     let Some(next) = face_towards((a, b), direction, precision) else { break };
                     at = next;
                 }
-                Judged::Beaten(_) => break,
                 Judged::Open => {}
             }
             let Some(next) = at.walked((a, b), precision) else { break };
