@@ -6,7 +6,7 @@ mod points;
 mod sieve;
 mod stories;
 
-use asked::{Questioned, answers, check, visited};
+use asked::{Questioned, answers, check, not_touched, visited};
 use asunder::{Filter, Plane, Volume, World};
 use asunder_tests::cases::Random;
 use sieve::Sieve;
@@ -18,6 +18,7 @@ struct Seen {
     overlaps: usize,
     near: usize,
     met: usize,
+    touched: usize,
 }
 
 /// A life: bodies come and go, move alone and in crowds, and questions come at any time.
@@ -73,10 +74,18 @@ fn live<S: Questioned>(seed: u128, steps: usize, room: f64, shift: f64) -> Seen 
             assert_eq!(answers(&world.clone(), &asked, filter), found, "a clone answers the same");
             copy.clone_from(&world);
             assert_eq!(answers(&copy, &asked, filter), found, "so does one that was asked of others before");
+            let untouched = answers(&world, &asked, &filter.without_touched());
             seen.asked += 1;
+            seen.touched +=
+                found.rays.len() + found.casts.len() - untouched.rays.len() - untouched.casts.len();
             seen.overlaps += found.over.len() + found.holding.len();
             seen.met += found.rays.len() + found.casts.len();
             seen.near += found.near_shape.len() + found.near_point.len();
+            assert_eq!(
+                untouched,
+                not_touched::<S>(found),
+                "what is touched at the start is left out, and nothing else"
+            );
         }
     }
     seen
@@ -88,7 +97,11 @@ fn every_question_at_any_time() {
         let seen = [live::<Volume>(2500 + seed, 300, 4.0, 0.0), live::<Plane>(2600 + seed, 300, 9.0, 0.0)];
         for seen in seen {
             assert!(
-                seen.asked > 150 && seen.overlaps > 200 && seen.near > 2000 && seen.met > 300,
+                seen.asked > 150
+                    && seen.overlaps > 200
+                    && seen.near > 2000
+                    && seen.met > 300
+                    && seen.touched > 100,
                 "{seen:?}"
             );
         }

@@ -121,6 +121,14 @@ pub(super) fn answers<S: Questioned>(
     answers
 }
 
+/// The same answers without those of bodies that are touched at the start.
+pub(super) fn not_touched<S: Questioned>(mut found: Answers<S>) -> Answers<S> {
+    found.rays.retain(|hit| !hit.inside);
+    found.casts.retain(|hit| !hit.overlapping);
+    (found.first_ray, found.first_cast) = (found.rays.first().copied(), found.casts.first().copied());
+    found
+}
+
 /// What visitors are told, put in order.
 pub(super) fn visited<S: Questioned>(
     world: &World<S>,

@@ -101,7 +101,7 @@ pub(crate) fn move_and_slide<S: Walks>(
     filter: &Filter<'_, S>,
 ) -> Slid<S> {
     let gait = Gait::of::<S>(walk, shape, start);
-    let mut mover = Mover { world, shape, filter: filter.solid(), gait, pose: *start };
+    let mut mover = Mover { world, shape, filter: filter.solid().with_touched(), gait, pose: *start };
     let mut slid = Slide {
         pose: *start,
         moved: S::Point::ZERO,

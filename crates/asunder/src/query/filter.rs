@@ -37,6 +37,7 @@ pub struct Filter<'a, S: Space> {
     without_all: &'a [S::Key],
     without_owner: Option<u64>,
     is_solid: bool,
+    is_apart: bool,
     only: Option<Only<'a, S>>,
 }
 
@@ -66,6 +67,7 @@ impl<'a, S: Space> Filter<'a, S> {
             without_all: &[],
             without_owner: None,
             is_solid: false,
+            is_apart: false,
             only: None,
         }
     }
@@ -116,11 +118,39 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
+    /// Leaves out, whole, what a ray starts in and what a moved shape touches at the start: for shots out of a vehicle, and
+    /// cameras that start in somebody's head. Ground that it starts on is left out as well, so start a little off that. Of
+    /// queries without a way, of `cast_shape_onwards`, which passes over parts, and of characters it changes nothing.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Ray3, Sphere, World3, glam::{DVec3, Vec3}};
+    /// let mut world = World3::new();
+    /// let ball = Collider3::new(Sphere::new(1.0)?);
+    /// let tank = world.insert(ball.clone());
+    /// let foe = world.insert(ball.at(Pose3::at([9.0, 0.0, 0.0])?));
+    /// let ray = Ray3::new(DVec3::ZERO, Vec3::X)?;
+    /// let hit = |filter| world.cast_ray(&ray, 99.0, filter).map(|hit| (hit.body, hit.inside));
+    /// assert_eq!(hit(&Filter3::new()), Some((tank, true)));
+    /// assert_eq!(hit(&Filter3::new().without_touched()), Some((foe, false)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn without_touched(mut self) -> Self {
+        self.is_apart = true;
+        self
+    }
+
     /// Finds only bodies of which this says yes. It is asked last, of bodies whose boxes may be met, in no promised
     /// order; it may ask the world in turn. Another call takes the place of the one before.
     #[must_use]
     pub const fn only(mut self, only: &'a (dyn Fn(S::Key, &Collider<S>) -> bool + Sync)) -> Self {
         self.only = Some(only);
+        self
+    }
+
+    /// Finds what is touched, too: for who walks, and stands on something.
+    pub(crate) const fn with_touched(mut self) -> Self {
+        self.is_apart = false;
         self
     }
 
@@ -131,6 +161,12 @@ impl<'a, S: Space> Filter<'a, S> {
         !(body.disabled || is_left_out || self.is_solid && body.sensor)
             && (self.without_owner.is_none() || self.without_owner != body.owner)
             && self.layers.is_none_or(|layers| layers.meets(body.layers))
+    }
+
+    /// Whether it may be met where it is touched at the start, or is not.
+    #[inline]
+    pub(super) fn admits_start(&self, is_touched: bool) -> bool {
+        !(self.is_apart && is_touched)
     }
 
     #[inline]
@@ -161,6 +197,7 @@ impl<S: Space> fmt::Debug for Filter<'_, S> {
             .field("without_all", &self.without_all)
             .field("without_owner", &self.without_owner)
             .field("is_solid", &self.is_solid)
+            .field("is_apart", &self.is_apart)
             .field("has_only", &self.only.is_some())
             .finish()
     }

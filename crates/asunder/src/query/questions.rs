@@ -58,7 +58,9 @@ pub(crate) fn bodies_along_ray<'q, S: Asked>(
     filter: &'q Filter<'q, S>,
 ) -> Question<'q, S, impl Asks<S, Enter<S>>> {
     let limit = limit_of(limit);
-    let ask = move |key, body: &_| S::enter(ray, limit, key, body);
+    let ask = move |key, body: &_| {
+        S::enter(ray, limit, key, body).filter(|entered| filter.admits_start(entered.inside))
+    };
     let reach = Reach::Along(S::along_ray(ray));
     Question { world, filter, reach, bounds_of: S::bounds_at_once, limit, ask }
 }
@@ -70,7 +72,11 @@ pub(crate) fn bodies_along<'q, S: Asked>(
     displacement: S::Vector,
     filter: &'q Filter<'q, S>,
 ) -> Question<'q, S, impl Asks<S, Meet<S>>> {
-    moved((world, filter), at, displacement, move |body| S::meet(at, displacement, body))
+    moved((world, filter), at, displacement, move |key, body| {
+        let (fraction, impact) = S::meet(at, displacement, body)?;
+        let met = S::met(fraction, &impact, key, body);
+        filter.admits_start(met.overlapping).then_some(met)
+    })
 }
 
 /// What a moved shape runs into first, but for what it touches at the start, and what is flush with that.
@@ -109,7 +115,7 @@ fn bodies_ahead<'q, S: Asked>(
     // of the way to meet the other.
     let share = (2.0 * tolerance::MAX_POSITION / S::longest(displacement)).min(1.0);
     let is_far = share * S::longest(displacement) > tolerance::MAX_POSITION;
-    moved((world, filter), at, displacement, move |body: &Collider<S>| {
+    moved((world, filter), at, displacement, move |key, body| {
         let motions = if is_far {
             [Some(S::shift(displacement, 0.5 * share)?), Some(S::shift(displacement, -0.5 * share)?)]
         } else {
@@ -117,7 +123,7 @@ fn bodies_ahead<'q, S: Asked>(
         };
         let runs_into = if body.sensor { RunsInto::Sensor } else { RunsInto::Solid(touches) };
         let (fraction, impact) = S::impact([at, (&body.shape, &body.pose)], runs_into, motions)?;
-        Some((fraction * share, impact))
+        Some(S::met(fraction * share, &impact, key, body))
     })
 }
 
@@ -126,11 +132,8 @@ fn moved<'q, S: Asked>(
     (world, filter): (&'q World<S>, &'q Filter<'q, S>),
     at: Posed<'q, S>,
     displacement: S::Vector,
-    meet: impl Fn(&Collider<S>) -> Option<(f64, S::Impact)>,
+    ask: impl Fn(S::Key, &Collider<S>) -> Option<Meet<S>>,
 ) -> Question<'q, S, impl Asks<S, Meet<S>>> {
-    let ask = move |key, body: &Collider<S>| {
-        meet(body).map(|(fraction, impact)| S::met(fraction, &impact, key, body))
-    };
     let reach = Reach::Along(S::along(&S::bounds(at.0, at.1, 0.0), displacement));
     Question { world, filter, reach, bounds_of: S::bounds_at_once, limit: 1.0, ask }
 }

@@ -42,7 +42,7 @@ impl BallOnFaces<'_> {
     fn named(&self) -> Feature {
         let Feature::Face(face) = self.nearest.feature else { return self.nearest.feature };
         let smaller = self.radius.min(self.shape.outer_radius().into());
-        let near = (SAME_PLACE * 2.0 * smaller).max(self.precision.projection());
+        let near = self.precision.share(SAME_PLACE, smaller);
         let core = self.shape.core();
         let (topology, corners) = (core.topology(), core.vertices());
         let (mut vertex, mut edge) = ((near, None), (near, None));

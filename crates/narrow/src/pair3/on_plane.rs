@@ -75,9 +75,9 @@ impl OnPlane<'_> {
         if self.plane.is_b { [of_shape, of_plane] } else { [of_plane, of_shape] }
     }
 
-    /// So much of the shape's diameter, and never less than rounding.
+    /// So much of the shape's diameter.
     fn of_shape(&self, share: f64) -> f64 {
-        (share * 2.0 * f64::from(self.shape.outer_radius())).max(self.precision.projection())
+        self.precision.share(share, self.shape.outer_radius().into())
     }
 }
 

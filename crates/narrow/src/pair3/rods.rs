@@ -91,7 +91,7 @@ impl Told for Rods<'_> {
     #[inline]
     fn add_points(&self, margin: f32, manifold: &mut Manifold3) {
         let smaller = f64::from(self.pair.shape_a.outer_radius().min(self.pair.shape_b.outer_radius()));
-        let preference = (FACE_PREFERENCE * 2.0 * smaller).max(self.precision.projection());
+        let preference = self.precision.share(FACE_PREFERENCE, smaller);
         let [a, b] = &self.rods;
         for point in touch([a, b], &self.nearest, reach_of(margin), preference).points {
             let [anchor_a, anchor_b] = self.anchors_of([point.on_a, point.on_b]);

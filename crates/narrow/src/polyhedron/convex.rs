@@ -350,10 +350,10 @@ impl<'a> Convex<'a> {
         self.of_smaller(SAME_PLACE)
     }
 
-    /// So much of the smaller shape's diameter, and never less than rounding.
+    /// So much of the smaller shape's diameter.
     fn of_smaller(&self, share: f64) -> f64 {
         let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
-        (share * 2.0 * smaller).max(self.precision.projection())
+        self.precision.share(share, smaller)
     }
 }
 

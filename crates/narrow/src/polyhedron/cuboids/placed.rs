@@ -140,9 +140,9 @@ impl Placed {
         let half = [a.half_extents().as_dvec3(), b.half_extents().as_dvec3()];
         let Size { cores, radii, smaller } = Size::of(posed);
         let precision = Size::precision(cores, cores + radii, offset);
-        let preference = (FACE_PREFERENCE * 2.0 * smaller).max(precision.projection());
-        let even = (EVEN_DEPTH * 2.0 * smaller).max(precision.projection());
-        let near = (SAME_PLACE * 2.0 * smaller).max(precision.projection());
+        let preference = precision.share(FACE_PREFERENCE, smaller);
+        let even = precision.share(EVEN_DEPTH, smaller);
+        let near = precision.share(SAME_PLACE, smaller);
         let Basis3 { x, y, z } = relative;
         let turn = [x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z];
         Self { half, relative, turn, offset, basis, precision, radii, preference, even, near, fifteen }
