@@ -4,7 +4,7 @@
 //! kept         bodies with their slots, versions and the order in which empty slots are filled again; shared shapes, once each
 //!              which bodies moved or changed since the last update, and how far they went; motions; candidates with hints,
 //!              and what is moved along or stays apart; contacts; events; impacts; counts
-//! worked out   boxes, filters, the contacts of each body: functions of the bodies and contacts
+//! worked out   boxes, filters, the contacts of each body: functions of the bodies, their motions and contacts
 //! dropped      the memory of the broad phase, whose list depends on the boxes alone, and of the queries; scratch; times
 //! ```
 //! The world and its bodies are taken apart field by field, without `..`: what is added to them must be sorted into

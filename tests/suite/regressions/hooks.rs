@@ -1,6 +1,6 @@
 //! Hooks that go wrong.
 
-use asunder::{Collider3, Hooks3, Meeting3, Motion3, Pose3, Sphere, World3};
+use asunder::{Collider3, Hooks3, Meeting3, Motion3, Pose3, Side3, Sphere, World3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Symptom: after a contact hook panicked, `contacts()` panicked too, and whoever had begun to touch was never reported. Cause: the
@@ -41,4 +41,27 @@ fn a_hook_that_panics_leaves_no_impact_of_the_update_before() {
     let fails = |_: Meeting3<'_>| panic!("a game's own mistake");
     assert!(catch_unwind(AssertUnwindSafe(|| world.update_with(&Hooks3::new().contact(&fails)))).is_err());
     assert!(world.impacts().is_empty());
+}
+
+/// Symptom: a world that was saved after a hook panicked forgot what its motions bring. Cause: boxes were restored where bodies stand,
+/// and those of kept motions are made once.
+#[test]
+fn a_world_saved_after_a_hook_panicked_keeps_what_its_motions_bring() {
+    let pair = |_: Side3<'_>, _: Side3<'_>| panic!("a game's own mistake");
+    let contact = |_: Meeting3<'_>| panic!("a game's own mistake");
+    for hooks in [Hooks3::new().pair(&pair), Hooks3::new().contact(&contact)] {
+        let mut world = World3::new();
+        let ball = Collider3::new(Sphere::new(0.5).unwrap());
+        let bullet = world.insert(ball.clone().bullet());
+        world.insert(ball.at(Pose3::at([5.0, 0.0, 0.0]).unwrap()));
+        world.update();
+        world.set_motion(bullet, Motion3::shift([8.0, 0.0, 0.0]).unwrap()).unwrap();
+        assert!(catch_unwind(AssertUnwindSafe(|| world.update_with(&hooks))).is_err());
+        let mut restored = World3::restore(&world.snapshot()).unwrap();
+        for world in [&mut world, &mut restored] {
+            world.update();
+            assert_eq!((world.contacts().len(), world.impacts_of(bullet).len()), (1, 1));
+        }
+        assert_eq!(world.snapshot(), restored.snapshot());
+    }
 }

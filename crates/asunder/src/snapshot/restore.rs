@@ -7,7 +7,7 @@ use super::shapes::{Revived, Saved};
 use super::slots::slot_map;
 use crate::collider::{Collider, Tag};
 use crate::hooks::Edited;
-use crate::motion::Motions;
+use crate::motion::{Motions, swept_bounds};
 use crate::odometer::Odometer;
 use crate::query::Boxes;
 use crate::records::Records;
@@ -57,7 +57,8 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
     let mut by_second: Vec<u32> = (0..records.len() as u32).collect();
     by_second.sort_unstable_by_key(|&index| (records[index as usize].pair.b, index));
     let revived = revived(&Revived::of(shapes)?, slots)?;
-    let Derived { keys, boxes, tags } = Derived::of(slots, &revived);
+    let motions = Motions::of_list(motions);
+    let Derived { keys, boxes, tags } = Derived::of(slots, &revived, &motions);
     let versions = slots.iter().map(|slot| slot.version);
     let bodies = slot_map(versions.zip(revived).collect(), free)
         .map_err(|_| SnapshotError::Slot { slot: slots.len() })?;
@@ -71,7 +72,7 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
         moved: moved.clone(),
         is_moved,
         reshaped: reshaped.clone(),
-        motions: Motions::of_list(motions),
+        motions,
         max_pairs: usize::try_from(*max_pairs).unwrap_or(usize::MAX),
         candidates,
         records: Records::of(&records),
@@ -178,7 +179,7 @@ struct Derived<S: Saved> {
 }
 
 impl<S: Saved> Derived<S> {
-    fn of(slots: &[SlotForm<S>], bodies: &[Option<Collider<S>>]) -> Self {
+    fn of(slots: &[SlotForm<S>], bodies: &[Option<Collider<S>>], motions: &Motions<S>) -> Self {
         let count = with_slot_zero(slots.len());
         let mut derived = Self {
             keys: vec![S::Key::null(); count],
@@ -190,7 +191,11 @@ impl<S: Saved> Derived<S> {
             derived.keys[slot] = form.key(slot);
             derived.tags[slot] = Tag::of(body);
             if !body.disabled {
-                derived.boxes[slot] = S::bounds(&body.shape, &body.pose, body.margin);
+                // A motion is kept if a hook panicked, and then this box is not made again before the next update.
+                derived.boxes[slot] = match motions.of(slot as u32) {
+                    Some(motion) => swept_bounds(body, &motion),
+                    None => S::bounds(&body.shape, &body.pose, body.margin),
+                };
             }
         }
         derived
