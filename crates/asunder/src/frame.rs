@@ -70,9 +70,13 @@ impl<S: Space> World<S> {
 
 /// The stages, one after the other.
 pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
-    world.stats = Stats { bodies: world.bodies.len(), ..Stats::default() };
-    // If a hook panics, last update's impacts must not be taken for this one's.
+    let Stats { candidates, contacts, touching, manifolds, .. } = world.stats;
+    // If a hook panics, last update's events and impacts must not be taken for this one's; candidates and contacts are, and so are their
+    // counts.
+    world.events.clear();
     world.impacts.clear();
+    let bodies = world.bodies.len();
+    world.stats = Stats { bodies, candidates, contacts, touching, manifolds, ..Stats::default() };
     world.stats.refit = world.timed(refit::refit);
     world.stats.sweep = world.timed(|world| sweep::sweep(world, hooks));
     world.stats.collide = world.timed(collide::collide);

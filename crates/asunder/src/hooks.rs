@@ -103,6 +103,9 @@ impl<'a, S: Space> Hooks<'a, S> {
     /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on
     /// agree. A refused pair is not a candidate: a contact that it had ends, and a bullet of it does not run into the other.
     /// It still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are asked.
+    ///
+    /// If a pair hook panics and the game goes on, candidates and contacts stay those of the update before, none of them new; there are
+    /// no events and no impacts, and motions are kept. The next update tells all that has begun and ended since.
     #[must_use]
     pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
         self.pair = Some(may_meet);
@@ -171,7 +174,9 @@ impl<S: Space> Edited<S> {
 /// Leaves out the pairs that the hook refuses.
 pub(crate) fn refuse_pairs<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     let Some(may_meet) = hooks.pair else { return };
-    let World { bodies, keys, scratch, .. } = world;
+    let World { bodies, keys, records, scratch, .. } = world;
+    // If the hook panics, contacts stay, and what of them is new was told with the events of before.
+    records.all_mut().for_each(|record| record.is_new = false);
     let side = |slot: u32| {
         let key = keys[slot as usize];
         bodies.get(key).map(|body| Side { key, body })

@@ -1,6 +1,6 @@
 //! Hooks that go wrong.
 
-use asunder::{Collider3, Hooks3, Meeting3, Motion3, Pose3, Side3, Sphere, World3};
+use asunder::{Collider3, Event3, Hooks3, Meeting3, Motion3, Pose3, Side3, Sphere, Stats, World3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Symptom: after a contact hook panicked, `contacts()` panicked too, and whoever had begun to touch was never reported. Cause: the
@@ -64,4 +64,35 @@ fn a_world_saved_after_a_hook_panicked_keeps_what_its_motions_bring() {
         }
         assert_eq!(world.snapshot(), restored.snapshot());
     }
+}
+
+/// Symptom: after a pair hook panicked, events were those of the update before, so that a game handled them twice, and contacts were new
+/// twice; counts were none, with candidates and contacts there. Cause: all of them were left to the stages after the hook.
+#[test]
+fn a_pair_hook_that_panics_tells_nothing_twice_and_loses_nothing() {
+    let mut world = World3::new();
+    let ball = Collider3::new(Sphere::new(0.5).unwrap());
+    let at = |x: f64| Pose3::at([x, 0.0, 0.0]).unwrap();
+    let [_, parts, comes] = [0.0, 0.75, 9.0].map(|x| world.insert(ball.clone().at(at(x))));
+    world.update();
+    assert_eq!((world.events().len(), world.contacts().filter(|contact| contact.is_new).count()), (1, 1));
+    // One parts and another comes, in an update that dies: twice.
+    let fails = |_: Side3<'_>, _: Side3<'_>| panic!("a game's own mistake");
+    for x in [-5.0, -0.5] {
+        world.set_pose(parts, at(5.0)).unwrap();
+        world.set_pose(comes, at(x)).unwrap();
+        // A pair that is there to be asked about in any case.
+        let [one, other] = [20.0, 20.5].map(|x| world.insert(ball.clone().at(at(x))));
+        assert!(catch_unwind(AssertUnwindSafe(|| world.update_with(&Hooks3::new().pair(&fails)))).is_err());
+        assert!(world.events().is_empty() && world.contacts().all(|contact| !contact.is_new));
+        let Stats { candidates, contacts, touching, manifolds, .. } = *world.stats();
+        assert_eq!((candidates, contacts, touching, manifolds), (1, 1, 1, 1));
+        assert_eq!((world.candidates().len(), world.contacts().len()), (1, 1));
+        [one, other].into_iter().for_each(|key| drop(world.remove(key)));
+    }
+    world.update();
+    let told: Vec<bool> = world.events().iter().map(Event3::is_began).collect();
+    assert_eq!(told, [false, true], "what parted has ended, what came has begun");
+    world.update();
+    assert!(world.events().is_empty());
 }
