@@ -77,8 +77,12 @@ fn what_contradicts_itself_is_refused_by_name() {
     refused(&|c| c["free"] = json!([]), "empty slots");
     refused(&|c| c["free"][0] = json!(0), "empty slots");
     refused(&|c| c["free"][0] = c["free"][1].clone(), "empty slots");
-    refused(&|c| c["slots"][0]["version"] = json!(4), "version of slot 1");
-    refused(&|c| c["slots"][0]["version"] = json!(u32::MAX), "version of slot 1");
+    refused(&|c| c["slots"][0]["version"] = json!(4), "slot 1 has a version");
+    refused(&|c| c["slots"][0]["version"] = json!(u32::MAX), "slot 1 has a version");
+    refused(
+        &|c| c["odometers"] = json!([[1, 1.0, 2.0]]),
+        "slot 1 has a version that is even or too great, or its body went",
+    );
     refused(&|c| c["moved"] = json!([9999]), "moved bodies is out of order");
     refused(&|c| c["dirty"] = json!([2, 2]), "changed bodies is out of order");
     refused(&|c| c["reshaped"] = json!([0]), "reshaped bodies is out of order");

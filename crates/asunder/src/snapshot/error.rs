@@ -33,7 +33,7 @@ pub enum SnapshotError {
         /// What is wrong with it.
         error: MarginError,
     },
-    /// A slot has a body and a version of an empty one, or the other way round.
+    /// The version of a slot is even or too great, or how far its body went is no number that can be.
     Slot {
         /// The slot.
         slot: usize,
@@ -86,7 +86,12 @@ impl core::fmt::Display for SnapshotError {
             Self::Format { found } => write!(f, "format {found} is not that of this version of asunder"),
             Self::Shape { index, reason } => write!(f, "shape {index}: {reason}"),
             Self::Margin { slot, error } => write!(f, "body in slot {slot}: {error}"),
-            Self::Slot { slot } => write!(f, "the version of slot {slot} does not go with its body"),
+            Self::Slot { slot } => {
+                write!(
+                    f,
+                    "slot {slot} has a version that is even or too great, or its body went no distance that can be"
+                )
+            }
             Self::Free => write!(f, "the list of empty slots does not name each of them once"),
             Self::Key { list, index } => {
                 write!(f, "number {index} of the {list} has a key that no body of this world ever had")
