@@ -2,7 +2,7 @@
 
 use super::{ROOM, Stored, act, assert_equal_texts, shown};
 use asunder::glam::Vec3;
-use asunder::{Collider3, Cuboid, Pose3, Snapshot3, SnapshotError, TriMesh, Volume, World3};
+use asunder::{Collider3, Cuboid, Motion3, Pose3, Snapshot3, SnapshotError, Sphere, TriMesh, Volume, World3};
 use asunder_tests::cases::Random;
 use asunder_tests::engine::Engine;
 use serde_json::{Value, json};
@@ -320,4 +320,33 @@ fn what_is_kept_has_lengths_that_can_be() {
     refused(grounded, "Grounded", &["memory", "manifolds", "0", "error"], much.clone());
     refused(grounded, "Grounded", &["memory", "manifolds", "0", "separation"], much.clone());
     refused(grounded, "Grounded", &["arm"], much);
+}
+
+/// Symptom: a made-up list of impacts in another order was restored, and `impacts_of` found nothing in it.
+#[test]
+fn impacts_are_in_order() {
+    let mut world = World3::new();
+    let ball = Collider3::new(Sphere::new(0.5).unwrap());
+    let at = |x: f64, y: f64| Pose3::at([x, y, 0.0]).unwrap();
+    let bullets = [0.0, 9.0].map(|y| world.insert(ball.clone().bullet().at(at(0.0, y))));
+    for y in [0.0, 9.0] {
+        world.insert(ball.clone().sensor().at(at(3.0, y)));
+        world.insert(ball.clone().at(at(5.0, y)));
+    }
+    for bullet in bullets {
+        world.set_motion(bullet, Motion3::shift([8.0, 0.0, 0.0]).unwrap()).unwrap();
+    }
+    world.update();
+    let whole = serde_json::to_value(world.snapshot()).unwrap();
+    let restored = judged(whole.clone()).unwrap();
+    assert!(bullets.iter().all(|&bullet| restored.impacts_of(bullet).len() == 2));
+    for (one, other) in [(0, 1), (2, 3), (0, 2), (1, 3), (0, 3)] {
+        let mut changed = whole.clone();
+        changed["content"]["impacts"].as_array_mut().unwrap().swap(one, other);
+        let said = judged(changed).err().unwrap_or_else(|| panic!("taken: {one} and {other} swapped"));
+        assert!(said.contains("impacts is out of order"), "{said}");
+    }
+    let mut changed = whole;
+    changed["content"]["impacts"][0]["bullet"] = json!({"idx": 77_777, "version": 1});
+    assert!(judged(changed).is_err_and(|said| said.contains("impacts has a key")));
 }

@@ -10,6 +10,7 @@ use crate::motion::Hit;
 use crate::slab::NOWHERE;
 use crate::world::slot_of;
 use asunder_broad::PairId;
+use core::cmp::Ordering;
 
 /// Judges pairs by the slots and their versions.
 pub(super) struct Judge<'a, S: Saved> {
@@ -61,11 +62,22 @@ impl<S: Saved> Judge<'_, S> {
         Ok(())
     }
 
-    /// Hits name a bullet and what it meets, in no order of slots.
-    pub(super) fn impacts<I>(&self, impacts: &[Hit<S::Key, I>]) -> Result<(), SnapshotError> {
-        let is_stranger = |hit: &Hit<S::Key, I>| !self.has_been(hit.bullet) || !self.has_been(hit.other);
-        match impacts.iter().position(is_stranger) {
-            Some(index) => Err(SnapshotError::Key { list: "impacts", index }),
+    /// By the bullet's slot, then by time; the other may be in any slot. A slot has had one bullet in an update.
+    pub(super) fn impacts(&self, impacts: &[Hit<S::Key, S::Impact>]) -> Result<(), SnapshotError> {
+        let list = "impacts";
+        let is_stranger = |hit: &Hit<S::Key, _>| !self.has_been(hit.bullet) || !self.has_been(hit.other);
+        if let Some(index) = impacts.iter().position(is_stranger) {
+            return Err(SnapshotError::Key { list, index });
+        }
+        let is_before = |one: &Hit<S::Key, S::Impact>, other: &Hit<S::Key, S::Impact>| {
+            let times = [one, other].map(|hit| S::fraction(&hit.impact));
+            match slot_of(one.bullet).cmp(&slot_of(other.bullet)) {
+                Ordering::Equal => one.bullet == other.bullet && times[0].total_cmp(&times[1]).is_le(),
+                by_slot => by_slot.is_lt(),
+            }
+        };
+        match impacts.windows(2).position(|two| !is_before(&two[0], &two[1])) {
+            Some(before) => Err(SnapshotError::Order { list, index: before + 1 }),
             None => Ok(()),
         }
     }

@@ -90,6 +90,10 @@ pub trait Saved:
     /// Whether what is kept of a manifold is sound, and its other numbers are finite.
     #[doc(hidden)]
     fn is_lasting(persistent: &Self::Persistent) -> bool;
+
+    /// When it is, as a share of the motion.
+    #[doc(hidden)]
+    fn fraction(impact: &Self::Impact) -> f64;
 }
 
 /// The shape of a body or of a compound's part.
@@ -290,6 +294,10 @@ impl Saved for Plane {
     fn is_lasting(persistent: &Self::Persistent) -> bool {
         Self::is_sound(persistent.manifold()) && persistent.is_sound()
     }
+
+    fn fraction(impact: &Self::Impact) -> f64 {
+        impact.fraction
+    }
 }
 
 impl Saved for Volume {
@@ -357,6 +365,10 @@ impl Saved for Volume {
 
     fn is_lasting(persistent: &Self::Persistent) -> bool {
         persistent.manifolds().all(|manifold| Self::is_sound(&manifold)) && persistent.is_sound()
+    }
+
+    fn fraction(impact: &Self::Impact) -> f64 {
+        impact.fraction
     }
 }
 
