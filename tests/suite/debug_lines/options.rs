@@ -3,7 +3,8 @@
 use super::SHAPES;
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{
-    Collider2, Collider3, Cuboid, DebugLine, DebugOptions, Motion3, Pose2, Pose3, Rect, World2, World3,
+    Collider2, Collider3, Cuboid, DebugLine, DebugOptions, HalfPlane, HalfSpace, Motion3, Pose2, Pose3, Rect,
+    World2, World3,
 };
 use asunder_tests::cases::Random;
 use asunder_tests::engine::Engine;
@@ -240,5 +241,29 @@ fn contacts_to_come_are_drawn_in_the_gap_and_sensors_have_none() {
     for ([from, to], _) in lines {
         assert!((from.y - 1.5).abs() < 1e-6 && to.distance(from + DVec3::Y * 0.2) < 1e-6, "{from} {to}");
         assert!((from.x.abs() - 0.5).abs() < 1e-6 && (from.z.abs() - 0.5).abs() < 1e-6, "{from}");
+    }
+}
+
+/// What is no number is drawn as nothing long, and what is endless ends somewhere: renderers are handed no NaN.
+#[test]
+fn lengths_that_are_no_numbers_give_lines_that_can_be_drawn() {
+    let (mut world, mut flat) = (World3::new(), World2::new());
+    world.insert(Collider3::new(HalfSpace::new(Vec3::Y).unwrap()));
+    world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::ONE).unwrap()));
+    flat.insert(Collider2::new(HalfPlane::new(Vec2::Y).unwrap()));
+    flat.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE).unwrap()));
+    world.update();
+    flat.update();
+    for (length, drawn) in [(f32::NAN, 0.0), (f32::INFINITY, 1e6), (f32::NEG_INFINITY, 1e6), (0.5, 0.5)] {
+        for endless in [f32::NAN, f32::INFINITY, 20.0] {
+            let options = DebugOptions { length, endless, ..ALL };
+            let all = [drawn3(&world, &options), drawn2(&flat, &options)];
+            for lines in &all {
+                assert!(lines.iter().all(|(ends, _)| ends.iter().all(|end| end.is_finite())), "{options:?}");
+                let mut normals = of_kind(lines, DebugLine::Normal).peekable();
+                assert!(normals.peek().is_some());
+                assert!(normals.all(|[from, to]| (from.distance(to) - drawn).abs() <= 1e-6 * drawn));
+            }
+        }
     }
 }

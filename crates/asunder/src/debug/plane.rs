@@ -55,7 +55,7 @@ impl World<Plane> {
     }
 
     fn contact_lines(&self, options: &DebugOptions, line: &mut dyn FnMut(DVec2, DVec2, DebugLine)) {
-        let length = f64::from(options.length);
+        let length = options.length_of_normal();
         for contact in self.contacts() {
             let Some((a, b)) = self.get(contact.a).zip(self.get(contact.b)) else { continue };
             for manifold in contact.manifolds {
@@ -136,7 +136,7 @@ fn border(half_plane: &HalfPlane, pose: &Pose2, options: &DebugOptions, line: &m
     let normal = pose.rotation().turn(half_plane.unit_normal());
     let (center, along) = (pose.position(), normal.perp() * options.half_patch());
     line(center - along, center + along);
-    line(center, center - normal * f64::from(options.length));
+    line(center, center - normal * options.length_of_normal());
 }
 
 /// Around a centre, counter-clockwise from one arm to another of the same length, at most half a turn.

@@ -61,7 +61,7 @@ impl World<Volume> {
     }
 
     fn contact_lines(&self, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3, DebugLine)) {
-        let length = f64::from(options.length);
+        let length = options.length_of_normal();
         for contact in self.contacts() {
             let Some((a, b)) = self.get(contact.a).zip(self.get(contact.b)) else { continue };
             for manifold in contact.manifolds {
@@ -194,7 +194,7 @@ fn patch(half_space: &HalfSpace, pose: &Pose3, options: &DebugOptions, line: &mu
     }
     line(corners[0], corners[2]);
     line(corners[1], corners[3]);
-    line(pose.position(), pose.position() - normal * f64::from(options.length));
+    line(pose.position(), pose.position() - normal * options.length_of_normal());
 }
 
 fn circle(center: DVec3, [x, y]: [DVec3; 2], line: &mut dyn FnMut(DVec3, DVec3)) {
