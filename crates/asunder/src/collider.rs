@@ -6,6 +6,9 @@ use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 
 /// Which groups a body is in, and which it meets. Two bodies pair only if each is in a group that the other meets.
 ///
+/// Boxes that overlap are found before anybody asks for their layers, and cost time: 10,000 bodies in one spot, on a layer that does not
+/// meet itself, take a third of a second when they come.
+///
 /// ```
 /// use asunder::Layers;
 /// let player = Layers { member_of: 0b01, collides_with: 0b11 };
@@ -269,7 +272,7 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Lets the body take no part, until it is enabled: it pairs with nobody, and no query finds it.
+    /// Keeps the body out of the game until it is enabled: it pairs with nobody, and no query finds it.
     #[must_use]
     pub fn disabled(mut self) -> Self {
         self.disabled = true;

@@ -24,12 +24,12 @@ pub struct Stats {
     pub collide: Duration,
     /// Stage 4: what the threads found, put together.
     pub merge: Duration,
+    /// Stage 5: events, and the index by body.
+    pub report: Duration,
     /// After stage 5: the contact hook; nothing without one.
     pub hooks: Duration,
     /// After that: what bullets run into; nothing without motions.
     pub impacts: Duration,
-    /// Stage 5: events, and the index by body.
-    pub report: Duration,
     /// Bodies in the world.
     pub bodies: usize,
     /// Bodies whose box was made anew.

@@ -245,8 +245,11 @@ impl<S: Space> World<S> {
         self.bodies.is_empty()
     }
 
-    /// Sets how many candidate pairs an update may make, hooks aside; 2^24 at first, which bounds no memory to speak of: at
-    /// 1,600 bytes each they are 27 GB. See [`Stats::overflow`].
+    /// Sets how many candidate pairs an update may make, hooks aside. 2^24 at first: at about 1,600 bytes each that is 27 GB, so set
+    /// less to bound memory. See [`Stats::overflow`].
+    ///
+    /// Pairs that layers, owners and so on refuse do not count, but they are found, and cost time: see
+    /// [`Layers`](crate::Layers).
     ///
     /// ```
     /// use asunder::{Collider2, Rect, World2, glam::Vec2};
