@@ -1,6 +1,7 @@
 //! Characters: what they never do (enter, pass through, tremble), and what a player expects of them on floors,
 //! stairs, slopes and along walls; in space and in the plane.
 
+mod edges;
 mod freeing;
 mod plane;
 mod rooms;

@@ -12,14 +12,14 @@
 //!
 //! The loop is that of Quake's `SV_FlyMove`, with these differences:
 //! 1. What is left of the displacement keeps its own direction, and is turned along *all* planes that were met anew
-//!    each time: the nearest vector that goes into none of them, which can never point against it. Turning the
-//!    turned vector again is what makes characters tremble in acute corners.
+//!    each time: first its level part along walls, then all of it along planes. Where that would lead back, it ends.
+//!    Turning the turned vector again and again is what makes characters tremble in acute corners.
 //! 2. Of one convex body, the last plane takes the place of those before. Its distance has one gradient at a time,
 //!    and old planes of a dome would throw off who climbs it.
 //! 3. A gap is kept along the normal, by stopping short on the cast's own path. So tiles of one height never show
 //!    their inner edges, and no position is ever made up.
 //!
-//! Pushing out is Hildreth's method (1957) on the planes of all manifolds, as in the mover of Box2D v3.1: least in
+//! Pushing out is Hildreth's method (1957) on the planes of all manifolds near, as in the mover of Box2D v3.1: least in
 //! length where the planes are all there is, and right again after a few rounds where they are not.
 
 mod clip;
@@ -112,7 +112,7 @@ pub type Freed3 = Freed<Pose3, DVec3>;
 ///     velocity - met.normal * velocity.dot(met.normal).min(0.0)
 /// }
 /// // Of a character that runs, only the fall: a slope that is too steep would turn the run into a climb (guide: characters).
-/// let met = Obstacle3 { body: Default::default(), normal: Vec3::NEG_X, point: DVec3::X };
+/// let met = Obstacle3 { body: Default::default(), normal: Vec3::NEG_X, point: DVec3::X, part: 0 };
 /// assert!(!World3::new().contains(met.body), "the null key is nobody's");
 /// assert_eq!(bumped(Vec3::new(2.0, 0.0, 1.0), &met), Vec3::Z);
 /// assert_eq!(bumped(Vec3::NEG_X, &met), Vec3::NEG_X, "away from it");
@@ -125,6 +125,8 @@ pub struct Obstacle<K, N, P> {
     pub normal: N,
     /// Where they would meet, on the body, in metres.
     pub point: P,
+    /// Which part of the body: of a compound its part, of ground the triangle, of a chain the segment; else 0.
+    pub part: u32,
 }
 
 /// What a character of the plane stands on, or met.
@@ -157,10 +159,11 @@ pub struct Slide<K, O, N, P> {
     pub pose: O,
     /// How it came there, as one vector, in metres.
     pub moved: P,
-    /// What it stands on, if it does: ground no steeper than it can walk on, or the edge of a step.
+    /// What it stands on at the end, if it does: ground no steeper than it can walk on, or the edge of a step.
     pub ground: Option<Obstacle<K, N, P>>,
-    /// What it met that it cannot stand on or does not get up on, walls, ceilings and kerbs, in the order in which it met them; no more
-    /// than the first eight.
+    /// What it met that it cannot stand on or does not get up on, walls, ceilings and kerbs, in the order in which it met them; first
+    /// upright walls that it was closer to than its skin, and goes into. No more than eight. Whoever did not go all of the way is told why
+    /// here, or by `ground`; ground that turned a jump aside is told nowhere.
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
     pub blocked: bool,
@@ -193,6 +196,18 @@ pub(crate) trait Linear:
     }
 }
 
+/// A manifold as a plane that a shape may not go beyond.
+pub(crate) struct Gap<P> {
+    /// Metres to it: below zero where they overlap, and zero where they touch.
+    gap: f64,
+    /// Unit normal that leads away from the body.
+    away: P,
+    /// The deepest point, on the body.
+    point: P,
+    /// Which part of the body.
+    part: u32,
+}
+
 /// A dimension to walk in.
 pub(crate) trait Walks: Asked<Point: Linear> {
     fn wide(vector: Self::Vector) -> Self::Point;
@@ -204,13 +219,15 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     fn size(shape: &Self::Shape) -> f64;
     /// How far the shape reaches along a direction, from its position.
     fn reach(at: (&Self::Shape, &Self::Pose), along: Self::Point) -> Option<f64>;
-    /// The separation from a body and the unit normal that leads away from it, if they are within the margin: of
-    /// compounds the deepest.
-    fn gap(
+    /// Whether the deepest manifold with a body has a separation of zero or less: of one-sided ground, from its front.
+    fn is_deep(at: (&Self::Shape, &Self::Pose), body: &crate::collider::Collider<Self>) -> bool;
+    /// The manifolds with a body that are within the margin, each as a plane.
+    fn gaps(
         at: (&Self::Shape, &Self::Pose),
         body: &crate::collider::Collider<Self>,
         margin: f32,
-    ) -> Option<(f64, Self::Point)>;
+        each: impl FnMut(Gap<Self::Point>),
+    );
     /// Whether a body is solid from one side only.
     fn has_one_side(body: &crate::collider::Collider<Self>) -> bool;
     /// A ray, if it is one.

@@ -181,6 +181,29 @@ impl Pose2 {
         self.rotation
     }
 
+    /// The pose elsewhere, in metres (`Vec2`, `DVec2`, or an array of f64), turned as it is.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
+    /// let pose = Pose2::new([1.0, 2.0], Rotation2::new(0.6, 0.8)?)?;
+    /// let there = pose.with_position([7.0, 8.0])?;
+    /// assert_eq!((there.position(), there.rotation()), (DVec2::new(7.0, 8.0), pose.rotation()));
+    /// assert_eq!(there.with_rotation(Rotation2::IDENTITY), Pose2::at([7.0, 8.0])?);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Pose2::new`].
+    pub fn with_position(&self, position: impl Into<DVec2>) -> Result<Self, PoseError> {
+        Self::new(position, self.rotation)
+    }
+
+    /// The pose turned otherwise, where it is.
+    #[must_use]
+    pub const fn with_rotation(&self, rotation: Rotation2) -> Self {
+        Self { position: self.position, rotation }
+    }
+
     /// The pose moved by a displacement in metres (`Vec2`, `DVec2`, or an array of f64); the rotation is kept.
     ///
     /// ```

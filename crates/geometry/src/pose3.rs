@@ -142,9 +142,36 @@ impl Pose3 {
     }
 
     /// The rotation, bit for bit as it was given.
+    ///
+    /// glam wants unit quaternions: normalise it before it goes into one of its matrices, or take [`Pose3::to_affine`].
     #[inline]
     pub fn rotation(&self) -> Quat {
         Quat::from_array(self.rotation)
+    }
+
+    /// The pose elsewhere, in metres (`Vec3`, `DVec3`, or an array of f64), turned as it is.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
+    /// let pose = Pose3::new([1.0, 2.0, 3.0], Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))?;
+    /// let there = pose.with_position([7.0, 8.0, 9.0])?;
+    /// assert_eq!((there.position(), there.rotation()), (DVec3::new(7.0, 8.0, 9.0), pose.rotation()));
+    /// assert_eq!(there.with_rotation(Quat::IDENTITY)?, Pose3::at([7.0, 8.0, 9.0])?);
+    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Pose3::new`].
+    pub fn with_position(&self, position: impl Into<DVec3>) -> Result<Self, PoseError> {
+        Self::new(position, self.rotation())
+    }
+
+    /// The pose turned otherwise, where it is.
+    ///
+    /// # Errors
+    /// As [`Pose3::new`].
+    pub fn with_rotation(&self, rotation: Quat) -> Result<Self, PoseError> {
+        Self::new(self.position, rotation)
     }
 
     /// The pose moved by a displacement in metres (`Vec3`, `DVec3`, or an array of f64); the rotation is kept.

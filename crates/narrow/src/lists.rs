@@ -31,22 +31,18 @@ pub(crate) fn with_list<T, R>(
     answer
 }
 
-/// The manifolds of a pair in the plane that touches.
-pub(crate) fn with_manifolds2<R>(pair: &Pair2, ask: impl FnOnce(&[Manifold2]) -> R) -> R {
+/// The manifolds of a pair in the plane within a margin.
+pub(crate) fn with_manifolds2<R>(pair: &Pair2, margin: f32, ask: impl FnOnce(&[Manifold2]) -> R) -> R {
     with_list(&MANIFOLDS2, |manifolds| {
-        if pair.has_ground() {
-            pair.contact_on_ground(0.0, manifolds);
-        } else {
-            let _ = pair.contact(0.0, Hint::NONE, true, |manifold| manifolds.push(manifold));
-        }
+        pair.add_manifolds(margin, manifolds);
         ask(manifolds)
     })
 }
 
 /// The same in space.
-pub(crate) fn with_manifolds3<R>(pair: &Pair3, ask: impl FnOnce(&[Manifold3]) -> R) -> R {
+pub(crate) fn with_manifolds3<R>(pair: &Pair3, margin: f32, ask: impl FnOnce(&[Manifold3]) -> R) -> R {
     with_list(&MANIFOLDS3, |manifolds| {
-        let _ = pair.contact(0.0, Hint::NONE, Some(manifolds));
+        let _ = pair.contact(margin, Hint::NONE, Some(manifolds));
         ask(manifolds)
     })
 }

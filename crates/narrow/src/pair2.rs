@@ -10,6 +10,7 @@ use crate::answer::{ContactPoint2, Manifold2, Measured2, Separation2, Tier, Verd
 use crate::batch::{Met, beyond};
 use crate::feature::Hint;
 use crate::least::Least;
+use crate::lists::with_manifolds2;
 use crate::points::ContactPoints;
 use crate::polygon::convex::Convex;
 use crate::polygon::manifold::Touch;
@@ -218,12 +219,33 @@ impl<'a> Pair2<'a> {
     /// ```
     pub fn manifolds(&self, margin: f32) -> Vec<Manifold2> {
         let mut manifolds = Vec::new();
+        self.add_manifolds(margin, &mut manifolds);
+        manifolds
+    }
+
+    pub(crate) fn add_manifolds(&self, margin: f32, manifolds: &mut Vec<Manifold2>) {
         if self.has_ground() {
-            self.contact_on_ground(margin, &mut manifolds);
+            self.contact_on_ground(margin, manifolds);
         } else {
             let _ = self.contact(margin, Hint::NONE, true, |manifold| manifolds.push(manifold));
         }
-        manifolds
+    }
+
+    /// [`Pair2::manifolds`], one by one: for who asks every frame, and has no list. The thread keeps the memory.
+    ///
+    /// ```
+    /// use asunder_geometry::{HalfPlane, Pose2, Shape2, Circle, glam::Vec2};
+    /// use asunder_narrow::Pair2;
+    /// let (ball, floor) = (Shape2::from(Circle::new(0.5)?), Shape2::from(HalfPlane::new(Vec2::Y)?));
+    /// let (here, above) = (Pose2::IDENTITY, Pose2::at([0.0, 0.5])?);
+    /// let mut deepest = f32::INFINITY;
+    /// Pair2::new(&floor, &here, &ball, &above)
+    ///     .visit_manifolds(0.0, |manifold| deepest = deepest.min(manifold.separation));
+    /// assert_eq!(deepest, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_manifolds(&self, margin: f32, visitor: impl FnMut(&Manifold2)) {
+        with_manifolds2(self, margin, |manifolds| manifolds.iter().for_each(visitor));
     }
 
     /// The hint for the next frame, and how they met. Manifolds go where they

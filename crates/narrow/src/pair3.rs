@@ -18,6 +18,7 @@ use crate::batch::{Met, beyond};
 use crate::feature::Hint;
 use crate::ground3::{OnGround, contact_on_ground};
 use crate::least::Least;
+use crate::lists::with_manifolds3;
 use crate::polyhedron::convex::{Asked, IDENTITY, Near, Probe, Wanted};
 use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::placed::Posed;
@@ -261,6 +262,23 @@ impl<'a> Pair3<'a> {
         let mut manifolds = Vec::new();
         let _ = self.contact(margin, Hint::NONE, Some(&mut manifolds));
         manifolds
+    }
+
+    /// [`Pair3::manifolds`], one by one: for who asks every frame, and has no list. The thread keeps the memory.
+    ///
+    /// ```
+    /// use asunder_geometry::{HalfSpace, Pose3, Shape3, Sphere, glam::Vec3};
+    /// use asunder_narrow::Pair3;
+    /// let (ball, floor) = (Shape3::from(Sphere::new(0.5)?), Shape3::from(HalfSpace::new(Vec3::Y)?));
+    /// let (here, above) = (Pose3::IDENTITY, Pose3::at([0.0, 0.5, 0.0])?);
+    /// let mut deepest = f32::INFINITY;
+    /// Pair3::new(&floor, &here, &ball, &above)
+    ///     .visit_manifolds(0.0, |manifold| deepest = deepest.min(manifold.separation));
+    /// assert_eq!(deepest, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_manifolds(&self, margin: f32, visitor: impl FnMut(&Manifold3)) {
+        with_manifolds3(self, margin, |manifolds| manifolds.iter().for_each(visitor));
     }
 
     /// The hint for the next frame, and how they met. Manifolds go where they

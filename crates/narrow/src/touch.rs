@@ -92,7 +92,9 @@ impl Pair2<'_> {
     /// ```
     pub fn add_touches(&self, to: &mut Vec<Touch2>) {
         if self.overlaps() {
-            with_manifolds2(self, |manifolds| to.extend(manifolds.iter().map(|it| Touch2::of(it, true))));
+            with_manifolds2(self, 0.0, |manifolds| {
+                to.extend(manifolds.iter().map(|it| Touch2::of(it, true)))
+            });
         }
     }
 }
@@ -112,7 +114,9 @@ impl Pair3<'_> {
     /// ```
     pub fn add_touches(&self, to: &mut Vec<Touch3>) {
         if self.overlaps() {
-            with_manifolds3(self, |manifolds| to.extend(manifolds.iter().map(|it| Touch3::of(it, true))));
+            with_manifolds3(self, 0.0, |manifolds| {
+                to.extend(manifolds.iter().map(|it| Touch3::of(it, true)))
+            });
         }
     }
 }

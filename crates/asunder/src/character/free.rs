@@ -1,6 +1,6 @@
 //! Out of what overlaps.
 
-use super::{Freed, Linear, Walks};
+use super::{Freed, Gap, Linear, Walks};
 use crate::collider::Collider;
 use crate::query::{Filter, Met, boxes_over};
 use crate::space::Space;
@@ -14,17 +14,23 @@ const ROUNDS: usize = 16;
 /// How often the planes of one round are gone through.
 const SWEEPS: usize = 32;
 
-/// Bodies that are looked at in one round: the nearest, or deepest.
+/// Manifolds that are looked at in one round: the nearest, or deepest.
 const MOST_NEAR: usize = 16;
 
-/// A body within reach, as a plane: the shape may go no further towards it than its gap.
-#[derive(Clone, Copy)]
-pub(super) struct Near<P> {
-    slot: u32,
-    /// Below zero where they overlap, and zero where they touch.
-    pub(super) gap: f64,
-    /// Unit normal that leads away from the body.
-    away: P,
+/// What is within reach of a body, as a plane: the shape may go no further towards it than its gap.
+pub(super) struct Near<S: Walks> {
+    pub(super) body: S::Key,
+    /// Which of the body's manifolds.
+    order: usize,
+    pub(super) plane: Gap<S::Point>,
+}
+
+impl<S: Walks> Near<S> {
+    /// Whether it comes before another: in no other order than this does anything depend on which bodies were found first.
+    fn is_before(&self, other: &Self) -> bool {
+        let rank = |near: &Self| (near.plane.gap, slot_of(near.body), near.order);
+        rank(self) < rank(other)
+    }
 }
 
 /// A shape and where it is.
@@ -56,7 +62,8 @@ pub(super) fn free<S: Walks>(
     let mut best = (f64::NEG_INFINITY, pose);
     for round in 0..=ROUNDS {
         let near = near(world, (shape, &pose), target, filter);
-        let deepest = near.iter().reduce(|best, next| if next.gap < best.gap { next } else { best });
+        let planes = near.iter().map(|near| &near.plane);
+        let deepest = planes.reduce(|best, next| if next.gap < best.gap { next } else { best });
         let Some(deepest) = deepest.filter(|deepest| deepest.gap <= 0.0) else {
             return found(pose, !overlaps(&pose));
         };
@@ -72,7 +79,7 @@ pub(super) fn free<S: Walks>(
         if let Some(pose) = alone.filter(|pose| !overlaps(pose)) {
             return found(pose, true);
         }
-        match S::moved(&pose, push(&near, target)) {
+        match S::moved(&pose, push::<S>(&near, target)) {
             Some(pushed) => pose = pushed,
             None => break,
         }
@@ -81,11 +88,11 @@ pub(super) fn free<S: Walks>(
 }
 
 /// The shortest way to be `target` metres clear of all planes, nearly; somewhere in between where there is none.
-pub(super) fn push<P: Linear>(near: &[Near<P>], target: f64) -> P {
-    let (mut way, mut pushes) = (P::ZERO, [0.0; MOST_NEAR]);
+pub(super) fn push<S: Walks>(near: &[Near<S>], target: f64) -> S::Point {
+    let (mut way, mut pushes) = (S::Point::ZERO, [0.0; MOST_NEAR]);
     for _ in 0..SWEEPS {
         let mut most = 0.0_f64;
-        for (plane, pushed) in near.iter().zip(&mut pushes) {
+        for (Near { plane, .. }, pushed) in near.iter().zip(&mut pushes) {
             let lacks = target - plane.gap - plane.away.dot(way);
             // What was pushed may be taken back, as others have done the work meanwhile: this makes it the shortest
             // way.
@@ -101,33 +108,34 @@ pub(super) fn push<P: Linear>(near: &[Near<P>], target: f64) -> P {
     way
 }
 
-/// All bodies within a margin, or the nearest of them, by their slots.
+/// All manifolds within a margin, or the nearest of them, by their bodies' slots.
 pub(super) fn near<S: Walks>(
     world: &World<S>,
     at: At<'_, S>,
     margin: f64,
     filter: &Filter<'_, S>,
-) -> ArrayVec<Near<S::Point>, MOST_NEAR> {
+) -> ArrayVec<Near<S>, MOST_NEAR> {
     let margin = margin as f32;
-    let mut found = ArrayVec::<Near<S::Point>, MOST_NEAR>::new();
-    let rank = |near: &Near<S::Point>| (near.gap, near.slot);
+    let mut found = ArrayVec::<Near<S>, MOST_NEAR>::new();
     let _ = boxes_over(world, &S::bounds(at.0, at.1, margin), filter).visit(|Met(key)| {
-        let gap = world.bodies.get(key).and_then(|body| S::gap(at, body, margin));
-        if let Some((gap, away)) = gap {
-            let next = Near { slot: slot_of(key), gap, away };
+        let Some(body) = world.bodies.get(key) else { return ControlFlow::Continue(()) };
+        let mut order = 0;
+        S::gaps(at, body, margin, |plane| {
+            let next = Near { body: key, order, plane };
+            order += 1;
             if found.is_full() {
                 // Bodies come in no promised order: which of them stay must not depend on it.
-                let furthest = found.iter_mut().reduce(|a, b| if rank(a) < rank(b) { b } else { a });
-                if let Some(furthest) = furthest.filter(|furthest| rank(&next) < rank(furthest)) {
+                let furthest = found.iter_mut().reduce(|a, b| if a.is_before(b) { b } else { a });
+                if let Some(furthest) = furthest.filter(|furthest| next.is_before(furthest)) {
                     *furthest = next;
                 }
             } else {
                 found.push(next);
             }
-        }
+        });
         ControlFlow::Continue(())
     });
-    found.sort_unstable_by_key(|near| near.slot);
+    found.sort_unstable_by_key(|near| (slot_of(near.body), near.order));
     found
 }
 
@@ -144,7 +152,7 @@ pub(super) fn has_entered<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Fi
 /// Whether a shape overlaps a body that sees it: of one-sided ground, a front. Two grounds see each other from all sides.
 fn blocks<S: Walks>(at: At<'_, S>, body: &Collider<S>) -> bool {
     if S::is_ground(&body.shape) && !S::is_ground(at.0) {
-        S::gap(at, body, 0.0).is_some_and(|(gap, _)| gap <= 0.0)
+        S::is_deep(at, body)
     } else {
         S::overlaps(at, body)
     }

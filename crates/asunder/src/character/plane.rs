@@ -1,9 +1,9 @@
 //! Characters in the plane: vectors, the narrow phase, and the methods of [`World2`].
 
-use super::free::free;
+use super::free::{free, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
-use super::{Freed2, Linear, Slide2, Walk2, Walks};
+use super::{Freed2, Gap, Linear, Slide2, Walk2, Walks};
 use crate::collider::Collider2;
 use crate::query::Filter2;
 use crate::space::Plane;
@@ -34,14 +34,15 @@ impl Walk2 {
 
 /// # Characters
 /// The world moves nothing by itself; these tell where a character would be. A [`Filter2`] says what it meets:
-/// leave out its own body with [`without`](crate::Filter::without). Sensors are never in the way. Both are
+/// leave out its own body with [`without`](crate::Filter::without). Sensors are never in the way. All are
 /// functions of the bodies, and allocate nothing.
 impl World<Plane> {
     /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius
     /// clear of them.
     ///
     /// First it is pushed out of the body that it is deepest in; if that is enough, there is no shorter way out of that body.
-    /// Otherwise it is pushed out of all contact planes at once, and so on, up to sixteen times. If it still overlaps
+    /// Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up to sixteen times. If it
+    /// still overlaps
     /// something, it is wedged: `is_free` is false, and `pose` is the one tried whose deepest overlap was shallowest. No path
     /// is looked for: a shape in a thin wall may come out on the other side. Cost: a round is a query for boxes, and a
     /// manifold for each body met.
@@ -60,6 +61,23 @@ impl World<Plane> {
         free(self, at, least_skin::<Plane>(at.0, at.1), &filter.solid())
     }
 
+    /// Whether a shape overlaps no solid, exactly, as [`depenetrate`](World::depenetrate) and
+    /// [`move_and_slide`](World::move_and_slide) see it: touching counts as overlapping, and one-sided ground that it is behind is
+    /// nothing that it overlaps. Whether there is room to stand up, say. Cost: a query for boxes, and a yes or no for each body met.
+    ///
+    /// ```
+    /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?).fixed());
+    /// let ball = Shape2::from(Circle::new(0.5)?);
+    /// assert!(!world.is_free((&ball, &Pose2::at([0.0, 1.4])?), &Filter2::new()));
+    /// assert!(world.is_free((&ball, &Pose2::at([0.0, 1.6])?), &Filter2::new()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn is_free(&self, at: (&Shape2, &Pose2), filter: &Filter2<'_>) -> bool {
+        !is_overlapping(self, at, &filter.solid())
+    }
+
     /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a
     /// frame, by its velocity times the time, gravity included.
     ///
@@ -71,8 +89,8 @@ impl World<Plane> {
     ///   up is a jump: it does neither and finds no ground. So add what a lift carries upwards to the pose, not to the
     ///   displacement.
     /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting what it took to
-    ///   free it.
-    /// - A displacement that is not finite counts as none. Half-spaces do not move.
+    ///   free it, or to move it back to its skin's distance out of an acute corner.
+    /// - A displacement that is not finite counts as none, as does one that leads beyond 1e9 m. Half-spaces do not move.
     ///
     /// Cost: a cast for each wall, and two for the ground; three more before a wall that may be a step.
     ///
@@ -131,9 +149,22 @@ impl Walks for Plane {
         Some((pose.transform(local) - pose.position()).dot(along))
     }
 
-    fn gap(at: (&Shape2, &Pose2), body: &Collider2, margin: f32) -> Option<(f64, DVec2)> {
-        let manifold = Pair2::new(at.0, at.1, &body.shape, &body.pose).manifold(margin)?;
-        Some((manifold.separation.into(), -manifold.normal.as_dvec2()))
+    fn is_deep(at: (&Shape2, &Pose2), body: &Collider2) -> bool {
+        let deepest = Pair2::new(at.0, at.1, &body.shape, &body.pose).manifold(0.0);
+        deepest.is_some_and(|manifold| manifold.separation <= 0.0)
+    }
+
+    fn gaps(at: (&Shape2, &Pose2), body: &Collider2, margin: f32, mut each: impl FnMut(Gap<DVec2>)) {
+        Pair2::new(at.0, at.1, &body.shape, &body.pose).visit_manifolds(margin, |manifold| {
+            let deepest = manifold.points.iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
+            let anchor = deepest.map_or(DVec2::ZERO, |point| point.anchor_b.as_dvec2());
+            each(Gap {
+                gap: manifold.separation.into(),
+                away: -manifold.normal.as_dvec2(),
+                point: body.pose.position() + anchor,
+                part: manifold.part_b,
+            });
+        });
     }
 
     fn has_one_side(body: &Collider2) -> bool {

@@ -1,9 +1,9 @@
 //! Going along what is met.
 
 use super::clip::along;
-use super::free::{free, has_entered, is_overlapping, near, push};
+use super::free::{Near, free, has_entered, is_overlapping, near, push};
 use super::gait::Gait;
-use super::{Freed, Linear, Obstacle, Slide, Walk, Walks};
+use super::{Freed, Gap, Linear, Obstacle, Slide, Walk, Walks};
 use crate::query::{Asked, Filter, Meet, bodies_along};
 use crate::space::Space;
 use crate::world::{World, slot_of};
@@ -58,7 +58,8 @@ impl<S: Walks> Hit<S> {
     }
 
     fn note(&self) -> Noted<S> {
-        Obstacle { body: self.body, normal: S::narrow(self.normal), point: self.point }
+        let Self { body, parts: (part, _), point, .. } = *self;
+        Obstacle { body, normal: S::narrow(self.normal), point, part }
     }
 }
 
@@ -111,13 +112,15 @@ pub(crate) fn move_and_slide<S: Walks>(
         is_free: true,
     };
     if S::size(shape).is_finite() {
-        let free = mover.keep_away(&mut slid);
+        let displacement = within_reach(S::wide(displacement));
+        let free = mover.keep_away(displacement, &mut slid);
         if slid.is_free {
-            mover.slide(within_reach(S::wide(displacement)), &mut slid);
+            mover.slide(displacement, &mut slid);
             // A cast certifies the path, and a pose rounds it: what passes an edge by less than that may touch it.
             if has_entered(world, (shape, &mover.pose), &mover.filter) {
                 mover.pose = free;
                 slid.blocked = true;
+                slid.ground = slid.ground.and_then(|_| mover.land(0.0)).map(|hit| hit.note());
             }
         }
     } else {
@@ -144,10 +147,12 @@ fn within_reach<P: Linear>(displacement: P) -> P {
 impl<S: Walks> Mover<'_, S> {
     /// Frees the shape of what it overlaps, or moves it off what it is closer to than its skin. Tells where it was
     /// free first.
-    fn keep_away(&mut self, slid: &mut Slid<S>) -> S::Pose {
+    ///
+    /// Who goes into a wall by less than a skin meets nothing on the way, and is back here with the next call: that wall is noted.
+    fn keep_away(&mut self, displacement: S::Point, slid: &mut Slid<S>) -> S::Pose {
         let skin = self.gait.skin;
         let near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
-        let least = near.iter().fold(f64::INFINITY, |least, near| least.min(near.gap));
+        let least = near.iter().fold(f64::INFINITY, |least, near| least.min(near.plane.gap));
         if least <= 0.0 {
             let Freed { pose, is_free, .. } = free(self.world, (self.shape, &self.pose), skin, &self.filter);
             self.pose = pose;
@@ -156,8 +161,16 @@ impl<S: Walks> Mover<'_, S> {
             return pose;
         }
         let start = self.pose;
-        if least < skin * (1.0 - SKIN_SLACK) {
-            self.go(push(&near, skin));
+        let is_close = |near: &&Near<S>| near.plane.gap < skin * (1.0 - SKIN_SLACK);
+        if near.iter().any(|near| is_close(&near)) {
+            self.go(push::<S>(&near, skin));
+        }
+        for Near { body, plane, .. } in near.iter().filter(is_close) {
+            let Gap { away, point, part, .. } = *plane;
+            let is_upright = (-UPRIGHT..EDGE_HOLD).contains(&away.dot(self.gait.up));
+            if is_upright && displacement.dot(away) < -STANDSTILL * displacement.length() {
+                note::<S>(slid, Obstacle { body: *body, normal: S::narrow(away), point, part });
+            }
         }
         start
     }
@@ -182,7 +195,9 @@ impl<S: Walks> Mover<'_, S> {
                 left = S::Point::ZERO;
                 break;
             };
-            let bound = self.bound(&hit);
+            let mut bound = self.bound(&hit);
+            // An edge carries nobody who rises, or would fall beside it.
+            bound.holds &= bound.is_ground || (!is_rising && self.land(0.0).is_some());
             let climb = bound.wall.is_some() && may_climb;
             if climb && let Some(share) = self.climb(self.gait.level(way * (1.0 - share))) {
                 left = left * (1.0 - share);
@@ -192,7 +207,7 @@ impl<S: Walks> Mover<'_, S> {
             }
             // Round feet may hold on to an edge that they do not get up on.
             if climb || !bound.holds {
-                note::<S>(slid, &hit);
+                note::<S>(slid, hit.note());
             }
             let same = |old: &Bound<S>| (old.body, old.parts) == (bound.body, bound.parts);
             bounds.retain(|old| !same(old));
@@ -209,8 +224,10 @@ impl<S: Walks> Mover<'_, S> {
     /// - What holds takes what goes down: nobody slides off ground that can be walked on.
     /// - What is too steep is a wall when walked into, and a slope when falling.
     /// - On ground one goes as fast uphill and downhill as on the level.
-    /// - What leans over is a wall when walking. Turned along other walls first, and only then along the ceiling and the ground, the way
-    ///   could lead back to where it came from.
+    /// - What leans over is a wall to who does not rise. Turned along other walls first, and only then along the ceiling and what is
+    ///   below, the way could lead back to where it came from, or up where a slope and what leans over it meet.
+    /// - No way leads back: where all that is left would, as in acute corners, it ends. This is Quake's rule, without which characters
+    ///   tremble there.
     fn way(&self, left: S::Point, bounds: &[Bound<S>]) -> S::Point {
         let Gait { up, .. } = self.gait;
         let mut rise = left.dot(up);
@@ -219,20 +236,25 @@ impl<S: Walks> Mover<'_, S> {
             rise = rise.max(0.0);
         }
         let mut walls: Planes<S> = bounds.iter().filter_map(|bound| bound.wall).collect();
-        if holds && rise <= 0.0 {
+        let is_rising = rise > 0.0;
+        if !is_rising {
             self.add_walls_over(bounds, &mut walls);
         }
         let level = along(self.gait.level(left), &walls, S::crease);
         let mut way = level + up * rise;
         let ground = bounds.iter().rev().find(|bound| bound.is_ground);
-        if let (Some(ground), true) = (ground, rise <= 0.0) {
+        if let (Some(ground), true) = (ground, !is_rising) {
             let on_ground = level - up * (level.dot(ground.normal) / up.dot(ground.normal));
             if let Some(unit) = on_ground.unit() {
                 way = unit * level.length();
             }
         }
         let planes: Planes<S> = bounds.iter().map(|bound| bound.normal).collect();
-        along(way, &planes, S::crease)
+        let way = along(way, &planes, S::crease);
+        // What holds has taken the fall; who falls may slide back down a slope that it runs at.
+        let wish = if holds && !is_rising { self.gait.level(left) } else { left };
+        let does_lead_on = way.dot(wish) > 0.0 || way.dot(up) * rise.min(0.0) > 0.0;
+        if does_lead_on { way } else { S::Point::ZERO }
     }
 
     /// What leans over as a wall to who walks: which way leads into it along each ground that was met, or on the level where there is
@@ -268,7 +290,23 @@ impl<S: Walks> Mover<'_, S> {
     /// The first obstacle within some metres of a direction, or little more: of the direction as f32 has it, which
     /// is told, too.
     fn look(&self, direction: S::Point, metres: f64) -> Option<(S::Point, Option<Hit<S>>)> {
-        let cast = S::narrow(direction.unit()? * (metres + OUTLOOK * self.gait.skin));
+        self.look_on(direction, metres + OUTLOOK * self.gait.skin)
+    }
+
+    /// The first obstacle below within some metres of the way down, or little more.
+    ///
+    /// What holds may be as steep as the edge of a step, and that far ahead one is a skin away from it.
+    fn look_down(&self, metres: f64) -> Option<(S::Point, Option<Hit<S>>)> {
+        self.look_on(-self.gait.up, metres + self.outlook_down())
+    }
+
+    fn outlook_down(&self) -> f64 {
+        self.gait.skin / self.gait.steepest.min(EDGE_HOLD)
+    }
+
+    /// The first obstacle within so many metres.
+    fn look_on(&self, direction: S::Point, metres: f64) -> Option<(S::Point, Option<Hit<S>>)> {
+        let cast = S::narrow(direction.unit()? * metres);
         let length = S::wide(cast).length();
         let unit = S::wide(cast).unit()?;
         let hit = bodies_along(self.world, (self.shape, &self.pose), cast, &self.filter).first();
@@ -351,7 +389,7 @@ impl<S: Walks> Mover<'_, S> {
         if advance <= skin {
             return None;
         }
-        let (down, hit) = self.look(-up, rise)?;
+        let (down, hit) = self.look_down(rise)?;
         let hit = hit.filter(|hit| self.holds_below(hit, down, rise))?;
         // Round feet would get over more than they are lifted; and feet are a skin above the ground.
         if hit.point.dot(up) - foot > step - skin * 0.5 {
@@ -371,7 +409,7 @@ impl<S: Walks> Mover<'_, S> {
 
     /// The ground within reach below, and down to it. Ground a skin further down counts as stood on, too.
     fn land(&mut self, reach: f64) -> Option<Hit<S>> {
-        let (down, hit) = self.look(-self.gait.up, reach)?;
+        let (down, hit) = self.look_down(reach)?;
         let hit = hit?;
         if !self.holds_below(&hit, down, reach) {
             return self.ground_beside();
@@ -382,7 +420,7 @@ impl<S: Walks> Mover<'_, S> {
 
     /// The ground that is stood on where something steep beside it is met first on the way down.
     fn ground_beside(&self) -> Option<Hit<S>> {
-        let cast = S::narrow(-self.gait.up * (OUTLOOK * self.gait.skin));
+        let cast = S::narrow(-self.gait.up * self.outlook_down());
         let (length, unit) = (S::wide(cast).length(), S::wide(cast).unit()?);
         let mut ground: Option<Hit<S>> = None;
         let rank = |hit: &Hit<S>| (hit.at, slot_of(hit.body));
@@ -400,12 +438,12 @@ impl<S: Walks> Mover<'_, S> {
 }
 
 /// Takes note of a wall, once.
-fn note<S: Walks>(slid: &mut Slid<S>, hit: &Hit<S>) {
-    let is_same = |known: &Noted<S>| {
-        known.body == hit.body && S::wide(known.normal).dot(hit.normal) >= 1.0 - STANDSTILL
-    };
+fn note<S: Walks>(slid: &mut Slid<S>, wall: Noted<S>) {
+    let normal = S::wide(wall.normal);
+    let is_same =
+        |known: &Noted<S>| known.body == wall.body && S::wide(known.normal).dot(normal) >= 1.0 - STANDSTILL;
     if !slid.walls.iter().any(is_same) {
         // More than eight are not told.
-        let _ = slid.walls.try_push(hit.note());
+        let _ = slid.walls.try_push(wall);
     }
 }

@@ -129,9 +129,9 @@ impl<'a, S: Space> Filter<'a, S> {
     /// let tank = world.insert(ball.clone());
     /// let foe = world.insert(ball.at(Pose3::at([9.0, 0.0, 0.0])?));
     /// let ray = Ray3::new(DVec3::ZERO, Vec3::X)?;
-    /// let hit = |filter| world.cast_ray(&ray, 99.0, filter).map(|hit| (hit.body, hit.inside));
-    /// assert_eq!(hit(&Filter3::new()), Some((tank, true)));
-    /// assert_eq!(hit(&Filter3::new().without_touched()), Some((foe, false)));
+    /// let hit = |filter: Filter3| world.cast_ray(&ray, 99.0, &filter).map(|hit| (hit.body, hit.inside));
+    /// assert_eq!(hit(Filter3::new()), Some((tank, true)));
+    /// assert_eq!(hit(Filter3::new().without_touched()), Some((foe, false)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]

@@ -39,7 +39,7 @@ pub(super) fn with_touched<R>(
     if !do_touch {
         return ask(&touched);
     }
-    with_manifolds2(pair, |manifolds| ask(&Touched { manifolds: Some(manifolds), ..touched }))
+    with_manifolds2(pair, 0.0, |manifolds| ask(&Touched { manifolds: Some(manifolds), ..touched }))
 }
 
 impl Touched<'_> {
@@ -110,7 +110,7 @@ impl Touched<'_> {
         let [pose_a, pose_b] =
             [motions[0].pose_at(&pair.pose_a, ahead), motions[1].pose_at(&pair.pose_b, ahead)];
         let later = Pair2::new(pair.shape_a, &pose_a, pair.shape_b, &pose_b);
-        with_manifolds2(&later, |manifolds| {
+        with_manifolds2(&later, 0.0, |manifolds| {
             let across = manifolds.iter().find(|manifold| self.is_across((side, chain, body), manifold))?;
             Some(Impact2 { fraction: 0.0, error: 0.0, overlapping: false, ..at_start(across)? })
         })

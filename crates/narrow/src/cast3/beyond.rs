@@ -37,7 +37,7 @@ pub(super) fn with_touched<R>(
     if !do_touch {
         return ask(&Touched { manifolds: None, touches, are_ground });
     }
-    with_manifolds3(pair, |manifolds| ask(&Touched { manifolds: Some(manifolds), touches, are_ground }))
+    with_manifolds3(pair, 0.0, |manifolds| ask(&Touched { manifolds: Some(manifolds), touches, are_ground }))
 }
 
 impl Touched<'_> {
@@ -122,7 +122,7 @@ impl Pair3<'_> {
             });
             (lies == Lies::Across).then(|| Impact3 { overlapping: false, ..at_start(manifold) })
         };
-        with_manifolds3(&later, |manifolds| manifolds.iter().find_map(is_across))
+        with_manifolds3(&later, 0.0, |manifolds| manifolds.iter().find_map(is_across))
     }
 }
 
