@@ -6,6 +6,7 @@
 //!   those that are still in their loose ones: the pairs of these are what they were
 //!   a few have left theirs: they get others, and are looked up                            coherent
 //!   many have: these get others, and all are swept
+//! few moved, for some frames in a row: no box is loose, until many move
 //! of the pairs of loose boxes, those are told whose boxes overlap
 //! where that costs no less than sweeping the boxes, or the pairs of loose boxes are many more: no box is loose, and that is
 //!   tried again after twice as many frames each time
@@ -81,14 +82,16 @@ pub struct LooseSweep<B> {
     told: usize,
     /// What loose boxes have cost since all got theirs, in nanoseconds.
     spent: usize,
+    /// Frames in a row in which boxes were loose, and few moved.
+    still: u32,
 }
 
-asunder_geometry::copied!(LooseSweep<B>, for [B: Bounds], { sweep, state, patience, loose, widths, near, strays, told, spent } but {});
+asunder_geometry::copied!(LooseSweep<B>, for [B: Bounds], { sweep, state, patience, loose, widths, near, strays, told, spent, still } but {});
 
 /// What is swept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
-    /// The boxes, for so many frames more of those in which most of them move.
+    /// Boxes are swept as they are. Loose boxes are tried after so many more frames in which many of them move.
     Boxes { frames: u32 },
     /// The boxes; where they were is noted, to see how far they go in a frame.
     Noted,
@@ -99,10 +102,10 @@ enum State {
 /// Nanoseconds, about, that a sweep takes for each box, and for each pair (AMD EPYC, Zen 4).
 const SWEPT: [usize; 2] = [45, 3];
 
-/// That looking up takes for each box that has left its loose one since all got theirs.
+/// Nanoseconds to look up one box that left its loose one.
 const STRAY: usize = 300;
 
-/// That a box takes to be found in its loose one; and a pair, to be told or kept.
+/// Nanoseconds to check one box, or to keep one pair.
 const NEAR: usize = 3;
 
 /// Frames at a box's pace that a loose box is to last for. Bodies that tremble turn back long before.
@@ -110,6 +113,9 @@ const PACE: f32 = 64.0;
 
 /// A loose box is wider by this part of a box's least extent at most; of a plate or a needle, of a sixteenth of its greatest.
 const WIDEST: f32 = 0.125;
+
+/// Frames in a row in which few boxes move until no box is loose: what rests is then kept, which costs less than to tell pairs.
+const STILL: u32 = 8;
 
 /// Least and most frames until loose boxes are tried again.
 const PATIENCE: [u32; 2] = [2, 32];
@@ -133,6 +139,7 @@ impl<B: Bounds> LooseSweep<B> {
             strays: Vec::new(),
             told: 0,
             spent: 0,
+            still: 0,
         }
     }
 
@@ -188,11 +195,7 @@ impl<B: Bounds> LooseSweep<B> {
     ) -> bool {
         let do_many = moved.places.len() * FEW > boxes.len();
         match self.state {
-            State::Boxes { .. } if !do_many => false,
-            State::Noted if !do_many => {
-                self.state = State::Boxes { frames: 0 };
-                false
-            }
+            State::Boxes { .. } | State::Noted if !do_many => false,
             State::Boxes { frames: 0 } => {
                 self.note(boxes);
                 false
@@ -202,7 +205,14 @@ impl<B: Bounds> LooseSweep<B> {
                 false
             }
             State::Noted if boxes.len() >= self.loose.len() => self.loosen(boxes, admit),
-            State::Loose { frames } if do_many && boxes.len() >= self.loose.len() => {
+            State::Loose { frames } if boxes.len() >= self.loose.len() => {
+                self.still = if do_many { 0 } else { self.still + 1 };
+                if self.still > STILL {
+                    // Whatever rests costs less to keep; loose boxes have not failed.
+                    self.sweep.forget();
+                    self.state = State::Boxes { frames: self.patience };
+                    return false;
+                }
                 self.find_strays(boxes, moved);
                 self.go_on(boxes, frames, admit)
             }
@@ -215,7 +225,8 @@ impl<B: Bounds> LooseSweep<B> {
         let (sweep, look) = (self.cost_of_sweep(), self.cost_of_look());
         let is_worn = !self.strays.is_empty() && self.sweep.is_worn(self.strays.len());
         if 2 * look <= sweep && !is_worn {
-            self.state = State::Loose { frames: frames + 1 };
+            // Of a frame in which few move, a sweep was not saved.
+            self.state = State::Loose { frames: frames + usize::from(self.still == 0) };
             self.spent += look + NEAR * (boxes.len() + self.near.len());
             self.look_up(boxes, admit)
         } else if 4 * self.spent <= 3 * frames * sweep {
@@ -258,6 +269,7 @@ impl<B: Bounds> LooseSweep<B> {
             self.give(place, now);
         }
         self.state = State::Loose { frames: 0 };
+        self.still = 0;
         let most = 2 * self.told + boxes.len();
         // Room for the next times, too.
         self.strays.clear();
