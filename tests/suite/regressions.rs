@@ -8,6 +8,7 @@ mod needles;
 mod peers;
 mod points;
 mod shapes;
+mod turned;
 
 use asunder::{BodyKey3, Collider3, World3};
 use asunder_geometry::tolerance::EVEN_DEPTH;

@@ -130,8 +130,9 @@ impl Pair2<'_> {
     ///
     /// Parts of chains and of compounds that touch at the start are left out, and so is what is level with them. A part is
     /// level if, along the normal that it would be met with, it is at most a 64th of the body's thickness away at the start
-    /// and the motion leads at most that far into it, not counting what the motion leads into the touched parts anyway. A
-    /// part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper below
+    /// and the motion leads at most that far into it, not counting what the motion leads into the touched parts anyway. Of a
+    /// body that turns, and is deeper along that normal at the start than in what it touches, since another axis parts the two, what
+    /// it goes into counts from where they meet. A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper below
     /// that than half its thickness. The thickness is the radius of a ball in the body's middle. So a ball that its weight
     /// presses on a level's floor crosses the floor's vertices and still runs into the level's walls, steps and ramps. A motion
     /// that sinks a body into its floor by its whole thickness leads it under what stands there.
@@ -243,7 +244,8 @@ impl Pair2<'_> {
                 let Some(touching) = touching.filter(|touching| first.is_none() || touching.at < end) else {
                     return;
                 };
-                if beyond.is_some_and(|touched| touched.passes_over([a, b], (touching.at, touching.axis))) {
+                let (when, axis) = ((stretch, touching.at), touching.axis);
+                if beyond.is_some_and(|touched| touched.passes_over([a, b], when, axis)) {
                     return;
                 }
                 end = touching.at;

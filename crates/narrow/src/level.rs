@@ -10,6 +10,8 @@
 //!   gap       along n at the start, no more than a 64th of the body's thickness, and
 //!   closing   along n from the start to the deepest, less what goes into the touched anyway, no more than that too:
 //!             level, and passed over (the next triangle of a floor, a bend of half a degree)
+//!   who turns and is deeper along n at the start than in the touched, as another axis parts the two: closing counts from where
+//!             they meet
 //!   else:     an impact
 //! where A touches others, as the tile that it stands on; of anything but ground that is touched as well:
 //!   flush with one of those, and A never deeper below it than half its thickness: level; half-spaces reach along their normals alone,
@@ -19,6 +21,10 @@
 //! ```
 //! That last rule is for ground that is touched but has no manifold, since its neighbour's stands for it: a ball in a hollow touches two
 //! faces where they meet, stands on one, and runs into the other.
+//!
+//! Along n alone, one who turns may begin deep in what stands a metre beside it. By the time that it meets that, it has turned out along
+//! n, and how deep it goes in again is not seen from where it began. What does not turn goes in along n all the way or comes out all
+//! the way. Along a hill's later faces it begins deep as well, and only comes out: so a depth at the start is no impact by itself.
 //!
 //! What goes into the touched is what a game's solver takes out of the motion: (d.m) (m.n) for a contact's normal m. So a body
 //! that is pressed to a floor runs over its seams and over bends that fall, and into ramps and walls. A body that passes over
@@ -51,8 +57,10 @@ pub(crate) struct Passing<'p, V> {
     pub(crate) is_endless: bool,
     /// Their gap along an axis at the start.
     pub(crate) gap: &'p dyn Fn(V) -> f64,
-    /// By how much that gap closes, to where it is least.
-    pub(crate) closing: &'p dyn Fn(V) -> f64,
+    /// By how much that gap closes from a fraction of the motion on, to where it is least after that.
+    pub(crate) closing: &'p dyn Fn(V, f64) -> f64,
+    /// The fraction at which who turns meets the other; zero where nobody turns, and for what is touched at the start.
+    pub(crate) met_at: f64,
     pub(crate) dot: fn(V, V) -> f64,
 }
 
@@ -75,10 +83,22 @@ impl<V: Copy> Passing<'_, V> {
         if (self.gap)(normal) > slack {
             return Lies::Ahead;
         }
-        let into = (self.closing)(normal);
-        let anyway = |axis: V| (self.closing)(axis).max(0.0) * (self.dot)(axis, normal).max(0.0);
+        let from = if self.begins_deep(normal, touched.clone()) { self.met_at } else { 0.0 };
+        let into = (self.closing)(normal, from);
+        let anyway = |axis: V| (self.closing)(axis, 0.0).max(0.0) * (self.dot)(axis, normal).max(0.0);
         let is_level = into <= slack || touched.any(|(axis, _)| into - anyway(axis) <= slack);
         if is_level { Lies::Level } else { Lies::Across }
+    }
+
+    /// Whether the two reach further into each other along a unit axis, at the start, than what is touched accounts for, and are met
+    /// later.
+    fn begins_deep(&self, normal: V, touched: impl Iterator<Item = (V, f64)>) -> bool {
+        if self.met_at <= 0.0 {
+            return false;
+        }
+        let along = |(axis, separation): (V, f64)| separation * (self.dot)(axis, normal).max(0.0);
+        let pressed = touched.map(along).fold(0.0, f64::min);
+        (self.gap)(normal) < pressed - NEXT_LEVEL * self.thickness
     }
 
     /// Whether it stands up no higher than a contact, and no further down than the body reaches, which in the end is no deeper below
@@ -86,7 +106,7 @@ impl<V: Copy> Passing<'_, V> {
     fn is_flush(&self, (axis, separation): (V, f64)) -> bool {
         let slack = NEXT_LEVEL * self.thickness;
         let above = (self.gap)(axis);
-        let deepest = (self.closing)(axis).max(0.0) - separation;
+        let deepest = (self.closing)(axis, 0.0).max(0.0) - separation;
         above <= slack && above >= separation - slack && deepest <= SUNK * self.thickness
     }
 }

@@ -3,7 +3,7 @@
 use super::at_start;
 use super::course::Course;
 use super::piece::{Piece, for_pieces};
-use super::stretch::Travel;
+use super::stretch::{Stretch, Travel};
 use crate::answer::Manifold2;
 use crate::impact2::Impact2;
 use crate::level::{Lies, Passing, half_through, thickness, thinner};
@@ -45,24 +45,33 @@ pub(super) fn with_touched<R>(
 impl Touched<'_> {
     /// Whether two parts that meet at a time of a stretch, along a unit axis from A to B, are no impact: they overlap at the
     /// start, exactly, and have not parted since; or they are level with what is touched.
-    pub(super) fn passes_over(&self, pieces: [&Piece; 2], (at, axis): (f64, DVec2)) -> bool {
+    pub(super) fn passes_over(
+        &self,
+        pieces: [&Piece; 2],
+        (stretch, at): (&Stretch, f64),
+        axis: DVec2,
+    ) -> bool {
         at <= 0.0 && self.pair.do_pieces_overlap(pieces.map(|it| (it.shape, it.local)))
-            || self.lies(pieces, axis) == Lies::Level
+            || self.lies(pieces, (stretch.start + at * stretch.share, axis)) == Lies::Level
     }
 
-    /// How it lies what two parts meet with along a unit axis from A to B.
-    fn lies(&self, pieces: [&Piece; 2], normal: DVec2) -> Lies {
+    /// How it lies what two parts meet with at a fraction, along a unit axis from A to B; at the start, what they touch with.
+    fn lies(&self, pieces: [&Piece; 2], (fraction, normal): (f64, DVec2)) -> Lies {
         let stretches = self.travel.stretches();
         let [Some(first), Some(last)] = [stretches.first(), stretches.last()] else { return Lies::Level };
         let [first, last] = [first, last].map(|stretch| Course::over(stretch, pieces, [0.0, 1.0]));
         // Who turns may be in deepest on the way.
         let is_turning = stretches.iter().any(|stretch| stretch.is_turning());
-        let between = if is_turning { 1..MOMENTS } else { 0..0 };
-        let closing = |axis: DVec2| {
-            let at = |i: u32| f64::from(i) / f64::from(MOMENTS);
-            let on_the_way = between.clone().map(|i| first.gap(axis, at(i)).min(last.gap(axis, at(i))));
-            let least = on_the_way.fold(first.gap(axis, 1.0).min(last.gap(axis, 1.0)), f64::min);
-            first.gap(axis, 0.0) - least
+        let between = if is_turning { 1..2 * MOMENTS } else { 0..0 };
+        let gap_at = |axis: DVec2, fraction: f64| match stretches.len() {
+            2 if fraction >= 0.5 => last.gap(axis, 2.0 * fraction - 1.0),
+            2 => first.gap(axis, 2.0 * fraction),
+            _ => first.gap(axis, fraction),
+        };
+        let closing = |axis: DVec2, from: f64| {
+            let after =
+                between.clone().map(|i| f64::from(i) / f64::from(2 * MOMENTS)).filter(|&at| at > from);
+            gap_at(axis, from) - after.map(|at| gap_at(axis, at)).fold(gap_at(axis, 1.0), f64::min)
         };
         let passing = Passing {
             thickness: self.thickness(pieces),
@@ -70,6 +79,7 @@ impl Touched<'_> {
             is_endless: pieces.iter().any(|it| matches!(it.shape, Shape2::HalfPlane(_))),
             gap: &|axis| first.gap(axis, 0.0),
             closing: &closing,
+            met_at: if is_turning { fraction } else { 0.0 },
             dot: DVec2::dot,
         };
         let touch = |it: &Manifold2| (it.normal.as_dvec2(), it.separation.into());
@@ -136,7 +146,7 @@ impl Touched<'_> {
         for_pieces(body, |piece| {
             if piece.index == parts[1 - side] {
                 let pieces = if side == 0 { [&ground, piece] } else { [piece, &ground] };
-                lies = self.lies(pieces, manifold.normal.as_dvec2());
+                lies = self.lies(pieces, (0.0, manifold.normal.as_dvec2()));
             }
         });
         lies == Lies::Across

@@ -95,7 +95,10 @@ impl First<'_> {
             if first.impact.is_some() && touching.at >= first.end {
                 return;
             }
-            if first.beyond.is_some_and(|touched| touched.passes_over(pieces, (touching.at, axis))) {
+            if first
+                .beyond
+                .is_some_and(|touched| touched.passes_over(pieces, (first.stretch, touching.at), axis))
+            {
                 return;
             }
             first.end = touching.at;

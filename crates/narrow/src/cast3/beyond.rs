@@ -41,8 +41,8 @@ pub(super) fn with_touched<R>(
 }
 
 impl Touched<'_> {
-    /// How it lies what two parts meet with along a unit axis from A to B.
-    pub(super) fn lies(&self, passage: &Passage, parts: [Part; 2], normal: DVec3) -> Lies {
+    /// How it lies what two parts meet with at a fraction, along a unit axis from A to B; at the start, what they touch with.
+    pub(super) fn lies(&self, passage: &Passage, parts: [Part; 2], (fraction, normal): (f64, DVec3)) -> Lies {
         let (core_a, core_b) = (parts[0].shape.core(), parts[1].shape.core());
         let course = Course::new(passage, parts, [&core_a, &core_b]);
         let (start, end) = (course.at(0.0), course.at(1.0));
@@ -51,9 +51,13 @@ impl Touched<'_> {
         let between = if passage.is_straight() { 0 } else { MOMENTS };
         let on_the_way = (1..between).map(|i| course.at(f64::from(i) / f64::from(MOMENTS)));
         let on_the_way: ArrayVec<Moment, { MOMENTS as usize }> = on_the_way.collect();
-        let closing = |axis: DVec3| {
-            let least = on_the_way.iter().fold(gap(&end, axis), |least, moment| least.min(gap(moment, axis)));
-            gap(&start, axis) - least
+        let met_at = if passage.is_straight() { 0.0 } else { fraction };
+        let met = course.at(met_at);
+        let closing = |axis: DVec3, from: f64| {
+            let first = if from > 0.0 { &met } else { &start };
+            let after = (1..).zip(&on_the_way).filter(|&(i, _)| f64::from(i) > from * f64::from(MOMENTS));
+            let least = after.fold(gap(&end, axis), |least, (_, moment)| least.min(gap(moment, axis)));
+            gap(first, axis) - least
         };
         let passing = Passing {
             thickness: self.thickness(&parts),
@@ -61,6 +65,7 @@ impl Touched<'_> {
             is_endless: parts.iter().any(|it| matches!(it.shape, Shape3::HalfSpace(_))),
             gap: &|axis| gap(&start, axis),
             closing: &closing,
+            met_at,
             dot: DVec3::dot,
         };
         let touch = |it: &Manifold3| (it.normal.as_dvec3(), it.separation.into());
@@ -116,7 +121,7 @@ impl Pair3<'_> {
             for_parts(on.body, &on.body_basis, |part| {
                 let parts = on.in_order([part, Part::whole(&triangle, &on.basis)]);
                 if part.index == of_body {
-                    lies = touched.lies(passage, parts, manifold.normal.as_dvec3());
+                    lies = touched.lies(passage, parts, (0.0, manifold.normal.as_dvec3()));
                 }
                 part.index == of_body
             });

@@ -143,7 +143,7 @@ impl Search<'_> {
             let first = First { met, part, triangle: number, seen_at };
             let is_level = self.beyond.is_some_and(|touched| {
                 let normal = told(on, self.passage, &first).normal.as_dvec3();
-                touched.lies(self.passage, parts, normal) == Lies::Level
+                touched.lies(self.passage, parts, (first.met.fraction, normal)) == Lies::Level
             });
             if !is_level {
                 self.first = Some(first);
