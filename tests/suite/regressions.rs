@@ -7,6 +7,7 @@ mod middles;
 mod needles;
 mod peers;
 mod points;
+mod rays;
 mod shapes;
 mod turned;
 

@@ -77,7 +77,8 @@ enum Meeting {
 /// over the cosine to the normal; of a hull also what its faces are off from its vertices
 /// ([`planarity_error`](asunder_geometry::Hull::planarity_error)). By as much, before it is divided by the cosine,
 /// may a ray have gone into a shape that it is said to miss. A thin shape (segment, triangle, flat hull) is hit by
-/// what passes within rounding. A NaN limit counts as none, and a negative one as zero. Of compounds, the nearest part.
+/// what passes within rounding. A NaN limit counts as none, and a negative one as zero. Of compounds, the nearest
+/// part; one that it starts inside of before any other.
 /// Of ground, the nearest triangle; of equals, the lowest number. No ray slips through between two that share an edge or a
 /// vertex. One-sided triangles are passed through from behind.
 ///
@@ -147,10 +148,9 @@ impl<'a> Cast<'a> {
             let (axes, shift) = part.placed(basis);
             let meeting = self.meeting(part.shape, &axes, shift, within);
             let hit = self.answer(meeting, within, || part).map(|hit| RayHit3 { part: part.index, ..hit });
-            // Of equals, the first.
-            let is_first = |hit: &RayHit3| {
-                first.is_none_or(|known| (hit.distance, hit.part) < (known.distance, known.part))
-            };
+            // Of equals, the first; and what it starts inside of before all.
+            let place = |hit: &RayHit3| (!hit.inside, hit.distance, hit.part);
+            let is_first = |hit: &RayHit3| first.is_none_or(|known| place(hit) < place(&known));
             first = hit.filter(is_first).or(first);
             first.map_or(limit, |known| known.distance)
         };

@@ -1,0 +1,27 @@
+//! Rays that went wrong.
+
+use asunder::glam::{Vec2, Vec3};
+use asunder::{
+    Compound2, Compound3, Cuboid, Pose2, Pose3, Ray2, Ray3, Rect, Shape2, Shape3, cast_ray2, cast_ray3,
+};
+
+/// Symptom: a ray that starts in one part of a compound, a rounding before the face of another, was not inside. Cause: both were at
+/// distance 0, and of equals the first part counted.
+#[test]
+fn a_ray_that_starts_in_any_part_starts_inside() {
+    let bar = |half: f32| Shape3::from(Cuboid::from_half_extents(Vec3::new(half, 1.0, 1.0)).unwrap());
+    let parts =
+        [(Pose3::at([2.0, 0.0, 0.0]).unwrap(), bar(1.0)), (Pose3::at([0.5, 0.0, 0.0]).unwrap(), bar(1.5))];
+    let both = Shape3::from(Compound3::new(parts).unwrap());
+    let flat = |half: f32| Shape2::from(Rect::from_half_extents(Vec2::new(half, 1.0)).unwrap());
+    let parts = [(Pose2::at([2.0, 0.0]).unwrap(), flat(1.0)), (Pose2::at([0.5, 0.0]).unwrap(), flat(1.5))];
+    let both_flat = Shape2::from(Compound2::new(parts).unwrap());
+    for (x, part) in [(1.0, 0), (1.0_f64.next_down(), 1), (1.0 - 1e-15, 1), (1.0 - 1e-13, 1), (-0.5, 1)] {
+        let ray = Ray3::new([x, 0.0, 0.0], Vec3::X).unwrap();
+        let hit = cast_ray3(&both, &Pose3::IDENTITY, &ray, 9.0).unwrap();
+        assert_eq!((hit.inside, hit.distance, hit.part), (true, 0.0, part), "{x}: {hit:?}");
+        let ray = Ray2::new([x, 0.0], Vec2::X).unwrap();
+        let hit = cast_ray2(&both_flat, &Pose2::IDENTITY, &ray, 9.0).unwrap();
+        assert_eq!((hit.inside, hit.distance, hit.part), (true, 0.0, part), "{x}: {hit:?}");
+    }
+}
