@@ -10,6 +10,7 @@ mod points;
 mod rays;
 mod shapes;
 mod turned;
+mod wheels;
 
 use asunder::{BodyKey3, Collider3, World3};
 use asunder_geometry::tolerance::EVEN_DEPTH;

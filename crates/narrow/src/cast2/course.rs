@@ -1,5 +1,7 @@
 //! Two convex parts on their way: the gap between them at a time, and for how long it lasts.
 
+mod wheel;
+
 use super::piece::Piece;
 use super::stretch::Stretch;
 use super::{at_start, sum};
@@ -12,7 +14,7 @@ use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::tolerance::{CAST_GAP2, SAME_NORMAL};
 use asunder_geometry::{Chain, Core2, Pose2, Rotation2, Run, Shape2};
 
-/// Rounds after which a cast says how far it came. Those that graze take some 25, the others 1 to 10.
+/// Rounds after which a cast gives up and tells an impact with the gap that is left. Those that graze take some 25, the others 1 to 10.
 const MAX_ROUNDS: usize = 96;
 
 /// Rounds after which axes that turn along with a body are tried as well. Beside the face of a body that turns, a fixed axis shows
@@ -211,10 +213,14 @@ impl<'a> Course<'a> {
             // What is as good as touching, and parts, comes no nearer than it is.
             let is_parting =
                 look.least > -self.slack - 16.0 * self.precision.projection() && self.parts(axis, 0.0);
-            if is_parting || look.least > self.slack && self.keeps_apart(&look, now, rest) {
+            let gives_up = round == MAX_ROUNDS;
+            if is_parting
+                || look.least > self.slack && self.keeps_apart(&look, now, rest)
+                || gives_up && self.circles_pass(&look, now)
+            {
                 return None;
             }
-            if look.least <= self.aim || look.most <= self.enough || round == MAX_ROUNDS {
+            if look.least <= self.aim || look.most <= self.enough || gives_up {
                 return Some(self.settled(&look, now));
             }
             let step = self.step(&look, now, rest);

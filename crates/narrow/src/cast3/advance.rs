@@ -119,7 +119,10 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         (towards, kept) = (course.carried(found.normal, carrier, [fraction, next]), left);
         fraction = next;
     }
-    met.map_or(End::Apart, End::Met)
+    match met {
+        Some(met) if !course.rounds_pass(&met, until) => End::Met(met),
+        _ => End::Apart,
+    }
 }
 
 impl Course<'_> {
@@ -141,6 +144,38 @@ impl Course<'_> {
             pace += turn.bounds_within(0.0, until)[0] * arm.from_axis * (1.0 + 64.0 * f64::EPSILON);
         }
         pace <= 0.0
+    }
+
+    /// Whether all that a body may sweep out by turning about its axis stays clear along the axis of a meeting, from then on until
+    /// the limit: where steps lead no further, what tells that a wheel of many sides rolls on beside another for good. That
+    /// does not turn: along one axis the gap is least at one end or the other.
+    fn rounds_pass(&self, met: &Met, until: f64) -> bool {
+        let turns = &self.passage.turns;
+        let is_plane = |i: usize| matches!(self.parts[i].shape, Shape3::HalfSpace(_));
+        // Where nothing turns, it tells no more; a plane that turns sweeps over all of space.
+        if self.passage.is_straight() || (0..2).any(|i| turns[i].is_some() && is_plane(i)) {
+            return false;
+        }
+        let moment = self.at(met.fraction);
+        let placed = [&moment.a, &moment.b];
+        // From its body's own position.
+        let reach = |i: usize, along: DVec3| match (placed[i], turns[i]) {
+            (Placed::HalfSpace(_), _) => 0.0,
+            (Placed::Core(solid), None) if i == 0 => solid.support(along).reach,
+            (Placed::Core(solid), None) => solid.support(along).reach - along.dot(moment.between),
+            // A cylinder about the axis, as long as the body is along it.
+            (Placed::Core(solid), Some(turn)) => {
+                let (axis, origin) = (turn.axis(), if i == 0 { DVec3::ZERO } else { moment.between });
+                let lengthwise = if axis.dot(along) < 0.0 { -axis } else { axis };
+                let longest = solid.support(lengthwise).reach - lengthwise.dot(origin);
+                lengthwise.dot(along) * longest + axis.cross(along).length() * self.arms[i].from_axis
+            }
+        };
+        let reaches = reach(0, met.normal) + reach(1, -met.normal) + self.radii;
+        let doubt = self.fineness.gap(moment.precision.projection());
+        [met.fraction, until]
+            .into_iter()
+            .all(|fraction| met.normal.dot(self.passage.between_at(fraction)) - reaches > doubt)
     }
 
     /// An upper bound on the speed at which the gap along an axis closes, turning left out.

@@ -1,0 +1,43 @@
+//! Motions that were told of what they never reach, or not of what they do.
+
+use asunder::glam::{DVec3, Quat, Vec2, Vec3};
+use asunder::{
+    Chain, Cuboid, HalfPlane, Hull, Motion2, Motion3, Pair2, Pair3, Polygon, Pose2, Pose3, Rect, Rotation2,
+    Shape2, Shape3,
+};
+
+/// Symptom: a wheel of many sides that spins above its road was said to hit it, 0.1 mm apart. Cause: it takes more steps than there are
+/// to get away from a gap that small by what turns, and where they end an impact was told.
+#[test]
+fn a_wheel_that_spins_beside_its_road_does_not_hit_it() {
+    let (gap, road) = (1.384e-4, Vec2::new(3.0, 0.5));
+    let wheel = Shape2::from(Polygon::regular(1.0, 256).unwrap());
+    let roads: [(Shape2, f64); 3] = [
+        (Rect::from_half_extents(road).unwrap().into(), 0.5),
+        (HalfPlane::new(Vec2::Y).unwrap().into(), 0.0),
+        (Chain::open([Vec2::X * 3.0, Vec2::X * -3.0]).unwrap().into(), 0.0),
+    ];
+    let spin = Rotation2::new(-1.0, 0.0).unwrap();
+    let pole = Shape2::from(Rect::from_half_extents(Vec2::new(0.1, 1.0)).unwrap());
+    for (road, top) in &roads {
+        for way in [0.0, 1.0] {
+            let motion = Motion2::new([way, 0.0], spin).unwrap();
+            let here = Pose2::at([0.0, 1.0 + top + gap]).unwrap();
+            let told = Pair2::new(&wheel, &here, road, &Pose2::IDENTITY).impact(&motion, &Motion2::STILL);
+            assert_eq!(told, None, "{way}");
+            let ahead = Pose2::at([1.6, 1.0 + top + gap]).unwrap();
+            let pole = Pair2::new(&wheel, &here, &pole, &ahead).impact(&motion, &Motion2::STILL);
+            assert_eq!(pole.is_some(), way > 0.5);
+        }
+    }
+    let lying = Pose3::new(DVec3::Y * (1.5 + gap), Quat::from_xyzw(0.5_f32.sqrt(), 0.0, 0.0, 0.5_f32.sqrt()))
+        .unwrap();
+    let wheel = Shape3::from(Hull::prism(0.3, 1.0, 128).unwrap());
+    let road = Shape3::from(Cuboid::from_half_extents(Vec3::new(3.0, 0.5, 3.0)).unwrap());
+    for way in [0.0, 1.0] {
+        let half = Quat::from_xyzw(0.0, 0.0, 1.0, 0.0) * lying.rotation();
+        let motion = Motion3::new([way, 0.0, 0.0], half).unwrap();
+        let told = Pair3::new(&wheel, &lying, &road, &Pose3::IDENTITY).impact(&motion, &Motion3::STILL);
+        assert_eq!(told, None, "{way}");
+    }
+}
