@@ -171,7 +171,8 @@ impl Motion3 {
     ///
     /// At 0 and below, or for a NaN, it is `from` bit for bit; at 1 and above the position is their sum and the
     /// rotation the one to be reached, bit for bit. In between the rotation is rounded to f32, by less than 1.2e-7
-    /// rad, and the position to f64. A position beyond 1e9 m on an axis ends there.
+    /// rad, and the position to f64. An end beyond 1e9 m on an axis is moved to there, axis by axis, and the
+    /// motion leads straight there.
     pub fn pose_at(&self, from: &Pose3, fraction: f64) -> Pose3 {
         // A NaN is not above zero either.
         if fraction.is_nan() || fraction <= 0.0 {
@@ -179,7 +180,7 @@ impl Motion3 {
         }
         let fraction = fraction.min(1.0);
         let limit = DVec3::splat(MAX_POSITION);
-        let position = (from.position() + self.displacement * fraction).clamp(-limit, limit);
+        let position = (from.position() + self.path(from) * fraction).clamp(-limit, limit);
         let rotation = match self.rotation {
             None => from.rotation(),
             Some(to) if fraction >= 1.0 => Quat::from_array(to),
@@ -193,6 +194,15 @@ impl Motion3 {
         };
         // Both are in range; the pose cannot be refused.
         Pose3::new(position, rotation).unwrap_or(*from)
+    }
+
+    /// How far a body moves in all that starts at `from`, in metres: by the displacement, unless that leads beyond the range of poses.
+    fn path(&self, from: &Pose3) -> DVec3 {
+        let (limit, end) = (DVec3::splat(MAX_POSITION), from.position() + self.displacement);
+        if end.abs().max_element() <= MAX_POSITION {
+            return self.displacement;
+        }
+        end.clamp(-limit, limit) - from.position()
     }
 
     /// How a body turns that starts at `from`. Cost: two square roots and a product of quaternions.

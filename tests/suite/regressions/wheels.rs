@@ -3,7 +3,7 @@
 use asunder::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder::{
     Chain, Cuboid, HalfPlane, Hull, Motion2, Motion3, Pair2, Pair3, Polygon, Pose2, Pose3, Rect, Rotation2,
-    Shape2, Shape3,
+    Shape2, Shape3, Sphere,
 };
 
 /// Symptom: a wheel of many sides that spins above its road was said to hit it, 0.1 mm apart. Cause: it takes more steps than there are
@@ -39,5 +39,24 @@ fn a_wheel_that_spins_beside_its_road_does_not_hit_it() {
         let motion = Motion3::new([way, 0.0, 0.0], half).unwrap();
         let told = Pair3::new(&wheel, &lying, &road, &Pose3::IDENTITY).impact(&motion, &Motion3::STILL);
         assert_eq!(told, None, "{way}");
+    }
+}
+
+/// Symptom: at the edge of the world, a body's poses overlapped another and no impact was told. Cause: each pose was moved to the edge
+/// by itself, so that its way bent there, and impacts are those of a straight way.
+#[test]
+fn poses_and_impacts_agree_at_the_edge_of_the_world() {
+    let ball = Shape3::from(Sphere::new(2.0).unwrap());
+    let (here, motion) = (Pose3::at([9e8, 0.0, 0.0]).unwrap(), Motion3::shift([9e8, 100.0, 0.0]).unwrap());
+    assert_eq!(motion.pose_at(&here, 1.0).position(), DVec3::new(1e9, 100.0, 0.0));
+    assert_eq!(motion.pose_at(&here, 0.5).position(), DVec3::new(9.5e8, 50.0, 0.0));
+    for (at, is_met) in [([9.5e8, 50.0, 0.0], true), ([1e9, 50.0, 0.0], false), ([1e9, 100.0, 0.0], true)] {
+        let other = Pose3::at(at).unwrap();
+        let told = Pair3::new(&ball, &here, &ball, &other).impact(&motion, &Motion3::STILL);
+        assert_eq!(told.is_some(), is_met, "{at:?}");
+        let overlaps = |i: u32| {
+            Pair3::new(&ball, &motion.pose_at(&here, f64::from(i) / 100.0), &ball, &other).overlaps()
+        };
+        assert_eq!((0..=100).any(overlaps), is_met, "{at:?}");
     }
 }

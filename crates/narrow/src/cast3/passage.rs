@@ -105,14 +105,20 @@ impl Passage {
 
     pub(super) fn of_motions(pair: &Pair3, motions: [&Motion3; 2]) -> Self {
         let poses = [&pair.pose_a, &pair.pose_b];
-        let moved = |i: usize| match motions[i].displacement() {
+        let paths = [0, 1].map(|i| {
+            let (start, way) = (poses[i].position(), motions[i].displacement());
+            let end = motions[i].pose_at(poses[i], 1.0).position();
+            // Poses end at the edge of their range.
+            if end == start + way { way } else { end - start }
+        });
+        let moved = |i: usize| match paths[i] {
             DVec3::ZERO => 0.0,
-            displacement => rounding_of(poses[i], displacement),
+            path => rounding_of(poses[i], path),
         };
         let turn = |motion: &Motion3, pose: &Pose3| Some(motion.turn(pose)).filter(|turn| !turn.is_still());
         Self {
             between: pair.between,
-            drift: motions[0].displacement() - motions[1].displacement(),
+            drift: paths[0] - paths[1],
             bases: pair.bases(),
             turns: [turn(motions[0], poses[0]), turn(motions[1], poses[1])],
             rounding: moved(0) + moved(1),
