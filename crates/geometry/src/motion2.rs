@@ -151,8 +151,8 @@ impl Motion2 {
         Pose2::new(place.clamp(-limit, limit), rotation).unwrap_or(*from)
     }
 
-    /// An upper bound on the angular speed, in radians per whole motion: the turn itself and up to a half more.
-    /// Zero where the rotation stays. Cost: constant.
+    /// An upper bound on the angular speed, in radians per whole motion: at most 1.28 times that of an
+    /// even turn. Zero where the rotation stays. Cost: constant.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rotation2};

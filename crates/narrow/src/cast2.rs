@@ -68,8 +68,8 @@ impl Pair2<'_> {
     ///
     /// - Touching at the start, exactly, is an impact at fraction 0, also where A moves away. Its anchors are the
     ///   deepest contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
-    /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin, 1e-7 m at 1e8
-    ///   m) is an impact at 0 too, but where A parts from it; `overlapping` says no, and `error` how far apart they
+    /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin; further
+    ///   out some 8 units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, but where A parts from it; `overlapping` says no, and `error` how far apart they
     ///   may be. So what a cast has brought to another may leave it.
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
     ///   by how much they may miss.
@@ -77,7 +77,7 @@ impl Pair2<'_> {
     /// - A one-sided chain is met from its front alone: what is behind a segment when it comes to touch it passes. Inner
     ///   vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the first
     ///   segment of the straight run that is met.
-    /// - A displacement that is not finite counts as none.
+    /// - A displacement that is not finite counts as none: who touches is told so, unlike by a world's `cast_shape`.
     ///
     /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap,
     /// and one distance for each round: one to three rounds for most pairs, some twenty where curves graze. So it
@@ -104,8 +104,9 @@ impl Pair2<'_> {
     /// [`cast`](Self::cast) says holds here too.
     ///
     /// The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they
-    /// touch, and there they are at most `error` apart. Where a body turns, that is no less than 1.2e-7 of its arm. Two
-    /// half-planes of which one turns touch at once.
+    /// touch, and there they are at most `error` apart. Where a body turns, that is no less than 1.2e-7 of its arm. Where many
+    /// rounds lead no nearer, as for shapes that graze each other while they turn, the fraction is that of the last round, and
+    /// `error` the gap that is left there. Two half-planes of which one turns touch at once.
     ///
     /// Cost: as a cast where nothing turns; else 5 to 20 us, most of it distances, and two supports for every time
     /// tried.

@@ -58,7 +58,8 @@ impl Pair3<'_> {
     ///
     /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal
     /// with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own,
-    /// and both anchors are the bodies' positions. A displacement that is not finite counts as none. Of compounds,
+    /// and both anchors are the bodies' positions. A displacement that is not finite counts as none: who touches is
+    /// told so, unlike by a world's `cast_shape`. Of compounds,
     /// the parts that meet first. Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches
     /// of both for others.
     ///
