@@ -414,8 +414,8 @@ impl World<Volume> {
     /// What a moved shape runs into next: like [`World::cast_shape`], but what it touches at the start is passed over, even if
     /// the displacement leads into it. So a ball on a floor finds the wall, even where both are one body. Whatever is level
     /// with what is touched is passed over, too: by the rule of [`Pair3::next_impact`](crate::Pair3::next_impact), and for
-    /// other bodies, like the tiles of a floor, by that of [`next_impact_beside`](crate::Pair3::next_impact_beside). A displacement of zero, or that is not finite,
-    /// leads into nothing: `None`.
+    /// other bodies, like the tiles of a floor, by that of [`next_impact_beside`](crate::Pair3::next_impact_beside). A
+    /// displacement of zero, or that is not finite, leads into nothing: `None`.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, TriMesh, World3, glam::Vec3};

@@ -69,8 +69,9 @@ impl Pair2<'_> {
     /// - Touching at the start, exactly, is an impact at fraction 0, also where A moves away. Its anchors are the
     ///   deepest contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
     /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin; further
-    ///   out some 8 units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, but where A parts from it; `overlapping` says no, and `error` how far apart they
-    ///   may be. So what a cast has brought to another may leave it.
+    ///   out some 8 units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, but
+    ///   where A parts from it; `overlapping` says no, and `error` how far apart they may be. So what a cast has brought to
+    ///   another may leave it.
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
     ///   by how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.
@@ -133,8 +134,9 @@ impl Pair2<'_> {
     /// level if, along the normal that it would be met with, it is at most a 64th of the body's thickness away at the start
     /// and the motion leads at most that far into it, not counting what the motion leads into the touched parts anyway. Of a
     /// body that turns, and is deeper along that normal at the start than in what it touches, since another axis parts the two, what
-    /// it goes into counts from where they meet. A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper below
-    /// that than half its thickness. The thickness is the radius of a ball in the body's middle. So a ball that its weight
+    /// it goes into counts from where they meet. A part of a compound is level, too, if it is flush with a touched one, as
+    /// long as the body never sinks deeper below that than half its thickness. The thickness is the radius of a ball in the
+    /// body's middle. So a ball that its weight
     /// presses on a level's floor crosses the floor's vertices and still runs into the level's walls, steps and ramps. A motion
     /// that sinks a body into its floor by its whole thickness leads it under what stands there.
     ///

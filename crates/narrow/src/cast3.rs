@@ -133,8 +133,9 @@ impl Pair3<'_> {
     /// level if, along the normal that it would be met with, it is at most a 64th of the body's thickness away at the start
     /// and the motion leads at most that far into it, not counting what the motion leads into the touched parts anyway. Of a
     /// body that turns, and is deeper along that normal at the start than in what it touches, since another axis parts the two, what
-    /// it goes into counts from where they meet. A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper below
-    /// that than half its thickness. The thickness is the radius of a ball in the body's middle. So a ball that its weight
+    /// it goes into counts from where they meet. A part of a compound is level, too, if it is flush with a touched one, as
+    /// long as the body never sinks deeper below that than half its thickness. The thickness is the radius of a ball in the
+    /// body's middle. So a ball that its weight
     /// presses on a level's floor crosses the floor's seams and still runs into the level's walls, steps and ramps. A motion
     /// that sinks a body into its floor by its whole thickness leads it under what stands there.
     ///
