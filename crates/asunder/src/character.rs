@@ -219,8 +219,6 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     fn size(shape: &Self::Shape) -> f64;
     /// How far the shape reaches along a direction, from its position.
     fn reach(at: (&Self::Shape, &Self::Pose), along: Self::Point) -> Option<f64>;
-    /// Whether the deepest manifold with a body has a separation of zero or less: of one-sided ground, from its front.
-    fn is_deep(at: (&Self::Shape, &Self::Pose), body: &crate::collider::Collider<Self>) -> bool;
     /// The manifolds with a body that are within the margin, each as a plane.
     fn gaps(
         at: (&Self::Shape, &Self::Pose),

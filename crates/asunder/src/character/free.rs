@@ -152,7 +152,9 @@ pub(super) fn has_entered<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Fi
 /// Whether a shape overlaps a body that sees it: of one-sided ground, a front. Two grounds see each other from all sides.
 fn blocks<S: Walks>(at: At<'_, S>, body: &Collider<S>) -> bool {
     if S::is_ground(&body.shape) && !S::is_ground(at.0) {
-        S::is_deep(at, body)
+        let mut is_deep = false;
+        S::gaps(at, body, 0.0, |plane| is_deep |= plane.gap <= 0.0);
+        is_deep
     } else {
         S::overlaps(at, body)
     }

@@ -92,7 +92,8 @@ impl World<Plane> {
     ///   free it, or to move it back to its skin's distance out of an acute corner.
     /// - A displacement that is not finite counts as none, as does one that leads beyond 1e9 m. Half-spaces do not move.
     ///
-    /// Cost: a cast for each wall, and two for the ground; three more before a wall that may be a step.
+    /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a wall that
+    /// may be a step.
     ///
     /// ```
     /// use asunder::{Capsule2, Rect, Collider2, Filter2, Pose2, Shape2, Walk2, World2, glam::Vec2};
@@ -147,11 +148,6 @@ impl Walks for Plane {
     fn reach((shape, pose): (&Shape2, &Pose2), along: DVec2) -> Option<f64> {
         let local = shape.support(pose.turn_back(along))?;
         Some((pose.transform(local) - pose.position()).dot(along))
-    }
-
-    fn is_deep(at: (&Shape2, &Pose2), body: &Collider2) -> bool {
-        let deepest = Pair2::new(at.0, at.1, &body.shape, &body.pose).manifold(0.0);
-        deepest.is_some_and(|manifold| manifold.separation <= 0.0)
     }
 
     fn gaps(at: (&Shape2, &Pose2), body: &Collider2, margin: f32, mut each: impl FnMut(Gap<DVec2>)) {

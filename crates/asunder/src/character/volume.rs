@@ -93,7 +93,8 @@ impl World<Volume> {
     ///   free it, or to move it back to its skin's distance out of an acute corner.
     /// - A displacement that is not finite counts as none, as does one that leads beyond 1e9 m. Half-spaces do not move.
     ///
-    /// Cost: a cast for each wall, and two for the ground; three more before a wall that may be a step.
+    /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a wall that
+    /// may be a step.
     ///
     /// ```
     /// use asunder::{Capsule3, Cuboid, Collider3, Filter3, Pose3, Shape3, Walk3, World3, glam::Vec3};
@@ -148,11 +149,6 @@ impl Walks for Volume {
     fn reach((shape, pose): (&Shape3, &Pose3), along: DVec3) -> Option<f64> {
         let local = shape.support(pose.turn_back(along))?;
         Some((pose.transform(local) - pose.position()).dot(along))
-    }
-
-    fn is_deep(at: (&Shape3, &Pose3), body: &Collider3) -> bool {
-        let deepest = Pair3::new(at.0, at.1, &body.shape, &body.pose).manifold(0.0);
-        deepest.is_some_and(|manifold| manifold.separation <= 0.0)
     }
 
     fn gaps(at: (&Shape3, &Pose3), body: &Collider3, margin: f32, mut each: impl FnMut(Gap<DVec3>)) {

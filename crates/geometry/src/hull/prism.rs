@@ -86,33 +86,43 @@ mod tests {
         0.5 * sides as f64 * libm::sin(core::f64::consts::TAU / sides as f64)
     }
 
+    /// Makes hulls of a radius of 1 with these numbers of sides, thin and thick; of so many corners and faces, none lost.
+    fn made(
+        sides: RangeInclusive<usize>,
+        make: fn(f32, f32, usize) -> Result<Hull, HullError>,
+        counts: fn(usize) -> (usize, usize),
+    ) -> Vec<(usize, f32, Hull)> {
+        let all = sides.flat_map(|sides| SHARES.map(|half_height| (sides, half_height)));
+        let hulls = all.map(|(sides, half_height)| {
+            let hull = make(half_height, 1.0, sides).unwrap();
+            let found = (hull.vertices().len(), hull.topology().face_count());
+            assert_eq!((found, hull.error()), (counts(sides), 0.0), "{sides} sides, {half_height} m");
+            (sides, half_height, hull)
+        });
+        hulls.collect()
+    }
+
     #[test]
     fn prisms_have_all_their_corners_and_sides() {
-        for sides in 3..=128 {
-            for half_height in SHARES {
-                let prism = Hull::prism(half_height, 1.0, sides).unwrap();
-                let counts = (prism.vertices().len(), prism.topology().face_count());
-                assert_eq!(counts, (2 * sides, sides + 2), "{half_height} m");
-                assert_eq!(prism.error(), 0.0);
-                let volume = 2.0 * f64::from(half_height) * area(sides);
-                let made = Shape3::from(prism).mass_properties(1.0).unwrap().mass;
-                assert!(
-                    (made / volume - 1.0).abs() < 1e-5,
-                    "{sides} sides, {half_height} m: {made} for {volume}"
-                );
-            }
+        for (sides, half_height, prism) in made(3..=128, Hull::prism, |sides| (2 * sides, sides + 2)) {
+            let volume = 2.0 * f64::from(half_height) * area(sides);
+            let made = Shape3::from(prism).mass_properties(1.0).unwrap().mass;
+            assert!(
+                (made / volume - 1.0).abs() < 1e-5,
+                "{sides} sides, {half_height} m: {made} for {volume}"
+            );
         }
     }
 
     #[test]
     fn pyramids_have_all_their_corners_and_sides() {
-        for sides in 3..=255 {
-            for half_height in SHARES {
-                let pyramid = Hull::pyramid(half_height, 1.0, sides).unwrap();
-                let counts = (pyramid.vertices().len(), pyramid.topology().face_count());
-                assert_eq!(counts, (sides + 1, sides + 1), "{half_height} m");
-                assert_eq!(pyramid.error(), 0.0);
-            }
+        for (sides, half_height, pyramid) in made(3..=255, Hull::pyramid, |sides| (sides + 1, sides + 1)) {
+            let volume = 2.0 / 3.0 * f64::from(half_height) * area(sides);
+            let made = Shape3::from(pyramid).mass_properties(1.0).unwrap().mass;
+            assert!(
+                (made / volume - 1.0).abs() < 1e-5,
+                "{sides} sides, {half_height} m: {made} for {volume}"
+            );
         }
     }
 
