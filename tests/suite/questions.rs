@@ -2,13 +2,15 @@
 //! world came about.
 
 mod asked;
+mod checked;
 mod points;
 mod sieve;
 mod stories;
 
-use asked::{Questioned, answers, check, not_touched, visited};
+use asked::{Questioned, answers, not_touched, visited};
 use asunder::{Filter, Plane, Volume, World};
 use asunder_tests::cases::Random;
+use checked::check;
 use sieve::Sieve;
 
 /// What a life of a world has seen, so that no part of a test is about nothing.

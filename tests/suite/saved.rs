@@ -1,8 +1,8 @@
 //! What is stored comes back in every bit, and what is no shape is refused.
 
 use asunder::{
-    Capsule3, Collider2, Collider3, Compound3, Cuboid, Event3, Hull, Layers, Polygon, Pose2, Pose3, Ray2,
-    Ray3, Rotation2, Shape3, Sphere, World3,
+    Capsule3, Collider2, Collider3, Compound3, Cuboid, DebugOptions, Event3, Filter3, Hull, Layers, Polygon,
+    Pose2, Pose3, Ray2, Ray3, Rotation2, Shape3, Sphere, Walk3, World3,
 };
 use asunder_narrow::{Batch2, Batch3, Feature, FeatureId, Hint, Job2, Job3, collide2, collide3};
 use asunder_tests::cases::Random;
@@ -310,4 +310,21 @@ fn keys_and_events_come_back() {
     assert_eq!((assert_comes_back(&a), assert_comes_back(&b)), (a, b));
     let events: Vec<Event3> = assert_comes_back(&world.events().to_vec());
     assert_eq!(events, world.events());
+}
+
+#[test]
+fn answers_and_walks_come_back() {
+    let mut world = World3::new();
+    let unit = Cuboid::from_half_extents(Vec3::ONE).unwrap();
+    world.insert(Collider3::new(unit).fixed());
+    let (ball, above) = (Shape3::from(Sphere::new(0.1).unwrap()), Pose3::at([0.3, 1.7, 0.0]).unwrap());
+    let (at, filter, down) = ((&ball, &above), Filter3::new(), Vec3::NEG_Y * 3.0);
+    let ray = Ray3::new(above.position(), down).unwrap();
+    assert_comes_back(&world.cast_ray(&ray, 1.0, &filter).unwrap());
+    assert_comes_back(&world.cast_shape(at, down, &filter).unwrap());
+    assert_comes_back(&world.closest_to_shape(at, 1.0, &filter).unwrap());
+    let walk = assert_comes_back(&Walk3 { step: 0.1, ..Walk3::new(&ball, Vec3::Y).unwrap() });
+    assert_comes_back(&world.move_and_slide(at, down, &walk, &filter).ground.unwrap());
+    assert_comes_back(&world.depenetrate((&ball, &Pose3::at([0.3, 0.9, 0.0]).unwrap()), &filter));
+    assert_comes_back(&DebugOptions { columns: true, ..DebugOptions::default() });
 }

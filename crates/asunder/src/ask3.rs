@@ -1,14 +1,15 @@
 //! Queries to a world in space, in plain types.
 
+mod along;
+
 use crate::query::{
-    Asked, CastAnswer3, Filter3, Met, NearAnswer3, RayAnswer3, bodies_along, bodies_along_ray, bodies_near,
-    bodies_over, boxes_over, first_ahead,
+    Asked, Filter3, Met, NearAnswer3, bodies_near, bodies_over, boxes_over, manifolds, visit_manifolds,
 };
 use crate::space::{BodyKey3, Volume};
 use crate::world::World;
-
-use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Aabb3, Pose3, Ray3, Shape3};
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Aabb3, Pose3, Shape3};
+use asunder_narrow::Manifold3;
 use core::ops::ControlFlow;
 
 /// # Queries
@@ -159,6 +160,63 @@ impl World<Volume> {
         mut visitor: impl FnMut(BodyKey3) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         bodies_over(self, at, filter).visit(|Met(body)| visitor(body))
+    }
+
+    /// How a posed shape touches what is here, as a body there would: one manifold for each pair of convex parts, and on ground
+    /// for each normal, at most `margin` metres apart; with the body, by slot, then in the order of
+    /// [`Pair3::manifolds`](crate::Pair3::manifolds). Normals point from the shape to the body; `a` is the shape, and `b` the
+    /// body.
+    ///
+    /// For who places something, or moves a body that is in no world; what bodies touch each other is in
+    /// [`World::contacts`]. Sensors are found, unless the filter leaves them out. A NaN counts as a margin of 0.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Cuboid, Shape3, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let floor = world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.5, 9.0))?).fixed());
+    /// let (unit, at) = (Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?), Pose3::at([0.0, 0.75, 0.0])?);
+    /// let mut found = vec![];
+    /// world.manifolds((&unit, &at), 0.0, &Filter3::new(), &mut found);
+    /// let [(body, manifold)] = &found[..] else { return Err("it stands in the floor".into()) };
+    /// assert_eq!((*body, manifold.normal, manifold.points.len()), (floor, Vec3::NEG_Y, 4));
+    /// assert!((f64::from(manifold.separation) + 0.25).abs() <= f64::from(manifold.error));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn manifolds(
+        &self,
+        at: (&Shape3, &Pose3),
+        margin: f32,
+        filter: &Filter3<'_>,
+        into: &mut Vec<(BodyKey3, Manifold3)>,
+    ) {
+        manifolds((self, filter), at, margin, into);
+    }
+
+    /// [`World::manifolds`], one by one, those of a body in order and together, bodies in no promised order: nothing is
+    /// copied.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Cuboid, Shape3, World3, glam::Vec3};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World3::new();
+    /// world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.5, 9.0))?).fixed());
+    /// let (unit, at) = (Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?), Pose3::at([0.0, 1.125, 0.0])?);
+    /// let mut gap = f32::INFINITY;
+    /// let _ = world.visit_manifolds((&unit, &at), 0.25, &Filter3::new(), |_, manifold| {
+    ///     gap = gap.min(manifold.separation);
+    ///     ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(gap, 0.125);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_manifolds(
+        &self,
+        at: (&Shape3, &Pose3),
+        margin: f32,
+        filter: &Filter3<'_>,
+        visitor: impl FnMut(BodyKey3, &Manifold3) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        visit_manifolds((self, filter), at, margin, visitor)
     }
 
     /// The body closest to a point, and the closest point on it, if that is within a distance (all in metres); of bodies
@@ -316,179 +374,5 @@ impl World<Volume> {
         visitor: impl FnMut(NearAnswer3) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         bodies_near(self, at, within, filter).visit(visitor)
-    }
-
-    /// The first body that a ray meets no later than at `limit`, which is in lengths of its direction and may be
-    /// infinite; of bodies met at the same distance, that of the lowest slot. A body that the ray starts in is met
-    /// at 0.
-    ///
-    /// A NaN counts as no limit, and a negative limit as zero. Looks at bodies in order of their boxes, and at none
-    /// behind the first.
-    ///
-    /// ```
-    /// use asunder::{Sphere, Collider3, Filter3, Pose3, Ray3, World3, glam::{DVec3, Vec3}};
-    /// let mut world = World3::new();
-    /// let ball = world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at(DVec3::X * 4.0)?));
-    /// let ray = Ray3::new(DVec3::ZERO, Vec3::X * 2.0)?;
-    /// let hit = world.cast_ray(&ray, f64::INFINITY, &Filter3::new()).ok_or("it is in the way")?;
-    /// assert_eq!((hit.body, hit.normal), (ball, Vec3::NEG_X));
-    /// assert!((hit.distance - 1.5).abs() < 1e-6 && hit.point.distance(DVec3::X * 3.0) < 1e-6);
-    /// assert!(world.cast_ray(&ray, 1.0, &Filter3::new()).is_none(), "one length of the direction is two metres");
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn cast_ray(&self, ray: &Ray3, limit: f64, filter: &Filter3<'_>) -> Option<RayAnswer3> {
-        bodies_along_ray(self, ray, limit, filter).first()
-    }
-
-    /// All bodies that a ray meets, as [`World::cast_ray`] tells of the first: through all that is in the way.
-    ///
-    /// ```
-    /// use asunder::{Collider3, Filter3, Pose3, Ray3, Sphere, World3, glam::DVec3, glam::Vec3};
-    /// let mut world = World3::new();
-    /// let ball = Collider3::new(Sphere::new(1.0)?);
-    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
-    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
-    /// let ray = Ray3::new(DVec3::ZERO, Vec3::X)?;
-    /// let mut hits = vec![];
-    /// world.cast_ray_all(&ray, 10.0, &Filter3::new(), &mut hits);
-    /// assert!(hits.iter().map(|hit| hit.body).eq([near, far]), "through all, by distance");
-    /// world.cast_ray_all(&ray, 2.5, &Filter3::new(), &mut hits);
-    /// assert!(hits.iter().map(|hit| hit.body).eq([near]), "the other begins at 3 m");
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn cast_ray_all(&self, ray: &Ray3, limit: f64, filter: &Filter3<'_>, into: &mut Vec<RayAnswer3>) {
-        bodies_along_ray(self, ray, limit, filter).all(into);
-    }
-
-    /// [`World::cast_ray_all`], one by one in no promised order: to know whether anything is in the way, break off
-    /// at once.
-    ///
-    /// ```
-    /// use asunder::{Sphere, Collider3, Filter3, Pose3, Ray3, World3, glam::{DVec3, Vec3}};
-    /// use std::ops::ControlFlow;
-    /// let mut world = World3::new();
-    /// world.insert(Collider3::new(Sphere::new(1.0)?).at(Pose3::at(DVec3::X * 4.0)?));
-    /// let sight = Ray3::new(DVec3::ZERO, Vec3::X * 10.0)?;
-    /// let is_free = world.visit_ray(&sight, 1.0, &Filter3::new(), |_| ControlFlow::Break(())).is_continue();
-    /// assert!(!is_free);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn visit_ray(
-        &self,
-        ray: &Ray3,
-        limit: f64,
-        filter: &Filter3<'_>,
-        visitor: impl FnMut(RayAnswer3) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        bodies_along_ray(self, ray, limit, filter).visit(visitor)
-    }
-
-    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of
-    /// bodies met at the same time, that of the lowest slot. One that it touches already is met at fraction 0.
-    ///
-    /// A displacement of zero meets what the shape overlaps, except one-sided ground that it is behind; one that is not
-    /// finite meets nothing. To slide on along what was met, keep a skin of a tenth of a millimetre: normals are f32, so a
-    /// velocity from which the normal was removed still points slightly into the surface.
-    ///
-    /// ```
-    /// use asunder::{Sphere, Collider3, Filter3, Pose3, Shape3, World3, glam::{DVec3, Vec3}};
-    /// let ball = Shape3::from(Sphere::new(1.0)?);
-    /// let mut world = World3::new();
-    /// let body = world.insert(Collider3::new(ball.clone()).at(Pose3::at(DVec3::X * 4.0)?));
-    /// let from = (&ball, &Pose3::IDENTITY);
-    /// let hit = world.cast_shape(from, Vec3::X * 4.0, &Filter3::new()).ok_or("it is in the way")?;
-    /// assert_eq!((hit.body, hit.overlapping), (body, false));
-    /// assert!(hit.fraction <= 0.5 && hit.fraction > 0.499_99 && hit.point.distance(DVec3::X * 3.0) < 1e-4);
-    /// assert!(world.cast_shape(from, Vec3::X * 1.9, &Filter3::new()).is_none());
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn cast_shape(
-        &self,
-        from: (&Shape3, &Pose3),
-        displacement: Vec3,
-        filter: &Filter3<'_>,
-    ) -> Option<CastAnswer3> {
-        bodies_along(self, from, displacement, filter).first()
-    }
-
-    /// What a moved shape runs into next: like [`World::cast_shape`], but what it touches at the start is passed over, even if
-    /// the displacement leads into it. So a ball on a floor finds the wall, even where both are one body. Whatever is level
-    /// with what is touched is passed over, too: by the rule of [`Pair3::next_impact`](crate::Pair3::next_impact), and for
-    /// other bodies, like the tiles of a floor, by that of [`next_impact_beside`](crate::Pair3::next_impact_beside). A
-    /// displacement of zero, or that is not finite, leads into nothing: `None`.
-    ///
-    /// ```
-    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, TriMesh, World3, glam::Vec3};
-    /// let mut world = World3::new();
-    /// let corners = [[-9.0, 0.0, -9.0], [9.0, 0.0, -9.0], [9.0, 0.0, 9.0], [-9.0, 0.0, 9.0], [9.0, 9.0, 9.0], [9.0, 9.0, -9.0]];
-    /// let floor_and_wall = TriMesh::new(corners.map(Vec3::from), [[0, 2, 1], [0, 3, 2], [1, 2, 4], [1, 4, 5]])?;
-    /// let level = world.insert(Collider3::new(floor_and_wall));
-    /// let (ball, on_floor) = (Shape3::from(Sphere::new(1.0)?), Pose3::at([0.0, 1.0, 0.0])?);
-    /// let from = (&ball, &on_floor);
-    /// assert!(world.cast_shape(from, Vec3::X * 16.0, &Filter3::new()).is_some_and(|hit| hit.overlapping), "the floor");
-    /// let hit = world.cast_shape_onwards(from, Vec3::X * 16.0, &Filter3::new()).ok_or("the wall")?;
-    /// assert!(hit.body == level && hit.fraction <= 0.5 && hit.fraction > 0.499_99 && hit.normal.x > 0.999);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn cast_shape_onwards(
-        &self,
-        from: (&Shape3, &Pose3),
-        displacement: Vec3,
-        filter: &Filter3<'_>,
-    ) -> Option<CastAnswer3> {
-        first_ahead(self, from, displacement, filter)
-    }
-
-    /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
-    ///
-    /// ```
-    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, World3, glam::Vec3};
-    /// let mut world = World3::new();
-    /// let ball = Collider3::new(Sphere::new(1.0)?);
-    /// let near = world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
-    /// let far = world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
-    /// let dot = Shape3::from(Sphere::new(0.5)?);
-    /// let mut hits = vec![];
-    /// world.cast_shape_all((&dot, &Pose3::IDENTITY), Vec3::X * 2.0, &Filter3::new(), &mut hits);
-    /// assert!(hits.iter().map(|hit| hit.body).eq([near]));
-    /// world.cast_shape_all((&dot, &Pose3::IDENTITY), Vec3::X * 4.0, &Filter3::new(), &mut hits);
-    /// assert!(hits.iter().map(|hit| hit.body).eq([near, far]), "by the share of the way");
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn cast_shape_all(
-        &self,
-        from: (&Shape3, &Pose3),
-        displacement: Vec3,
-        filter: &Filter3<'_>,
-        into: &mut Vec<CastAnswer3>,
-    ) {
-        bodies_along(self, from, displacement, filter).all(into);
-    }
-
-    /// [`World::cast_shape_all`], one by one in no promised order.
-    ///
-    /// ```
-    /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, World3, glam::Vec3};
-    /// use std::ops::ControlFlow;
-    /// let mut world = World3::new();
-    /// let ball = Collider3::new(Sphere::new(1.0)?);
-    /// world.insert(ball.clone().at(Pose3::at([3.0, 0.0, 0.0])?));
-    /// world.insert(ball.at(Pose3::at([4.0, 0.0, 0.0])?));
-    /// let dot = Shape3::from(Sphere::new(0.5)?);
-    /// let way = Vec3::X * 4.0;
-    /// let is_free = world
-    ///     .visit_cast_shape((&dot, &Pose3::IDENTITY), way, &Filter3::new(), |_| ControlFlow::Break(()))
-    ///     .is_continue();
-    /// assert!(!is_free);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn visit_cast_shape(
-        &self,
-        from: (&Shape3, &Pose3),
-        displacement: Vec3,
-        filter: &Filter3<'_>,
-        visitor: impl FnMut(CastAnswer3) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        bodies_along(self, from, displacement, filter).visit(visitor)
     }
 }

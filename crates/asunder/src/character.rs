@@ -50,6 +50,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Walk<N> {
     /// Which way is up; its length does not matter. Zero for a character that has no ground, such as one that flies.
     pub up: N,
@@ -86,6 +87,7 @@ pub type Walk3 = Walk<Vec3>;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Freed<O, P> {
     /// Where the shape is now. Its rotation is kept.
     pub pose: O,
@@ -118,6 +120,7 @@ pub type Freed3 = Freed<Pose3, DVec3>;
 /// assert_eq!(bumped(Vec3::NEG_X, &met), Vec3::NEG_X, "away from it");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Obstacle<K, N, P> {
     /// The body.
     pub body: K,

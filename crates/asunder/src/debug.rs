@@ -14,6 +14,7 @@ use asunder_geometry::tolerance;
 /// assert!(options.shapes && options.contacts && options.normals);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DebugOptions {
     /// The outline of every body that is enabled, where it stands now. On at first.
     pub shapes: bool,

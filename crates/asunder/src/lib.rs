@@ -67,8 +67,8 @@
 //!   without. For a few hundred bodies leave it out: threads gain nothing there, and may cost a little. For many, let
 //!   the game's main thread be one of the pool: see [`game_loops`](guide::game_loops).
 //! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and
-//!   serde's traits for bodies, shapes, poses, rays, keys, events and manifolds. Whatever is loaded passes the same
-//!   checks as in the constructors.
+//!   serde's traits for bodies, shapes, poses, rays, keys, events, manifolds, answers to queries, walks and debug options.
+//!   Whatever is loaded passes the same checks as in the constructors.
 #![deny(missing_docs)]
 
 mod any_world;

@@ -7,7 +7,7 @@
 //! space       the narrow phase's part, for the plane and for space
 //! answer      what is told
 //! ```
-//! The methods themselves stand in `ask2.rs` and `ask3.rs`, in plain types.
+//! The methods themselves stand in `ask2.rs` and `ask3.rs`, and those along a way beside them, in plain types.
 //!
 //! # Why answers depend on the bodies alone
 //! Trees are made when somebody asks, by any thread, and boxes of the last update may be larger than they need be.
@@ -31,6 +31,7 @@ pub use answer::{
 pub use filter::{Filter, Filter2, Filter3};
 pub(crate) use index::Boxes;
 pub(crate) use questions::{
-    bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over, first_ahead,
+    bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over, first_ahead, manifolds,
+    visit_manifolds,
 };
 pub(crate) use space::{Asked, Meet};

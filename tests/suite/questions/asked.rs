@@ -1,9 +1,8 @@
 //! All questions about one shape, one point and one ray, and what each body of the world has to do with them.
 
-use super::sieve::{Allowed, Sieve};
 use asunder::{
-    CastAnswer, Circle, Collider, Filter, Motion2, Motion3, NearAnswer, Pair2, Pair3, Plane, Pose2, Pose3,
-    Ray2, Ray3, RayAnswer, Shape2, Shape3, Space, Sphere, Touch2, Touch3, Volume, World,
+    CastAnswer, Circle, Collider, Filter, Manifold2, Manifold3, Motion2, Motion3, NearAnswer, Pair2, Pair3,
+    Plane, Pose2, Pose3, Ray2, Ray3, RayAnswer, Shape2, Shape3, Space, Sphere, Touch2, Touch3, Volume, World,
 };
 use asunder_broad::Cast;
 use asunder_narrow::{cast_ray2, cast_ray3};
@@ -28,13 +27,15 @@ pub(super) struct Asked<S: Questioned> {
 
 /// Every list and every first answer.
 #[derive(Debug, PartialEq)]
-pub(super) struct All<K, N, P> {
+pub(super) struct All<K, N, P, M> {
     pub(super) boxes: Vec<K>,
     pub(super) holding: Vec<K>,
     pub(super) over: Vec<K>,
     pub(super) near_point: Vec<NearAnswer<K, N, P>>,
     pub(super) near_shape: Vec<NearAnswer<K, N, P>>,
     pub(super) closest: [Option<NearAnswer<K, N, P>>; 2],
+    /// How the shape meets bodies within the distance.
+    pub(super) manifolds: Vec<(K, M)>,
     pub(super) rays: Vec<RayAnswer<K, N, P>>,
     pub(super) first_ray: Option<RayAnswer<K, N, P>>,
     pub(super) casts: Vec<CastAnswer<K, N, P>>,
@@ -43,27 +44,28 @@ pub(super) struct All<K, N, P> {
     pub(super) onwards: Option<CastAnswer<K, N, P>>,
 }
 
-pub(super) type Answers<S> = All<<S as Space>::Key, <S as Questioned>::Vector, <S as Questioned>::Point>;
+pub(super) type Answers<S> =
+    All<<S as Space>::Key, <S as Questioned>::Vector, <S as Questioned>::Point, <S as Space>::Manifold>;
 
-type Near<S> = NearAnswer<<S as Space>::Key, <S as Questioned>::Vector, <S as Questioned>::Point>;
+pub(super) type Near<S> = NearAnswer<<S as Space>::Key, <S as Questioned>::Vector, <S as Questioned>::Point>;
 
 /// What one body has to do with what is asked, from the narrow phase alone.
 pub(super) struct Judged {
-    boxes: bool,
-    holding: bool,
-    over: bool,
+    pub(super) boxes: bool,
+    pub(super) holding: bool,
+    pub(super) over: bool,
     /// Distances and their errors; overlapping bodies have none.
-    to_point: Option<(f32, f32)>,
-    to_shape: Option<(f32, f32)>,
+    pub(super) to_point: Option<(f32, f32)>,
+    pub(super) to_shape: Option<(f32, f32)>,
     /// Distance along the ray, what it may be off by, and whether it starts inside.
-    along_ray: Option<(f64, f64, bool)>,
+    pub(super) along_ray: Option<(f64, f64, bool)>,
     /// Fraction of the displacement, and whether they overlap already.
-    along: Option<(f64, bool)>,
+    pub(super) along: Option<(f64, bool)>,
     /// The same, but for what they touch already.
-    onwards: Option<f64>,
+    pub(super) onwards: Option<f64>,
     /// Whether the body's box is beside the ray, or the way of the moved shape's box: then they meet by rounding at
     /// most.
-    is_beside: [bool; 2],
+    pub(super) is_beside: [bool; 2],
 }
 
 /// A dimension, by its questions.
@@ -84,6 +86,8 @@ pub(super) trait Questioned: Engine {
     fn visits(world: &World<Self>, asked: &Asked<Self>, filter: &Filter<'_, Self>, into: &mut Answers<Self>);
     /// What a body has to do with it.
     fn judge(asked: &Asked<Self>, body: &Collider<Self>, touches: &[Self::Touch]) -> Judged;
+    /// How the shape meets a body within the distance, in the narrow phase's order.
+    fn manifolds_with(asked: &Asked<Self>, body: &Collider<Self>) -> Vec<Self::Manifold>;
     /// What the shape touches of a body.
     fn touches_of(asked: &Asked<Self>, body: &Collider<Self>, to: &mut Vec<Self::Touch>);
     /// Fails if the moved shape overlaps the body before this share of the displacement.
@@ -100,6 +104,7 @@ fn no_answers<S: Questioned>() -> Answers<S> {
         near_point: vec![],
         near_shape: vec![],
         closest: [None, None],
+        manifolds: vec![],
         rays: vec![],
         first_ray: None,
         casts: vec![],
@@ -137,7 +142,10 @@ pub(super) fn visited<S: Questioned>(
 ) -> Answers<S> {
     let mut answers = no_answers::<S>();
     S::visits(world, asked, filter, &mut answers);
-    let All { boxes, holding, over, near_point, near_shape, closest, rays, casts, .. } = &mut answers;
+    let All { boxes, holding, over, near_point, near_shape, closest, manifolds, rays, casts, .. } =
+        &mut answers;
+    // Those of one body keep their order.
+    manifolds.sort_by_key(|(key, _)| slot_of(*key));
     rays.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(slot_of(a.body).cmp(&slot_of(b.body))));
     casts.sort_by(|a, b| a.fraction.total_cmp(&b.fraction).then(slot_of(a.body).cmp(&slot_of(b.body))));
     for keys in [boxes, holding, over] {
@@ -149,152 +157,6 @@ pub(super) fn visited<S: Questioned>(
     }
     (answers.first_ray, answers.first_cast) = (answers.rays.first().copied(), answers.casts.first().copied());
     answers
-}
-
-/// Bodies that pass a filter, in order of their slots.
-fn passing<S: Questioned>(world: &World<S>, allowed: &Allowed<S>) -> Vec<(S::Key, Collider<S>)> {
-    S::bodies(world).into_iter().filter(|(key, body)| allowed(*key, body)).collect()
-}
-
-/// Fails unless the world says of every body what the narrow phase says of it.
-pub(super) fn check<S: Questioned>(world: &World<S>, asked: &Asked<S>, sieve: &Sieve<S>, found: &Answers<S>) {
-    let bodies = passing(world, &sieve.allowed);
-    let mut touches = Vec::new();
-    for (_, body) in bodies.iter().filter(|(_, body)| !body.is_sensor()) {
-        S::touches_of(asked, body, &mut touches);
-    }
-    let judge = |(key, body): (S::Key, Collider<S>)| {
-        let judged = S::judge(asked, &body, &touches);
-        (key, body, judged)
-    };
-    let passing: Vec<(S::Key, Collider<S>, Judged)> = bodies.into_iter().map(judge).collect();
-    check_casts(asked, &passing, found);
-    check_onwards(asked, &passing, found);
-    let keys = |is_wanted: fn(&Judged) -> bool| -> Vec<S::Key> {
-        passing.iter().filter(|(_, _, judged)| is_wanted(judged)).map(|(key, _, _)| *key).collect()
-    };
-    assert_eq!(found.boxes, keys(|judged| judged.boxes), "boxes that overlap {asked:?}");
-    assert_eq!(found.holding, keys(|judged| judged.holding), "bodies that hold the point of {asked:?}");
-    assert_eq!(found.over, keys(|judged| judged.over), "bodies that overlap {asked:?}");
-    let to_point: Vec<_> = passing.iter().map(|(key, _, judged)| (*key, judged.to_point)).collect();
-    let to_shape: Vec<_> = passing.iter().map(|(key, _, judged)| (*key, judged.to_shape)).collect();
-    check_near::<S>(asked, &to_point, &found.near_point);
-    check_near::<S>(asked, &to_shape, &found.near_shape);
-    let firsts = [found.near_point.first(), found.near_shape.first()];
-    assert_eq!(found.closest.each_ref().map(Option::as_ref), firsts, "the closest is the first of all");
-    for (near, point) in found.near_point.iter().map(|near| (near, asked.point)) {
-        assert_eq!(near.from, point);
-        assert!(!near.overlapping || near.point == point, "a point in a body is the closest of it");
-    }
-}
-
-/// Fails unless rays and moved shapes meet who the narrow phase says they do.
-fn check_casts<S: Questioned>(
-    asked: &Asked<S>,
-    judged: &[(S::Key, Collider<S>, Judged)],
-    found: &Answers<S>,
-) -> usize {
-    let ranks: Vec<_> = found.rays.iter().map(|hit| (hit.distance, slot_of(hit.body))).collect();
-    assert!(ranks.windows(2).all(|pair| pair[0] < pair[1]), "by distance, then by slot: {ranks:?}");
-    let ranks: Vec<_> = found.casts.iter().map(|hit| (hit.fraction, slot_of(hit.body))).collect();
-    assert!(ranks.windows(2).all(|pair| pair[0] < pair[1]), "by fraction, then by slot: {ranks:?}");
-    assert_eq!(
-        (found.first_ray, found.first_cast),
-        (found.rays.first().copied(), found.casts.first().copied())
-    );
-    let (mut grazes, mut known) = (0, 0);
-    for (key, body, judged) in judged {
-        match (found.rays.iter().find(|hit| hit.body == *key), judged.along_ray) {
-            (None, None) => {}
-            (None, Some((distance, error, inside))) => {
-                grazes += usize::from(judged.is_beside[0]);
-                let is_late = distance + error > asked.limit;
-                assert!(!inside && (judged.is_beside[0] || is_late), "lost {key:?} at {distance}: {asked:?}");
-            }
-            (Some(hit), None) => panic!("{hit:?}, of which the narrow phase knows nothing: {asked:?}"),
-            (Some(hit), Some((distance, error, inside))) => {
-                known += 1;
-                assert_eq!((hit.inside, hit.inside && hit.distance > 0.0), (inside, false));
-                let is_near = hit.distance >= distance && hit.distance <= distance + error;
-                assert!(
-                    is_near && hit.distance <= asked.limit,
-                    "{hit:?} for {distance} +- {error}: {asked:?}"
-                );
-            }
-        }
-        match (found.casts.iter().find(|hit| hit.body == *key), judged.along) {
-            (None, None) => {}
-            (None, Some((fraction, overlapping))) => {
-                grazes += 1;
-                assert!(!overlapping && judged.is_beside[1], "lost {key:?} at {fraction}: {asked:?}");
-            }
-            (Some(hit), None) => panic!("{hit:?}, of which the narrow phase knows nothing: {asked:?}"),
-            (Some(hit), Some((fraction, overlapping))) => {
-                known += 1;
-                assert_eq!((hit.overlapping, hit.overlapping && hit.fraction > 0.0), (overlapping, false));
-                assert!(hit.fraction >= fraction && hit.fraction <= 1.0, "{hit:?} for {fraction}: {asked:?}");
-                if hit.fraction > fraction {
-                    S::check_free(asked, hit.fraction, body);
-                }
-            }
-        }
-    }
-    assert!(grazes == 0 || grazes * 100 < known, "{grazes} grazes of {known}: too many to be rounding");
-    known
-}
-
-/// Fails unless a moved shape runs into the first that the narrow phase says it does, but for what it touches.
-fn check_onwards<S: Questioned>(
-    asked: &Asked<S>,
-    judged: &[(S::Key, Collider<S>, Judged)],
-    found: &Answers<S>,
-) {
-    // A box may say that a body is met later than a cast does, by no more than that errs.
-    let is_same = |told: f64, truth: f64| told >= truth && told <= truth + 1e-5;
-    let first = found.onwards.map_or(f64::INFINITY, |hit| hit.fraction);
-    for (key, _, judged) in judged.iter().filter(|(.., judged)| !judged.is_beside[1]) {
-        let is_first = judged.onwards.is_none_or(|fraction| first <= fraction || is_same(first, fraction));
-        assert!(is_first, "{key:?} is met at {:?}: {:?} {asked:?}", judged.onwards, found.onwards);
-    }
-    if let Some(hit) = found.onwards {
-        let truth = judged.iter().find(|(key, ..)| *key == hit.body).and_then(|(.., judged)| judged.onwards);
-        assert!(truth.is_some_and(|truth| is_same(hit.fraction, truth)), "{hit:?} for {truth:?}: {asked:?}");
-    }
-}
-
-/// A body, and its distance with the judge's error, if it is apart.
-type Truth<S> = (<S as asunder::Space>::Key, Option<(f32, f32)>);
-
-fn check_near<S: Questioned>(asked: &Asked<S>, judged: &[Truth<S>], found: &[Near<S>]) {
-    let ranks: Vec<_> = found.iter().map(|near| (near.distance, slot_of(near.body))).collect();
-    assert!(ranks.windows(2).all(|pair| pair[0] < pair[1]), "by distance, then by slot: {ranks:?}");
-    let limit = f64::from(asked.within.max(0.0));
-    for &(key, truth) in judged {
-        let near = found.iter().find(|near| near.body == key);
-        let (distance, error) =
-            truth.map_or((0.0, 0.0), |(distance, error)| (distance.into(), f64::from(error)));
-        let Some(near) = near else {
-            assert!(distance + error > limit, "lost {key:?}, {distance} +- {error} m away, of {asked:?}");
-            continue;
-        };
-        assert_eq!(near.overlapping, truth.is_none(), "{near:?} of {asked:?}");
-        assert_eq!(f64::from(near.error), error);
-        assert!(
-            near.distance <= limit && near.distance >= distance && near.distance <= distance + error,
-            "{near:?}"
-        );
-        let (apart, most) = S::apart(near.from, near.point);
-        // Anchors are f32, and some metres long, those of half-spaces tens of metres; points lose what f64 has not.
-        let lost = 1e-6 * (near.distance + 20.0) + 4.0 * f64::EPSILON * most;
-        assert!(
-            near.overlapping || (apart - near.distance).abs() <= error + lost,
-            "{apart}: {near:?} of {asked:?}"
-        );
-    }
-    assert!(
-        found.iter().all(|near| judged.iter().any(|(key, _)| *key == near.body)),
-        "somebody who may not be found"
-    );
 }
 
 impl Questioned for Volume {
@@ -334,6 +196,7 @@ impl Questioned for Volume {
         world.overlapping(at, filter, &mut into.over);
         world.within(*point, *within, filter, &mut into.near_point);
         world.within_shape(at, *within, filter, &mut into.near_shape);
+        world.manifolds(at, *within, filter, &mut into.manifolds);
         world.cast_ray_all(ray, *limit, filter, &mut into.rays);
         into.first_ray = world.cast_ray(ray, *limit, filter);
         world.cast_shape_all(at, *displacement, filter, &mut into.casts);
@@ -350,9 +213,17 @@ impl Questioned for Volume {
         let _ = world.visit_overlapping(at, filter, push(&mut into.over));
         let _ = world.visit_within(*point, *within, filter, push(&mut into.near_point));
         let _ = world.visit_within_shape(at, *within, filter, push(&mut into.near_shape));
+        let _ = world.visit_manifolds(at, *within, filter, |key, manifold| {
+            into.manifolds.push((key, *manifold));
+            ControlFlow::Continue(())
+        });
         let _ = world.visit_ray(ray, *limit, filter, push(&mut into.rays));
         let _ = world.visit_cast_shape(at, *displacement, filter, push(&mut into.casts));
         into.onwards = world.cast_shape_onwards(at, *displacement, filter);
+    }
+
+    fn manifolds_with(asked: &Asked<Self>, body: &Collider<Self>) -> Vec<Manifold3> {
+        Pair3::new(&asked.shape, &asked.pose, body.shape(), body.pose()).manifolds(asked.within)
     }
 
     fn touches_of(asked: &Asked<Self>, body: &Collider<Self>, to: &mut Vec<Touch3>) {
@@ -441,6 +312,7 @@ impl Questioned for Plane {
         world.overlapping(at, filter, &mut into.over);
         world.within(*point, *within, filter, &mut into.near_point);
         world.within_shape(at, *within, filter, &mut into.near_shape);
+        world.manifolds(at, *within, filter, &mut into.manifolds);
         world.cast_ray_all(ray, *limit, filter, &mut into.rays);
         into.first_ray = world.cast_ray(ray, *limit, filter);
         world.cast_shape_all(at, *displacement, filter, &mut into.casts);
@@ -457,9 +329,17 @@ impl Questioned for Plane {
         let _ = world.visit_overlapping(at, filter, push(&mut into.over));
         let _ = world.visit_within(*point, *within, filter, push(&mut into.near_point));
         let _ = world.visit_within_shape(at, *within, filter, push(&mut into.near_shape));
+        let _ = world.visit_manifolds(at, *within, filter, |key, manifold| {
+            into.manifolds.push((key, *manifold));
+            ControlFlow::Continue(())
+        });
         let _ = world.visit_ray(ray, *limit, filter, push(&mut into.rays));
         let _ = world.visit_cast_shape(at, *displacement, filter, push(&mut into.casts));
         into.onwards = world.cast_shape_onwards(at, *displacement, filter);
+    }
+
+    fn manifolds_with(asked: &Asked<Self>, body: &Collider<Self>) -> Vec<Manifold2> {
+        Pair2::new(&asked.shape, &asked.pose, body.shape(), body.pose()).manifolds(asked.within)
     }
 
     fn touches_of(asked: &Asked<Self>, body: &Collider<Self>, to: &mut Vec<Touch2>) {

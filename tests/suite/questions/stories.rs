@@ -146,4 +146,14 @@ fn nonsense_finds_nothing_and_stops_nobody() {
     assert!(world.closest([3.0, 0.0, 0.0], f32::NAN, &filter).is_some(), "no limit");
     assert!(world.closest([3.0, 0.0, 0.0], -1.0, &filter).is_none());
     assert!(world.closest([0.5, 0.0, 0.0], -1.0, &filter).is_some(), "0 m away");
+    let (beside, far) = (Pose3::at([1.5, 0.0, 0.0]).unwrap(), Pose3::at([9.0, 0.0, 0.0]).unwrap());
+    let mut found = vec![];
+    for (margin, is_found) in
+        [(f32::NAN, [true, false]), (-1.0, [true, false]), (f32::INFINITY, [true, true])]
+    {
+        for (pose, is_found) in [beside, far].into_iter().zip(is_found) {
+            world.manifolds((&ball, &pose), margin, &filter, &mut found);
+            assert_eq!(found.len(), usize::from(is_found), "{margin} m around {pose:?}");
+        }
+    }
 }

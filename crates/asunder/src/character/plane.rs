@@ -5,12 +5,11 @@ use super::gait::least_skin;
 use super::slide::move_and_slide;
 use super::{Freed2, Gap, Linear, Slide2, Walk2, Walks};
 use crate::collider::Collider2;
-use crate::query::Filter2;
+use crate::query::{Asked, Filter2};
 use crate::space::Plane;
 use crate::world::World;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{DirectionError, HalfPlane, Pose2, Ray2, Shape2};
-use asunder_narrow::Pair2;
 
 impl Linear for DVec2 {
     const ZERO: Self = Self::ZERO;
@@ -151,7 +150,7 @@ impl Walks for Plane {
     }
 
     fn gaps(at: (&Shape2, &Pose2), body: &Collider2, margin: f32, mut each: impl FnMut(Gap<DVec2>)) {
-        Pair2::new(at.0, at.1, &body.shape, &body.pose).visit_manifolds(margin, |manifold| {
+        Self::visit_manifolds(at, body, margin, |manifold| {
             let deepest = manifold.points.iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
             let anchor = deepest.map_or(DVec2::ZERO, |point| point.anchor_b.as_dvec2());
             each(Gap {

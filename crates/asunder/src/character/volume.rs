@@ -5,13 +5,12 @@ use super::gait::least_skin;
 use super::slide::move_and_slide;
 use super::{Freed3, Gap, Linear, Slide3, Walk3, Walks};
 use crate::collider::Collider3;
-use crate::query::Filter3;
+use crate::query::{Asked, Filter3};
 use crate::space::Volume;
 use crate::world::World;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::STANDSTILL;
 use asunder_geometry::{DirectionError, Ground, HalfSpace, Pose3, Ray3, Shape3};
-use asunder_narrow::Pair3;
 
 impl Linear for DVec3 {
     const ZERO: Self = Self::ZERO;
@@ -152,7 +151,7 @@ impl Walks for Volume {
     }
 
     fn gaps(at: (&Shape3, &Pose3), body: &Collider3, margin: f32, mut each: impl FnMut(Gap<DVec3>)) {
-        Pair3::new(at.0, at.1, &body.shape, &body.pose).visit_manifolds(margin, |manifold| {
+        Self::visit_manifolds(at, body, margin, |manifold| {
             let deepest = manifold.points.iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
             let anchor = deepest.map_or(DVec3::ZERO, |point| point.anchor_b.as_dvec3());
             each(Gap {

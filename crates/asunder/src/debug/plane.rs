@@ -78,6 +78,26 @@ impl World<Plane> {
     }
 }
 
+impl DebugOptions {
+    /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost of what is
+    /// to be built. Lengths are those of the options.
+    ///
+    /// To draw but a part of a large world, ask [`World::visit_boxes_overlapping`] who is there, and draw each.
+    ///
+    /// ```
+    /// use asunder::{DebugOptions, Pose2, Rect, Shape2, glam::DVec2, glam::Vec2};
+    /// let (unit, at) = (Shape2::from(Rect::from_half_extents(Vec2::ONE)?), Pose2::at(DVec2::X * 5.0)?);
+    /// let mut lines = vec![];
+    /// DebugOptions::default().outline2((&unit, &at), &mut |from, to| lines.push([from, to]));
+    /// assert_eq!(lines.len(), 4);
+    /// assert!(lines.as_flattened().iter().all(|corner| (*corner - DVec2::X * 5.0).abs() == DVec2::ONE));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn outline2(&self, (shape, pose): (&Shape2, &Pose2), line: &mut impl FnMut(DVec2, DVec2)) {
+        outline(shape, pose, self, line);
+    }
+}
+
 fn rectangle(low: DVec2, high: DVec2, line: &mut impl FnMut(DVec2, DVec2)) {
     around(&[low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)], line);
 }

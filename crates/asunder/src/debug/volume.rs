@@ -85,6 +85,26 @@ impl World<Volume> {
     }
 }
 
+impl DebugOptions {
+    /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost of what is
+    /// to be built. Lengths are those of the options.
+    ///
+    /// To draw but a part of a large world, ask [`World::visit_boxes_overlapping`] who is there, and draw each.
+    ///
+    /// ```
+    /// use asunder::{DebugOptions, Pose3, Cuboid, Shape3, glam::DVec3, glam::Vec3};
+    /// let (unit, at) = (Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?), Pose3::at(DVec3::X * 5.0)?);
+    /// let mut lines = vec![];
+    /// DebugOptions::default().outline3((&unit, &at), &mut |from, to| lines.push([from, to]));
+    /// assert_eq!(lines.len(), 12);
+    /// assert!(lines.as_flattened().iter().all(|corner| (*corner - DVec3::X * 5.0).abs() == DVec3::ONE));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn outline3(&self, (shape, pose): (&Shape3, &Pose3), line: &mut impl FnMut(DVec3, DVec3)) {
+        outline(shape, pose, self, line);
+    }
+}
+
 /// The twelve edges between corners that differ in one coordinate.
 fn box_edges(low: DVec3, high: DVec3, line: &mut impl FnMut(DVec3, DVec3)) {
     let pick = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { high[axis] } else { low[axis] };

@@ -19,6 +19,7 @@ use slotmap::Key;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RayAnswer<K, N, P> {
     /// The body.
     pub body: K,
@@ -60,6 +61,7 @@ pub type RayAnswer3 = RayAnswer<BodyKey3, Vec3, DVec3>;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CastAnswer<K, N, P> {
     /// The body.
     pub body: K,
@@ -101,6 +103,7 @@ pub type CastAnswer3 = CastAnswer<BodyKey3, Vec3, DVec3>;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NearAnswer<K, N, P> {
     /// The body.
     pub body: K,

@@ -6,9 +6,15 @@ use super::space::{Asked, Enter, Meet, Near, Posed};
 use super::walk::{Asks, Question, Reach, with_kept};
 use crate::collider::Collider;
 use crate::space::RunsInto;
-use crate::world::World;
+use crate::world::{World, slot_of};
 use asunder_geometry::tolerance;
+use core::cell::Cell;
 use core::ops::ControlFlow;
+
+thread_local! {
+    /// Slots of bodies that are put in order before they are asked.
+    static SLOTS: Cell<Vec<u32>> = const { Cell::new(Vec::new()) };
+}
 
 /// Bodies at a distance of at most `limit`: a NaN counts as no limit, and a negative limit as zero.
 fn limit_of(limit: f64) -> f64 {
@@ -36,6 +42,56 @@ pub(crate) fn bodies_over<'q, S: Asked>(
     let ask = move |key, body: &_| S::overlaps(at, body).then_some(Met(key));
     let reach = Reach::Over(S::bounds(at.0, at.1, 0.0));
     Question { world, filter, reach, bounds_of: S::bounds_at_once, limit: 0.0, ask }
+}
+
+/// What is within a margin of a shape; a NaN is none.
+fn bounds_around<S: Asked>(at: Posed<'_, S>, margin: f32) -> S::Aabb {
+    S::bounds(at.0, at.1, margin.max(0.0))
+}
+
+/// Hands over how a shape meets each body within a margin, bodies in no promised order, until the visitor breaks off.
+pub(crate) fn visit_manifolds<S: Asked>(
+    (world, filter): (&World<S>, &Filter<'_, S>),
+    at: Posed<'_, S>,
+    margin: f32,
+    mut visitor: impl FnMut(S::Key, &S::Manifold) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    boxes_over(world, &bounds_around::<S>(at, margin), filter).visit(|Met(key)| {
+        let mut flow = ControlFlow::Continue(());
+        if let Some(body) = world.bodies.get(key) {
+            S::visit_manifolds(at, body, margin, |manifold| {
+                if flow.is_continue() {
+                    flow = visitor(key, manifold);
+                }
+            });
+        }
+        flow
+    })
+}
+
+/// Replaces `into` by how a shape meets each body within a margin, by their slots.
+pub(crate) fn manifolds<S: Asked>(
+    (world, filter): (&World<S>, &Filter<'_, S>),
+    at: Posed<'_, S>,
+    margin: f32,
+    into: &mut Vec<(S::Key, S::Manifold)>,
+) {
+    into.clear();
+    // Bodies are put in order, not manifolds: those of one are in order already, and are larger.
+    with_kept(&SLOTS, |slots| {
+        slots.clear();
+        let _ = boxes_over(world, &bounds_around::<S>(at, margin), filter).visit(|Met(key)| {
+            slots.push(slot_of(key));
+            ControlFlow::Continue(())
+        });
+        slots.sort_unstable();
+        for &slot in &*slots {
+            let Some(&key) = world.keys.get(slot as usize) else { continue };
+            if let Some(body) = world.bodies.get(key) {
+                S::visit_manifolds(at, body, margin, |manifold| into.push((key, manifold.clone())));
+            }
+        }
+    });
 }
 
 /// Which bodies are near a shape.

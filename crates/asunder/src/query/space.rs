@@ -10,7 +10,9 @@ use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder_geometry::{
     Aabb2, Aabb3, Circle, Motion2, Motion3, Pose2, Pose3, Ray2, Ray3, Shape2, Shape3, Sphere,
 };
-use asunder_narrow::{Impact2, Impact3, Pair2, Pair3, Touch2, Touch3, cast_ray2, cast_ray3};
+use asunder_narrow::{
+    Impact2, Impact3, Manifold2, Manifold3, Pair2, Pair3, Touch2, Touch3, cast_ray2, cast_ray3,
+};
 use core::cell::Cell;
 use core::ops::ControlFlow;
 use std::thread::LocalKey;
@@ -45,6 +47,13 @@ pub(crate) trait Asked: Space {
     fn overlaps(at: Posed<'_, Self>, body: &Collider<Self>) -> bool;
     /// Appends what the body is to a shape that overlaps it.
     fn add_touches(at: Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Self::Touch>);
+    /// Hands over the manifolds of the shape with a body that are within the margin, one by one.
+    fn visit_manifolds(
+        at: Posed<'_, Self>,
+        body: &Collider<Self>,
+        margin: f32,
+        visitor: impl FnMut(&Self::Manifold),
+    );
     /// A list that a thread keeps: who asks every frame allocates nothing.
     fn kept_touches() -> &'static LocalKey<Cell<Vec<Self::Touch>>>;
     /// How near the body is.
@@ -98,6 +107,15 @@ impl Asked for Plane {
 
     fn add_touches((shape, pose): Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Touch2>) {
         Pair2::new(shape, pose, &body.shape, &body.pose).add_touches(to);
+    }
+
+    fn visit_manifolds(
+        (shape, pose): Posed<'_, Self>,
+        body: &Collider<Self>,
+        margin: f32,
+        visitor: impl FnMut(&Manifold2),
+    ) {
+        Pair2::new(shape, pose, &body.shape, &body.pose).visit_manifolds(margin, visitor);
     }
 
     fn kept_touches() -> &'static LocalKey<Cell<Vec<Touch2>>> {
@@ -203,6 +221,15 @@ impl Asked for Volume {
 
     fn add_touches((shape, pose): Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Touch3>) {
         Pair3::new(shape, pose, &body.shape, &body.pose).add_touches(to);
+    }
+
+    fn visit_manifolds(
+        (shape, pose): Posed<'_, Self>,
+        body: &Collider<Self>,
+        margin: f32,
+        visitor: impl FnMut(&Manifold3),
+    ) {
+        Pair3::new(shape, pose, &body.shape, &body.pose).visit_manifolds(margin, visitor);
     }
 
     fn kept_touches() -> &'static LocalKey<Cell<Vec<Touch3>>> {

@@ -1,0 +1,185 @@
+//! Queries along a way in the plane: rays and moved shapes.
+
+use crate::query::{CastAnswer2, Filter2, RayAnswer2, bodies_along, bodies_along_ray, first_ahead};
+use crate::space::Plane;
+use crate::world::World;
+use asunder_geometry::glam::Vec2;
+use asunder_geometry::{Pose2, Ray2, Shape2};
+use core::ops::ControlFlow;
+
+/// # Queries along a way
+/// What rays and moved shapes meet; all else is as with the other queries, above.
+impl World<Plane> {
+    /// The first body that a ray meets no later than at `limit`, which is in lengths of its direction and may be
+    /// infinite; of bodies met at the same distance, that of the lowest slot. A body that the ray starts in is met
+    /// at 0.
+    ///
+    /// A NaN counts as no limit, and a negative limit as zero. Looks at bodies in order of their boxes, and at none
+    /// behind the first.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
+    /// let mut world = World2::new();
+    /// let ball = world.insert(Collider2::new(Circle::new(1.0)?).at(Pose2::at(DVec2::X * 4.0)?));
+    /// let ray = Ray2::new(DVec2::ZERO, Vec2::X * 2.0)?;
+    /// let hit = world.cast_ray(&ray, f64::INFINITY, &Filter2::new()).ok_or("it is in the way")?;
+    /// assert_eq!((hit.body, hit.normal), (ball, Vec2::NEG_X));
+    /// assert!((hit.distance - 1.5).abs() < 1e-6 && hit.point.distance(DVec2::X * 3.0) < 1e-6);
+    /// assert!(world.cast_ray(&ray, 1.0, &Filter2::new()).is_none(), "one length of the direction is two metres");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_ray(&self, ray: &Ray2, limit: f64, filter: &Filter2<'_>) -> Option<RayAnswer2> {
+        bodies_along_ray(self, ray, limit, filter).first()
+    }
+
+    /// All bodies that a ray meets, as [`World::cast_ray`] tells of the first: through all that is in the way.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::DVec2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let ray = Ray2::new(DVec2::ZERO, Vec2::X)?;
+    /// let mut hits = vec![];
+    /// world.cast_ray_all(&ray, 10.0, &Filter2::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near, far]), "through all, by distance");
+    /// world.cast_ray_all(&ray, 2.5, &Filter2::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near]), "the other begins at 3 m");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_ray_all(&self, ray: &Ray2, limit: f64, filter: &Filter2<'_>, into: &mut Vec<RayAnswer2>) {
+        bodies_along_ray(self, ray, limit, filter).all(into);
+    }
+
+    /// [`World::cast_ray_all`], one by one in no promised order: to know whether anything is in the way, break off
+    /// at once.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// world.insert(Collider2::new(Circle::new(1.0)?).at(Pose2::at(DVec2::X * 4.0)?));
+    /// let sight = Ray2::new(DVec2::ZERO, Vec2::X * 10.0)?;
+    /// let is_free = world.visit_ray(&sight, 1.0, &Filter2::new(), |_| ControlFlow::Break(())).is_continue();
+    /// assert!(!is_free);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_ray(
+        &self,
+        ray: &Ray2,
+        limit: f64,
+        filter: &Filter2<'_>,
+        visitor: impl FnMut(RayAnswer2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_along_ray(self, ray, limit, filter).visit(visitor)
+    }
+
+    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of
+    /// bodies met at the same time, that of the lowest slot. One that it touches already is met at fraction 0.
+    ///
+    /// A displacement of zero meets what the shape overlaps, except one-sided ground that it is behind; one that is not
+    /// finite meets nothing. To slide on along what was met, keep a skin of a tenth of a millimetre: normals are f32, so a
+    /// velocity from which the normal was removed still points slightly into the surface.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::{DVec2, Vec2}};
+    /// let ball = Shape2::from(Circle::new(1.0)?);
+    /// let mut world = World2::new();
+    /// let body = world.insert(Collider2::new(ball.clone()).at(Pose2::at(DVec2::X * 4.0)?));
+    /// let from = (&ball, &Pose2::IDENTITY);
+    /// let hit = world.cast_shape(from, Vec2::X * 4.0, &Filter2::new()).ok_or("it is in the way")?;
+    /// assert_eq!((hit.body, hit.overlapping), (body, false));
+    /// assert!(hit.fraction <= 0.5 && hit.fraction > 0.499_99 && hit.point.distance(DVec2::X * 3.0) < 1e-4);
+    /// assert!(world.cast_shape(from, Vec2::X * 1.9, &Filter2::new()).is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_shape(
+        &self,
+        from: (&Shape2, &Pose2),
+        displacement: Vec2,
+        filter: &Filter2<'_>,
+    ) -> Option<CastAnswer2> {
+        bodies_along(self, from, displacement, filter).first()
+    }
+
+    /// What a moved shape runs into next: like [`World::cast_shape`], but what it touches at the start is passed over, even if
+    /// the displacement leads into it. So a ball on a floor finds the wall, even where both are one body. Whatever is level
+    /// with what is touched is passed over, too: by the rule of [`Pair2::next_impact`](crate::Pair2::next_impact), and for
+    /// other bodies, like the tiles of a floor, by that of [`next_impact_beside`](crate::Pair2::next_impact_beside). A
+    /// displacement of zero, or that is not finite, leads into nothing: `None`.
+    ///
+    /// ```
+    /// use asunder::{Chain, Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let level = [[-9.0, 4.0], [-9.0, 0.0], [9.0, 0.0], [9.0, 4.0]].map(Vec2::from);
+    /// let level = world.insert(Collider2::new(Chain::open(level)?));
+    /// let (ball, on_floor) = (Shape2::from(Circle::new(1.0)?), Pose2::at([0.0, 1.0])?);
+    /// let from = (&ball, &on_floor);
+    /// assert!(world.cast_shape(from, Vec2::X * 16.0, &Filter2::new()).is_some_and(|hit| hit.overlapping), "the floor");
+    /// let hit = world.cast_shape_onwards(from, Vec2::X * 16.0, &Filter2::new()).ok_or("the wall")?;
+    /// assert!(hit.body == level && hit.fraction <= 0.5 && hit.fraction > 0.499_99 && hit.normal.x > 0.999);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_shape_onwards(
+        &self,
+        from: (&Shape2, &Pose2),
+        displacement: Vec2,
+        filter: &Filter2<'_>,
+    ) -> Option<CastAnswer2> {
+        first_ahead(self, from, displacement, filter)
+    }
+
+    /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// let near = world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// let far = world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let dot = Shape2::from(Circle::new(0.5)?);
+    /// let mut hits = vec![];
+    /// world.cast_shape_all((&dot, &Pose2::IDENTITY), Vec2::X * 2.0, &Filter2::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near]));
+    /// world.cast_shape_all((&dot, &Pose2::IDENTITY), Vec2::X * 4.0, &Filter2::new(), &mut hits);
+    /// assert!(hits.iter().map(|hit| hit.body).eq([near, far]), "by the share of the way");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cast_shape_all(
+        &self,
+        from: (&Shape2, &Pose2),
+        displacement: Vec2,
+        filter: &Filter2<'_>,
+        into: &mut Vec<CastAnswer2>,
+    ) {
+        bodies_along(self, from, displacement, filter).all(into);
+    }
+
+    /// [`World::cast_shape_all`], one by one in no promised order.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
+    /// use std::ops::ControlFlow;
+    /// let mut world = World2::new();
+    /// let ball = Collider2::new(Circle::new(1.0)?);
+    /// world.insert(ball.clone().at(Pose2::at([3.0, 0.0])?));
+    /// world.insert(ball.at(Pose2::at([4.0, 0.0])?));
+    /// let dot = Shape2::from(Circle::new(0.5)?);
+    /// let way = Vec2::X * 4.0;
+    /// let is_free = world
+    ///     .visit_cast_shape((&dot, &Pose2::IDENTITY), way, &Filter2::new(), |_| ControlFlow::Break(()))
+    ///     .is_continue();
+    /// assert!(!is_free);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn visit_cast_shape(
+        &self,
+        from: (&Shape2, &Pose2),
+        displacement: Vec2,
+        filter: &Filter2<'_>,
+        visitor: impl FnMut(CastAnswer2) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        bodies_along(self, from, displacement, filter).visit(visitor)
+    }
+}
