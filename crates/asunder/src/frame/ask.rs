@@ -133,11 +133,16 @@ impl<S: Space> Asker<'_, S> {
     /// Zen 4, 2026-11-25).
     fn answer(&self, chunk: &mut Chunk<'_, S>) {
         let Chunk { candidates, answered, settled, .. } = chunk;
+        let Settled { ways, bullets, .. } = &mut **settled;
         let mut jobs: ArrayVec<S::Job<'_>, JOBS> = ArrayVec::new_const();
-        for (way, candidate) in settled.ways.iter_mut().zip(candidates.iter()) {
+        for (way, candidate) in ways.iter_mut().zip(candidates.iter()) {
             let Way::Open = way else { continue };
             let Candidate { pair, keys, hint, persistent, .. } = *candidate;
             let Some((a, b)) = self.bodies.get(keys.0).zip(self.bodies.get(keys.1)) else { continue };
+            if (a.bullet || b.bullet) && self.has_motion(pair) {
+                let both = [(a.bullet, keys), (b.bullet, (keys.1, keys.0))];
+                bullets.extend(both.into_iter().filter_map(|(is_bullet, keys)| is_bullet.then_some(keys)));
+            }
             let margin = a.margin + b.margin + self.approach(pair, (a, b));
             let kept = self.persistent.get(persistent);
             let to = &mut answered.manifolds;
@@ -155,6 +160,11 @@ impl<S: Space> Asker<'_, S> {
             }
         }
         S::collide(&jobs, answered);
+    }
+
+    /// Whether either of the two is on its way. Such a body has changed, and none of its pairs is carried on.
+    fn has_motion(&self, pair: PairId) -> bool {
+        self.motions.of(pair.a).is_some() || self.motions.of(pair.b).is_some()
     }
 
     /// By how much the bodies' motions may bring them nearer. A sensor looks no further than it reaches.

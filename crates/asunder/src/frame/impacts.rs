@@ -8,10 +8,9 @@
 //! what the bullet touches is passed over (`next_impact_beside`).
 
 use super::touches::Touches;
-use crate::contact::Candidate;
 use crate::motion::Hit;
 use crate::space::{RunsInto, Space};
-use crate::world::{World, slot_of};
+use crate::world::{Scratch, World, slot_of};
 
 /// Below this many pairs, other threads cost more than they save.
 #[cfg(feature = "parallel")]
@@ -41,19 +40,14 @@ pub(super) fn impacts<S: Space>(world: &mut World<S>) {
     world.forget_motions();
 }
 
-/// Asks about every pair with a bullet; as both sides, where both are bullets.
+/// Asks about every pair with a bullet that was found while the narrow phase looked at both: nobody else reads all candidates.
 fn ask<S: Space>(world: &mut World<S>) {
+    let Scratch { settled, of_bullets, .. } = &mut world.scratch;
+    of_bullets.clear();
+    settled.iter_mut().for_each(|settled| of_bullets.append(&mut settled.bullets));
+    of_bullets.sort_unstable_by_key(|&(bullet, other)| (slot_of(bullet), slot_of(other)));
     Touches::gather(world);
-    let World { bodies, candidates, motions, scratch, .. } = world;
-    scratch.of_bullets.clear();
-    let is_bullet = |key| bodies.get(key).is_some_and(|body| body.bullet);
-    for Candidate { pair, keys: (a, b), .. } in &*candidates {
-        if motions.of(pair.a).is_none() && motions.of(pair.b).is_none() {
-            continue;
-        }
-        let both = [(*a, *b), (*b, *a)];
-        scratch.of_bullets.extend(both.into_iter().filter(|(bullet, _)| is_bullet(*bullet)));
-    }
+    let World { bodies, motions, scratch, .. } = world;
     let touches = &scratch.touches;
     let impact = |&(bullet, other): &(S::Key, S::Key)| {
         let (slot, other_slot) = (slot_of(bullet), slot_of(other));

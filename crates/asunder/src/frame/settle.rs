@@ -35,6 +35,8 @@ pub(crate) struct Settled<S: Space> {
     pub(super) kept: Vec<(u32, S::Persistent)>,
     /// Places of what is kept no longer.
     pub(super) vacated: Vec<u32>,
+    /// Each bullet that a motion may bring to somebody, and whom: as both sides, where both are bullets.
+    pub(super) bullets: Vec<(S::Key, S::Key)>,
     /// Memory for one kept manifold at most, lent by the store that all share.
     spare: S::Spare,
     pub(super) tally: Tally,
@@ -73,6 +75,7 @@ impl<S: Space> Default for Settled<S> {
             ended: Vec::new(),
             kept: Vec::new(),
             vacated: Vec::new(),
+            bullets: Vec::new(),
             spare: S::Spare::default(),
             tally: Tally::default(),
         }
@@ -86,6 +89,7 @@ impl<S: Space> Settled<S> {
         self.ended.clear();
         self.kept.clear();
         self.vacated.clear();
+        self.bullets.clear();
         self.tally.clear();
     }
 

@@ -1,6 +1,5 @@
 //! What bullets stand on before they go: over what is flush with it they are led.
 
-use crate::contact::Candidate;
 use crate::space::Space;
 use crate::world::{World, slot_of};
 
@@ -10,12 +9,10 @@ pub(crate) struct Touches<S: Space> {
     /// The slot of each touch's bullet, ascending.
     slots: Vec<u32>,
     touches: Vec<S::Touch>,
-    /// Both, as they are found.
-    found: Vec<(u32, S::Touch)>,
 }
 
 impl<S: Space> Touches<S> {
-    pub(crate) const NONE: Self = Self { slots: Vec::new(), touches: Vec::new(), found: Vec::new() };
+    pub(crate) const NONE: Self = Self { slots: Vec::new(), touches: Vec::new() };
 
     /// Those of a bullet.
     pub(super) fn of(&self, slot: u32) -> &[S::Touch] {
@@ -24,37 +21,20 @@ impl<S: Space> Touches<S> {
         &self.touches[start..end]
     }
 
-    /// Those of all bullets. Cost: linear in the candidates.
+    /// Those of all bullets that are asked about, which are sorted. Cost: linear in their contacts.
     pub(super) fn gather(world: &mut World<S>) {
-        let Self { mut slots, mut touches, mut found } =
-            core::mem::replace(&mut world.scratch.touches, Self::NONE);
-        found.clear();
-        for candidate in &world.candidates {
-            let (a, b) = candidate.keys;
-            for (bullet, is_a) in [(a, true), (b, false)] {
-                if world.bodies.get(bullet).is_some_and(|body| body.bullet) {
-                    found.extend(shown(world, candidate, is_a).map(|touch| (slot_of(bullet), touch)));
+        let Self { mut slots, mut touches } = core::mem::replace(&mut world.scratch.touches, Self::NONE);
+        slots.clear();
+        touches.clear();
+        for pairs in world.scratch.of_bullets.chunk_by(|one, other| one.0 == other.0) {
+            let bullet = pairs[0].0;
+            for contact in world.records_of(bullet).map(|number| world.show(number)) {
+                if contact.overlapping {
+                    touches.extend(contact.manifolds.iter().map(|one| S::touch(one, contact.a == bullet)));
                 }
             }
+            slots.resize(touches.len(), slot_of(bullet));
         }
-        // Which of a bullet's comes first is of no matter: a stable sort would allocate.
-        found.sort_unstable_by_key(|&(slot, _)| slot);
-        slots.clear();
-        slots.extend(found.iter().map(|&(slot, _)| slot));
-        touches.clear();
-        touches.extend(found.iter().map(|&(_, touch)| touch));
-        world.scratch.touches = Self { slots, touches, found };
+        world.scratch.touches = Self { slots, touches };
     }
-}
-
-/// What the contact of a candidate is to the one of its two.
-fn shown<'w, S: Space>(
-    world: &'w World<S>,
-    candidate: &Candidate<S::Key>,
-    is_a: bool,
-) -> impl Iterator<Item = S::Touch> + use<'w, S> {
-    let contact = candidate.contact.number().map(|number| world.show(number));
-    let manifolds =
-        contact.filter(|contact| contact.overlapping).map_or(&[][..], |contact| contact.manifolds);
-    manifolds.iter().map(move |manifold| S::touch(manifold, is_a))
 }
