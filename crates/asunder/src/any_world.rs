@@ -145,7 +145,7 @@ impl<S: Space> AnyWorld<S> for World<S> {
     }
 
     fn candidates(&self) -> impl ExactSizeIterator<Item = (S::Key, S::Key)> + Clone {
-        self.candidates.iter().map(|candidate| candidate.keys)
+        self.candidates.iter().map(|(_, candidate)| candidate.keys)
     }
 
     fn candidates_of(&self, key: S::Key) -> impl Iterator<Item = (S::Key, S::Key)> + Clone {

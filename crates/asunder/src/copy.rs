@@ -11,7 +11,8 @@ pub(crate) fn copy<S: Space>(from: &World<S>, to: &mut World<S>) {
         candidates, records, answered, persistent, edited, events, impacts, by_second, stats
     } but { scratch });
     copied!(&from.scratch => to.scratch, of Scratch { sweep } but {
-        pairs, spare, chunk, settled, last_candidates, last_records, last_answered, ended, editing, of_bullets, touches,
+        pairs, spare, is_settled, chunk_ends, settled, last_candidates, last_records, last_answered, ended, editing, of_bullets, touches,
         found, #[cfg(feature = "parallel")] impacts, ends, seconds
     });
+    to.scratch.is_settled = false;
 }

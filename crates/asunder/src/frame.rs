@@ -75,6 +75,7 @@ pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     // counts.
     world.events.clear();
     world.impacts.clear();
+    world.mark_kept_motions();
     let bodies = world.bodies.len();
     world.stats = Stats { bodies, candidates, contacts, touching, manifolds, ..Stats::default() };
     world.stats.refit = world.timed(refit::refit);

@@ -125,6 +125,17 @@ impl<S: Space> World<S> {
         &later[..later.iter().take_while(|hit| hit.bullet == bullet).count()]
     }
 
+    /// Motions that an update before has seen, and did not get to the end with: a hook panicked. All pairs of these bodies are
+    /// looked at once more.
+    pub(crate) fn mark_kept_motions(&mut self) {
+        for index in 0..self.motions.slots.len() {
+            let slot = self.motions.slots[index];
+            if !self.is_dirty[slot as usize] {
+                self.mark_changed(slot);
+            }
+        }
+    }
+
     /// After an update the motions are history, and the boxes around them too wide.
     pub(crate) fn forget_motions(&mut self) {
         while let Some(slot) = self.motions.slots.pop() {

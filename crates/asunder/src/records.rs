@@ -1,9 +1,12 @@
-//! The contacts of an update, sorted by pair, in the chunks of pairs in which they were found.
+//! What is known of pairs, sorted by pair, in chunks: the candidates of an update, and the contacts among them.
 //!
 //! A list in one piece would be written twice: nobody knows where a chunk's contacts go before all others are counted. Tried:
 //! putting 30,000 of them together took 7 % of the frame (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
+//!
+//! Chunks go on from one update to the next, as long as none grows too large. So a chunk of which nothing moved is what it was, and
+//! is not looked at: see `frame::collide`.
 
-use crate::contact::Record;
+use crate::contact::{Candidate, Record};
 use asunder_broad::PairId;
 
 /// Most pairs in a chunk.
@@ -15,7 +18,7 @@ const MANY: usize = 96;
 /// Fewest pairs in a chunk, but for the last, where hardly any is asked about.
 const FEW: usize = 256;
 
-/// Pairs in a chunk, of so many, where of last update's so many were asked about: enough chunks to share out, and no more.
+/// Most pairs in a chunk, of so many, where of last update's so many were asked about: enough chunks to share out, and no more.
 /// Each has lists of its own, and begins with waiting for each of them: some 3 us (AMD EPYC, Zen 4, 2026-11-23).
 ///
 /// To ask takes some ten times as long as all else: a crowd has 1,300 pairs, all of them asked about, and in chunks of 256 they
@@ -26,36 +29,74 @@ pub(crate) fn chunk_of(pairs: usize, asked: usize) -> usize {
     pairs.div_ceil(MANY).next_multiple_of(few).clamp(few, CHUNK)
 }
 
-/// Contacts in pair order. Each has a number, ascending: its chunk's, times [`CHUNK`], and its place there.
+/// What is about one pair.
+pub(crate) trait OfPair {
+    fn pair(&self) -> PairId;
+}
+
+impl<K> OfPair for Candidate<K> {
+    #[inline]
+    fn pair(&self) -> PairId {
+        self.pair
+    }
+}
+
+impl<K> OfPair for Record<K> {
+    #[inline]
+    fn pair(&self) -> PairId {
+        self.pair
+    }
+}
+
+/// A list in pair order. Each of it has a number, ascending: its chunk's, times [`CHUNK`], and its place there.
 #[derive(Debug)]
-pub(crate) struct Records<K> {
+pub(crate) struct Chunked<T> {
     /// The least pair that a chunk may hold, of each in use. The first holds what is before it, too.
     firsts: Vec<PairId>,
     /// Those of no use are empty, and kept for their memory.
-    chunks: Vec<Vec<Record<K>>>,
+    chunks: Vec<Vec<T>>,
 }
 
-asunder_geometry::copied!(Records<K>, for [K: Clone], { firsts, chunks } but {});
+/// The candidate pairs of an update.
+pub(crate) type Candidates<K> = Chunked<Candidate<K>>;
 
-impl<K> Records<K> {
+/// Its contacts.
+pub(crate) type Records<K> = Chunked<Record<K>>;
+
+asunder_geometry::copied!(Chunked<T>, for [T: Clone], { firsts, chunks } but {});
+
+impl<T: OfPair> Chunked<T> {
     pub(crate) const fn new() -> Self {
         Self { firsts: Vec::new(), chunks: Vec::new() }
     }
 
     /// Of a sorted list; each has its place there as its number.
     #[cfg(any(feature = "serde", test))]
-    pub(crate) fn of(list: &[Record<K>]) -> Self
+    pub(crate) fn of(list: &[T]) -> Self
     where
-        K: Clone,
+        T: Clone,
     {
-        let firsts = list.chunks(CHUNK).map(|chunk| chunk[0].pair).collect();
+        let firsts = list.chunks(CHUNK).map(|chunk| chunk[0].pair()).collect();
         Self { firsts, chunks: list.chunks(CHUNK).map(<[_]>::to_vec).collect() }
     }
 
-    /// One empty chunk for every `size` pairs; at least one.
-    pub(crate) fn chunks_of(&mut self, pairs: &[PairId], size: usize) -> &mut [Vec<Record<K>>] {
+    /// The least pair of each chunk.
+    pub(crate) fn firsts(&self) -> &[PairId] {
+        &self.firsts
+    }
+
+    /// Where each chunk's part of some pairs ends, in order.
+    pub(crate) fn ends_in(&self, pairs: &[PairId], ends: &mut Vec<usize>) {
+        ends.clear();
+        let others = self.firsts.get(1..).unwrap_or_default();
+        ends.extend(others.iter().map(|first| pairs.partition_point(|pair| pair < first)));
+        ends.push(pairs.len());
+    }
+
+    /// Empty chunks that begin with these pairs; at least one.
+    pub(crate) fn begin_at(&mut self, firsts: impl IntoIterator<Item = PairId>) -> &mut [Vec<T>] {
         self.firsts.clear();
-        self.firsts.extend(pairs.iter().step_by(size));
+        self.firsts.extend(firsts);
         self.chunks.iter_mut().for_each(Vec::clear);
         let count = self.firsts.len().max(1);
         if self.chunks.len() < count {
@@ -64,61 +105,77 @@ impl<K> Records<K> {
         &mut self.chunks[..count]
     }
 
-    /// The record of a number.
+    /// The one of a number.
     #[inline]
-    pub(crate) fn get(&self, number: usize) -> &Record<K> {
+    pub(crate) fn get(&self, number: usize) -> &T {
         &self.chunks[number / CHUNK][number % CHUNK]
     }
 
     /// All chunks, those of no use at the end.
-    pub(crate) fn chunks(&self) -> &[Vec<Record<K>>] {
+    pub(crate) fn chunks(&self) -> &[Vec<T>] {
         &self.chunks
     }
 
+    /// The least pair of each chunk in use; and all chunks, to be written to.
+    pub(crate) fn parts(&mut self) -> (&[PairId], &mut [Vec<T>]) {
+        (&self.firsts, &mut self.chunks)
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.chunks.iter().map(Vec::len).sum()
+    }
+
     /// All, without their numbers.
-    pub(crate) fn all(&self) -> impl Iterator<Item = &Record<K>> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = &T> {
         self.chunks.iter().flatten()
     }
 
     /// The same.
-    pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut Record<K>> {
+    pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.chunks.iter_mut().flatten()
     }
 
     /// All, with their numbers.
-    pub(crate) fn iter(&self) -> Walk<'_, K> {
+    pub(crate) fn iter(&self) -> Walk<'_, T> {
         Walk { here: [].iter(), number: 0, chunks: self.chunks.iter(), next_chunk: 0 }
     }
 
-    /// Those of this pair and of what comes after it. Cost: logarithmic in all records.
-    pub(crate) fn from(&self, pair: PairId) -> Walk<'_, K> {
+    /// Those from one pair on, or from the beginning, up to the one before another, or to the end.
+    pub(crate) fn between(&self, first: Option<PairId>, end: Option<PairId>) -> impl Iterator<Item = &T> {
+        let walk = first.map_or_else(|| self.iter(), |first| self.from(first));
+        walk.map(|(_, one)| one).take_while(move |one| end.is_none_or(|end| one.pair() < end))
+    }
+
+    /// Those of this pair and of what comes after it. Cost: logarithmic in all of them.
+    pub(crate) fn from(&self, pair: PairId) -> Walk<'_, T> {
         let chunk = self.firsts.partition_point(|&first| first <= pair).saturating_sub(1);
         let mut chunks = self.chunks.get(chunk..).unwrap_or_default().iter();
         let list = chunks.next().map_or([].as_slice(), Vec::as_slice);
-        let at = list.partition_point(|record| record.pair < pair);
+        let at = list.partition_point(|one| one.pair() < pair);
         Walk { here: list[at..].iter(), number: chunk * CHUNK + at, chunks, next_chunk: chunk + 1 }
     }
 }
 
-/// Records one after the other, with their numbers.
+/// One after the other, with their numbers.
 #[derive(Clone, Debug)]
-pub(crate) struct Walk<'a, K> {
-    here: core::slice::Iter<'a, Record<K>>,
-    /// Of the next record here.
+pub(crate) struct Walk<'a, T> {
+    here: core::slice::Iter<'a, T>,
+    /// Of the next one here.
     number: usize,
-    chunks: core::slice::Iter<'a, Vec<Record<K>>>,
+    chunks: core::slice::Iter<'a, Vec<T>>,
     next_chunk: usize,
 }
 
-impl<'a, K> Iterator for Walk<'a, K> {
-    type Item = (usize, &'a Record<K>);
+impl<'a, T> Iterator for Walk<'a, T> {
+    type Item = (usize, &'a T);
 
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            if let Some(record) = self.here.next() {
+            if let Some(one) = self.here.next() {
                 self.number += 1;
-                return Some((self.number - 1, record));
+                return Some((self.number - 1, one));
             }
             self.here = self.chunks.next()?.iter();
             self.number = self.next_chunk * CHUNK;
@@ -132,7 +189,7 @@ impl<'a, K> Iterator for Walk<'a, K> {
     }
 }
 
-impl<K> ExactSizeIterator for Walk<'_, K> {}
+impl<T> ExactSizeIterator for Walk<'_, T> {}
 
 #[cfg(test)]
 mod tests {
@@ -149,7 +206,8 @@ mod tests {
         let pairs: Vec<PairId> = (10..10 + 2 * CHUNK as u32 + 9).map(pair).collect();
         let mut records: Records<BodyKey3> = Records::new();
         for _ in 0..2 {
-            let chunks = records.chunks_of(&pairs, CHUNK).iter_mut().zip(pairs.chunks(CHUNK));
+            let chunks =
+                records.begin_at(pairs.iter().step_by(CHUNK).copied()).iter_mut().zip(pairs.chunks(CHUNK));
             for (number, (chunk, pairs)) in chunks.enumerate() {
                 let met = pairs.iter().step_by(3).filter(|_| number != 1);
                 chunk.extend(met.map(|&pair| Record::of_nobody(pair)));
@@ -167,7 +225,7 @@ mod tests {
             assert_eq!(records.from(pair(a)).len(), from.len());
             assert!(records.from(pair(a)).all(|(number, record)| records.get(number).pair == record.pair));
         }
-        assert_eq!(records.chunks_of(&[], 8).len(), 1);
+        assert_eq!(records.begin_at([]).len(), 1);
         assert!(records.iter().next().is_none() && records.from(pair(0)).next().is_none());
     }
 

@@ -1,14 +1,14 @@
 //! The world: bodies, and what is known about them since the last update.
 
 use crate::collider::{Collider, Tag};
-use crate::contact::{Candidate, Contact, Record};
+use crate::contact::{Contact, Record};
 use crate::event::Event;
 use crate::frame::{Found, Settled, Touches, manifolds_at};
 use crate::hooks::Edited;
 use crate::motion::{Hit, Motions};
 use crate::odometer::Odometer;
 use crate::query::Boxes;
-use crate::records::Records;
+use crate::records::{Candidates, Records};
 use crate::slab::Slab;
 use crate::space::Space;
 use crate::stats::Stats;
@@ -76,7 +76,7 @@ pub struct World<S: Space> {
     /// What queries are asked of; nothing that an output depends on.
     pub(crate) questions: Boxes<S>,
 
-    pub(crate) candidates: Vec<Candidate<S::Key>>,
+    pub(crate) candidates: Candidates<S::Key>,
     pub(crate) records: Records<S::Key>,
     /// What was answered about the pairs, chunk by chunk, with the manifolds of all of them.
     pub(crate) answered: Vec<Batch<S::Manifold>>,
@@ -99,11 +99,13 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) pairs: Vec<PairId>,
     /// Memory of persistent manifolds that are kept no longer.
     pub(crate) spare: S::Spare,
-    /// Pairs in a chunk of the last update that collided.
-    pub(crate) chunk: usize,
+    /// Whether what the chunks handed over last is still of the world's own chunks.
+    pub(crate) is_settled: bool,
+    /// Where each chunk's part of the pairs ends.
+    pub(crate) chunk_ends: Vec<usize>,
     /// What the chunks hand over.
     pub(crate) settled: Vec<Settled<S>>,
-    pub(crate) last_candidates: Vec<Candidate<S::Key>>,
+    pub(crate) last_candidates: Candidates<S::Key>,
     pub(crate) last_records: Records<S::Key>,
     pub(crate) last_answered: Vec<Batch<S::Manifold>>,
     pub(crate) ended: Vec<Record<S::Key>>,
@@ -127,9 +129,10 @@ impl<S: Space> Scratch<S> {
             sweep: LooseSweep::new(),
             pairs: Vec::new(),
             spare: S::Spare::default(),
-            chunk: 0,
+            is_settled: false,
+            chunk_ends: Vec::new(),
             settled: Vec::new(),
-            last_candidates: Vec::new(),
+            last_candidates: Candidates::new(),
             last_records: Records::new(),
             last_answered: Vec::new(),
             ended: Vec::new(),
@@ -222,7 +225,7 @@ impl<S: Space> World<S> {
             motions: Motions::NONE,
             max_pairs: 1 << 24,
             questions: Boxes::default(),
-            candidates: Vec::new(),
+            candidates: Candidates::new(),
             records: Records::new(),
             answered: Vec::new(),
             persistent: Slab::new(),
@@ -332,12 +335,12 @@ impl<S: Space> World<S> {
     /// Candidates of one body, in order of the other body's slot.
     pub(crate) fn pairs_of(&self, key: S::Key) -> impl Iterator<Item = (S::Key, S::Key)> + Clone {
         let (slot, is_there) = (slot_of(key), self.bodies.contains_key(key));
-        let candidates = if is_there { self.candidates.as_slice() } else { &[] };
-        let (before, rest) =
-            candidates.split_at(candidates.partition_point(|candidate| candidate.pair.a < slot));
-        let as_second = before.iter().filter(move |candidate| candidate.pair.b == slot);
-        let as_first = rest.iter().take_while(move |candidate| candidate.pair.a == slot);
-        as_second.chain(as_first).map(|candidate| candidate.keys).filter(move |&(a, b)| {
+        let all =
+            self.candidates.iter().take_while(move |(_, candidate)| is_there && candidate.pair.a < slot);
+        let as_second = all.filter(move |(_, candidate)| candidate.pair.b == slot);
+        let as_first = self.candidates.from(PairId { a: slot, b: 0 });
+        let as_first = as_first.take_while(move |(_, candidate)| is_there && candidate.pair.a == slot);
+        as_second.chain(as_first).map(|(_, candidate)| candidate.keys).filter(move |&(a, b)| {
             // Another body may have been removed since, and so may the one that had this slot then.
             self.bodies.contains_key(a) && self.bodies.contains_key(b)
         })

@@ -403,7 +403,7 @@ impl World<Plane> {
 
     /// Pairs whose boxes overlapped and whose filters agreed, in pair order: what the narrow phase was asked.
     pub fn candidates(&self) -> impl ExactSizeIterator<Item = (BodyKey2, BodyKey2)> + Clone {
-        self.candidates.iter().map(|candidate| candidate.keys)
+        self.candidates.iter().map(|(_, candidate)| candidate.keys)
     }
 
     /// The candidate pairs of one body: those whose boxes overlapped and whose filters agreed. Pairs with bodies removed

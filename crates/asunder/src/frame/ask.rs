@@ -1,7 +1,7 @@
 //! Works through the candidate pairs, chunk by chunk.
 //!
 //! ```text
-//! walk the pairs of a chunk beside last update's candidates:                                (choose)
+//! walk the pairs of a chunk beside its candidates of last update:                                (choose)
 //!   neither body moved: the pair is carried on, with its hint, contact and manifolds
 //!   they were apart, and have not gone as far since as they would have to: it is carried on too
 //! look at the others:                                                                       (answer)
@@ -16,7 +16,7 @@ use crate::collider::Collider;
 use crate::contact::{Candidate, ContactNumber, Place, Record};
 use crate::motion::{Motions, approach};
 use crate::odometer::Odometer;
-use crate::records::Records;
+use crate::records::{Candidates, Records};
 use crate::slab::{NOWHERE, Slab};
 use crate::space::Space;
 use asunder_broad::PairId;
@@ -34,14 +34,10 @@ pub(crate) fn manifolds_at<'a, M>(place: &Place, chunks: &'a [Batch<M>]) -> &'a 
     chunks.get(place.chunk as usize).and_then(|answered| answered.manifolds.get(range)).unwrap_or_default()
 }
 
-/// A chunk of pairs, and where what becomes of them goes.
+/// A chunk of pairs, by its number; and where what becomes of them goes.
 pub(super) struct Chunk<'c, S: Space> {
-    pub(super) number: u32,
-    pub(super) pairs: &'c [PairId],
-    /// Its own part of last update's lists.
-    pub(super) last_candidates: &'c [Candidate<S::Key>],
-    pub(super) last_records: &'c Records<S::Key>,
-    pub(super) candidates: &'c mut [Candidate<S::Key>],
+    pub(super) number: usize,
+    pub(super) candidates: &'c mut Vec<Candidate<S::Key>>,
     pub(super) records: &'c mut Vec<Record<S::Key>>,
     pub(super) answered: &'c mut Batch<S::Manifold>,
     pub(super) settled: &'c mut Settled<S>,
@@ -55,6 +51,13 @@ pub(super) struct Asker<'a, S: Space> {
     pub(super) reshaped: &'a [u32],
     pub(super) odometers: &'a [Odometer],
     pub(super) motions: &'a Motions<S>,
+    /// All pairs; where those of each chunk end, and the least that each may hold.
+    pub(super) pairs: &'a [PairId],
+    pub(super) chunk_ends: &'a [usize],
+    pub(super) firsts: &'a [PairId],
+    /// Last update's lists, in chunks of their own.
+    pub(super) last_candidates: &'a Candidates<S::Key>,
+    pub(super) last_records: &'a Records<S::Key>,
     pub(super) last_answered: &'a [Batch<S::Manifold>],
     /// Memory of what was kept to be moved along.
     pub(super) spare: Mutex<&'a mut S::Spare>,
@@ -77,21 +80,27 @@ pub(super) enum Way {
 impl<S: Space> Asker<'_, S> {
     /// Works through a chunk.
     pub(super) fn ask(&self, mut chunk: Chunk<'_, S>) {
+        let start = chunk.number.checked_sub(1).map_or(0, |before| self.chunk_ends[before]);
+        let pairs = &self.pairs[start..self.chunk_ends[chunk.number]];
         chunk.answered.clear();
-        chunk.settled.clear();
-        self.choose(&mut chunk);
+        chunk.settled.begin_with(pairs);
+        self.choose(pairs, &mut chunk);
         self.answer(&mut chunk);
         self.settle(chunk);
     }
 
     /// Which pairs are carried on, and what is known of the others. Pairs are sorted, and so are last update's: one walk.
-    fn choose(&self, chunk: &mut Chunk<'_, S>) {
-        let Chunk { pairs, last_candidates, candidates, settled, .. } = chunk;
-        let mut last = *last_candidates;
-        for (&pair, candidate) in pairs.iter().zip(candidates.iter_mut()) {
+    fn choose(&self, pairs: &[PairId], chunk: &mut Chunk<'_, S>) {
+        let Chunk { number, candidates, settled, .. } = chunk;
+        // What is before the first chunk's first pair is its own, too.
+        let first = if *number == 0 { None } else { self.firsts.get(*number).copied() };
+        let end = self.firsts.get(*number + 1).copied();
+        let mut last = self.last_candidates.between(first, end).peekable();
+        candidates.clear();
+        candidates.reserve(pairs.len());
+        for &pair in pairs {
             let mut before = None;
-            while let Some((known, later)) = last.split_first().filter(|(known, _)| known.pair <= pair) {
-                last = later;
+            while let Some(known) = last.next_if(|known| known.pair <= pair) {
                 if known.pair == pair {
                     before = Some(known);
                     break;
@@ -106,7 +115,7 @@ impl<S: Space> Asker<'_, S> {
                 let is_same = known.keys == keys;
                 let are_apart = || Odometer::are_before([self.odometers[a], self.odometers[b]], known.until);
                 if is_same && ((!self.is_moved[a] && !self.is_moved[b]) || are_apart()) {
-                    *candidate = *known;
+                    candidates.push(*known);
                     settled.ways.push(Way::Carried);
                     continue;
                 }
@@ -119,10 +128,10 @@ impl<S: Space> Asker<'_, S> {
                     (hint, persistent, contact) = (known.hint, known.persistent, known.contact);
                 }
             }
-            *candidate = Candidate { pair, keys, hint, persistent, contact, until: f64::NEG_INFINITY };
+            candidates.push(Candidate { pair, keys, hint, persistent, contact, until: f64::NEG_INFINITY });
             settled.ways.push(Way::Open);
         }
-        last.iter().for_each(|gone| settled.give_up(gone));
+        last.for_each(|gone| settled.give_up(gone));
     }
 
     /// Moves manifolds along, or asks the narrow phase.

@@ -1,9 +1,9 @@
 //! Stage 3: candidate pairs to contacts.
 //!
 //! ```text
-//! cut the pairs into chunks
-//! for each chunk, in parallel:
-//!   find its part of last update's candidates
+//! cut the pairs into chunks: where they were cut last time, as long as none has grown too large
+//! of chunks with the same pairs as then, none of whose bodies moved, keep the lists as they are
+//! for each other chunk, in parallel:
 //!   what is carried on, moved along, or asked about                                         (ask)
 //!   candidates and contacts, and what of last update's goes on                              (settle)
 //! ```
@@ -36,13 +36,11 @@ use super::ask::{Asker, Chunk};
 use super::both;
 use super::settle::Settled;
 use crate::collider::Tag;
-use crate::contact::{Candidate, ContactNumber, Record};
-use crate::records::{Records, chunk_of};
-use crate::slab::NOWHERE;
+use crate::contact::{Candidate, Record};
+use crate::records::chunk_of;
 use crate::space::Space;
 use crate::world::{Scratch, World};
-use asunder_broad::PairId;
-use asunder_narrow::{Batch, Hint};
+use asunder_narrow::Batch;
 use slotmap::Key;
 use std::sync::Mutex;
 
@@ -51,14 +49,15 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     if world.stats.overflow {
         return;
     }
-    let World { candidates, records, answered, scratch, .. } = world;
-    core::mem::swap(candidates, &mut scratch.last_candidates);
-    core::mem::swap(records, &mut scratch.last_records);
+    let World { answered, scratch, .. } = world;
     let does_any_stay = does_any_stay(&world.moved, &world.keys, &world.tags, &world.is_moved);
     if does_any_stay {
         core::mem::swap(answered, &mut scratch.last_answered);
     }
     world.reshaped.sort_unstable();
+    if begin_chunks(world) && does_any_stay {
+        keep_quiet(world);
+    }
     ask(world);
     if !does_any_stay {
         make_room_as_in(&world.answered, &mut world.scratch.last_answered);
@@ -66,6 +65,55 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     for slot in world.moved.drain(..) {
         world.is_moved[slot as usize] = false;
         world.odometers[slot as usize].close();
+    }
+}
+
+/// Puts last update's lists aside, and begins with chunks: where most bodies are at rest, of those that were, as long as none
+/// grows too large and there are not far too many; else they are cut anew. Whether what the chunks handed over last is still of
+/// these chunks.
+fn begin_chunks<S: Space>(world: &mut World<S>) -> bool {
+    let World { candidates, records, scratch, .. } = world;
+    let Scratch { pairs, chunk_ends, settled, is_settled, last_candidates, last_records, .. } = scratch;
+    // Of a world's first pairs, all are asked about.
+    let asked = settled.iter().map(|settled| settled.tally.asked).reduce(|all, asked| all + asked);
+    let size = chunk_of(pairs.len(), asked.unwrap_or(pairs.len()));
+    core::mem::swap(candidates, last_candidates);
+    core::mem::swap(records, last_records);
+    last_candidates.ends_in(pairs, chunk_ends);
+    let starts = core::iter::once(&0).chain(&*chunk_ends);
+    let longest = chunk_ends.iter().zip(starts).map(|(end, start)| end - start).max().unwrap_or(0);
+    let are_many = chunk_ends.len() > 2 * pairs.len().div_ceil(size);
+    let do_most_rest = 2 * world.moved.len() < world.keys.len();
+    let goes_on = do_most_rest && longest <= size && !are_many;
+    if goes_on {
+        candidates.begin_at(last_candidates.firsts().iter().copied());
+    } else {
+        // Of those that may go on, with room to grow.
+        let cut = if do_most_rest { size - size / 4 } else { size };
+        candidates.begin_at(pairs.iter().step_by(cut).copied());
+        candidates.ends_in(pairs, chunk_ends);
+    }
+    records.begin_at(candidates.firsts().iter().copied());
+    settled.iter_mut().for_each(Settled::wake);
+    core::mem::replace(is_settled, true) && goes_on
+}
+
+/// Of chunks in which nothing can have changed, takes last update's lists as they are.
+fn keep_quiet<S: Space>(world: &mut World<S>) {
+    let World { candidates, records, answered, is_moved, scratch, .. } = world;
+    let Scratch { pairs, chunk_ends, settled, last_candidates, last_records, last_answered, .. } = scratch;
+    if answered.len() < chunk_ends.len() {
+        answered.resize_with(chunk_ends.len(), Batch::default);
+    }
+    let mut start = 0;
+    for (chunk, &end) in chunk_ends.iter().enumerate() {
+        let pairs = &pairs[core::mem::replace(&mut start, end)..end];
+        if settled[chunk].goes_on(pairs, is_moved) {
+            settled[chunk].keep_quiet();
+            core::mem::swap(&mut candidates.parts().1[chunk], &mut last_candidates.parts().1[chunk]);
+            core::mem::swap(&mut records.parts().1[chunk], &mut last_records.parts().1[chunk]);
+            core::mem::swap(&mut answered[chunk], &mut last_answered[chunk]);
+        }
     }
 }
 
@@ -94,18 +142,18 @@ fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
 fn ask<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, is_moved, reshaped, odometers, motions, persistent, .. } = world;
     let World { candidates, records, answered, scratch, .. } = world;
-    let Scratch { pairs, chunk, settled, spare, last_candidates, last_records, last_answered, .. } = scratch;
-    // Of a world's first pairs, all are asked about.
-    let asked = settled.iter().map(|settled| settled.tally.asked).reduce(|all, asked| all + asked);
-    let size = chunk_of(pairs.len(), asked.unwrap_or(pairs.len()));
-    *chunk = size;
-    // Without a pair there is a chunk still: of what is gone.
-    let records = records.chunks_of(pairs, size);
-    let answered = room_for(records.len(), answered, Batch::clear);
-    let settled = room_for(records.len(), settled, Settled::clear);
-    // What is there already is written over.
-    candidates.resize(pairs.len(), blank());
-    let asker = Asker {
+    let Scratch { pairs, chunk_ends, settled, spare, last_candidates, last_records, last_answered, .. } =
+        scratch;
+    let count = chunk_ends.len();
+    let (firsts, candidates) = candidates.parts();
+    let part = Part {
+        first: 0,
+        candidates: &mut candidates[..count],
+        records: &mut records.parts().1[..count],
+        answered: room_for(count, answered, Batch::clear),
+        settled: room_for(count, settled, Settled::clear),
+    };
+    part.work(&Asker {
         bodies,
         keys,
         is_moved,
@@ -113,18 +161,14 @@ fn ask<S: Space>(world: &mut World<S>) {
         odometers,
         motions,
         persistent,
+        pairs,
+        chunk_ends,
+        firsts,
+        last_candidates,
+        last_records,
         last_answered,
         spare: Mutex::new(spare),
-    };
-    let part = Part { first: 0, size, pairs, last_candidates, candidates, records, answered, settled };
-    part.work(&asker, last_records);
-}
-
-/// What is written over.
-fn blank<K: Key>() -> Candidate<K> {
-    let (pair, keys) = (PairId { a: 0, b: 0 }, (K::null(), K::null()));
-    let (persistent, contact) = (NOWHERE, ContactNumber::NONE);
-    Candidate { pair, keys, hint: Hint::NONE, persistent, contact, until: f64::NEG_INFINITY }
+    });
 }
 
 /// As many of a list as are needed; the others are cleared.
@@ -137,14 +181,10 @@ fn room_for<T: Default>(count: usize, list: &mut Vec<T>, clear: impl Fn(&mut T))
     some
 }
 
-/// Chunks, one after the other, from the first of them on; and their part of last update's lists.
+/// Chunks, one after the other, from the first of them on.
 struct Part<'c, S: Space> {
     first: usize,
-    /// Pairs in a chunk.
-    size: usize,
-    pairs: &'c [PairId],
-    last_candidates: &'c [Candidate<S::Key>],
-    candidates: &'c mut [Candidate<S::Key>],
+    candidates: &'c mut [Vec<Candidate<S::Key>>],
     records: &'c mut [Vec<Record<S::Key>>],
     answered: &'c mut [Batch<S::Manifold>],
     settled: &'c mut [Settled<S>],
@@ -152,43 +192,29 @@ struct Part<'c, S: Space> {
 
 impl<S: Space> Part<'_, S> {
     /// Works through the chunks: through one of them, or through either half, on two threads where there are.
-    fn work(self, asker: &Asker<'_, S>, last_records: &Records<S::Key>) {
-        if self.answered.len() > 1 {
-            let (one, other) = self.halves();
-            return both(|| one.work(asker, last_records), || other.work(asker, last_records));
+    fn work(self, asker: &Asker<'_, S>) {
+        if self.settled.iter().all(Settled::is_quiet) {
+            return;
         }
-        let Self { first, pairs, last_candidates, candidates, records, answered, settled, .. } = self;
-        if let ([records], [answered], [settled]) = (records, answered, settled) {
-            asker.ask(Chunk {
-                number: first as u32,
-                pairs,
-                last_candidates,
-                last_records,
-                candidates,
-                records,
-                answered,
-                settled,
-            });
+        if self.settled.len() > 1 {
+            let (one, other) = self.halves();
+            return both(|| one.work(asker), || other.work(asker));
+        }
+        let Self { first: number, candidates, records, answered, settled } = self;
+        if let ([candidates], [records], [answered], [settled]) = (candidates, records, answered, settled) {
+            asker.ask(Chunk { number, candidates, records, answered, settled });
         }
     }
 
-    /// The first and the second half of the chunks. Candidates begin about where they did last time.
+    /// The first and the second half of the chunks.
     fn halves(self) -> (Self, Self) {
-        let middle = self.answered.len() / 2;
-        let at = middle * self.size;
-        let first = self.pairs[at];
-        let known = first_after(self.last_candidates, at, |known| known.pair < first);
-        let pairs = self.pairs.split_at(at);
-        let last_candidates = self.last_candidates.split_at(known);
-        let candidates = self.candidates.split_at_mut(at);
+        let middle = self.settled.len() / 2;
+        let candidates = self.candidates.split_at_mut(middle);
         let records = self.records.split_at_mut(middle);
         let answered = self.answered.split_at_mut(middle);
         let settled = self.settled.split_at_mut(middle);
         let one = Self {
             first: self.first,
-            size: self.size,
-            pairs: pairs.0,
-            last_candidates: last_candidates.0,
             candidates: candidates.0,
             records: records.0,
             answered: answered.0,
@@ -196,52 +222,11 @@ impl<S: Space> Part<'_, S> {
         };
         let other = Self {
             first: self.first + middle,
-            size: self.size,
-            pairs: pairs.1,
-            last_candidates: last_candidates.1,
             candidates: candidates.1,
             records: records.1,
             answered: answered.1,
             settled: settled.1,
         };
         (one, other)
-    }
-}
-
-/// The first place of a list that is not before something, searched for from a guess on. Cost: logarithmic in how far off
-/// that is.
-fn first_after<T>(list: &[T], guess: usize, is_before: impl Fn(&T) -> bool) -> usize {
-    let guess = guess.min(list.len());
-    let (mut low, mut high, mut step) = (guess, guess, 1);
-    if list.get(guess).is_some_and(&is_before) {
-        while list.get(high).is_some_and(&is_before) {
-            low = high + 1;
-            high = (high + step).min(list.len());
-            step *= 2;
-        }
-    } else {
-        while low > 0 && !is_before(&list[low - 1]) {
-            high = low - 1;
-            low = low.saturating_sub(step);
-            step *= 2;
-        }
-    }
-    low + list[low..high].partition_point(is_before)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_place_is_found_from_any_guess() {
-        let list: Vec<u32> = (0..40).map(|i| i / 3 * 2).collect();
-        for wanted in 0..30 {
-            let place = list.iter().filter(|&&one| one < wanted).count();
-            for guess in 0..50 {
-                assert_eq!(first_after(&list, guess, |&one| one < wanted), place, "{wanted} from {guess}");
-            }
-        }
-        assert_eq!(first_after(&[], 3, |_: &u32| true), 0);
     }
 }

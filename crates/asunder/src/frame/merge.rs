@@ -6,20 +6,20 @@ use crate::world::{Scratch, World};
 /// Puts together what of last update's contacts is over, and what is kept to be moved along in its place.
 pub(super) fn merge<S: Space>(world: &mut World<S>) {
     let World { candidates, records, persistent, reshaped, stats, scratch, .. } = world;
-    let Scratch { settled, spare, ended, last_records, chunk: size, .. } = scratch;
+    let Scratch { settled, spare, ended, last_records, .. } = scratch;
     ended.clear();
     if stats.overflow {
         // Last update's contacts stay; their events were reported then.
         records.all_mut().for_each(|record| record.is_new = false);
         return;
     }
-    for (settled, chunk) in settled.iter_mut().zip(0..) {
+    for (settled, candidates) in settled.iter_mut().zip(candidates.parts().1) {
         ended.extend(settled.ended.drain(..).map(|number| *last_records.get(number as usize)));
         for place in settled.vacated.drain(..) {
             persistent.vacate(place);
         }
         for (number, kept) in settled.kept.drain(..) {
-            let Some(candidate) = candidates.get_mut(chunk * *size + number as usize) else { break };
+            let Some(candidate) = candidates.get_mut(number as usize) else { break };
             candidate.persistent =
                 persistent.put(candidate.persistent, kept, |before| S::reclaim(spare, before));
         }

@@ -1,5 +1,6 @@
 //! Stage 5: events, and every body's contacts.
 
+use super::settle::Settled;
 use crate::contact::Record;
 use crate::event::Event;
 use crate::records::CHUNK;
@@ -8,10 +9,10 @@ use crate::world::{Scratch, World};
 use slotmap::Key;
 
 /// Writes the events in pair order, then the index of records by their second body. Of records, only those of chunks with a
-/// new one are read.
+/// new one are read; where no chunk was looked at, the index is what it was.
 pub(super) fn report<S: Space>(world: &mut World<S>) {
     let World { keys, candidates, records, events, by_second, stats, scratch, .. } = world;
-    let Scratch { ended, settled, seconds, ends, .. } = scratch;
+    let Scratch { ended, settled, seconds, ends, chunk_ends, .. } = scratch;
     events.clear();
     let tallies = || settled.iter().map(|settled| &settled.tally);
     let mut ended = ended.iter().peekable();
@@ -38,6 +39,9 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
         stats.touching = tallies().map(|tally| tally.touching).sum();
         stats.manifolds = tallies().map(|tally| tally.manifolds).sum();
         let lists = || tallies().map(|tally| &*tally.seconds);
+        if settled.iter().take(chunk_ends.len()).all(Settled::is_quiet) {
+            return;
+        }
         index_by_second((lists, stats.contacts), keys.len(), by_second, (seconds, ends));
     }
 }

@@ -27,6 +27,10 @@ struct Met {
 /// What a chunk hands over: what is everybody's is made of it when all chunks are done.
 #[derive(Debug)]
 pub(crate) struct Settled<S: Space> {
+    /// The chunk's pairs, as of when it was last looked at.
+    pairs: Vec<PairId>,
+    /// Whether nobody looks at it in this update.
+    is_quiet: bool,
     /// What is done about each pair.
     pub(super) ways: Vec<Way>,
     /// Contacts of last update that are over, and had begun, by their numbers.
@@ -71,6 +75,8 @@ impl Tally {
 impl<S: Space> Default for Settled<S> {
     fn default() -> Self {
         Self {
+            pairs: Vec::new(),
+            is_quiet: false,
             ways: Vec::new(),
             ended: Vec::new(),
             kept: Vec::new(),
@@ -85,12 +91,42 @@ impl<S: Space> Default for Settled<S> {
 impl<S: Space> Settled<S> {
     /// Of what was handed over, keeps the memory.
     pub(super) fn clear(&mut self) {
+        self.pairs.clear();
         self.ways.clear();
         self.ended.clear();
         self.kept.clear();
         self.vacated.clear();
         self.bullets.clear();
         self.tally.clear();
+    }
+
+    /// Begins with a chunk of these pairs.
+    pub(super) fn begin_with(&mut self, pairs: &[PairId]) {
+        self.clear();
+        self.pairs.extend_from_slice(pairs);
+    }
+
+    /// Whether the chunk is what it was: the same pairs, nobody of them moved, and no contact of it was new at the last update. A
+    /// body that came to the slot of another counts as moved.
+    pub(super) fn goes_on(&self, pairs: &[PairId], is_moved: &[bool]) -> bool {
+        let is_still = |pair: &PairId| !is_moved[pair.a as usize] && !is_moved[pair.b as usize];
+        self.tally.new == 0 && pairs == self.pairs && pairs.iter().all(is_still)
+    }
+
+    /// Somebody will look at it, unless it is kept quiet in this update as well.
+    pub(super) fn wake(&mut self) {
+        self.is_quiet = false;
+    }
+
+    /// Nobody will look at it: all that it handed over last is handed over again, but for what has been done with already.
+    pub(super) fn keep_quiet(&mut self) {
+        self.is_quiet = true;
+        self.tally.asked = 0;
+    }
+
+    #[inline]
+    pub(super) const fn is_quiet(&self) -> bool {
+        self.is_quiet
     }
 
     /// Gives up the place of what is kept no longer, if it has one.
@@ -129,13 +165,14 @@ impl<S: Space> Settled<S> {
 impl<S: Space> Asker<'_, S> {
     /// Settles the candidates of a chunk and makes its records, in order of the pairs.
     pub(super) fn settle(&self, chunk: Chunk<'_, S>) {
-        let Chunk { number: chunk, last_records, candidates, records, answered, settled, .. } = chunk;
+        let Chunk { number, candidates, records, answered, settled } = chunk;
+        let chunk = number as u32;
         let mut next = 0;
         for (number, candidate) in candidates.iter_mut().enumerate() {
             let (way, before) = (settled.ways[number], candidate.contact);
             let record = match way {
                 Way::Carried => {
-                    before.number().map(|number| self.carried(last_records.get(number), answered, chunk))
+                    before.number().map(|number| self.carried(self.last_records.get(number), answered, chunk))
                 }
                 Way::Moved { at, count, overlapping, user_data } => {
                     let place = Place { chunk, start: at, end: at + count };

@@ -145,7 +145,7 @@ impl<S: Saved> Content<S> {
             motions: motions.list(),
             odometers: (0..).zip(odometers).filter_map(counted).collect(),
             max_pairs: *max_pairs as u64,
-            candidates: candidates.iter().map(|candidate| CandidateForm::of(candidate, persistent)).collect(),
+            candidates: candidates.all().map(|candidate| CandidateForm::of(candidate, persistent)).collect(),
             contacts: records
                 .all()
                 .map(|record| ContactForm::of(record, manifolds_at(&record.manifolds, answered)))

@@ -10,7 +10,7 @@ use crate::hooks::Edited;
 use crate::motion::{Motions, swept_bounds};
 use crate::odometer::Odometer;
 use crate::query::Boxes;
-use crate::records::Records;
+use crate::records::{Candidates, Records};
 use crate::slab::Slab;
 use crate::world::World;
 use asunder_geometry::Bounds;
@@ -74,7 +74,7 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
         reshaped: reshaped.clone(),
         motions,
         max_pairs: usize::try_from(*max_pairs).unwrap_or(usize::MAX),
-        candidates,
+        candidates: Candidates::of(&candidates),
         records: Records::of(&records),
         answered: vec![Batch { answers: Vec::new(), manifolds }],
         persistent: Slab::of(persistent),
