@@ -27,6 +27,8 @@ mod ground;
 mod planes;
 mod projection;
 mod round;
+#[cfg(test)]
+mod tests;
 
 use super::advance::{End, advance};
 use super::passage::{Course, Fineness, Passage, length};
@@ -79,8 +81,8 @@ enum Meeting {
 /// may a ray have gone into a shape that it is said to miss. A thin shape (segment, triangle, flat hull) is hit by
 /// what passes within rounding. A NaN limit counts as none, and a negative one as zero. Of compounds, the nearest
 /// part; one that it starts inside of before any other.
-/// Of ground, the nearest triangle; of equals, the lowest number. No ray slips through between two that share an edge or a
-/// vertex. One-sided triangles are passed through from behind.
+/// Of ground, the nearest triangle; one that it starts on before any other, and of equals the lowest number. No ray slips
+/// through between two that share an edge or a vertex. One-sided triangles are passed through from behind.
 ///
 /// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for
 /// hulls; a few distances for what is rounded and for segments and flat hulls.

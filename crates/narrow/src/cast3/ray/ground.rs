@@ -70,8 +70,10 @@ impl Cast<'_> {
             if is_plain || !local.passes(corners, within) {
                 let triangle = Triangle3::known(corners);
                 let hit = self.on(triangle, basis, within, side == Side::Inside);
+                // Of equals, what it starts on, then the lowest number.
+                let place = |hit: &RayHit3| (hit.distance, !hit.inside, hit.part);
                 if let Some(hit) = hit.map(|hit| RayHit3 { part: number, ..hit })
-                    && first.is_none_or(|known| (hit.distance, number) < (known.distance, known.part))
+                    && first.is_none_or(|known| place(&hit) < place(&known))
                 {
                     within = hit.distance;
                     first = Some(hit);
