@@ -6,7 +6,7 @@
 //!                     Cyrus and Beck (1978); for a box, slabs                                          (planes)
 //! half-space          one quotient                                                                     (planes)
 //! triangle            where it meets the plane, and on which side of three edges                       (planes)
-//! what is rounded, segments, flat hulls, triangles seen edge on:
+//! what is rounded, segments, flat hulls, rims of thin hulls, triangles seen edge on:
 //!                     the ray as a point that moves                                                    (advance)
 //! compound            the nearest of its parts; of many, nearest box first
 //! mesh, height field  the nearest of its triangles                                                     (ground)
@@ -76,16 +76,18 @@ enum Meeting {
 ///
 /// An origin inside the shape, or on its surface exactly, is a hit at distance 0. Else the distance is right up to
 /// `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance from the shape and of its size,
-/// over the cosine to the normal; of a hull also what its faces are off from its vertices
-/// ([`planarity_error`](asunder_geometry::Hull::planarity_error)). By as much, before it is divided by the cosine,
-/// may a ray have gone into a shape that it is said to miss. A thin shape (segment, triangle, flat hull) is hit by
-/// what passes within rounding. A NaN limit counts as none, and a negative one as zero. Of compounds, the nearest
-/// part; one that it starts inside of before any other.
+/// over the cosine to the normal; of a hull also four times what its faces are off from its vertices
+/// ([`planarity_error`](asunder_geometry::Hull::planarity_error)), and of one whose outer radius is more than four times
+/// its inner radius all that as many times more. By as much, before it is divided by the cosine,
+/// may a ray have gone into a shape that it is said to miss, and what it is said to hit lie beside it. A thin shape (segment,
+/// triangle, flat hull) is hit by what passes within rounding. A NaN limit counts as none, and a negative one as zero.
+/// Of compounds, the nearest part; one that it starts inside of before any other.
 /// Of ground, the nearest triangle; one that it starts on before any other, and of equals the lowest number. No ray slips
 /// through between two that share an edge or a vertex. One-sided triangles are passed through from behind.
 ///
 /// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for
-/// hulls; a few distances for what is rounded and for segments and flat hulls.
+/// hulls; a few distances, about a microsecond, for what is rounded, for segments and flat hulls, and beside the faces of
+/// hulls so thin that their faces' roundings matter.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Ray3, Shape3, glam::{DVec3, Vec3}};

@@ -35,7 +35,22 @@ pub(super) fn cuboid(line: &Line, basis: &Basis3, cuboid: &Cuboid) -> Meeting {
     Meeting::At(enter, axis * -1.0_f64.copysign(closing), line.error(enter, closing.abs(), 0.0))
 }
 
+/// Up to which share of its outer radius a hull's planes may reach beyond its rims without the face being looked at: 2^-18, far
+/// above what rounding makes of what is not thin.
+const BEYOND_RIMS: f64 = 1.0 / 262_144.0;
+
+/// How many times the inner radius the outer one may be for the error to hold as it is: it is four times what faces are off.
+const COMPACT: f64 = 4.0;
+
 /// Inside of all planes: the ray enters some and leaves others.
+///
+/// Faces that were merged are not flat, and the planes are those of their highest corners, so that beyond a sharp edge the planes
+/// hold more than the hull, and two of faces back to back an endless slab. How much more: be r the radius of a ball inside the
+/// hull, R that of one around it, both about its centre c, and q how far corners of a face lie below its plane at most, with rounding.
+/// Where the way from c to a point that the planes hold leaves the hull, it is no more than q below some plane; c is at least
+/// r below that, and the point not above it. So at most the share q / r of the way is outside of the hull, and the point no
+/// further from it than R q / r. Where that would be too much, the face that is entered is looked at: over a face, the hull is at
+/// most q below its plane, however sharp the edges are. What enters beside it goes by steps.
 pub(super) fn hull(line: &Line, basis: &Basis3, hull: &Hull, core: &Core3) -> Meeting {
     let (origin, way) = (basis.turn_back(line.origin), basis.turn_back(line.way));
     let (mut enter, mut leave, mut furthest) = (f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY);
@@ -63,9 +78,34 @@ pub(super) fn hull(line: &Line, basis: &Basis3, hull: &Hull, core: &Core3) -> Me
     if enter > leave || enter < 0.0 {
         return Meeting::Never;
     }
-    let off = 4.0 * f64::from(hull.planarity_error());
-    let error = line.error(enter, -face.dot(way), off).min(2.0 * f64::from(hull.outer_radius()));
-    Meeting::At(enter, basis.turn(face), error)
+    let (inner, outer) = (f64::from(core.inner_radius()), f64::from(hull.outer_radius()));
+    let off = f64::from(hull.planarity_error());
+    let error = line.error(enter, -face.dot(way), 4.0 * off);
+    let is_thick = off + 2.0 * line.doubt <= BEYOND_RIMS * inner;
+    if !is_thick && !is_over_face(line, basis, core, enter) {
+        return Meeting::Open;
+    }
+    let is_slender = is_thick && outer > COMPACT * inner;
+    let error = if is_slender { error * (outer / (COMPACT * inner)) } else { error };
+    Meeting::At(enter, basis.turn(face), error.min(2.0 * outer))
+}
+
+/// Whether the ray is on the plane of a face up to rounding at that distance, over the face, and no nearer to its sides than
+/// that.
+#[inline(never)]
+fn is_over_face(line: &Line, basis: &Basis3, core: &Core3, distance: f64) -> bool {
+    let (at, doubt) = (basis.turn_back(line.at(distance)), line.doubt_at(distance).0);
+    let topology = core.topology();
+    let corner = |vertex: usize| core.vertices()[vertex].as_dvec3();
+    (0..).zip(core.normals()).zip(core.heights()).any(|((face, &normal), &height)| {
+        let is_within = |half_edge: usize| {
+            let (from, to) = topology.ends(half_edge);
+            let (from, along) = (corner(from), corner(to) - corner(from));
+            let out = along.cross(normal).dot(at - from);
+            out < 0.0 && out * out > doubt * doubt * along.length_squared()
+        };
+        (normal.dot(at) - height).abs() <= 2.0 * doubt && topology.face_half_edges(face).all(is_within)
+    })
 }
 
 /// One plane.
