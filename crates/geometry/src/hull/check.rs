@@ -2,7 +2,7 @@
 
 use super::Hull;
 use super::build::in_triangles;
-use super::cloud::half_diagonal;
+use super::cloud::{half_diagonal, rank};
 use super::distance::Surface;
 use super::normal::{area_vector, is_noise};
 use super::quick::hull_facets;
@@ -127,6 +127,8 @@ pub(super) struct Examiner<'a> {
     hull: &'a Hull,
     topology: &'a Topology,
     vertices: Vec<DVec3>,
+    /// The loops, each from the corner that a cloud has first. From there the builder worked out their areas: of a needle
+    /// that is no wider than rounding, another start may give another one.
     faces: Vec<Vec<usize>>,
     /// What f64 may lose on a number of the hull's size, in metres.
     slack: f64,
@@ -138,7 +140,13 @@ impl<'a> Examiner<'a> {
     pub(super) fn of(hull: &'a Hull, points: &[Vec3]) -> Self {
         let topology = hull.topology();
         let vertices: Vec<DVec3> = hull.vertices().iter().map(|v| v.as_dvec3()).collect();
-        let faces = (0..topology.face_count()).map(|face| topology.face_vertices(face).collect()).collect();
+        let around = |face| {
+            let mut corners: Vec<usize> = topology.face_vertices(face).collect();
+            let least = (0..corners.len()).min_by_key(|&place| rank(hull.vertices()[corners[place]]));
+            corners.rotate_left(least.unwrap_or(0));
+            corners
+        };
+        let faces = (0..topology.face_count()).map(around).collect();
         // From the spread of the vertices, and not from the hull's own radius.
         let slack = 1e-14 * half_diagonal(hull.vertices());
         Self { hull, topology, vertices, faces, slack, scale: half_diagonal(points) }
@@ -244,15 +252,19 @@ impl<'a> Examiner<'a> {
         }
     }
 
-    /// Of a solid, by facets that are found anew: faces are flat up to rounding only.
+    /// Of a solid, by facets that are found anew: faces are flat up to rounding only. From the order that a cloud has,
+    /// as the builder found them: of a facet without width, other triangles are as near up to rounding only.
     fn containing(&self, points: &[Vec3]) -> Result<(), HullFault> {
         let allowed = f64::from(self.hull.error()) + self.slack;
         let own = self.hull.data.surface();
-        let anew = match hull_facets(own.vertices) {
-            Ok(facets) if own.dimension == 3 => in_triangles(&facets),
-            _ => own.facets.into(),
+        let mut vertices = own.vertices.to_vec();
+        vertices.sort_unstable_by_key(|&vertex| rank(vertex));
+        let anew = hull_facets(&vertices).ok().filter(|_| own.dimension == 3);
+        let facets = anew.map(|facets| in_triangles(&facets));
+        let surface = match &facets {
+            Some(facets) => Surface { dimension: 3, vertices: &vertices, facets },
+            None => own,
         };
-        let surface = Surface { facets: &anew, ..own };
         for (index, point) in points.iter().enumerate() {
             let distance = surface.distance_outside(point.as_dvec3());
             if distance > allowed {

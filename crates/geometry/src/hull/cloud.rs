@@ -23,7 +23,7 @@ impl Cloud {
         let mut keys: Vec<(u64, u64)> = (0_u64..)
             .zip(points)
             .map(|(i, v)| {
-                let [x, y, z] = v.to_array().map(|c| u64::from(ascending(c)));
+                let [x, y, z] = rank(*v).map(u64::from);
                 (x << 32 | y, z << 32 | i)
             })
             .collect();
@@ -61,6 +61,11 @@ fn check_points(points: &[Vec3], least: usize) -> Result<(), HullError> {
         }
     }
     Ok(())
+}
+
+/// What a cloud's points are sorted by.
+pub(super) fn rank(point: Vec3) -> [u32; 3] {
+    point.to_array().map(ascending)
 }
 
 /// An integer that orders finite numbers as they are ordered, with one zero: -0 and +0 are one place.

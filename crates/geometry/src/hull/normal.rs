@@ -93,12 +93,14 @@ pub(crate) fn unit(area: DVec3) -> DVec3 {
     if largest > 0.0 { (area / largest).normalize() } else { DVec3::X }
 }
 
-/// Whether a loop's area, as computed in f64, may be no more than rounding.
+/// Whether a loop's area, as computed in f64 from any of its corners, may be no more than rounding.
 ///
 /// Only where corners differ by less than f64 resolves next to their distance from others.
 pub(super) fn is_noise(count: usize, corner: impl Fn(usize) -> Vec3) -> bool {
-    let (area, lengths) = newell(count, corner);
-    is_lost(area, lengths)
+    (0..count).any(|start| {
+        let (area, lengths) = newell(count, |i| corner((start + i) % count));
+        is_lost(area, lengths)
+    })
 }
 
 fn is_lost(area: DVec3, lengths: f64) -> bool {

@@ -60,6 +60,19 @@ pub(super) fn cloud(count: usize, seed: u64, shape: impl Fn(Vec3) -> Vec3) -> Ve
     (0..count).map(|_| shape(random.vector())).collect()
 }
 
+/// A few points whose coordinates are 1, nothing, or something between that and next to nothing.
+pub(super) fn thinner_than_rounding(seed: u64) -> Vec<Vec3> {
+    let random = &mut Random::new(seed);
+    let tiny = [[1e-9, 1e-18], [1e-12, 1e-24], [1e-18, 1e-36], [1e-21, 1e-44]][seed as usize % 4];
+    let count = 4 + random.below(5);
+    let mut part = || match random.below(5) {
+        0 => 0.0,
+        kind @ 1..3 => random.unit() * tiny[kind - 1],
+        _ => random.unit(),
+    };
+    (0..count).map(|_| Vec3::new(part(), part(), part())).collect()
+}
+
 pub(super) const KINDS: u64 = 32;
 
 /// A cloud of up to 80 points: coplanar, collinear, cocircular, repeated, nearly flat, thin, at the ends of the

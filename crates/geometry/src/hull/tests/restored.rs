@@ -1,6 +1,6 @@
 //! Hulls come back from what is stored of them, bit for bit.
 
-use super::clouds::{KINDS, nasty};
+use super::clouds::{KINDS, nasty, thinner_than_rounding};
 use crate::hull::Hull;
 use crate::hull::restore::StoredHullError;
 use glam::Vec3;
@@ -48,6 +48,15 @@ fn a_thousand_round_hulls_and_low_ones_come_back() {
         let mut flat: Vec<Vec3> = points.iter().map(|p| Vec3::new(p.y.round(), p.x, p.x)).collect();
         random.shuffle(&mut flat);
         assert_comes_back(&Hull::of_any_dimension(&flat).unwrap(), "plane");
+    }
+}
+
+#[test]
+fn what_is_thinner_than_rounding_comes_back() {
+    for seed in 0..5000 {
+        if let Ok(hull) = Hull::of_any_dimension(&thinner_than_rounding(seed)) {
+            assert_comes_back(&hull, &format!("seed {seed}"));
+        }
     }
 }
 
