@@ -7,7 +7,7 @@ use crate::pose3::Pose3;
 use crate::topology::Topology;
 use crate::vertex::{VertexError, check_size, check_vertices};
 use glam::{DVec3, Vec3};
-use robust::{Coord3D, orient3d};
+use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::sync::LazyLock;
 
 /// A triangle in space, given by its vertices in metres. It is solid from both sides and has no thickness.
@@ -106,7 +106,9 @@ impl Triangle3 {
         self.outer_radius
     }
 
-    /// Whether a local point, in metres, lies on the triangle. Exact as to its plane.
+    /// Whether a local point, in metres, lies on the triangle: its edges and corners are of it, so that where two
+    /// triangles meet in an edge, no point between them is on neither. Exact, as long as no product of three coordinates
+    /// underflows, as of a coordinate below 1e-200 m.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         let [a, b, c] = self.vertices.map(|vertex| vertex.as_dvec3());
@@ -114,13 +116,51 @@ impl Triangle3 {
         if !point.is_finite() || orient3d(coord(a), coord(b), coord(c), coord(point)) != 0.0 {
             return false;
         }
-        let normal = (b - a).cross(c - a);
-        let inside = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) >= 0.0;
-        inside(a, b) && inside(b, c) && inside(c, a)
+        // In the plane, the sides of the edges are those of their shadows along the axis that the normal is nearest to.
+        let axis = (b - a).cross(c - a).abs().max_position();
+        let shadow = |v: DVec3| Coord { x: v[(axis + 1) % 3], y: v[(axis + 2) % 3] };
+        let [a, b, c, point] = [a, b, c, point].map(shadow);
+        let sense = orient2d(a, b, c).signum();
+        let is_inside = |from, to| orient2d(from, to, point) * sense >= 0.0;
+        is_inside(a, b) && is_inside(b, c) && is_inside(c, a)
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         around3(self.vertices.iter().map(|vertex| vertex.as_dvec3()), pose, f64::from(margin))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::height_field::HeightField;
+    use crate::hull::Hull;
+    use crate::mesh::TriMesh;
+    use glam::{DVec3, Vec2, Vec3};
+
+    #[test]
+    fn no_point_falls_between_two_triangles() {
+        let corners = [
+            (-0.063_123_725, 0.0, -0.095_814_8),
+            (0.918_852_3, 0.0, -0.194_287_99),
+            (1.179_292_8, 0.0, 1.146_063_7),
+            (0.019_179_275, 0.0, 1.194_755_8),
+        ]
+        .map(Vec3::from);
+        let mesh = TriMesh::new(corners, [[0, 2, 1], [0, 3, 2]]).unwrap();
+        let at = DVec3::new(0.017_980_337_384_295_608, 0.0, -0.014_745_861_633_999_255);
+        assert!(mesh.contains(at) && Hull::of_any_dimension(&corners).unwrap().contains(at));
+        let (mut random, mut out) = (oorandom::Rand64::new(7), 0);
+        for cell in [Vec2::ONE, Vec2::new(0.3, 0.7), Vec2::new(13.1, 0.1)] {
+            let field = HeightField::new(9, 9, [0.0; 81], cell).unwrap();
+            for _ in 0..5000 {
+                // Along the inner edge of a cell, up to rounding.
+                let [column, row] = [0; 2].map(|_| random.rand_range(0..8) as f64);
+                let share = random.rand_float();
+                let x = (column + share) * f64::from(cell.x);
+                out += u32::from(!field.contains([x, 0.0, (row + 1.0 - share) * f64::from(cell.y)]));
+            }
+        }
+        assert_eq!(out, 0);
     }
 }
