@@ -33,7 +33,17 @@ impl HullData {
                 best = (length, along);
             }
         }
-        (best.1 * best.0).as_vec3()
+        let arm = (best.1 * best.0).as_vec3();
+        if self.has_room_on(arm.as_dvec3()) { arm } else { Vec3::ZERO }
+    }
+
+    /// Whether the ball stays inside on an arm as rounded. In a needle there is no room for rounding: an arm along an axis
+    /// may lie along its sides in every bit, and another one does so up to rounding only.
+    fn has_room_on(&self, arm: DVec3) -> bool {
+        let center = self.center.as_dvec3();
+        let lost = ARM_SHARE * f64::from(self.inner_radius) + f64::from(self.planarity_error);
+        let mut faces = self.normals.iter().zip(&self.octets.heights);
+        faces.all(|(normal, height)| normal.dot(arm).abs() <= height - normal.dot(center) - lost)
     }
 
     /// How far the ball can be moved along a line through the centre, either way, in metres.
