@@ -49,7 +49,9 @@ pub(super) fn of_convex(shape: &Shape3, density: f64) -> MassProperties3 {
     if moments.volume <= 0.0 {
         return without_volume(center + centroid(&core, &vertices));
     }
-    let offset = moments.first / moments.volume;
+    // Of a sliver the volume may be no more than rounding, and the quotient anywhere.
+    let (low, high) = box_around(&vertices);
+    let offset = (moments.first / moments.volume).clamp(low - radius, high + radius);
     let mut second = moments.second + Second::of(offset) * -moments.volume;
     // Never below zero, save by the rounding of this difference.
     second.squares = second.squares.max(DVec3::ZERO);
@@ -80,6 +82,11 @@ fn of_cuboid(cuboid: &Cuboid, density: f64) -> MassProperties3 {
 
 fn without_volume(center: DVec3) -> MassProperties3 {
     MassProperties3 { mass: 0.0, center, inertia: DMat3::ZERO }
+}
+
+fn box_around(vertices: &[DVec3]) -> (DVec3, DVec3) {
+    let around = |(low, high): (DVec3, DVec3), &vertex: &DVec3| (low.min(vertex), high.max(vertex));
+    vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), around)
 }
 
 /// All faces as fans of triangles, counter-clockwise seen from outside.
@@ -130,4 +137,27 @@ fn centroid(core: &Core3<'_>, vertices: &[DVec3]) -> DVec3 {
         return moment / area;
     }
     vertices.iter().fold(DVec3::ZERO, |sum, &v| sum + v) / vertices.len().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::hull::Hull;
+    use crate::shape::Shape3;
+    use glam::Vec3;
+
+    #[test]
+    fn a_sliver_has_its_centre_of_mass_within() {
+        let corners = [
+            (0.008_330_43, -19.903_73, 0.0),
+            (0.0, 0.0, -0.141_098_11),
+            (0.0, 0.0, 1020.159_5),
+            (0.0, 1.175_494_4e-38, 999_999.94),
+        ];
+        for radius in [0.0, 1e-45, 1e-3] {
+            let hull = Hull::of_any_dimension(&corners.map(Vec3::from)).unwrap().rounded(radius).unwrap();
+            let center = Shape3::from(hull).mass_properties(1.0).unwrap().center;
+            assert!(center.cmpge(Vec3::new(-0.001, -19.91, -0.15).as_dvec3()).all(), "{center}");
+            assert!(center.cmple(Vec3::new(0.01, 0.001, 1e6).as_dvec3()).all(), "{center}");
+        }
+    }
 }
