@@ -122,7 +122,7 @@ impl Polygon {
         if !(radius > 0.0 && radius.is_finite()) {
             return Err(PolygonError::NotPositive { value: radius });
         }
-        let corners: Vec<Vec2> = ring::corners(sides, radius).map(|corner| corner.as_vec2()).collect();
+        let corners: Vec<Vec2> = ring::corners(sides, radius).map(within_range).collect();
         Self::hull_of(&corners)
     }
 
@@ -318,6 +318,16 @@ impl Polygon {
         let vertices = self.vertices().iter().map(|vertex| vertex.as_dvec2());
         around2(vertices, pose, f64::from(margin) + f64::from(self.radius))
     }
+}
+
+/// The nearest place in f32, or where that is out of range the next one towards the origin.
+fn within_range(place: DVec2) -> Vec2 {
+    let nearest = place.as_vec2();
+    if nearest.as_dvec2().length() <= f64::from(MAX_RADIUS) {
+        return nearest;
+    }
+    let inwards = |part: f64| round_down(part.abs()).copysign(part as f32);
+    Vec2::new(inwards(place.x), inwards(place.y))
 }
 
 fn check_points(points: &[Vec2]) -> Result<(), PolygonError> {

@@ -195,3 +195,15 @@ fn regular_polygons_have_their_corners_and_refuse_what_has_none() {
     }
     assert!(matches!(Polygon::regular(f32::NAN, 5), Err(PolygonError::NotPositive { .. })));
 }
+
+#[test]
+fn regular_polygons_are_as_large_as_circles() {
+    let most = crate::tolerance::MAX_RADIUS;
+    for sides in (3..200).chain([1000, 4095, 4096]) {
+        let regular = Polygon::regular(most, sides).unwrap();
+        assert!(regular.vertices().len() * 10 >= sides * 9, "{sides} sides");
+        let off = regular.vertices().iter().map(|v| f64::from(most) - v.as_dvec2().length());
+        assert!(off.fold(0.0, |most: f64, off| most.max(off.abs())) < 0.1, "{sides} sides");
+        assert!(Polygon::regular(most.next_up(), sides).is_err());
+    }
+}
