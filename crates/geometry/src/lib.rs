@@ -31,6 +31,7 @@ mod outward;
 mod polygon;
 mod pose2;
 mod pose3;
+mod product;
 mod radius;
 mod ray;
 mod rect;

@@ -1,6 +1,7 @@
 //! Areas and normals of face loops.
 
 use super::loops::Loops;
+use crate::product::{halves, product_difference};
 use glam::{DVec3, Vec3};
 
 /// Newell's area vector of a loop: twice the area, along the normal.
@@ -37,7 +38,7 @@ fn newell(count: usize, corner: impl Fn(usize) -> Vec3) -> (DVec3, f64) {
 fn triangle([a, b, c]: [Vec3; 3]) -> DVec3 {
     let (u, u_lost) = difference(b, a);
     let (v, v_lost) = difference(c, a);
-    let low = |value: DVec3| DVec3::new(split(value.x).1, split(value.y).1, split(value.z).1);
+    let low = |value: DVec3| DVec3::new(halves(value.x).1, halves(value.y).1, halves(value.z).1);
     if u_lost.abs() + v_lost.abs() + low(u).abs() + low(v).abs() == DVec3::ZERO {
         // All products are exact. Where corners are no more than a few times as far away as they are apart, that is so;
         // the bits are those below, and a ray on a mesh takes 150 instructions less.
@@ -51,7 +52,11 @@ fn triangle([a, b, c]: [Vec3; 3]) -> DVec3 {
 fn exactly([u, u_lost]: [DVec3; 2], [v, v_lost]: [DVec3; 2]) -> DVec3 {
     let (ux, uy, uz) = (u.x, u.y, u.z);
     let (vx, vy, vz) = (v.x, v.y, v.z);
-    let area = DVec3::new(minor(uy, vz, uz, vy), minor(uz, vx, ux, vz), minor(ux, vy, uy, vx));
+    let area = DVec3::new(
+        product_difference(uy, vz, uz, vy),
+        product_difference(uz, vx, ux, vz),
+        product_difference(ux, vy, uy, vx),
+    );
     // What the differences lost matters only where coordinates are a billion times apart.
     area + (u_lost.cross(v) + u.cross(v_lost))
 }
@@ -62,28 +67,6 @@ fn difference(to: Vec3, from: Vec3) -> (DVec3, DVec3) {
     let sum = to + from;
     let part = sum - to;
     (sum, (to - (sum - part)) + (from - part))
-}
-
-/// a b - c d, with what both products lost.
-fn minor(a: f64, b: f64, c: f64, d: f64) -> f64 {
-    let ((ab, ab_lost), (cd, cd_lost)) = (product(a, b), product(c, d));
-    (ab - cd) + (ab_lost - cd_lost)
-}
-
-/// A product and what rounding took from it, exactly (Dekker, "A floating-point technique for extending the available
-/// precision", 1971).
-fn product(a: f64, b: f64) -> (f64, f64) {
-    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
-    let rounded = a * b;
-    (rounded, ((a_high * b_high - rounded) + a_high * b_low + a_low * b_high) + a_low * b_low)
-}
-
-/// The upper half of a number's bits, and the rest.
-#[inline(always)]
-fn split(value: f64) -> (f64, f64) {
-    let scaled = value * 134_217_729.0;
-    let high = scaled - (scaled - value);
-    (high, value - high)
 }
 
 /// Unit vector along a loop's area. Where that vanishes even in f64 it is x.
@@ -228,7 +211,7 @@ mod tests {
             let (found, full) = (triangle([a, b, c]), exactly([u.0, u.1], [v.0, v.1]));
             assert_eq!(found.to_array().map(f64::to_bits), full.to_array().map(f64::to_bits), "{a} {b} {c}");
             let is_long =
-                [u.0, v.0].iter().any(|arm| arm.to_array().iter().any(|&part| split(part).1 != 0.0));
+                [u.0, v.0].iter().any(|arm| arm.to_array().iter().any(|&part| halves(part).1 != 0.0));
             (short, long) = (short + usize::from(!is_long), long + usize::from(is_long));
         }
         assert!(short > 400 && long > 10_000, "{short} {long}");

@@ -1,7 +1,7 @@
 //! Moments of shapes in the plane.
 
 use super::properties::MassProperties2;
-use super::second::product_difference;
+use crate::product::product_difference;
 use crate::rect::Rect;
 use crate::shape::Shape2;
 use core::f64::consts::{PI, TAU};

@@ -1,5 +1,6 @@
 //! Symmetric tensors of second moments, and the one product that must not cancel.
 
+use crate::product::product_difference;
 use glam::{DMat3, DVec3};
 
 /// A symmetric tensor of second moments: xx, yy, zz, and the mixed ones.
@@ -72,26 +73,4 @@ pub(super) fn cross(a: DVec3, b: DVec3) -> DVec3 {
         product_difference(a.z, b.x, a.x, b.z),
         product_difference(a.x, b.y, a.y, b.x),
     )
-}
-
-/// `a b - c d`, right to a few units in the last place: what each product lost is added back (Dekker, "A floating-point
-/// technique for extending the available precision", 1971).
-pub(super) fn product_difference(a: f64, b: f64, c: f64, d: f64) -> f64 {
-    let ((first, first_lost), (second, second_lost)) = (exact_product(a, b), exact_product(c, d));
-    (first - second) + (first_lost - second_lost)
-}
-
-/// A product as its rounded value and the rest. Without a fused multiply-add, which not every platform has.
-fn exact_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
-    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
-}
-
-/// A number as the sum of two with at most 26 bits each, whose products are therefore exact.
-fn halves(value: f64) -> (f64, f64) {
-    const SPLIT: f64 = 134_217_729.0; // 2^27 + 1
-    let scaled = SPLIT * value;
-    let high = scaled - (scaled - value);
-    (high, value - high)
 }
