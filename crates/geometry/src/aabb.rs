@@ -103,6 +103,23 @@ impl Aabb2 {
         Self { min, max }
     }
 
+    /// The least box around points, in metres. Around none it is [`Bounds::NOTHING`]; coordinates that are no numbers are
+    /// left out.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb2, Bounds, glam::Vec2};
+    /// let around = Aabb2::from_points([(1.0, 4.0), (-2.0, 0.5)].map(Vec2::from));
+    /// assert_eq!(around, Aabb2::new(Vec2::new(-2.0, 0.5), Vec2::new(1.0, 4.0)));
+    /// assert_eq!(Aabb2::from_points([]), Aabb2::NOTHING);
+    /// ```
+    pub fn from_points(points: impl IntoIterator<Item = Vec2>) -> Self {
+        points.into_iter().fold(Self::NOTHING, |Self { min, max }, point| Self {
+            // Not by `min` and `max`, which may make of no number what the platform likes.
+            min: Vec2::select(point.cmplt(min), point, min),
+            max: Vec2::select(point.cmpgt(max), point, max),
+        })
+    }
+
     /// The elimination test (four comparisons): eliminate the pair as soon as one axis parts it.
     #[inline]
     pub fn overlaps(&self, other: &Self) -> bool {
@@ -161,6 +178,23 @@ impl Aabb3 {
     #[inline]
     pub const fn new(min: Vec3, max: Vec3) -> Self {
         Self { min, max }
+    }
+
+    /// The least box around points, in metres. Around none it is [`Bounds::NOTHING`]; coordinates that are no numbers are
+    /// left out.
+    ///
+    /// ```
+    /// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};
+    /// let around = Aabb3::from_points([(1.0, 4.0, 0.0), (-2.0, 0.5, 3.0)].map(Vec3::from));
+    /// assert_eq!(around, Aabb3::new(Vec3::new(-2.0, 0.5, 0.0), Vec3::new(1.0, 4.0, 3.0)));
+    /// assert_eq!(Aabb3::from_points([]), Aabb3::NOTHING);
+    /// ```
+    pub fn from_points(points: impl IntoIterator<Item = Vec3>) -> Self {
+        points.into_iter().fold(Self::NOTHING, |Self { min, max }, point| Self {
+            // Not by `min` and `max`, which may make of no number what the platform likes.
+            min: Vec3::select(point.cmplt(min), point, min),
+            max: Vec3::select(point.cmpgt(max), point, max),
+        })
     }
 
     /// The elimination test (six comparisons): eliminate the pair as soon as one axis parts it.
@@ -310,6 +344,16 @@ mod tests {
         assert!(!everything.overlaps(&Aabb3::NOTHING));
         assert!(!Aabb3::NOTHING.overlaps(&Aabb3::NOTHING));
         assert!(!Aabb2::NOTHING.overlaps(&Aabb2::NOTHING));
+    }
+
+    #[test]
+    fn a_box_around_points_leaves_out_what_is_no_number() {
+        let points = [Vec3::new(1.0, f32::NAN, f32::NAN), Vec3::new(f32::NAN, -2.0, f32::NAN), Vec3::X];
+        let around = Aabb3::from_points(points);
+        assert_eq!(around, Aabb3::new(Vec3::new(1.0, -2.0, 0.0), Vec3::X));
+        assert!(around.is_valid() && !Aabb3::from_points(points[..2].iter().copied()).is_valid());
+        assert!(points[2..].iter().all(|&point| around.contains(point)));
+        assert_eq!(Aabb2::from_points([Vec2::NAN]), Aabb2::NOTHING);
     }
 
     #[test]
