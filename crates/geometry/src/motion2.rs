@@ -31,8 +31,8 @@ impl Motion2 {
     /// Neither moves nor turns.
     pub const STILL: Self = Self { displacement: DVec2::ZERO, to: None };
 
-    /// A motion by a displacement in metres (`Vec2`, `DVec2`, or an array of f64), which ends in a given rotation: not the turn from
-    /// the body's own, but where it ends. Without turning: [`shift`](Self::shift).
+    /// A motion by a displacement in metres (`Vec2`, `DVec2`, or an array of f64), which ends in a given rotation: not
+    /// the turn from the body's own, but where it ends. Without turning: [`shift`](Self::shift).
     ///
     /// # Errors
     /// A displacement that is not finite, or beyond [`MAX_POSITION`](crate::tolerance::MAX_POSITION) on an axis.
@@ -59,10 +59,11 @@ impl Motion2 {
         Ok(Self { displacement, to: None })
     }
 
-    /// The motion that leads from one pose to another: what a solver's step is, once it is done. It turns the shorter way.
+    /// The motion that leads from one pose to another: what a solver's step is, once it is done. It turns the shorter
+    /// way.
     ///
-    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Of poses with the same
-    /// rotation it is a shift.
+    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Of poses with the
+    /// same rotation it is a shift.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rotation2};
@@ -81,12 +82,12 @@ impl Motion2 {
         Ok(Self { to: (bits(from) != bits(to)).then_some(to.rotation()), ..motion })
     }
 
-    /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second counter-clockwise about its
-    /// position.
+    /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second
+    /// counter-clockwise about its position.
     ///
-    /// It ends where the body would, by `libm`, rounded to f32: the same bits on every platform. Turns of less than 1e-7 rad a step are lost
-    /// to f32: it stands still, or turns by up to twice as much. On the way it turns the shorter way, so half a turn and more in one step is a wheel seen to
-    /// run backwards: take shorter steps.
+    /// It ends where the body would, by `libm`, rounded to f32: the same bits on every platform. Turns of less than
+    /// 1e-7 rad a step are lost to f32: it stands still, or turns by up to twice as much. On the way it turns the shorter
+    /// way, so half a turn and more in one step is a wheel seen to run backwards: take shorter steps.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, glam::{DVec2, Vec2}};

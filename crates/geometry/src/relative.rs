@@ -5,10 +5,11 @@ use crate::pose3::{Pose3, PoseError, turn_between};
 use glam::Quat;
 
 impl Pose3 {
-    /// Where something is in the world that has this pose in the axes of another: a lantern in a hand, a wheel on a cart.
+    /// Where something is in the world that has this pose in the axes of another: a lantern in a hand, a wheel on a
+    /// cart.
     ///
-    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; beside the identity it is exact. The rotation is of any
-    /// length, as ever. [`Pose3::relative_to`] undoes it.
+    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; beside the identity
+    /// it is exact. The rotation is of any length, as ever. [`Pose3::relative_to`] undoes it.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::{DVec3, Quat, Vec3}};
@@ -53,7 +54,8 @@ impl Pose3 {
     }
 }
 
-/// A quaternion that is not zero, rounded to f32, and of a length that is one for f32: a power of two more or less of it loses nothing.
+/// A quaternion that is not zero, rounded to f32, and of a length that is one for f32: a power of two more or less of
+/// it loses nothing.
 fn rounded(quaternion: [f64; 4]) -> Quat {
     let most = quaternion.into_iter().fold(0.0_f64, |most, part| most.max(part.abs()));
     // Its exponent, taken away where it is far from that of one.
@@ -65,8 +67,8 @@ fn rounded(quaternion: [f64; 4]) -> Quat {
 impl Pose2 {
     /// Where something is in the world that has this pose in the axes of another: a turret on a tank.
     ///
-    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; beside the identity it is exact. [`Pose2::relative_to`]
-    /// undoes it.
+    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; beside the identity
+    /// it is exact. [`Pose2::relative_to`] undoes it.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2, glam::{DVec2, Vec2}};

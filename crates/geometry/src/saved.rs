@@ -3,6 +3,7 @@
 //! Every type has a plain form: numbers and lists, named as the type's own readers are. What is stored is the form
 //! made of a value; what is loaded is a form, from which the value is made by the type's constructor, so that
 //! nothing comes in that could not have been made here, and by the same bits. Whatever can be worked out is not stored.
+//! One exception: the faces of a hull, which a flat face may be several of.
 //!
 //! Numbers keep every bit in any binary format. Of text formats, serde_json reads floats to the last bit only with
 //! its feature
