@@ -30,9 +30,10 @@ pub(super) fn build(grid: Grid) -> Result<Data, HeightFieldError> {
     };
     let outer = kept().flat_map(corners).map(reach).fold(0.0, f64::max).sqrt();
     let neighbor = |triangle, edge| Some(grid.neighbor(triangle, edge)?.0);
-    let normal = |triangle| normal(&grid, triangle);
+    let normals: Vec<DVec3> = (0..grid.triangle_count()).map(|triangle| normal(&grid, triangle)).collect();
+    let normal = |triangle: u32| normals[triangle as usize];
     let patches = patches(grid.triangle_count(), |triangle| grid.has(triangle), normal, neighbor);
-    let marks = Marks::of(&grid);
+    let marks = Marks::of(&grid, &normals);
     let block_sides = |block: u32| {
         let cells = cells_of(&grid, block).filter(|&cell| !grid.is_hole(cell));
         cells.map(|cell| sides(&grid, cell)).reduce(union)
@@ -85,12 +86,13 @@ const LOW: usize = 8;
 /// Two bytes per vertex.
 struct Marks<'a> {
     grid: &'a Grid,
+    normals: &'a [DVec3],
     marks: Vec<u16>,
 }
 
 impl<'a> Marks<'a> {
-    fn of(grid: &'a Grid) -> Vec<u16> {
-        let mut marks = Self { grid, marks: vec![0; grid.heights.len()] };
+    fn of(grid: &'a Grid, normals: &'a [DVec3]) -> Vec<u16> {
+        let mut marks = Self { grid, normals, marks: vec![0; grid.heights.len()] };
         let [columns, rows] = grid.cells;
         for row in 0..=rows {
             for column in 0..=columns {
@@ -129,7 +131,7 @@ impl<'a> Marks<'a> {
     /// Whether there is ground on both sides of an edge, and it bends low.
     fn is_low(&self, one: Option<u32>, other: Option<u32>) -> bool {
         one.zip(other)
-            .is_some_and(|(one, other)| is_low([one, other].map(|number| normal(self.grid, number))))
+            .is_some_and(|(one, other)| is_low([one, other].map(|number| self.normals[number as usize])))
     }
 
     /// How an edge is seen between a triangle, of which it is a half-edge, and another; of an edge that is not there,
@@ -140,7 +142,7 @@ impl<'a> Marks<'a> {
             (Some(one), Some(other)) => {
                 let corners = self.grid.corners(one).map(|corner| corner.as_dvec3());
                 let along = (corners[(edge + 1) % 3] - corners[edge]).normalize();
-                sight([one, other].map(|triangle| normal(self.grid, triangle)), along)
+                sight([one, other].map(|triangle| self.normals[triangle as usize]), along)
             }
             _ => RIM,
         }
