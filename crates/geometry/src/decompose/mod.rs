@@ -37,7 +37,7 @@ pub use error::DecomposeError;
 /// A part with a bounding radius below [`MIN_RADIUS`](crate::tolerance::MIN_RADIUS) is no shape. Beside a larger part
 /// it is left out, and all that is lost lies within 2e-6 m of what is kept; elsewhere the outline is refused.
 ///
-/// Cost: n log n in practice: 3 to 10 ms for 4096 vertices, and 50 ms where thousands of long edges lie side by side.
+/// Cost: n log n in practice: 5 to 20 ms for 4096 vertices, and 50 ms where thousands of long edges lie side by side.
 ///
 /// ```
 /// use asunder_geometry::{decompose, glam::{DVec2, Vec2}};

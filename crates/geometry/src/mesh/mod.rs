@@ -70,7 +70,7 @@ struct Data {
 
 impl TriMesh {
     /// A mesh from its vertices, in metres, and its triangles, three vertex numbers each, counter-clockwise as seen
-    /// from the front. Cost: half a microsecond per triangle.
+    /// from the front. Cost: half a microsecond to one per triangle.
     ///
     /// # Errors
     /// No triangles that have an area, or too many; vertices that are not finite or out of range; numbers of no vertex.
