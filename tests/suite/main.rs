@@ -58,6 +58,7 @@
 //! World
 //! - [`tiles`]: floors of many bodies have no seams for bullets and casts, and their walls stand
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
+//! - [`still`]: where hardly anything moves, what was not looked at is as it would be
 //! - [`world_crowds`]: pairs that come and go by tens of thousands are those of a double loop
 //! - [`world_model`]: lists of operations give what a naive model gives, and what a fresh world gives
 //! - [`snapshots`]: a world restored from text has the same outputs, keys and future, bit for bit; no damaged file
@@ -128,6 +129,7 @@ mod shapes_peer;
 mod snapshots;
 mod solver;
 mod steady;
+mod still;
 mod stored;
 mod theory;
 mod tiles;
