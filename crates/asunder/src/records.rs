@@ -93,16 +93,17 @@ impl<T: OfPair> Chunked<T> {
         ends.push(pairs.len());
     }
 
-    /// Empty chunks that begin with these pairs; at least one.
+    /// Chunks that begin with these pairs, at least one; what is in them is to be written over.
     pub(crate) fn begin_at(&mut self, firsts: impl IntoIterator<Item = PairId>) -> &mut [Vec<T>] {
         self.firsts.clear();
         self.firsts.extend(firsts);
-        self.chunks.iter_mut().for_each(Vec::clear);
         let count = self.firsts.len().max(1);
         if self.chunks.len() < count {
             self.chunks.resize_with(count, Vec::new);
         }
-        &mut self.chunks[..count]
+        let (chunks, others) = self.chunks.split_at_mut(count);
+        others.iter_mut().for_each(Vec::clear);
+        chunks
     }
 
     /// The one of a number.
@@ -141,10 +142,21 @@ impl<T: OfPair> Chunked<T> {
         Walk { here: [].iter(), number: 0, chunks: self.chunks.iter(), next_chunk: 0 }
     }
 
-    /// Those from one pair on, or from the beginning, up to the one before another, or to the end.
-    pub(crate) fn between(&self, first: Option<PairId>, end: Option<PairId>) -> impl Iterator<Item = &T> {
-        let walk = first.map_or_else(|| self.iter(), |first| self.from(first));
-        walk.map(|(_, one)| one).take_while(move |one| end.is_none_or(|end| one.pair() < end))
+    /// Those from one pair on, or from the beginning, up to the one before another, or to the end: as slices, none of which is
+    /// looked at before it is its turn.
+    pub(crate) fn between(&self, first: Option<PairId>, end: Option<PairId>) -> impl Iterator<Item = &[T]> {
+        let start = first.map_or_else(|| self.iter(), |first| self.from(first));
+        let slices = core::iter::once(start.here.as_slice()).chain(start.chunks.map(Vec::as_slice));
+        let before_end = move |slice: &'_ [T]| match end {
+            Some(end) => slice.partition_point(|one| one.pair() < end),
+            None => slice.len(),
+        };
+        let mut is_over = false;
+        slices.map_while(move |slice| {
+            let count = before_end(slice);
+            let is_last = core::mem::replace(&mut is_over, count < slice.len());
+            (!is_last).then(|| &slice[..count])
+        })
     }
 
     /// Those of this pair and of what comes after it. Cost: logarithmic in all of them.
@@ -209,6 +221,7 @@ mod tests {
             let chunks =
                 records.begin_at(pairs.iter().step_by(CHUNK).copied()).iter_mut().zip(pairs.chunks(CHUNK));
             for (number, (chunk, pairs)) in chunks.enumerate() {
+                chunk.clear();
                 let met = pairs.iter().step_by(3).filter(|_| number != 1);
                 chunk.extend(met.map(|&pair| Record::of_nobody(pair)));
             }
@@ -225,7 +238,9 @@ mod tests {
             assert_eq!(records.from(pair(a)).len(), from.len());
             assert!(records.from(pair(a)).all(|(number, record)| records.get(number).pair == record.pair));
         }
-        assert_eq!(records.begin_at([]).len(), 1);
+        let left = records.begin_at([]);
+        assert_eq!(left.len(), 1);
+        left[0].clear();
         assert!(records.iter().next().is_none() && records.from(pair(0)).next().is_none());
     }
 

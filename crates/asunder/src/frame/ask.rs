@@ -21,7 +21,7 @@ use crate::slab::{NOWHERE, Slab};
 use crate::space::Space;
 use asunder_broad::PairId;
 use asunder_narrow::{ArrayVec, Batch, Hint};
-use slotmap::SlotMap;
+use slotmap::{Key, SlotMap};
 use std::sync::Mutex;
 
 /// Jobs handed to the narrow phase at once: enough to fill wide kernels, few enough to stay on the stack.
@@ -55,6 +55,8 @@ pub(super) struct Asker<'a, S: Space> {
     pub(super) pairs: &'a [PairId],
     pub(super) chunk_ends: &'a [usize],
     pub(super) firsts: &'a [PairId],
+    /// Whether chunks may go on in the next update.
+    pub(super) do_most_rest: bool,
     /// Last update's lists, in chunks of their own.
     pub(super) last_candidates: &'a Candidates<S::Key>,
     pub(super) last_records: &'a Records<S::Key>,
@@ -83,7 +85,8 @@ impl<S: Space> Asker<'_, S> {
         let start = chunk.number.checked_sub(1).map_or(0, |before| self.chunk_ends[before]);
         let pairs = &self.pairs[start..self.chunk_ends[chunk.number]];
         chunk.answered.clear();
-        chunk.settled.begin_with(pairs);
+        chunk.records.clear();
+        chunk.settled.begin_with(pairs, self.do_most_rest);
         self.choose(pairs, &mut chunk);
         self.answer(&mut chunk);
         self.settle(chunk);
@@ -95,17 +98,28 @@ impl<S: Space> Asker<'_, S> {
         // What is before the first chunk's first pair is its own, too.
         let first = if *number == 0 { None } else { self.firsts.get(*number).copied() };
         let end = self.firsts.get(*number + 1).copied();
-        let mut last = self.last_candidates.between(first, end).peekable();
-        candidates.clear();
-        candidates.reserve(pairs.len());
-        for &pair in pairs {
+        let mut slices = self.last_candidates.between(first, end);
+        let mut last: &[Candidate<S::Key>] = &[];
+        // What is there already is written over.
+        candidates.resize(pairs.len(), blank());
+        for (&pair, candidate) in pairs.iter().zip(candidates.iter_mut()) {
             let mut before = None;
-            while let Some(known) = last.next_if(|known| known.pair <= pair) {
-                if known.pair == pair {
-                    before = Some(known);
-                    break;
+            loop {
+                match last.split_first() {
+                    Some((known, later)) if known.pair <= pair => {
+                        last = later;
+                        if known.pair == pair {
+                            before = Some(known);
+                            break;
+                        }
+                        settled.give_up(known);
+                    }
+                    Some(_) => break,
+                    None => match slices.next() {
+                        Some(next) => last = next,
+                        None => break,
+                    },
                 }
-                settled.give_up(known);
             }
             let (a, b) = (pair.a as usize, pair.b as usize);
             let keys = (self.keys[a], self.keys[b]);
@@ -115,7 +129,7 @@ impl<S: Space> Asker<'_, S> {
                 let is_same = known.keys == keys;
                 let are_apart = || Odometer::are_before([self.odometers[a], self.odometers[b]], known.until);
                 if is_same && ((!self.is_moved[a] && !self.is_moved[b]) || are_apart()) {
-                    candidates.push(*known);
+                    *candidate = *known;
                     settled.ways.push(Way::Carried);
                     continue;
                 }
@@ -128,10 +142,10 @@ impl<S: Space> Asker<'_, S> {
                     (hint, persistent, contact) = (known.hint, known.persistent, known.contact);
                 }
             }
-            candidates.push(Candidate { pair, keys, hint, persistent, contact, until: f64::NEG_INFINITY });
+            *candidate = Candidate { pair, keys, hint, persistent, contact, until: f64::NEG_INFINITY };
             settled.ways.push(Way::Open);
         }
-        last.for_each(|gone| settled.give_up(gone));
+        last.iter().chain(slices.flatten()).for_each(|gone| settled.give_up(gone));
     }
 
     /// Moves manifolds along, or asks the narrow phase.
@@ -184,6 +198,13 @@ impl<S: Space> Asker<'_, S> {
         }
         approach([a, b], [self.motions.of(pair.a), self.motions.of(pair.b)])
     }
+}
+
+/// What is written over.
+fn blank<K: Key>() -> Candidate<K> {
+    let (pair, keys) = (PairId { a: 0, b: 0 }, (K::null(), K::null()));
+    let (persistent, contact) = (NOWHERE, ContactNumber::NONE);
+    Candidate { pair, keys, hint: Hint::NONE, persistent, contact, until: f64::NEG_INFINITY }
 }
 
 /// Whether what was learnt of a pair is about another shape than the one a body has now. Asked of every pair, and mostly there is

@@ -83,7 +83,7 @@ fn begin_chunks<S: Space>(world: &mut World<S>) -> bool {
     let starts = core::iter::once(&0).chain(&*chunk_ends);
     let longest = chunk_ends.iter().zip(starts).map(|(end, start)| end - start).max().unwrap_or(0);
     let are_many = chunk_ends.len() > 2 * pairs.len().div_ceil(size);
-    let do_most_rest = 2 * world.moved.len() < world.keys.len();
+    let do_most_rest = do_most_rest(&world.moved, &world.keys);
     let goes_on = do_most_rest && longest <= size && !are_many;
     if goes_on {
         candidates.begin_at(last_candidates.firsts().iter().copied());
@@ -96,6 +96,11 @@ fn begin_chunks<S: Space>(world: &mut World<S>) -> bool {
     records.begin_at(candidates.firsts().iter().copied());
     settled.iter_mut().for_each(Settled::wake);
     core::mem::replace(is_settled, true) && goes_on
+}
+
+/// Whether fewer than half of all bodies moved: then some chunks may go on.
+fn do_most_rest<K>(moved: &[u32], keys: &[K]) -> bool {
+    2 * moved.len() < keys.len()
 }
 
 /// Of chunks in which nothing can have changed, takes last update's lists as they are.
@@ -111,6 +116,8 @@ fn keep_quiet<S: Space>(world: &mut World<S>) {
         if settled[chunk].goes_on(pairs, is_moved) {
             settled[chunk].keep_quiet();
             core::mem::swap(&mut candidates.parts().1[chunk], &mut last_candidates.parts().1[chunk]);
+            // Who walks last update's candidates may come by.
+            last_candidates.parts().1[chunk].clear();
             core::mem::swap(&mut records.parts().1[chunk], &mut last_records.parts().1[chunk]);
             core::mem::swap(&mut answered[chunk], &mut last_answered[chunk]);
         }
@@ -121,7 +128,7 @@ fn keep_quiet<S: Space>(world: &mut World<S>) {
 /// manifolds may be written over. Cost: linear in what moved: where most bodies are at rest, nobody looks.
 fn does_any_stay<K: Key>(moved: &[u32], keys: &[K], tags: &[Tag], is_moved: &[bool]) -> bool {
     let mut bodies = keys.iter().zip(tags).zip(is_moved);
-    2 * moved.len() < keys.len()
+    do_most_rest(moved, keys)
         || bodies.any(|((key, tag), is_moved)| !is_moved && !tag.is_fixed() && !key.is_null())
 }
 
@@ -140,6 +147,7 @@ fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
 
 /// Works through the chunks.
 fn ask<S: Space>(world: &mut World<S>) {
+    let do_most_rest = do_most_rest(&world.moved, &world.keys);
     let World { bodies, keys, is_moved, reshaped, odometers, motions, persistent, .. } = world;
     let World { candidates, records, answered, scratch, .. } = world;
     let Scratch { pairs, chunk_ends, settled, spare, last_candidates, last_records, last_answered, .. } =
@@ -164,6 +172,7 @@ fn ask<S: Space>(world: &mut World<S>) {
         pairs,
         chunk_ends,
         firsts,
+        do_most_rest,
         last_candidates,
         last_records,
         last_answered,

@@ -27,8 +27,9 @@ struct Met {
 /// What a chunk hands over: what is everybody's is made of it when all chunks are done.
 #[derive(Debug)]
 pub(crate) struct Settled<S: Space> {
-    /// The chunk's pairs, as of when it was last looked at.
+    /// The chunk's pairs, as of when it was last looked at, if they were noted.
     pairs: Vec<PairId>,
+    are_noted: bool,
     /// Whether nobody looks at it in this update.
     is_quiet: bool,
     /// What is done about each pair.
@@ -76,6 +77,7 @@ impl<S: Space> Default for Settled<S> {
     fn default() -> Self {
         Self {
             pairs: Vec::new(),
+            are_noted: false,
             is_quiet: false,
             ways: Vec::new(),
             ended: Vec::new(),
@@ -92,6 +94,7 @@ impl<S: Space> Settled<S> {
     /// Of what was handed over, keeps the memory.
     pub(super) fn clear(&mut self) {
         self.pairs.clear();
+        self.are_noted = false;
         self.ways.clear();
         self.ended.clear();
         self.kept.clear();
@@ -100,17 +103,20 @@ impl<S: Space> Settled<S> {
         self.tally.clear();
     }
 
-    /// Begins with a chunk of these pairs.
-    pub(super) fn begin_with(&mut self, pairs: &[PairId]) {
+    /// Begins with a chunk of these pairs, which are noted if it may go on in the next update.
+    pub(super) fn begin_with(&mut self, pairs: &[PairId], may_go_on: bool) {
         self.clear();
-        self.pairs.extend_from_slice(pairs);
+        self.are_noted = may_go_on;
+        if may_go_on {
+            self.pairs.extend_from_slice(pairs);
+        }
     }
 
     /// Whether the chunk is what it was: the same pairs, nobody of them moved, and no contact of it was new at the last update. A
     /// body that came to the slot of another counts as moved.
     pub(super) fn goes_on(&self, pairs: &[PairId], is_moved: &[bool]) -> bool {
         let is_still = |pair: &PairId| !is_moved[pair.a as usize] && !is_moved[pair.b as usize];
-        self.tally.new == 0 && pairs == self.pairs && pairs.iter().all(is_still)
+        self.tally.new == 0 && self.are_noted && pairs == self.pairs && pairs.iter().all(is_still)
     }
 
     /// Somebody will look at it, unless it is kept quiet in this update as well.
