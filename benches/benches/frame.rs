@@ -2,7 +2,8 @@
 
 mod brief;
 
-use asunder::{Collider3, World3};
+use asunder::glam::{DVec3, Vec3};
+use asunder::{Collider3, Cuboid, Pose3, World3};
 use asunder_examples::falling::recorded;
 use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
 use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, frames3, pairs3};
@@ -29,6 +30,30 @@ fn frames(criterion: &mut Criterion) {
     }
     let heap = Falling::Boxes;
     frame(criterion, heap.name(), recorded(heap, 1005, 1).expect("boxes have mass"));
+}
+
+/// A block of boxes at rest, face to face, beside which one moves: what a frame costs in which next to nothing happens.
+fn asleep(criterion: &mut Criterion) {
+    const SIDE: usize = 20;
+    let mut world = World3::new();
+    let unit = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5)).expect("half a metre is in range"));
+    let pose = |at: DVec3| Pose3::at(at).expect("near the origin");
+    for cell in 0..SIDE.pow(3) {
+        let at = [cell % SIDE, cell / SIDE % SIDE, cell / SIDE / SIDE].map(|coordinate| coordinate as f64);
+        world.insert(unit.clone().at(pose(DVec3::from(at))));
+    }
+    let mover = world.insert(unit);
+    let mut frames = 0_u32;
+    criterion.bench_function(&format!("frame/asleep, {} bodies", world.len()), |bencher| {
+        bencher.iter(|| {
+            frames += 1;
+            // No body is ever removed.
+            let _ =
+                world.set_pose(mover, pose(DVec3::new(-50.0 + 0.01 * f64::from(frames % 1000), 0.0, 0.0)));
+            world.update();
+            world.stats().contacts
+        });
+    });
 }
 
 fn frame(criterion: &mut Criterion, name: &str, mut replay: Replay3) {
@@ -127,6 +152,6 @@ fn followed(criterion: &mut Criterion, kind: SolidKind) {
 criterion_group! {
     name = benches;
     config = brief::brief();
-    targets = frames, hints
+    targets = frames, asleep, hints
 }
 criterion_main!(benches);

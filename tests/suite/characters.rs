@@ -4,6 +4,7 @@
 mod edges;
 mod freeing;
 mod plane;
+mod pressed;
 mod rooms;
 pub(crate) mod stage;
 mod walking;

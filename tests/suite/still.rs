@@ -6,7 +6,7 @@
 use crate::stored::Stored;
 use asunder::{Collider, Hooks, Plane, Volume, World};
 use asunder_tests::cases::Random;
-use asunder_tests::engine::{Change, Engine};
+use asunder_tests::engine::{Change, Traits};
 
 /// A crowd of bodies that touch one another, among whom a few things happen in each frame, and nothing in some.
 fn live<S: Stored>(seed: u128, (count, room): (usize, f64), frames: usize) {
@@ -14,10 +14,7 @@ fn live<S: Stored>(seed: u128, (count, room): (usize, f64), frames: usize) {
     let mut world = World::<S>::new();
     let body = |random: &mut Random| -> Collider<S> {
         let body = S::random_body(random, room);
-        S::with_traits(
-            &body,
-            asunder_tests::engine::Traits { fixed: false, ..asunder_tests::engine::Traits::of(&body) },
-        )
+        S::with_traits(&body, Traits { fixed: false, ..Traits::of(&body) })
     };
     let mut keys: Vec<S::Key> = (0..count).map(|_| S::insert(&mut world, body(&mut random))).collect();
     world.update();

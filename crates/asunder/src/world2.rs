@@ -147,7 +147,8 @@ impl World<Plane> {
     /// way, and the first body that is not one. A body that the bullet overlaps at the start is a contact and not listed here.
     /// If it has several parts (a level in one piece), the parts that the bullet does not touch, such as the walls, still
     /// count: see [`Pair2::next_impact`](crate::Pair2::next_impact). Whatever is flush with what the bullet touches, like the
-    /// next tile of a floor, is passed over: [`next_impact_beside`](crate::Pair2::next_impact_beside).
+    /// next tile of a floor, is passed over: [`next_impact_beside`](crate::Pair2::next_impact_beside). The motions of both count: a
+    /// ray, which sees bodies where they stand, may tell of another place.
     pub fn impacts(&self) -> &[Hit2] {
         &self.impacts
     }

@@ -2,7 +2,7 @@
 
 use super::{Freed, Gap, Linear, Walks};
 use crate::collider::Collider;
-use crate::query::{Filter, Met, boxes_over};
+use crate::query::{Filter, Met, bodies_along_ray, boxes_over};
 use crate::space::Space;
 use crate::world::{World, slot_of};
 use asunder_narrow::ArrayVec;
@@ -46,7 +46,7 @@ pub(super) type At<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
 ///   push out of all planes at once
 /// ```
 /// The deepest alone comes first since among tiles of a floor it is the only one that matters: the sides of its
-/// neighbours, of which the shape overlaps a little, would push it sideways.
+/// neighbours, of which the shape overlaps a little, would push it sideways. No push takes the middle through ground.
 pub(super) fn free<S: Walks>(
     world: &World<S>,
     (shape, start): At<'_, S>,
@@ -75,16 +75,40 @@ pub(super) fn free<S: Walks>(
         }
         // In a gap too narrow to be clear of both sides, less has to do.
         let target = if round < ROUNDS / 2 { target } else { target / 16.0 };
-        let alone = S::moved(&pose, deepest.away * (target - deepest.gap));
-        if let Some(pose) = alone.filter(|pose| !overlaps(pose)) {
-            return found(pose, true);
+        let way = deepest.away * (target - deepest.gap);
+        let alone = S::moved(&pose, way).filter(|moved| !overlaps(moved));
+        if let Some(moved) = alone.filter(|_| share_before_ground(world, (shape, &pose), way, filter) >= 1.0)
+        {
+            return found(moved, true);
         }
-        match S::moved(&pose, push::<S>(&near, target)) {
+        let way = push::<S>(&near, target);
+        let share = share_before_ground(world, (shape, &pose), way, filter);
+        match S::moved(&pose, way * share) {
             Some(pushed) => pose = pushed,
             None => break,
         }
     }
     found(best.1, false)
+}
+
+/// How much of a way may be gone: all of it, unless the shape's middle would go through ground, from a side that is solid. Beyond,
+/// that ground would be nothing that the shape overlaps, and who is pressed against it would count as free there.
+fn share_before_ground<S: Walks>(
+    world: &World<S>,
+    at: At<'_, S>,
+    way: S::Point,
+    filter: &Filter<'_, S>,
+) -> f64 {
+    let Some(ray) = S::ray(S::middle(at), way) else { return 1.0 };
+    let mut share = 1.0_f64;
+    let _ = bodies_along_ray(world, &ray, 1.0, filter).visit(|hit| {
+        if !hit.inside && world.bodies.get(hit.body).is_some_and(|body| S::is_ground(&body.shape)) {
+            // Not quite to where a middle is on neither side.
+            share = share.min(hit.distance * 0.9);
+        }
+        ControlFlow::Continue(())
+    });
+    share
 }
 
 /// The shortest way to be `target` metres clear of all planes, nearly; somewhere in between where there is none.
