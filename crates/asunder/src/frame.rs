@@ -5,8 +5,8 @@
 //! 1. **refit**: a box is a function of one body alone.
 //! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between
 //!    updates.
-//! 3. **collide**: an answer is a function of one job; chunks of pairs are cut by counts, never by thread, and are put
-//!    together in order. A hint can save work, and choose among features that are equally good up to rounding. Where the bodies
+//! 3. **collide**: an answer is a function of one job; chunks of pairs are cut by counts, or where they were cut last time, never by
+//!    thread, and are put together in order. A hint can save work, and choose among features that are equally good up to rounding. Where the bodies
 //!    hardly drifted since their manifold was made, it is moved along, within its error. Where neither body moved, or
 //!    they were apart by more than they went since, the answer is last update's.
 //!    What was before is found by walking two lists sorted by pair, side by side.

@@ -236,6 +236,13 @@ mod tests {
             let expected: Vec<PairId> = all.iter().copied().filter(|&of| of >= pair(a)).collect();
             assert_eq!(from, expected, "from {a}");
             assert_eq!(records.from(pair(a)).len(), from.len());
+            for end in [a, a + 7, a + CHUNK as u32].map(pair) {
+                let some = records.between(Some(pair(a)), Some(end)).flatten().map(|record| record.pair);
+                assert!(some.eq(expected.iter().copied().filter(|&of| of < end)), "from {a} to {end:?}");
+                let before = records.between(None, Some(end)).flatten().map(|record| record.pair);
+                assert!(before.eq(all.iter().copied().filter(|&of| of < end)), "to {end:?}");
+            }
+            assert!(records.between(Some(pair(a)), None).flatten().map(|record| record.pair).eq(from));
             assert!(records.from(pair(a)).all(|(number, record)| records.get(number).pair == record.pair));
         }
         let left = records.begin_at([]);

@@ -162,7 +162,8 @@ impl<S: Space> Asker<'_, S> {
             let Way::Open = way else { continue };
             let Candidate { pair, keys, hint, persistent, .. } = *candidate;
             let Some((a, b)) = self.bodies.get(keys.0).zip(self.bodies.get(keys.1)) else { continue };
-            if (a.bullet || b.bullet) && self.has_motion(pair) {
+            // Who is on its way has changed, and none of its pairs is carried on: all of them come by here.
+            if (a.bullet || b.bullet) && self.is_going(pair) {
                 let both = [(a.bullet, keys), (b.bullet, (keys.1, keys.0))];
                 bullets.extend(both.into_iter().filter_map(|(is_bullet, keys)| is_bullet.then_some(keys)));
             }
@@ -183,11 +184,6 @@ impl<S: Space> Asker<'_, S> {
             }
         }
         S::collide(&jobs, answered);
-    }
-
-    /// Whether either of the two is on its way. Such a body has changed, and none of its pairs is carried on.
-    fn has_motion(&self, pair: PairId) -> bool {
-        self.motions.of(pair.a).is_some() || self.motions.of(pair.b).is_some()
     }
 
     /// By how much the bodies' motions may bring them nearer. A sensor looks no further than it reaches.

@@ -53,15 +53,16 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
         return;
     }
     let World { answered, scratch, .. } = world;
-    let does_any_stay = does_any_stay(&world.moved, &world.keys, &world.tags, &world.is_moved);
+    let do_most_rest = 2 * world.moved.len() < world.keys.len();
+    let does_any_stay = do_most_rest || does_any_stay(&world.keys, &world.tags, &world.is_moved);
     if does_any_stay {
         core::mem::swap(answered, &mut scratch.last_answered);
     }
     world.reshaped.sort_unstable();
-    if begin_chunks(world) && does_any_stay {
+    if begin_chunks(world, do_most_rest) {
         keep_quiet(world);
     }
-    ask(world);
+    ask(world, do_most_rest);
     if !does_any_stay {
         make_room_as_in(&world.answered, &mut world.scratch.last_answered);
     }
@@ -74,7 +75,7 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
 /// Puts last update's lists aside, and begins with chunks: where most bodies are at rest, of those that were, as long as none
 /// grows too large and there are not far too many; else they are cut anew. Whether what the chunks handed over last is still of
 /// these chunks.
-fn begin_chunks<S: Space>(world: &mut World<S>) -> bool {
+fn begin_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) -> bool {
     let World { candidates, records, scratch, .. } = world;
     let Scratch { pairs, chunk_ends, settled, is_settled, last_candidates, last_records, .. } = scratch;
     // Of a world's first pairs, all are asked about.
@@ -86,7 +87,6 @@ fn begin_chunks<S: Space>(world: &mut World<S>) -> bool {
     let starts = core::iter::once(&0).chain(&*chunk_ends);
     let longest = chunk_ends.iter().zip(starts).map(|(end, start)| end - start).max().unwrap_or(0);
     let are_many = chunk_ends.len() > 2 * pairs.len().div_ceil(size);
-    let do_most_rest = do_most_rest(&world.moved, &world.keys);
     let goes_on = do_most_rest && longest <= size && !are_many;
     if goes_on {
         candidates.begin_at(last_candidates.firsts().iter().copied());
@@ -99,11 +99,6 @@ fn begin_chunks<S: Space>(world: &mut World<S>) -> bool {
     records.begin_at(candidates.firsts().iter().copied());
     settled.iter_mut().for_each(Settled::wake);
     core::mem::replace(is_settled, true) && goes_on
-}
-
-/// Whether fewer than half of all bodies moved: then some chunks may go on.
-fn do_most_rest<K>(moved: &[u32], keys: &[K]) -> bool {
-    2 * moved.len() < keys.len()
 }
 
 /// Of chunks in which nothing can have changed, takes last update's lists as they are.
@@ -128,11 +123,10 @@ fn keep_quiet<S: Space>(world: &mut World<S>) {
 }
 
 /// Whether a body may stay where it is that may meet another that does: else no contact is carried on, and last update's
-/// manifolds may be written over. Cost: linear in what moved: where most bodies are at rest, nobody looks.
-fn does_any_stay<K: Key>(moved: &[u32], keys: &[K], tags: &[Tag], is_moved: &[bool]) -> bool {
+/// manifolds may be written over. Cost: linear in all bodies: where most are at rest, nobody asks.
+fn does_any_stay<K: Key>(keys: &[K], tags: &[Tag], is_moved: &[bool]) -> bool {
     let mut bodies = keys.iter().zip(tags).zip(is_moved);
-    do_most_rest(moved, keys)
-        || bodies.any(|((key, tag), is_moved)| !is_moved && !tag.is_fixed() && !key.is_null())
+    bodies.any(|((key, tag), is_moved)| !is_moved && !tag.is_fixed() && !key.is_null())
 }
 
 /// Makes the lists that were not needed as roomy as the others: so that a body that stays allocates nothing then, and memory
@@ -149,8 +143,7 @@ fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
 }
 
 /// Works through the chunks.
-fn ask<S: Space>(world: &mut World<S>) {
-    let do_most_rest = do_most_rest(&world.moved, &world.keys);
+fn ask<S: Space>(world: &mut World<S>, do_most_rest: bool) {
     let World { bodies, keys, is_moved, reshaped, odometers, motions, persistent, .. } = world;
     let World { candidates, records, answered, scratch, .. } = world;
     let Scratch { pairs, chunk_ends, settled, spare, last_candidates, last_records, last_answered, .. } =

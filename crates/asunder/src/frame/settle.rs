@@ -263,7 +263,7 @@ impl<S: Space> Asker<'_, S> {
 
     /// Whether either body has a motion: what that may bring is looked for within other margins in every frame.
     #[inline]
-    fn is_going(&self, pair: PairId) -> bool {
+    pub(super) fn is_going(&self, pair: PairId) -> bool {
         let motions = self.motions;
         !motions.is_empty() && (motions.of(pair.a).is_some() || motions.of(pair.b).is_some())
     }
