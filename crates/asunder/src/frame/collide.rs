@@ -21,7 +21,7 @@
 //!    memory in turn: 1.03 times as fast;
 //! 8. what is kept to be moved along in 248 bytes in place of 304, points by one of their ends: 1.03 to 1.06 times;
 //! 9. chunks in which nothing moved are not looked at, and chunks go on for that: a heap of 8,000 boxes at rest, 93,560 pairs, in
-//!    0.3 ms in place of 9 (Intel Xeon, family 6 model 106, one thread, 2026-11-27; `frame/asleep` of the bench `frame`). Where all
+//!    0.3 ms in place of 8 (Intel Xeon, family 6 model 106, one thread, 2026-11-27; `frame/asleep` of the bench `frame`). Where all
 //!    move, 2 % more instructions. Tried: going on there as well, with room to grow: lists took longer to come to their largest.
 //!
 //! Tried, on one thread (medians of runs next to each other, on a busy machine): chunks of 128 pairs, 9 % slower than 256: each
