@@ -298,9 +298,8 @@ impl<S: Judged> NaiveWorld<S> {
                 manifolds.into_iter().take(most).collect()
             });
             let before = self.records.get(&slots).filter(|before| before.keys == record.keys);
-            // With a margin, a contact outlives the touch; not with another shape, and not for what a motion may bring.
-            let is_over = record.speculative || is_reshaped && !record.overlapping;
-            let had_begun = before.is_some_and(|before| before.begun) && !is_over;
+            // With a margin, a contact outlives the touch; not for what a motion may bring.
+            let had_begun = before.is_some_and(|before| before.begun) && !record.speculative;
             record.begun = had_begun || record.overlapping;
             record.is_new = record.overlapping && !had_begun;
             records.insert(slots, record);

@@ -62,6 +62,29 @@ fn ground_is_fixed_whatever_is_said() {
 }
 
 #[test]
+fn a_crater_ends_what_lay_where_it_is_and_nothing_else() {
+    let mut world = World3::new();
+    let heights = |crater: f32| (0..81).map(|i| if i == 30 { -crater } else { 0.0 }).collect::<Vec<f32>>();
+    let field = |crater: f32| HeightField::new(9, 9, heights(crater), Vec2::ONE).unwrap();
+    let ground = world.insert(Collider3::new(field(0.0)).margin(0.01).unwrap());
+    let ball = Collider3::new(Sphere::new(0.5).unwrap()).margin(0.01).unwrap();
+    let feet = [[3.0, 0.5, 3.0], [6.0, 0.5, 6.0]].map(|place| Pose3::at(place).unwrap());
+    let [over, aside] = feet.map(|pose| world.insert(ball.clone().at(pose)));
+    world.update();
+    assert_eq!(world.events().len(), 2);
+    for (key, pose) in [over, aside].into_iter().zip(feet) {
+        world.set_pose(key, pose.shifted(DVec3::Y * 0.005).unwrap()).unwrap();
+    }
+    world.update();
+    assert_eq!(world.events(), [], "a margin is a hysteresis");
+    world.set_shape(ground, field(2.0)).unwrap();
+    world.update();
+    let expected = Event::Ended { a: ground, b: over, user_data_a: 0, user_data_b: 0, sensor: false };
+    assert_eq!(world.events(), [expected]);
+    assert!(world.is_touching(ground, aside) && !world.contact(ground, aside).unwrap().overlapping);
+}
+
+#[test]
 fn a_slide_over_hundreds_of_triangles_begins_once_and_ends_once() {
     let grounds: [(Shape3, DVec3); 2] =
         [(floor(24).into(), DVec3::ZERO), (field(24).into(), DVec3::new(-12.0, 0.0, -12.0))];

@@ -202,8 +202,8 @@ impl World<Plane> {
         Ok(Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 
-    /// Gives a body another shape. A contact goes on if the bodies touch with the new shape; if they are only within their
-    /// margins it ends at the next update. Setting an equal shape ends nothing. A body that becomes ground becomes fixed, and
+    /// Gives a body another shape. A contact goes on as long as the bodies are within their margins, as it does when they move: what
+    /// lies on a level that is changed elsewhere does not begin anew. A body that becomes ground becomes fixed, and
     /// stays so when it gets another shape later: [`set_fixed`](Self::set_fixed) makes it free again.
     ///
     /// # Errors

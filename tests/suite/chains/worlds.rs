@@ -31,6 +31,28 @@ fn ground_is_fixed_whatever_is_said() {
 }
 
 #[test]
+fn a_ditch_ends_what_lay_where_it_is_and_nothing_else() {
+    let mut world = World2::new();
+    let line = |depth: f32| [(8.0, 0.0), (4.0, 0.0), (3.0, -depth), (2.0, 0.0), (-2.0, 0.0)].map(Vec2::from);
+    let chain = |depth: f32| Chain::open(line(depth).to_vec()).unwrap().one_sided();
+    let ground = world.insert(Collider2::new(chain(0.0)).margin(0.01).unwrap());
+    let ball = Collider2::new(Circle::new(0.5).unwrap()).margin(0.01).unwrap();
+    let [over, aside] = [3.0, 6.0].map(|x| world.insert(ball.clone().at(at(x, 0.5))));
+    world.update();
+    assert_eq!(world.events().len(), 2);
+    for (key, x) in [(over, 3.0), (aside, 6.0)] {
+        world.set_pose(key, at(x, 0.505)).unwrap();
+    }
+    world.update();
+    assert_eq!(world.events(), [], "a margin is a hysteresis");
+    world.set_shape(ground, chain(2.0)).unwrap();
+    world.update();
+    let expected = Event::Ended { a: ground, b: over, user_data_a: 0, user_data_b: 0, sensor: false };
+    assert_eq!(world.events(), [expected]);
+    assert!(world.is_touching(ground, aside) && !world.contact(ground, aside).unwrap().overlapping);
+}
+
+#[test]
 fn a_slide_over_hundreds_of_segments_begins_once_and_ends_once() {
     for (name, body, foot) in &sliders() {
         let mut world = World2::new();

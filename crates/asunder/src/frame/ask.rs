@@ -206,7 +206,7 @@ fn blank<K: Key>() -> Candidate<K> {
 /// Whether what was learnt of a pair is about another shape than the one a body has now. Asked of every pair, and mostly there is
 /// no such body: then it is no call.
 #[inline(always)]
-pub(super) fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
+fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
     !reshaped.is_empty() && is_either_among(reshaped, pair)
 }
 

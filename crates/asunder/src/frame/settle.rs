@@ -3,7 +3,7 @@
 //! A candidate knows the number of its contact and whether that had begun, so that a contact that goes on is not looked up in
 //! last update's list.
 
-use super::ask::{Asker, Chunk, Way, manifolds_at, of_another_shape};
+use super::ask::{Asker, Chunk, Way, manifolds_at};
 use crate::collider::Collider;
 use crate::contact::{Candidate, ContactNumber, Place, Record};
 use crate::odometer::Odometer;
@@ -155,14 +155,12 @@ impl<S: Space> Settled<S> {
 
     /// Whether a contact has begun, and is new: what had begun goes on, until it is over.
     #[inline(always)]
-    fn begin(&mut self, record: &mut Record<S::Key>, before: ContactNumber, is_reshaped: bool) {
-        // The margin's memory does not outlive a shape: a contact that the new one does not touch is over. So is one beyond the
-        // margin, whatever a motion may bring.
-        let is_over = record.speculative || (is_reshaped && !record.overlapping);
-        if is_over {
+    fn begin(&mut self, record: &mut Record<S::Key>, before: ContactNumber) {
+        // One beyond the margin is over, whatever a motion may bring.
+        if record.speculative {
             self.set_aside(before);
         }
-        let had_begun = !is_over && before.begun().is_some();
+        let had_begun = !record.speculative && before.begun().is_some();
         record.begun = record.overlapping || had_begun;
         record.is_new = record.begun && !had_begun;
     }
@@ -209,7 +207,7 @@ impl<S: Space> Asker<'_, S> {
             };
             candidate.contact = match record {
                 Some(mut record) => {
-                    settled.begin(&mut record, before, of_another_shape(self.reshaped, candidate.pair));
+                    settled.begin(&mut record, before);
                     settled.tally.count(&record);
                     let number = chunk as usize * CHUNK + records.len();
                     records.push(record);
