@@ -5,10 +5,11 @@
 //! times as fast frame by frame, and 1.08 to 1.26 block by block (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22). So each
 //! side plays some frames in a row, and the first of them are not counted.
 //!
-//! Threads that slept while others took their turn are woken on one processor, and moved apart by the system after some tens of
-//! milliseconds: of two threads the first 2 to 11 frames of a block took as long as one thread's (AMD EPYC, Zen 5, 2 virtual cores, Linux
-//! 6.18, 2026-11-25); the figures above hold that, too. Where one frame follows the other at once it does not happen, so threads are
-//! [`spread`] before each block. What a game can do about it stands in the guide's page on game loops.
+//! Threads that slept while others took their turn are woken on one processor, and moved apart by the system after some
+//! tens of milliseconds: of two threads the first 2 to 11 frames of a block took as long as one thread's (AMD EPYC, Zen
+//! 5, 2 virtual cores, Linux 6.18, 2026-11-25); the figures above hold that, too. Where one frame follows the other at
+//! once it does not happen, so threads are [`spread`] before each block. What a game can do about it stands in the
+//! guide's page on game loops.
 
 use core::ops::Range;
 use rayon::ThreadPool;
@@ -17,7 +18,8 @@ use std::time::{Duration, Instant};
 /// How long all threads of a pool are kept busy until each has a processor of its own: some ticks of the system's clock.
 const SPREAD: Duration = Duration::from_millis(60);
 
-/// Keeps all threads of a pool busy for some ticks of the system's clock, so that each has a processor of its own, if there is one.
+/// Keeps all threads of a pool busy for some ticks of the system's clock, so that each has a processor of its own, if
+/// there is one.
 ///
 /// ```
 /// let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;

@@ -4,8 +4,8 @@
 //! scratch, sweep and order, are reported apart. parry3d's is the unsorted list of the best of its ways to bring a tree
 //! up to date (`peer.rs` lists them). Every frame all of them must find equally many pairs, and ours equal lists.
 //!
-//! [`rows`] hands the same out as data, [`threads`] holds several threads against one, [`queries`] asks a structure of resting boxes,
-//! [`growth`] watches the cost of boxes that are laid out to hurt.
+//! [`rows`] hands the same out as data, [`threads`] holds several threads against one, [`queries`] asks a structure of
+//! resting boxes, [`growth`] watches the cost of boxes that are laid out to hurt.
 
 pub mod figures;
 pub mod growth;

@@ -27,10 +27,11 @@
 //!   "apart" is wrong in [`GapRow`] alone, under the decade -99. A positive "depth" counts as "apart".
 //! - **Refused**: a NaN, also in the normal, a panic, or a shape that a method will not have. It is not wrong, and has
 //!   no error. A peer's panics are caught; the program's panic hook still prints them.
-//! - **Time**: thread CPU time. All methods take turns on chunks of 128 pairs, who is first changing from chunk to chunk,
-//!   each after a chunk that is not timed; a round over all chunks gives one sample a method, and the row has their median and quartiles
-//!   ([`Samples::spread`](crate::clock::Samples::spread)). Timed are the first pairs of a group, which hold every kind
-//!   and level in turn; what is timed is what is judged. Making a pair's relative pose is part of the question.
+//! - **Time**: thread CPU time. All methods take turns on chunks of 128 pairs, who is first changing from chunk to
+//!   chunk, each after a chunk that is not timed; a round over all chunks gives one sample a method, and the row has
+//!   their median and quartiles ([`Samples::spread`](crate::clock::Samples::spread)). Timed are the first pairs of a
+//!   group, which hold every kind and level in turn; what is timed is what is judged. Making a pair's relative pose is
+//!   part of the question.
 //!
 //! In the plane there is no peer. Groups stand in `groups.rs`, measures of stability in `stability.rs`.
 

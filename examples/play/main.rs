@@ -1,9 +1,9 @@
 //! Plays a scene and says what it cost: `cargo run --release --example play -- --help`.
 //!
 //! The engine answers what touches; the stepper around it (`asunder_examples::stepper`) gives bodies mass and lets
-//! contacts push them apart; `asunder_examples::game` drives, counts and lets bullets fly. The default scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Named
-//! scenes are described in `asunder_scenes::stages`, scene files in `asunder_scenes::level`, recordings in
-//! `asunder_examples::recording`.
+//! contacts push them apart; `asunder_examples::game` drives, counts and lets bullets fly. The default scene drops
+//! crates, rocks, prisms, balls, capsules and hammers on a floor. Named scenes are described in
+//! `asunder_scenes::stages`, scene files in `asunder_scenes::level`, recordings in `asunder_examples::recording`.
 
 mod heap;
 

@@ -113,9 +113,9 @@ fn bytes_after<S: Asker>(rounds: usize, room: f64) -> Vec<i64> {
 }
 
 fn check<S: Asker>(room: f64) {
-    // Slots are filled in another order in each round, so that pairs are, too, and lists of chunks differ a little: by 60 kB up or
-    // down, of 15 MB, from the third round to the tenth, and until then the largest of each is still to come. A byte an operation
-    // would be eight times as much.
+    // Slots are filled in another order in each round, so that pairs are, too, and lists of chunks differ a little: by
+    // 60 kB up or down, of 15 MB, from the third round to the tenth, and until then the largest of each is still to
+    // come. A byte an operation would be eight times as much.
     let held = bytes_after::<S>(6, room);
     assert!(held[5] - held[3] < ROUND as i64 / 4, "{held:?} bytes after so many rounds");
 }

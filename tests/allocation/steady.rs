@@ -194,8 +194,9 @@ fn nor_do_hooks() {
 /// Frames after which a room is as it was.
 const ROOM_CYCLE: u32 = 12;
 
-/// What the eighth cycle allocates in a room with ground, when a sweep has tried what it tries now and then: half of the bodies are elsewhere in every frame, the others, bullets
-/// among them, are given motions, and between two updates everything is asked.
+/// What the eighth cycle allocates in a room with ground, when a sweep has tried what it tries now and then: half of
+/// the bodies are elsewhere in every frame, the others, bullets among them, are given motions, and between two updates
+/// everything is asked.
 fn allocations_in_a_room<S: Asker>(threads: usize) -> u64 {
     counted(threads, || {
         let mut random = Random::new(92);

@@ -435,8 +435,8 @@ fn whether_a_ray_starts_inside_is_what_the_shape_says_of_its_corners() {
     assert_eq!(cast_ray2(&floor, &Pose2::IDENTITY, &along, f64::INFINITY), None);
 }
 
-/// Symptom: a ray at a turned circle of a hundred kilometres was 0.8 mm off, with an error of 1e-8 m. Cause: cosines and sines are
-/// rounded, and stretched the radius with all else, which they do not.
+/// Symptom: a ray at a turned circle of a hundred kilometres was 0.8 mm off, with an error of 1e-8 m. Cause: cosines
+/// and sines are rounded, and stretched the radius with all else, which they do not.
 #[test]
 fn radii_are_not_turned_and_not_stretched() {
     let mut random = Random::new(0xC1BC);

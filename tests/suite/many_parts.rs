@@ -198,8 +198,8 @@ fn check_motions(random: &mut Random, both: &[Body; 2], round: usize) -> usize {
     met
 }
 
-/// Bodies that drift past each other, with what the frame before left, as a world asks: into each other, out again, and apart, where a
-/// direction that parted them is tried first.
+/// Bodies that drift past each other, with what the frame before left, as a world asks: into each other, out again, and
+/// apart, where a direction that parted them is tried first.
 #[test]
 fn memory_changes_nothing_of_many_parts() {
     let mut random = Random::new(8150);

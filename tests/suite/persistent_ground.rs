@@ -122,8 +122,8 @@ fn stands(ground: &(&str, Terrain, Shape3), random: &mut Random, count: usize) -
     stands
 }
 
-/// Symptom: a box with a corner a millimetre from the next bend of ground was asked about anew after a tenth of that. Cause: where a
-/// point might leave its features at the end of the longest way, all of the way was charged for.
+/// Symptom: a box with a corner a millimetre from the next bend of ground was asked about anew after a tenth of that.
+/// Cause: where a point might leave its features at the end of the longest way, all of the way was charged for.
 #[test]
 fn a_box_on_a_roof_is_moved_along_up_to_the_ridge() {
     let mut random = Random::new(0x5EA7);

@@ -8,8 +8,9 @@
 //! | drifting-depth | the same, carried along and turned for 1e4 frames, rotations as products of f32 that nobody normalises | the depth less the true depth of the stored poses, over the size | each frame |
 //! | standing-stack | ten bodies upon each other under gravity for 5 s, our solver on our contacts | how far a body came from where it was put | each body |
 //!
-//! Faces lie within faces; in `aligned` ones a box lies exactly upon its like. In `cached` shapes contact points are asked for with what the frame before left. The textbook has no contact points,
-//! and parry3d no solver here. What a method refuses to answer is no sample.
+//! Faces lie within faces; in `aligned` ones a box lies exactly upon its like. In `cached` shapes contact points are
+//! asked for with what the frame before left. The textbook has no contact points, and parry3d no solver here. What a
+//! method refuses to answer is no sample.
 
 use super::StabilityRow;
 use super::methods::bodies3;

@@ -1,4 +1,5 @@
-//! README's part: four plots, one table of headlines and the rest folded away, and the losses, between two marks, from saved data alone.
+//! README's part: four plots, one table of headlines and the rest folded away, and the losses, between two marks, from
+//! saved data alone.
 
 use super::data::{Data, Section};
 use super::losses::of_kept;

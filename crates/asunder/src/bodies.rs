@@ -129,8 +129,8 @@ impl<S: Space> World<S> {
     }
 }
 
-/// Adds one of so many slots to a list of some, in which it may be already: those that come again and again before an update take no
-/// room each time.
+/// Adds one of so many slots to a list of some, in which it may be already: those that come again and again before an
+/// update take no room each time.
 pub(crate) fn note_slot(list: &mut Vec<u32>, slot: u32, slots: usize) {
     if list.len() >= 2 * slots {
         list.sort_unstable();

@@ -164,14 +164,14 @@ pub struct Slide<K, O, N, P> {
     pub moved: P,
     /// What it stands on at the end, if it does: ground no steeper than it can walk on, or the edge of a step.
     pub ground: Option<Obstacle<K, N, P>>,
-    /// What it met that it cannot stand on or does not get up on, walls, ceilings and kerbs, in the order in which it met them; first
-    /// upright walls that it was closer to than its skin, and goes into. No more than eight. Whoever did not go all of the way is told why
-    /// here, or by `ground`; ground that turned a jump aside is told nowhere.
+    /// What it met that it cannot stand on or does not get up on, walls, ceilings and kerbs, in the order in which it
+    /// met them; first upright walls that it was closer to than its skin, and goes into. No more than eight. Whoever
+    /// did not go all of the way is told why here, or by `ground`; ground that turned a jump aside is told nowhere.
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
     pub blocked: bool,
-    /// Whether it overlaps no solid now, one-sided ground that it came through from behind aside. Always so where it overlapped none
-    /// before; exact.
+    /// Whether it overlaps no solid now, one-sided ground that it came through from behind aside. Always so where it
+    /// overlapped none before; exact.
     pub is_free: bool,
 }
 

@@ -4,11 +4,12 @@ use crate::space::{Plane, Space, Volume};
 use crate::world::StaleKey;
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 
-/// Which groups a body is in, and which it meets. Two bodies pair only if each is in a group that the other meets. A body that says
-/// nothing is in all groups: a coin that meets players alone meets every crate that was given no layers, too.
+/// Which groups a body is in, and which it meets. Two bodies pair only if each is in a group that the other meets. A
+/// body that says nothing is in all groups: a coin that meets players alone meets every crate that was given no layers,
+/// too.
 ///
-/// Boxes that overlap are found before anybody asks for their layers, and cost time: 10,000 bodies in one spot, on a layer that does not
-/// meet itself, take a third of a second when they come.
+/// Boxes that overlap are found before anybody asks for their layers, and cost time: 10,000 bodies in one spot, on a
+/// layer that does not meet itself, take a third of a second when they come.
 ///
 /// ```
 /// use asunder::Layers;
@@ -246,9 +247,9 @@ impl<S: Space> Collider<S> {
         }
     }
 
-    /// Marks a body of the level: two fixed bodies never pair. It may still be moved by `set_pose`. Ground, which
-    /// is a [`TriMesh`](crate::TriMesh), a [`HeightField`](crate::HeightField) or a [`Chain`](crate::Chain), is fixed without being
-    /// told.
+    /// Marks a body of the level: two fixed bodies never pair. It may still be moved by `set_pose`. Ground, which is a
+    /// [`TriMesh`](crate::TriMesh), a [`HeightField`](crate::HeightField) or a [`Chain`](crate::Chain), is fixed
+    /// without being told.
     #[must_use]
     pub fn fixed(mut self) -> Self {
         self.fixed = true;

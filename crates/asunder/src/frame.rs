@@ -5,11 +5,11 @@
 //! 1. **refit**: a box is a function of one body alone.
 //! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between
 //!    updates.
-//! 3. **collide**: an answer is a function of one job; chunks of pairs are cut by counts, or where they were cut last time, never by
-//!    thread, and are put together in order. A hint can save work, and choose among features that are equally good up to rounding. Where the bodies
-//!    hardly drifted since their manifold was made, it is moved along, within its error. Where neither body moved, or
-//!    they were apart by more than they went since, the answer is last update's.
-//!    What was before is found by walking two lists sorted by pair, side by side.
+//! 3. **collide**: an answer is a function of one job; chunks of pairs are cut by counts, or where they were cut last
+//!    time, never by thread, and are put together in order. A hint can save work, and choose among features that are
+//!    equally good up to rounding. Where the bodies hardly drifted since their manifold was made, it is moved along,
+//!    within its error. Where neither body moved, or they were apart by more than they went since, the answer is last
+//!    update's. What was before is found by walking two lists sorted by pair, side by side.
 //! 4. **merge**: what the chunks found, in their order.
 //! 5. **report**: events in pair order.
 //!
@@ -71,8 +71,8 @@ impl<S: Space> World<S> {
 /// The stages, one after the other.
 pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     let Stats { candidates, contacts, touching, manifolds, .. } = world.stats;
-    // If a hook panics, last update's events and impacts must not be taken for this one's; candidates and contacts are, and so are their
-    // counts.
+    // If a hook panics, last update's events and impacts must not be taken for this one's; candidates and contacts are,
+    // and so are their counts.
     world.events.clear();
     world.impacts.clear();
     world.mark_kept_motions();

@@ -104,8 +104,9 @@ impl<'a, S: Space> Hooks<'a, S> {
     /// agree. A refused pair is not a candidate: a contact that it had ends, and a bullet of it does not run into the other.
     /// It still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are asked.
     ///
-    /// If a pair hook panics and the game goes on, candidates and contacts stay those of the update before, none of them new; there are
-    /// no events and no impacts, and motions are kept. The next update tells all that has begun and ended since.
+    /// If a pair hook panics and the game goes on, candidates and contacts stay those of the update before, none of
+    /// them new; there are no events and no impacts, and motions are kept. The next update tells all that has begun and
+    /// ended since.
     #[must_use]
     pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
         self.pair = Some(may_meet);

@@ -3,8 +3,8 @@
 //! A list in one piece would be written twice: nobody knows where a chunk's contacts go before all others are counted. Tried:
 //! putting 30,000 of them together took 7 % of the frame (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
 //!
-//! Chunks go on from one update to the next, as long as none grows too large. So a chunk of which nothing moved is what it was, and
-//! is not looked at: see `frame::collide`.
+//! Chunks go on from one update to the next, as long as none grows too large. So a chunk of which nothing moved is what
+//! it was, and is not looked at: see `frame::collide`.
 
 use crate::contact::{Candidate, Record};
 use asunder_broad::PairId;
@@ -21,9 +21,10 @@ const FEW: usize = 256;
 /// Most pairs in a chunk, of so many, where of last update's so many were asked about: enough chunks to share out, and no more.
 /// Each has lists of its own, and begins with waiting for each of them: some 3 us (AMD EPYC, Zen 4, 2026-11-23).
 ///
-/// To ask takes some ten times as long as all else: a crowd has 1,300 pairs, all of them asked about, and in chunks of 256 they
-/// took 16 threads 1.0 ms, of 128 0.7 and of 64 0.6 (Intel Xeon, family 6 model 207, 16 virtual cores, 2026-11-26); where few are, 64 pairs are not worth a
-/// chunk (boxes at rest 8 % slower). Who comes to rest leaves the lists of both kinds behind. Never by the number of threads.
+/// To ask takes some ten times as long as all else: a crowd has 1,300 pairs, all of them asked about, and in chunks of
+/// 256 they took 16 threads 1.0 ms, of 128 0.7 and of 64 0.6 (Intel Xeon, family 6 model 207, 16 virtual cores,
+/// 2026-11-26); where few are, 64 pairs are not worth a chunk (boxes at rest 8 % slower). Who comes to rest leaves the
+/// lists of both kinds behind. Never by the number of threads.
 pub(crate) fn chunk_of(pairs: usize, asked: usize) -> usize {
     let few = if asked > pairs / 4 { FEW / 2 } else { FEW };
     pairs.div_ceil(MANY).next_multiple_of(few).clamp(few, CHUNK)

@@ -92,8 +92,9 @@ impl<S: Saved> World<S> {
     /// for a first update, without the narrow phase; hulls are checked.
     ///
     /// # Errors
-    /// Data that no snapshot has. A file that was damaged is refused. One that was made up, with a checksum that fits, is refused or gives
-    /// a world that works, but it may hold for apart, until bodies have gone as far as it says, what overlaps.
+    /// Data that no snapshot has. A file that was damaged is refused. One that was made up, with a checksum that fits,
+    /// is refused or gives a world that works, but it may hold for apart, until bodies have gone as far as it says,
+    /// what overlaps.
     pub fn restore(snapshot: &Snapshot<S>) -> Result<Self, SnapshotError> {
         S::restore(snapshot)
     }

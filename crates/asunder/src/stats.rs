@@ -42,8 +42,8 @@ pub struct Stats {
     pub touching: usize,
     /// Manifolds of all contacts.
     pub manifolds: usize,
-    /// Whether there were more candidates than allowed: contacts are then last update's, there are no events and no impacts, and this
-    /// frame's motions are forgotten.
+    /// Whether there were more candidates than allowed: contacts are then last update's, there are no events and no
+    /// impacts, and this frame's motions are forgotten.
     pub overflow: bool,
 }
 

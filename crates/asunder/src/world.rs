@@ -43,8 +43,8 @@ impl core::error::Error for StaleKey {}
 
 /// A world of bodies in one dimension; use it as [`World2`](crate::World2) or [`World3`](crate::World3).
 ///
-/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future. No type for serde itself: what is stored
-/// is a snapshot.
+/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future. No type for serde itself:
+/// what is stored is a snapshot.
 ///
 /// Memory, not counting the shapes' own data: at most 450 bytes per body and 1,600 per candidate pair in space, 400 and
 /// 1,300 in the plane; and 1,300 for each manifold beyond the first of a pair, as on ground and with compounds. What counts is
@@ -248,8 +248,8 @@ impl<S: Space> World<S> {
         self.bodies.is_empty()
     }
 
-    /// Sets how many candidate pairs an update may make, hooks aside. 2^24 at first: at about 1,600 bytes each that is 27 GB, so set
-    /// less to bound memory. See [`Stats::overflow`].
+    /// Sets how many candidate pairs an update may make, hooks aside. 2^24 at first: at about 1,600 bytes each that is
+    /// 27 GB, so set less to bound memory. See [`Stats::overflow`].
     ///
     /// Pairs that layers, owners and so on refuse do not count, but they are found, and cost time: see
     /// [`Layers`](crate::Layers).

@@ -143,12 +143,13 @@ impl World<Plane> {
         self.set_motion_of(key, motion)
     }
 
-    /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the
-    /// way, and the first body that is not one. A body that the bullet overlaps at the start is a contact and not listed here.
-    /// If it has several parts (a level in one piece), the parts that the bullet does not touch, such as the walls, still
-    /// count: see [`Pair2::next_impact`](crate::Pair2::next_impact). Whatever is flush with what the bullet touches, like the
-    /// next tile of a floor, is passed over: [`next_impact_beside`](crate::Pair2::next_impact_beside). The motions of both count: a
-    /// ray, which sees bodies where they stand, may tell of another place.
+    /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the way,
+    /// and the first body that is not one. A body that the bullet overlaps at the start is a contact and not listed
+    /// here. If it has several parts (a level in one piece), the parts that the bullet does not touch, such as the
+    /// walls, still count: see [`Pair2::next_impact`](crate::Pair2::next_impact). Whatever is flush with what the
+    /// bullet touches, like the next tile of a floor, is passed over:
+    /// [`next_impact_beside`](crate::Pair2::next_impact_beside). The motions of both count: a ray, which sees bodies
+    /// where they stand, may tell of another place.
     pub fn impacts(&self) -> &[Hit2] {
         &self.impacts
     }
@@ -202,9 +203,10 @@ impl World<Plane> {
         Ok(Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 
-    /// Gives a body another shape. A contact goes on as long as the bodies are within their margins, as it does when they move: what
-    /// lies on a level that is changed elsewhere does not begin anew. A body that becomes ground becomes fixed, and
-    /// stays so when it gets another shape later: [`set_fixed`](Self::set_fixed) makes it free again.
+    /// Gives a body another shape. A contact goes on as long as the bodies are within their margins, as it does when
+    /// they move: what lies on a level that is changed elsewhere does not begin anew. A body that becomes ground
+    /// becomes fixed, and stays so when it gets another shape later: [`set_fixed`](Self::set_fixed) makes it free
+    /// again.
     ///
     /// # Errors
     /// A stale key.
@@ -270,8 +272,8 @@ impl World<Plane> {
         self.change_body(key, |body| body.sensor = sensor)
     }
 
-    /// Makes a body one of the level, or one that moves. Ground is of the level, whatever is said here. Contacts of bodies that are both
-    /// fixed by then end at the next update.
+    /// Makes a body one of the level, or one that moves. Ground is of the level, whatever is said here. Contacts of
+    /// bodies that are both fixed by then end at the next update.
     ///
     /// # Errors
     /// A stale key.

@@ -15,10 +15,11 @@
 //! each other tremble, but they stay in their loose boxes while they do: a frame then costs one comparison per box and one
 //! per pair. The pairs are those of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
 //!
-//! Heaps at rest, awake, one thread (AMD EPYC, Zen 4, 2026-11-23): a sweep of 8,005 boxes takes 0.15 ms in place of 0.67, of 10,081
-//! boxes in pyramids 0.12 in place of 0.53; whole frames are 1.08 and 1.15 times as fast. Tried: a width by size alone, of a
-//! hundredth: 60 % more pairs in a heap of boxes. 16 frames at a box's pace in place of 64: two thirds of the gain. All loose
-//! boxes made anew whenever some are worn, and narrower where they turned out too wide: who had turned back leaves them again.
+//! Heaps at rest, awake, one thread (AMD EPYC, Zen 4, 2026-11-23): a sweep of 8,005 boxes takes 0.15 ms in place of
+//! 0.67, of 10,081 boxes in pyramids 0.12 in place of 0.53; whole frames are 1.08 and 1.15 times as fast. Tried: a
+//! width by size alone, of a hundredth: 60 % more pairs in a heap of boxes. 16 frames at a box's pace in place of 64:
+//! two thirds of the gain. All loose boxes made anew whenever some are worn, and narrower where they turned out too
+//! wide: who had turned back leaves them again.
 //!
 //! Sources: neighbour lists with a skin, L. Verlet, *Computer "experiments" on classical fluids*, Phys. Rev. 159 (1967); the
 //! fat boxes of the dynamic trees of Bullet and Box2D.

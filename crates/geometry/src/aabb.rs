@@ -138,8 +138,8 @@ impl Aabb2 {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Half way between both corners, in metres; 0 along an axis on which the box has no end on either side, as that of a half-space.
-    /// No overflow: corners may be as far out as f32 goes.
+    /// Half way between both corners, in metres; 0 along an axis on which the box has no end on either side, as that of
+    /// a half-space. No overflow: corners may be as far out as f32 goes.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, glam::Vec2};
@@ -220,8 +220,8 @@ impl Aabb3 {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Half way between both corners, in metres; 0 along an axis on which the box has no end on either side, as that of a half-space.
-    /// No overflow: corners may be as far out as f32 goes.
+    /// Half way between both corners, in metres; 0 along an axis on which the box has no end on either side, as that of
+    /// a half-space. No overflow: corners may be as far out as f32 goes.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, glam::Vec3};

@@ -61,8 +61,9 @@ impl Motion3 {
     /// Neither moves nor turns.
     pub const STILL: Self = Self { displacement: DVec3::ZERO, rotation: None };
 
-    /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the rotation that is reached at the end, of any length but
-    /// zero: not the turn from the body's own, but where it ends. Without turning: [`shift`](Self::shift).
+    /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the rotation that is reached at the end, of
+    /// any length but zero: not the turn from the body's own, but where it ends. Without turning:
+    /// [`shift`](Self::shift).
     ///
     /// # Errors
     /// What is not finite, a displacement beyond 1e9 m on an axis, and a zero quaternion.
@@ -117,9 +118,9 @@ impl Motion3 {
     /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second about the axis that the
     /// angular one points along, through the body's position; both in world axes.
     ///
-    /// It ends where the body would after a turn at constant speed, by `libm`, rounded to f32: the same bits on every platform. What turns by
-    /// less than 1e-7 rad a step may stand still, or turn by twice as much. On the way it turns the shorter way, so half a turn and
-    /// more in one step is a wheel seen to run backwards: take shorter steps.
+    /// It ends where the body would after a turn at constant speed, by `libm`, rounded to f32: the same bits on every
+    /// platform. What turns by less than 1e-7 rad a step may stand still, or turn by twice as much. On the way it turns
+    /// the shorter way, so half a turn and more in one step is a wheel seen to run backwards: take shorter steps.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::{DVec3, Vec3}};
@@ -196,7 +197,8 @@ impl Motion3 {
         Pose3::new(position, rotation).unwrap_or(*from)
     }
 
-    /// How far a body moves in all that starts at `from`, in metres: by the displacement, unless that leads beyond the range of poses.
+    /// How far a body moves in all that starts at `from`, in metres: by the displacement, unless that leads beyond the
+    /// range of poses.
     fn path(&self, from: &Pose3) -> DVec3 {
         let (limit, end) = (DVec3::splat(MAX_POSITION), from.position() + self.displacement);
         if end.abs().max_element() <= MAX_POSITION {

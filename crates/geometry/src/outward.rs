@@ -6,8 +6,8 @@ use crate::pose2::Pose2;
 use crate::pose3::Pose3;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// The largest f32 that is not above `value`: what a lower bound is told by. No number stays none, and what is above all f32 but not
-/// infinite becomes the greatest of them.
+/// The largest f32 that is not above `value`: what a lower bound is told by. No number stays none, and what is above
+/// all f32 but not infinite becomes the greatest of them.
 ///
 /// ```
 /// use asunder_geometry::round_down;
@@ -15,8 +15,9 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// assert_eq!((round_down(0.5), round_down(1e300)), (0.5, f32::MAX));
 /// ```
 ///
-/// Cost: no branch. Whether what is nearest is on the wrong side is a coin's toss, six times a box: a number that is added, and no branch. With
-/// branches the boxes of cuboids were 14 % of a frame of pyramids, and are 4 % (samples; AMD EPYC, Zen 4, 2026-11-23).
+/// Cost: no branch. Whether what is nearest is on the wrong side is a coin's toss, six times a box: a number that is
+/// added, and no branch. With branches the boxes of cuboids were 14 % of a frame of pyramids, and are 4 % (samples; AMD
+/// EPYC, Zen 4, 2026-11-23).
 #[inline]
 pub fn round_down(value: f64) -> f32 {
     let nearest = value as f32;

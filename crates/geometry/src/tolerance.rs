@@ -51,9 +51,10 @@ pub const EVEN_DEPTH: f64 = 1.0 / 32_768.0;
 
 /// How near a contact point must be to a vertex or an edge to be named after it, as a share of the smaller shape's diameter.
 ///
-/// Bodies that a solver holds tremble by up to a thousandth of their size. With a smaller value the names of points between crates
-/// that stand squarely on each other change from frame to frame; with a larger one, those of bodies that slide and roll do: with four
-/// times this, 14 % more new names in a crowd, with this 4 %, and with either 13 % fewer in a heap of boxes. Names alone depend on it.
+/// Bodies that a solver holds tremble by up to a thousandth of their size. With a smaller value the names of points
+/// between crates that stand squarely on each other change from frame to frame; with a larger one, those of bodies that
+/// slide and roll do: with four times this, 14 % more new names in a crowd, with this 4 %, and with either 13 % fewer
+/// in a heap of boxes. Names alone depend on it.
 pub const SAME_PLACE: f64 = 1.0 / 512.0;
 
 /// Share of their area within which four corners of a patch hold it as well as the four that hold it best.
@@ -93,8 +94,8 @@ pub const IMPACT_REST: f64 = 1e-9;
 /// bend of its floor.
 pub const NEXT_LEVEL: f64 = 1.0 / 64.0;
 
-/// Share of its outer radius that a body's thickness counts for at least where [`NEXT_LEVEL`] is a share of it: so that segments and
-/// thin plates do not stop at the rounding of a floor's corners.
+/// Share of its outer radius that a body's thickness counts for at least where [`NEXT_LEVEL`] is a share of it: so that
+/// segments and thin plates do not stop at the rounding of a floor's corners.
 pub const NEXT_THICKNESS: f64 = 1e-4;
 
 /// Share of a cloud's size by which a point must stand out of the hull of those before it to count as a vertex that no

@@ -9,8 +9,8 @@
 //! ```
 //! Every pair that is found asks for itself whether it is near, as in a loop: the tree only leaves out what none would take.
 //!
-//! Cubes of so many boxes and balls, a hair from touching; microseconds per question with loops and with trees, `cargo run --release -p
-//! asunder-benches --bin parts` (AMD EPYC, Zen 4, 2026-11-25):
+//! Cubes of so many boxes and balls, a hair from touching; microseconds per question with loops and with trees, `cargo
+//! run --release -p asunder-benches --bin parts` (AMD EPYC, Zen 4, 2026-11-25):
 //!
 //! | parts | 27 | 125 | 1,000 | 3,375 |
 //! |---|---|---|---|---|

@@ -262,9 +262,9 @@ pub struct ContactPoint2 {
 
 /// One point of a manifold in space.
 ///
-/// Of solids one end is the foot of the other, bit by bit: with `offset` from A's position to B's in f64 and `out` the normal times
-/// the separation, `anchor_b` is `anchor_a - offset + out` rounded once, at all points of a manifold, or `anchor_a` is
-/// `anchor_b + offset - out`.
+/// Of solids one end is the foot of the other, bit by bit: with `offset` from A's position to B's in f64 and `out` the
+/// normal times the separation, `anchor_b` is `anchor_a - offset + out` rounded once, at all points of a manifold, or
+/// `anchor_a` is `anchor_b + offset - out`.
 ///
 /// ```
 /// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
@@ -360,9 +360,10 @@ pub struct Manifold3 {
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
-    /// Where they touch. Never empty. Of more corners than four, those that hold the patch by at least 95 % of the best four's
-    /// area, one of them as deep as any up to that: the same from frame to frame, but for a coincidence, while their features are. Of
-    /// two faces, named after the vertex or the edge of each that is within 2^-9 of the smaller bounding diameter, if any is.
+    /// Where they touch. Never empty. Of more corners than four, those that hold the patch by at least 95 % of the best
+    /// four's area, one of them as deep as any up to that: the same from frame to frame, but for a coincidence, while
+    /// their features are. Of two faces, named after the vertex or the edge of each that is within 2^-9 of the smaller
+    /// bounding diameter, if any is.
     pub points: ContactPoints<ContactPoint3, 4>,
 }
 

@@ -129,15 +129,15 @@ impl Pair3<'_> {
 
     /// [`impact`](Self::impact), of bodies that may touch already: what they run into next.
     ///
-    /// Parts of ground and of compounds that touch at the start are left out, and so is what is level with them. A part is
-    /// level if, along the normal that it would be met with, it is at most a 64th of the body's thickness away at the start
-    /// and the motion leads at most that far into it, not counting what the motion leads into the touched parts anyway. Of a
-    /// body that turns, and is deeper along that normal at the start than in what it touches, since another axis parts the two, what
-    /// it goes into counts from where they meet. A part of a compound is level, too, if it is flush with a touched one, as
-    /// long as the body never sinks deeper below that than half its thickness. The thickness is the radius of a ball in the
-    /// body's middle. So a ball that its weight
-    /// presses on a level's floor crosses the floor's seams and still runs into the level's walls, steps and ramps. A motion
-    /// that sinks a body into its floor by its whole thickness leads it under what stands there.
+    /// Parts of ground and of compounds that touch at the start are left out, and so is what is level with them. A part
+    /// is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness away at
+    /// the start and the motion leads at most that far into it, not counting what the motion leads into the touched
+    /// parts anyway. Of a body that turns, and is deeper along that normal at the start than in what it touches, since
+    /// another axis parts the two, what it goes into counts from where they meet. A part of a compound is level, too,
+    /// if it is flush with a touched one, as long as the body never sinks deeper below that than half its thickness.
+    /// The thickness is the radius of a ball in the body's middle. So a ball that its weight presses on a level's floor
+    /// crosses the floor's seams and still runs into the level's walls, steps and ramps. A motion that sinks a body
+    /// into its floor by its whole thickness leads it under what stands there.
     ///
     /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at the
     /// start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as half a
@@ -164,8 +164,9 @@ impl Pair3<'_> {
         self.next_impact_beside(&[], motion_a, motion_b)
     }
 
-    /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as well, as the
-    /// next of the tiles that a floor is made of; but for parts of ground that it touches too, which has no such seams.
+    /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as
+    /// well, as the next of the tiles that a floor is made of; but for parts of ground that it touches too, which has
+    /// no such seams.
     ///
     /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A never
     /// sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual. Half-spaces are

@@ -54,8 +54,8 @@ impl Feature {
     }
 }
 
-/// Which feature of A meets which feature of B, in 64 bits: with both bodies and both parts, the name by which a solver finds last
-/// frame's impulse.
+/// Which feature of A meets which feature of B, in 64 bits: with both bodies and both parts, the name by which a solver
+/// finds last frame's impulse.
 ///
 /// Equal features have equal ids, whichever kernel found them and whichever shape was the reference.
 ///

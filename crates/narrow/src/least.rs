@@ -78,8 +78,8 @@ impl<P> Least<P> {
 }
 
 impl<C> Least<Option<C>> {
-    /// Takes what was asked of two parts within reach: their closest points, with how far apart they are and by how much that may be
-    /// off; or nothing, where they overlap. Whether it is enough, since nothing is nearer.
+    /// Takes what was asked of two parts within reach: their closest points, with how far apart they are and by how
+    /// much that may be off; or nothing, where they overlap. Whether it is enough, since nothing is nearer.
     pub(crate) fn hear(&mut self, found: Result<Option<C>, f32>, told: impl Fn(&C) -> [f32; 2]) -> bool {
         match found {
             Err(at_least) => self.give_up(at_least),

@@ -19,12 +19,13 @@
 //! where nothing is met within the first half thickness of the way: ground that the body has a manifold with at that point, and moves
 //!   into, is an impact at the start
 //! ```
-//! That last rule is for ground that is touched but has no manifold, since its neighbour's stands for it: a ball in a hollow touches two
-//! faces where they meet, stands on one, and runs into the other.
+//! That last rule is for ground that is touched but has no manifold, since its neighbour's stands for it: a ball in a
+//! hollow touches two faces where they meet, stands on one, and runs into the other.
 //!
-//! Along n alone, one who turns may begin deep in what stands a metre beside it. By the time that it meets that, it has turned out along
-//! n, and how deep it goes in again is not seen from where it began. What does not turn goes in along n all the way or comes out all
-//! the way. Along a hill's later faces it begins deep as well, and only comes out: so a depth at the start is no impact by itself.
+//! Along n alone, one who turns may begin deep in what stands a metre beside it. By the time that it meets that, it has
+//! turned out along n, and how deep it goes in again is not seen from where it began. What does not turn goes in along
+//! n all the way or comes out all the way. Along a hill's later faces it begins deep as well, and only comes out: so a
+//! depth at the start is no impact by itself.
 //!
 //! What goes into the touched is what a game's solver takes out of the motion: (d.m) (m.n) for a contact's normal m. So a body
 //! that is pressed to a floor runs over its seams and over bends that fall, and into ramps and walls. A body that passes over
@@ -65,8 +66,8 @@ pub(crate) struct Passing<'p, V> {
 }
 
 impl<V: Copy> Passing<'_, V> {
-    /// Classifies a meeting along a unit axis, given the normals and separations of the contacts between the two bodies, where they
-    /// touch, and of all that A touches.
+    /// Classifies a meeting along a unit axis, given the normals and separations of the contacts between the two
+    /// bodies, where they touch, and of all that A touches.
     pub(crate) fn lies(
         &self,
         normal: V,
@@ -90,8 +91,8 @@ impl<V: Copy> Passing<'_, V> {
         if is_level { Lies::Level } else { Lies::Across }
     }
 
-    /// Whether the two reach further into each other along a unit axis, at the start, than what is touched accounts for, and are met
-    /// later.
+    /// Whether the two reach further into each other along a unit axis, at the start, than what is touched accounts
+    /// for, and are met later.
     fn begins_deep(&self, normal: V, touched: impl Iterator<Item = (V, f64)>) -> bool {
         if self.met_at <= 0.0 {
             return false;
@@ -101,8 +102,8 @@ impl<V: Copy> Passing<'_, V> {
         (self.gap)(normal) < pressed - NEXT_LEVEL * self.thickness
     }
 
-    /// Whether it stands up no higher than a contact, and no further down than the body reaches, which in the end is no deeper below
-    /// that than half its thickness, and was not at the start.
+    /// Whether it stands up no higher than a contact, and no further down than the body reaches, which in the end is no
+    /// deeper below that than half its thickness, and was not at the start.
     fn is_flush(&self, (axis, separation): (V, f64)) -> bool {
         let slack = NEXT_LEVEL * self.thickness;
         let above = (self.gap)(axis);

@@ -16,9 +16,9 @@
 //! separation      max over unit n of (min over B of n.x - max over A of n.x)
 //! size            the sum of both bounding radii
 //! ```
-//! Where the shapes are apart, the separation is their Euclidean distance; where they overlap, it is minus the length of the
-//! shortest translation that separates them. Of compounds and of ground it is the least over their parts, each convex: what parts that
-//! one pair may leave others overlapping. Shapes are closed: touching counts as overlapping.
+//! Where the shapes are apart, the separation is their Euclidean distance; where they overlap, it is minus the length
+//! of the shortest translation that separates them. Of compounds and of ground it is the least over their parts, each
+//! convex: what parts that one pair may leave others overlapping. Shapes are closed: touching counts as overlapping.
 //!
 //! - `overlaps` is exact. [`Tier`] says what it took.
 //! - Every separation, distance and manifold has an `error`: |true - reported| <= error, in metres.

@@ -114,7 +114,8 @@ pub(crate) fn widest_reach_of(radii: [f32; 2]) -> f32 {
     SLIDE * radii[0].min(radii[1])
 }
 
-/// Up to which drift an answer of this separation, and this error, stays what it is, in metres; nothing where it is too close to call.
+/// Up to which drift an answer of this separation, and this error, stays what it is, in metres; nothing where it is too
+/// close to call.
 pub(crate) fn slack_of(
     [separation, error]: [f32; 2],
     overlapping: bool,

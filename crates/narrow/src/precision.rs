@@ -50,8 +50,8 @@ impl Precision {
         Self { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[0] }
     }
 
-    /// Whether a distance and what its axis shows of all corners are one up to rounding, so that the bound of projections, 44 units,
-    /// covers both: what either takes of it is in `docs/accuracy.md`.
+    /// Whether a distance and what its axis shows of all corners are one up to rounding, so that the bound of
+    /// projections, 44 units, covers both: what either takes of it is in `docs/accuracy.md`.
     #[inline]
     pub(crate) fn is_proved(&self, distance: f64, at_least: f64) -> bool {
         distance - at_least <= self.projection() / 8.0

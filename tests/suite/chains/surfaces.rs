@@ -385,8 +385,9 @@ fn a_margin_takes_no_contact_away() {
     assert!(deep > 500, "{deep}");
 }
 
-/// Symptom: a plank on a one-sided peak of 60 degrees was told a metre deep, and nothing a hair above it; casts met the peak with
-/// normals that look the way they go. Cause: a corner's normal that looks away from one of its faces was taken for that face's back.
+/// Symptom: a plank on a one-sided peak of 60 degrees was told a metre deep, and nothing a hair above it; casts met the
+/// peak with normals that look the way they go. Cause: a corner's normal that looks away from one of its faces was
+/// taken for that face's back.
 #[test]
 fn a_peak_is_met_as_the_corner_that_it_is() {
     let peak = [Vec2::ZERO, Vec2::new(-4.0, -7.0), Vec2::new(4.0, -7.0)];

@@ -149,8 +149,8 @@ fn no_jump_leads_back() {
     }
 }
 
-/// Symptom: who was in a groove whose walls are one body was not freed, though it was where they are two. Cause: of each body only
-/// the deepest manifold was left.
+/// Symptom: who was in a groove whose walls are one body was not freed, though it was where they are two. Cause: of
+/// each body only the deepest manifold was left.
 #[test]
 fn grooves_of_one_body_are_left_as_those_of_two() {
     let hero = Shape3::from(Sphere::new(0.5).unwrap());

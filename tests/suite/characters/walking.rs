@@ -42,8 +42,8 @@ fn who_jumps_leaves_the_ground() {
     assert!((hero.feet() - DVec3::new(0.1, 0.15, 0.0)).length() < 1e-6);
 }
 
-/// Symptom: of a frame that rises by less than a skin, or no faster than the slope ahead, ground was told: a loop that lets gravity
-/// pull where there is none lost the jump. Cause: ground was looked for below, also after what leads up.
+/// Symptom: of a frame that rises by less than a skin, or no faster than the slope ahead, ground was told: a loop that
+/// lets gravity pull where there is none lost the jump. Cause: ground was looked for below, also after what leads up.
 #[test]
 fn who_jumps_slowly_or_uphill_leaves_the_ground_too() {
     let world = floor();

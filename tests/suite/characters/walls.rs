@@ -177,8 +177,9 @@ fn along_the_crease_of_two_walls_the_way_leads_on() {
     }
 }
 
-/// Symptom: before a kerb a little higher than a step a hero stood still, and was told that nothing was in the way. Cause: its round
-/// feet may hold on to edges a little higher than those that it gets up on, and what holds was no wall.
+/// Symptom: before a kerb a little higher than a step a hero stood still, and was told that nothing was in the way.
+/// Cause: its round feet may hold on to edges a little higher than those that it gets up on, and what holds was no
+/// wall.
 #[test]
 fn a_kerb_that_is_too_high_is_a_wall() {
     let (mut climbed, mut stopped) = (0, 0);
@@ -204,8 +205,8 @@ fn a_kerb_that_is_too_high_is_a_wall() {
     assert!(climbed > 40 && stopped > 40, "{climbed} got up, {stopped} did not");
 }
 
-/// Symptom: who walked into a corner of which one wall leans over stood still and was not blocked. Cause: the way was turned along one
-/// wall, and then along the other and the ground: back to where it came from.
+/// Symptom: who walked into a corner of which one wall leans over stood still and was not blocked. Cause: the way was
+/// turned along one wall, and then along the other and the ground: back to where it came from.
 #[test]
 fn a_corner_blocks_whichever_wall_leans_over() {
     let mut random = Random::new(0xC0_4E4);

@@ -274,9 +274,10 @@ fn a_one_sided_wall_is_seen_by_a_half_space_that_it_stands_square_to() {
     }
 }
 
-/// Symptom: a plank that lay over the edge of a step, turned by a few ten-thousandths and a millimetre deep in its tread, was to be
-/// pushed half a metre sideways, out of the riser. Cause: the tread refused its own normal as an axis, and so was not heard when it was
-/// asked whether a lift frees the plank of the riser too; and that was told by the plank's lowest corner, which lay beside all ground.
+/// Symptom: a plank that lay over the edge of a step, turned by a few ten-thousandths and a millimetre deep in its
+/// tread, was to be pushed half a metre sideways, out of the riser. Cause: the tread refused its own normal as an axis,
+/// and so was not heard when it was asked whether a lift frees the plank of the riser too; and that was told by the
+/// plank's lowest corner, which lay beside all ground.
 #[test]
 fn a_plank_over_the_edge_of_a_step_is_lifted_off() {
     let step = profile(&[[-1.0, 0.0], [0.0, 0.0], [0.0, 1.0], [1.0, 1.0]], 2);

@@ -24,8 +24,8 @@ fn is_exact(corners: [Vec3; 3], body: &Shape3, at: DVec3) -> bool {
     exact
 }
 
-/// Symptom: a sphere 1e-13 m beside the edge of a triangle of 9 km was told to touch it. Cause: rounding was allowed for that of the
-/// corner that faces the longest side, and the edge began at another.
+/// Symptom: a sphere 1e-13 m beside the edge of a triangle of 9 km was told to touch it. Cause: rounding was allowed
+/// for that of the corner that faces the longest side, and the edge began at another.
 #[test]
 fn spheres_beside_long_edges_are_told_exactly() {
     let ball: Shape3 = Sphere::new(0.5).unwrap().into();

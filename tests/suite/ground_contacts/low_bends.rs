@@ -190,9 +190,9 @@ fn case(random: &mut Random, bend: f64, gap: f64) -> Option<Case> {
 
 const BENDS: [f64; 8] = [1e-6, 1e-5, 3e-5, 4.5e-5, 6e-5, 9e-5, 1.2e-4, 2e-4];
 
-/// Symptom: over domes, roofs and cobbles of bends that give no normals, gaps were told too wide by up to a ten thousandth of
-/// the body, beyond their errors, in one case of three hundred. Cause: a triangle that stands up between the points that are told counted only if
-/// its normal was theirs, and of each plane the first triangle that was seen.
+/// Symptom: over domes, roofs and cobbles of bends that give no normals, gaps were told too wide by up to a ten
+/// thousandth of the body, beyond their errors, in one case of three hundred. Cause: a triangle that stands up between
+/// the points that are told counted only if its normal was theirs, and of each plane the first triangle that was seen.
 #[test]
 fn a_gap_over_many_low_bends_is_within_its_error() {
     let mut random = Random::new(0x0010_BE4D_0D0E);

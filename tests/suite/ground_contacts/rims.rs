@@ -82,9 +82,9 @@ pub(super) fn told_within(
     least
 }
 
-/// Symptom: what reached around a rim had no contact in a gap within its margin, twenty times in a million, and one of four points
-/// further off than its error said. Cause: ground refused the direction that leads from its other side, and the kernels' points
-/// were taken for all that they had found.
+/// Symptom: what reached around a rim had no contact in a gap within its margin, twenty times in a million, and one of
+/// four points further off than its error said. Cause: ground refused the direction that leads from its other side, and
+/// the kernels' points were taken for all that they had found.
 #[test]
 fn what_reaches_around_a_rim_is_told() {
     let mut random = Random::new(0x51DE_0F17);
@@ -166,9 +166,10 @@ fn a_rounded_crate_in_a_groove_stands_on_both_slopes() {
     }
 }
 
-/// Symptom: a plank, turned by a ten-thousandth against the floor that it hovered over the rim of, was told to be 20 um further
-/// from it than it was. Cause: a cut across the floor counts as level to the plank's face, and where it passed under that face was
-/// taken for what is nearest. Its upper end was not under the face, and the floor's rim, which leaves that end, passed under it nearer.
+/// Symptom: a plank, turned by a ten-thousandth against the floor that it hovered over the rim of, was told to be 20 um
+/// further from it than it was. Cause: a cut across the floor counts as level to the plank's face, and where it passed
+/// under that face was taken for what is nearest. Its upper end was not under the face, and the floor's rim, which
+/// leaves that end, passed under it nearer.
 #[test]
 fn a_cut_that_counts_as_level_does_not_hide_a_rim_that_is_nearer() {
     const SIDE: u32 = 5;
@@ -198,8 +199,9 @@ fn a_cut_that_counts_as_level_does_not_hide_a_rim_that_is_nearer() {
     assert!(told > 6000, "{told} told");
 }
 
-/// Symptom: a prism whose corner was 5 um beside a ridge, 2 mm above it, was told to be 7e-9 m nearer than it was. Cause: the point
-/// that stands for the corner is where sides of both faces cross, a micrometre beside it, and told as the least of all.
+/// Symptom: a prism whose corner was 5 um beside a ridge, 2 mm above it, was told to be 7e-9 m nearer than it was.
+/// Cause: the point that stands for the corner is where sides of both faces cross, a micrometre beside it, and told as
+/// the least of all.
 #[test]
 fn a_corner_beside_a_ridge_is_no_nearer_than_the_ridge_is() {
     let mut random = Random::new(0x0000_21D6);

@@ -38,9 +38,9 @@ fn body(random: &mut Random) -> Shape3 {
     Cuboid::from_half_extents(Vec3::from(half)).unwrap().into()
 }
 
-/// Symptom: on meshes that are turned as a whole, gaps were told wider than their errors allowed, by some billionths of a metre; over
-/// bends too low for a normal of their own, by a hundred thousandth of the body. Cause: what stands up between the points that are
-/// told was in no error.
+/// Symptom: on meshes that are turned as a whole, gaps were told wider than their errors allowed, by some billionths of
+/// a metre; over bends too low for a normal of their own, by a hundred thousandth of the body. Cause: what stands up
+/// between the points that are told was in no error.
 #[test]
 fn a_gap_over_turned_ground_is_within_its_error() {
     let mut random = Random::new(0x7042_3ED0);
@@ -124,9 +124,10 @@ fn a_corner_beside_the_end_of_ground_is_within_its_error() {
     assert!(beside > 3_000, "{beside}");
 }
 
-/// Symptom: a capsule that stood over the seam of two triangles with a bend of 1e-5 had no contact in a gap, nor had the tip of
-/// a hull in a wide one; a ball was told further off than its error by some billionths. Cause: what is nearest there is beside both
-/// triangles, by as much as the bend times the height, and of two points that stood for one the nearer was lost.
+/// Symptom: a capsule that stood over the seam of two triangles with a bend of 1e-5 had no contact in a gap, nor had
+/// the tip of a hull in a wide one; a ball was told further off than its error by some billionths. Cause: what is
+/// nearest there is beside both triangles, by as much as the bend times the height, and of two points that stood for
+/// one the nearer was lost.
 #[test]
 fn what_stands_over_a_low_bend_has_its_contact() {
     let mut random = Random::new(0x10_BE4D);

@@ -1,5 +1,6 @@
-//! Floors that end at a wall: what lies over the floor is told by all its corners there, however near the wall is, and by none that
-//! the floor alone would not tell. Seen first as a hammer that fell beside a house, and was told of one corner of its head.
+//! Floors that end at a wall: what lies over the floor is told by all its corners there, however near the wall is, and
+//! by none that the floor alone would not tell. Seen first as a hammer that fell beside a house, and was told of one
+//! corner of its head.
 
 use super::scenes::{Random, mesh};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};

@@ -1,8 +1,9 @@
 //! Names of points between bodies that stand squarely on each other, or edge to edge: they stay while the bodies tremble.
 //!
-//! Symptom: of unit cubes in a stack that trembled by 1e-5 m to 1e-3 m, up to one point in sixteen had another name in every frame,
-//! and a solver did not know it again: six of them still shook after 20 seconds. Cause: a corner was now a hair within the
-//! other's side, now beside it, and was named after what it lay on: a vertex of one, of the other, or edges that cross.
+//! Symptom: of unit cubes in a stack that trembled by 1e-5 m to 1e-3 m, up to one point in sixteen had another name in
+//! every frame, and a solver did not know it again: six of them still shook after 20 seconds. Cause: a corner was now a
+//! hair within the other's side, now beside it, and was named after what it lay on: a vertex of one, of the other, or
+//! edges that cross.
 
 use super::frames::frame;
 use super::pair3;
@@ -92,8 +93,9 @@ fn outlines_that_stand_squarely_on_each_other_keep_the_names_of_their_points() {
     }
 }
 
-/// Symptom: of two rounded rectangles, one tilted by a hundredth, one corner was told as two points 5 mm apart. Cause: the end of an
-/// edge that was there already was known by its name, which was another one where the edge was cut again, further out.
+/// Symptom: of two rounded rectangles, one tilted by a hundredth, one corner was told as two points 5 mm apart. Cause:
+/// the end of an edge that was there already was known by its name, which was another one where the edge was cut again,
+/// further out.
 #[test]
 fn a_rounded_corner_is_one_point() {
     let rect: Shape2 = Rect::from_half_extents(Vec2::new(1.0, 0.3)).unwrap().rounded(0.5).unwrap().into();

@@ -59,9 +59,9 @@ fn boxes_that_all_but_touch_are_told_as_well_as_any() {
     assert!(touching > 2000 && apart > 2000, "{touching} touch, {apart} do not");
 }
 
-/// Symptom: of rounded hulls whose vertices are far from their own origin, contact points came with a separation that was off by up to
-/// a centimetre, and an error of 1e-10 m; the separation alone was right. Cause: cores with a gap that only the radii close were
-/// taken for overlapping where no axis of a face showed the gap, as between two edges.
+/// Symptom: of rounded hulls whose vertices are far from their own origin, contact points came with a separation that
+/// was off by up to a centimetre, and an error of 1e-10 m; the separation alone was right. Cause: cores with a gap that
+/// only the radii close were taken for overlapping where no axis of a face showed the gap, as between two edges.
 #[test]
 fn a_gap_that_only_radii_close_is_no_overlap_of_the_cores() {
     let mut random = Random::new(28);

@@ -3,8 +3,8 @@
 use asunder::{Collider3, Event3, Hooks3, Meeting3, Motion3, Pose3, Side3, Sphere, Stats, World3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Symptom: after a contact hook panicked, `contacts()` panicked too, and whoever had begun to touch was never reported. Cause: the
-/// hook's lists were cut short in place, and the report came after it.
+/// Symptom: after a contact hook panicked, `contacts()` panicked too, and whoever had begun to touch was never
+/// reported. Cause: the hook's lists were cut short in place, and the report came after it.
 #[test]
 fn a_hook_that_panics_loses_no_event_and_no_contact() {
     let mut world = World3::new();
@@ -26,7 +26,8 @@ fn a_hook_that_panics_loses_no_event_and_no_contact() {
     assert!(world.events().is_empty() && world.contacts().all(|contact| contact.manifolds.len() == 1));
 }
 
-/// Symptom: after a hook panicked, `impacts()` were those of the update before. Cause: they were cleared by the stage that makes them.
+/// Symptom: after a hook panicked, `impacts()` were those of the update before. Cause: they were cleared by the stage
+/// that makes them.
 #[test]
 fn a_hook_that_panics_leaves_no_impact_of_the_update_before() {
     let mut world = World3::new();
@@ -43,8 +44,8 @@ fn a_hook_that_panics_leaves_no_impact_of_the_update_before() {
     assert!(world.impacts().is_empty());
 }
 
-/// Symptom: a world that was saved after a hook panicked forgot what its motions bring. Cause: boxes were restored where bodies stand,
-/// and those of kept motions are made once.
+/// Symptom: a world that was saved after a hook panicked forgot what its motions bring. Cause: boxes were restored
+/// where bodies stand, and those of kept motions are made once.
 #[test]
 fn a_world_saved_after_a_hook_panicked_keeps_what_its_motions_bring() {
     let pair = |_: Side3<'_>, _: Side3<'_>| panic!("a game's own mistake");
@@ -66,8 +67,9 @@ fn a_world_saved_after_a_hook_panicked_keeps_what_its_motions_bring() {
     }
 }
 
-/// Symptom: after a pair hook panicked, events were those of the update before, so that a game handled them twice, and contacts were new
-/// twice; counts were none, with candidates and contacts there. Cause: all of them were left to the stages after the hook.
+/// Symptom: after a pair hook panicked, events were those of the update before, so that a game handled them twice, and
+/// contacts were new twice; counts were none, with candidates and contacts there. Cause: all of them were left to the
+/// stages after the hook.
 #[test]
 fn a_pair_hook_that_panics_tells_nothing_twice_and_loses_nothing() {
     let mut world = World3::new();

@@ -6,9 +6,9 @@ use asunder_tests::cases::Random;
 use asunder_tests::exact_overlap::exact_overlap2;
 use glam::{DVec2, Vec2};
 
-/// Symptom: `overlaps` of a capsule and a circle was yes across a gap of 1e-5 m, and no query agreed with the world. Cause: a circle
-/// of the capsule's radius about its middle was taken to lie inside; of a capsule a hundred metres from its own origin, the middle
-/// is rounded by 4e-6 m.
+/// Symptom: `overlaps` of a capsule and a circle was yes across a gap of 1e-5 m, and no query agreed with the world.
+/// Cause: a circle of the capsule's radius about its middle was taken to lie inside; of a capsule a hundred metres from
+/// its own origin, the middle is rounded by 4e-6 m.
 #[test]
 fn a_capsule_that_lies_far_from_its_origin_is_not_met_beside_it() {
     let mut random = Random::new(1127);

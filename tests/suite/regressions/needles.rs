@@ -121,9 +121,9 @@ fn rounded_shapes_may_overlap_where_their_cores_do_not() {
     holds((&b, &there), (&a, &here));
 }
 
-/// Symptom: two plates, 2e-6 m thick and 4e-17 m apart, edge to edge: `distance` said 1.35e-6 m, within an error as large; a
-/// millionth of their size. Cause: the distance iteration stood on a pair of corners, the next was far away, and the step there was
-/// smaller than what that corner's place rounded.
+/// Symptom: two plates, 2e-6 m thick and 4e-17 m apart, edge to edge: `distance` said 1.35e-6 m, within an error as
+/// large; a millionth of their size. Cause: the distance iteration stood on a pair of corners, the next was far away,
+/// and the step there was smaller than what that corner's place rounded.
 #[test]
 fn a_small_step_towards_a_far_corner_is_one() {
     let plate = |x: f32, z: f32| Shape3::from(Cuboid::from_half_extents(Vec3::new(x, 1e-6, z)).unwrap());

@@ -5,8 +5,8 @@ use asunder::{
     Compound2, Compound3, Cuboid, Pose2, Pose3, Ray2, Ray3, Rect, Shape2, Shape3, cast_ray2, cast_ray3,
 };
 
-/// Symptom: a ray that starts in one part of a compound, a rounding before the face of another, was not inside. Cause: both were at
-/// distance 0, and of equals the first part counted.
+/// Symptom: a ray that starts in one part of a compound, a rounding before the face of another, was not inside. Cause:
+/// both were at distance 0, and of equals the first part counted.
 #[test]
 fn a_ray_that_starts_in_any_part_starts_inside() {
     let bar = |half: f32| Shape3::from(Cuboid::from_half_extents(Vec3::new(half, 1.0, 1.0)).unwrap());

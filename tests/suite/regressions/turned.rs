@@ -29,8 +29,9 @@ fn box_on_floor(half: Vec3, at: Vec3) -> Shape3 {
     TriMesh::new(vertices, triangles).unwrap().into()
 }
 
-/// Symptom: a box that turns on its floor, and touches it, went 0.1 m into a wall and was told of nothing. Cause: at the start the
-/// two overlap by 0.2 m along the axis along which they meet later; that counted as beside, and what goes in was counted from there.
+/// Symptom: a box that turns on its floor, and touches it, went 0.1 m into a wall and was told of nothing. Cause: at
+/// the start the two overlap by 0.2 m along the axis along which they meet later; that counted as beside, and what goes
+/// in was counted from there.
 #[test]
 fn who_turns_on_its_floor_runs_into_the_wall() {
     let shape = |half: Vec3| Shape3::from(Cuboid::from_half_extents(half).unwrap());

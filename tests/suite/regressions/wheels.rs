@@ -6,8 +6,8 @@ use asunder::{
     Shape2, Shape3, Sphere,
 };
 
-/// Symptom: a wheel of many sides that spins above its road was said to hit it, 0.1 mm apart. Cause: it takes more steps than there are
-/// to get away from a gap that small by what turns, and where they end an impact was told.
+/// Symptom: a wheel of many sides that spins above its road was said to hit it, 0.1 mm apart. Cause: it takes more
+/// steps than there are to get away from a gap that small by what turns, and where they end an impact was told.
 #[test]
 fn a_wheel_that_spins_beside_its_road_does_not_hit_it() {
     let (gap, road) = (1.384e-4, Vec2::new(3.0, 0.5));
@@ -42,8 +42,8 @@ fn a_wheel_that_spins_beside_its_road_does_not_hit_it() {
     }
 }
 
-/// Symptom: at the edge of the world, a body's poses overlapped another and no impact was told. Cause: each pose was moved to the edge
-/// by itself, so that its way bent there, and impacts are those of a straight way.
+/// Symptom: at the edge of the world, a body's poses overlapped another and no impact was told. Cause: each pose was
+/// moved to the edge by itself, so that its way bent there, and impacts are those of a straight way.
 #[test]
 fn poses_and_impacts_agree_at_the_edge_of_the_world() {
     let ball = Shape3::from(Sphere::new(2.0).unwrap());

@@ -91,8 +91,9 @@ pub(super) fn free<S: Walks>(
     found(best.1, false)
 }
 
-/// How much of a way may be gone: all of it, unless the shape's middle would go through ground, from a side that is solid. Beyond,
-/// that ground would be nothing that the shape overlaps, and who is pressed against it would count as free there.
+/// How much of a way may be gone: all of it, unless the shape's middle would go through ground, from a side that is
+/// solid. Beyond, that ground would be nothing that the shape overlaps, and who is pressed against it would count as
+/// free there.
 fn share_before_ground<S: Walks>(
     world: &World<S>,
     at: At<'_, S>,

@@ -39,13 +39,12 @@ impl World<Plane> {
     /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius
     /// clear of them.
     ///
-    /// First it is pushed out of the body that it is deepest in; if that is enough, there is no shorter way out of that body.
-    /// Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up to sixteen times. If it
-    /// still overlaps
-    /// something, it is wedged: `is_free` is false, and `pose` is the one tried whose deepest overlap was shallowest. No path
-    /// is looked for: a shape in a thin wall may come out on the other side. Only through chains no push takes its middle, unless from
-    /// behind where they have one side. Cost: a round is a query for boxes, and a
-    /// manifold for each body met.
+    /// First it is pushed out of the body that it is deepest in; if that is enough, there is no shorter way out of that
+    /// body. Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up
+    /// to sixteen times. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried
+    /// whose deepest overlap was shallowest. No path is looked for: a shape in a thin wall may come out on the other
+    /// side. Only through chains no push takes its middle, unless from behind where they have one side. Cost: a round
+    /// is a query for boxes, and a manifold for each body met.
     ///
     /// ```
     /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
@@ -62,8 +61,9 @@ impl World<Plane> {
     }
 
     /// Whether a shape overlaps no solid, exactly, as [`depenetrate`](World::depenetrate) and
-    /// [`move_and_slide`](World::move_and_slide) see it: touching counts as overlapping, and one-sided ground that it is behind is
-    /// nothing that it overlaps. Whether there is room to stand up, say. Cost: a query for boxes, and a yes or no for each body met.
+    /// [`move_and_slide`](World::move_and_slide) see it: touching counts as overlapping, and one-sided ground that it
+    /// is behind is nothing that it overlaps. Whether there is room to stand up, say. Cost: a query for boxes, and a
+    /// yes or no for each body met.
     ///
     /// ```
     /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};

@@ -148,7 +148,8 @@ impl<S: Walks> Mover<'_, S> {
     /// Frees the shape of what it overlaps, or moves it off what it is closer to than its skin. Tells where it was
     /// free first.
     ///
-    /// Who goes into a wall by less than a skin meets nothing on the way, and is back here with the next call: that wall is noted.
+    /// Who goes into a wall by less than a skin meets nothing on the way, and is back here with the next call: that
+    /// wall is noted.
     fn keep_away(&mut self, displacement: S::Point, slid: &mut Slid<S>) -> S::Pose {
         let skin = self.gait.skin;
         let near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
@@ -182,7 +183,8 @@ impl<S: Walks> Mover<'_, S> {
         let was_on_ground = ground.is_some();
         let mut may_climb = was_on_ground && self.gait.step > 0.0;
         let mut left = displacement;
-        // Who stands goes along the ground from the start: what goes down a little would not meet it soon enough to keep the skin.
+        // Who stands goes along the ground from the start: what goes down a little would not meet it soon enough to
+        // keep the skin.
         let mut bounds: ArrayVec<Bound<S>, SLIDES> = ground.iter().map(|hit| self.footing(hit)).collect();
         for _ in 0..SLIDES {
             let way = self.way(left, &bounds);
@@ -224,10 +226,11 @@ impl<S: Walks> Mover<'_, S> {
     /// - What holds takes what goes down: nobody slides off ground that can be walked on.
     /// - What is too steep is a wall when walked into, and a slope when falling.
     /// - On ground one goes as fast uphill and downhill as on the level.
-    /// - What leans over is a wall to who does not rise. Turned along other walls first, and only then along the ceiling and what is
-    ///   below, the way could lead back to where it came from, or up where a slope and what leans over it meet.
-    /// - No way leads back: where all that is left would, as in acute corners, it ends. This is Quake's rule, without which characters
-    ///   tremble there.
+    /// - What leans over is a wall to who does not rise. Turned along other walls first, and only then along the
+    ///   ceiling and what is below, the way could lead back to where it came from, or up where a slope and what leans
+    ///   over it meet.
+    /// - No way leads back: where all that is left would, as in acute corners, it ends. This is Quake's rule, without
+    ///   which characters tremble there.
     fn way(&self, left: S::Point, bounds: &[Bound<S>]) -> S::Point {
         let Gait { up, .. } = self.gait;
         let mut rise = left.dot(up);
@@ -257,8 +260,9 @@ impl<S: Walks> Mover<'_, S> {
         if does_lead_on { way } else { S::Point::ZERO }
     }
 
-    /// What leans over as a wall to who walks: which way leads into it along each ground that was met, or on the level where there is
-    /// none. A ceiling all but parallel to the ground is none: which way leads into it would be rounding.
+    /// What leans over as a wall to who walks: which way leads into it along each ground that was met, or on the level
+    /// where there is none. A ceiling all but parallel to the ground is none: which way leads into it would be
+    /// rounding.
     fn add_walls_over(&self, bounds: &[Bound<S>], walls: &mut Planes<S>) {
         let up = self.gait.up;
         let is_over = |bound: &&Bound<S>| bound.normal.dot(up) <= -UPRIGHT;

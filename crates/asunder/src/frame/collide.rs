@@ -20,17 +20,18 @@
 //! 7. where every body moves that may, no contact is carried on, and manifolds are written over last update's, which is less
 //!    memory in turn: 1.03 times as fast;
 //! 8. what is kept to be moved along in 248 bytes in place of 304, points by one of their ends: 1.03 to 1.06 times;
-//! 9. chunks in which nothing moved are not looked at, and chunks go on for that: a heap of 8,000 boxes at rest, 93,560 pairs, in
-//!    0.3 ms in place of 8 (Intel Xeon, family 6 model 106, one thread, 2026-11-27; `frame/asleep` of the bench `frame`). Where all
-//!    move, 2 % more instructions. Tried: going on there as well, with room to grow: lists took longer to come to their largest.
+//! 9. chunks in which nothing moved are not looked at, and chunks go on for that: a heap of 8,000 boxes at rest, 93,560
+//!    pairs, in 0.3 ms in place of 8 (Intel Xeon, family 6 model 106, one thread, 2026-11-27; `frame/asleep` of the
+//!    bench `frame`). Where all move, 2 % more instructions. Tried: going on there as well, with room to grow: lists
+//!    took longer to come to their largest.
 //!
-//! Tried, on one thread (medians of runs next to each other, on a busy machine): chunks of 128 pairs, 9 % slower than 256: each
-//! has lists of its own, and begins with waiting for each of them. What is kept to be moved along in a box of its own: pyramids
-//! 8 % slower, hulls faster. What is kept fetched six pairs ahead: nothing, hulls 10 % slower; it is not one wait that counts,
-//! but how much there is to read. By the processor's own instruction, while its pair is chosen, a heap of boxes at rest is 1.02 times as
-//! fast and pyramids 1.00 to 1.03 (Zen 5, 2026-11-24): not worth code that is unsafe. Leaving out pairs that are still apart
-//! without a branch halved what a simulated processor predicted wrongly, and saved no time (heaps -2 to +2 %, pyramids 2 to 5 %
-//! slower, hulls 5 % faster).
+//! Tried, on one thread (medians of runs next to each other, on a busy machine): chunks of 128 pairs, 9 % slower than
+//! 256: each has lists of its own, and begins with waiting for each of them. What is kept to be moved along in a box of
+//! its own: pyramids 8 % slower, hulls faster. What is kept fetched six pairs ahead: nothing, hulls 10 % slower; it is
+//! not one wait that counts, but how much there is to read. By the processor's own instruction, while its pair is
+//! chosen, a heap of boxes at rest is 1.02 times as fast and pyramids 1.00 to 1.03 (Zen 5, 2026-11-24): not worth code
+//! that is unsafe. Leaving out pairs that are still apart without a branch halved what a simulated processor predicted
+//! wrongly, and saved no time (heaps -2 to +2 %, pyramids 2 to 5 % slower, hulls 5 % faster).
 //!
 //! Kernels here and below shun `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the time
 //! of such a frame and half of a sweep's; by default they are not, and nothing is gained.

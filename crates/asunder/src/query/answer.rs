@@ -65,8 +65,8 @@ pub type RayAnswer3 = RayAnswer<BodyKey3, Vec3, DVec3>;
 pub struct CastAnswer<K, N, P> {
     /// The body.
     pub body: K,
-    /// The share of the displacement after which they touch, 0 to 1. Before it they do not: it is never too great. Multiply in f64:
-    /// rounded to f32 it may be.
+    /// The share of the displacement after which they touch, 0 to 1. Before it they do not: it is never too great.
+    /// Multiply in f64: rounded to f32 it may be.
     pub fraction: f64,
     /// Metres that they may still be apart then; 0 where they touch at the start.
     pub error: f32,

@@ -79,16 +79,16 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out one body, such as the one that asks. A stale key leaves out nobody. Another call replaces the one before: several
-    /// are left out by [`without_all`](Self::without_all), or by their owner.
+    /// Leaves out one body, such as the one that asks. A stale key leaves out nobody. Another call replaces the one
+    /// before: several are left out by [`without_all`](Self::without_all), or by their owner.
     #[must_use]
     pub const fn without(mut self, body: S::Key) -> Self {
         self.without = Some(body);
         self
     }
 
-    /// Leaves out some bodies, such as the one that asks and what it carries. Another call replaces the one before. Cost: linear in
-    /// the bodies that are left out, for each that is met.
+    /// Leaves out some bodies, such as the one that asks and what it carries. Another call replaces the one before.
+    /// Cost: linear in the bodies that are left out, for each that is met.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Sphere, World3, glam::Vec3};

@@ -151,8 +151,8 @@ fn boxes_that_tremble_are_hardly_ever_swept() {
     assert!(plain > 180 * 3000 && loose * 50 < plain, "{loose} steps, {plain} of sweeps");
 }
 
-/// Symptom: one frame in which none moved ended loose boxes, and counted as a failure of theirs: a game that moves its bodies in every
-/// second frame swept all boxes again and again.
+/// Symptom: one frame in which none moved ended loose boxes, and counted as a failure of theirs: a game that moves its
+/// bodies in every second frame swept all boxes again and again.
 #[test]
 fn frames_in_which_none_moves_do_not_end_loose_boxes_until_they_are_many() {
     let mut random = Random::new(813);

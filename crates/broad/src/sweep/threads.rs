@@ -28,9 +28,9 @@ use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
-/// With fewer boxes a second thread costs about what it saves. Of 10,000 it saves a tenth to a third, of a whole frame with 8,000 a
-/// twenty-fifth (`compare -- broad --threads 2`; AMD EPYC, Zen 5, 2 virtual cores, 2026-11-25; see `blocks` among the benchmarks for
-/// how two threads are measured).
+/// With fewer boxes a second thread costs about what it saves. Of 10,000 it saves a tenth to a third, of a whole frame
+/// with 8,000 a twenty-fifth (`compare -- broad --threads 2`; AMD EPYC, Zen 5, 2 virtual cores, 2026-11-25; see
+/// `blocks` among the benchmarks for how two threads are measured).
 pub(super) const MANY_BOXES: usize = 5_000;
 
 /// Fewest boxes for each thread that takes part, about.

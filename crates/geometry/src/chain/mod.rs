@@ -77,8 +77,8 @@ struct Data {
 impl Chain {
     /// A polyline from its first vertex to its last, in metres.
     ///
-    /// A vertex less than 2e-6 m from the one before it is left out, and counted: see [`dropped`](Self::dropped). Segments, and so
-    /// the `part` of what is met, are numbered by the vertices that are left.
+    /// A vertex less than 2e-6 m from the one before it is left out, and counted: see [`dropped`](Self::dropped).
+    /// Segments, and so the `part` of what is met, are numbered by the vertices that are left.
     ///
     /// # Errors
     /// A vertex that is not finite or more than 1e6 m from the origin; fewer than two, or more than

@@ -235,8 +235,8 @@ impl Compound2 {
         self.outer_radius
     }
 
-    /// Whether any part holds a local point, in metres. Cost: that for each part whose bounding circle holds it; of 16 parts and more
-    /// the others are passed over in a tree.
+    /// Whether any part holds a local point, in metres. Cost: that for each part whose bounding circle holds it; of 16
+    /// parts and more the others are passed over in a tree.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let point = point.into();
         let reach = point.abs() + self.center.abs().as_dvec2();
@@ -261,8 +261,9 @@ impl Compound2 {
         found.is_break()
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards: that of all its parts' vertices. Cost: linear in the
-    /// vertices of the parts that reach out furthest; of 16 parts and more the others are passed over in a tree.
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards: that of all its parts' vertices.
+    /// Cost: linear in the vertices of the parts that reach out furthest; of 16 parts and more the others are passed
+    /// over in a tree.
     pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
         let box_of = |part: &Part2| {
             let core = part.shape.core();
@@ -278,8 +279,8 @@ impl Compound2 {
         }
         let (rotation, place) = (pose.rotation(), pose.position());
         let apart = DVec2::new(rotation.cos().into(), rotation.sin().into()).abs();
-        // More than a part's own box is wider by, and the tree's boxes lose here; and a rotation's length is not quite one, which shrinks
-        // them and no radius.
+        // More than a part's own box is wider by, and the tree's boxes lose here; and a rotation's length is not quite
+        // one, which shrinks them and no radius.
         let reach = self.center.as_dvec2().length() + f64::from(self.outer_radius);
         let lengths = place.abs().element_sum() + 8.0 * reach + f64::from(margin).abs();
         let lost = 512.0 * f64::EPSILON * lengths + reach * (1.0 - apart.length()).abs();

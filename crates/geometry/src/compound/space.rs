@@ -233,8 +233,8 @@ impl Compound3 {
         self.outer_radius
     }
 
-    /// Whether any part holds a local point, in metres. Cost: that for each part whose bounding sphere holds it; of 16 parts and more
-    /// the others are passed over in a tree.
+    /// Whether any part holds a local point, in metres. Cost: that for each part whose bounding sphere holds it; of 16
+    /// parts and more the others are passed over in a tree.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         let reach = point.abs() + self.center.abs().as_dvec3();
@@ -259,8 +259,9 @@ impl Compound3 {
         found.is_break()
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards: that of all its parts' vertices. Cost: linear in the
-    /// vertices of the parts that reach out furthest; of 16 parts and more the others are passed over in a tree.
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards: that of all its parts' vertices.
+    /// Cost: linear in the vertices of the parts that reach out furthest; of 16 parts and more the others are passed
+    /// over in a tree.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         let box_of = |part: &Part3| {
             let core = part.shape.core();

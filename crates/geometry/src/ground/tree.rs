@@ -7,13 +7,14 @@
 //! order    test the eight boxes of a node at once; put all that pass on a stack, the nearest on top
 //! reach    to six sides, pass over all that reaches no further than what was found                            (outermost)
 //! ```
-//! A tree of boxes keeps their numbers in its last nodes. A tree of triangles has leaves there, with the corners of up to eight in
-//! rows, of which boxes are made when they are asked for: no more is read of what a ray meets, and 48 instructions a leaf are less than
-//! to wait for memory twice, which was a third of a ray's time on a million triangles.
+//! A tree of boxes keeps their numbers in its last nodes. A tree of triangles has leaves there, with the corners of up
+//! to eight in rows, of which boxes are made when they are asked for: no more is read of what a ray meets, and 48
+//! instructions a leaf are less than to wait for memory twice, which was a third of a ray's time on a million
+//! triangles.
 //!
-//! Splits by count pack all nodes full, so that a box takes 32 bytes, a triangle 44, and no tree is deeper than its count says (Kamel
-//! and Faloutsos, "On packing R-trees", 1993). Wald, Benthin and Boulos, "Getting rid of packets" (2008), for nodes of
-//! eight; Ize, "Robust BVH ray traversal" (2013), for bounds that lose no box.
+//! Splits by count pack all nodes full, so that a box takes 32 bytes, a triangle 44, and no tree is deeper than its
+//! count says (Kamel and Faloutsos, "On packing R-trees", 1993). Wald, Benthin and Boulos, "Getting rid of packets"
+//! (2008), for nodes of eight; Ize, "Robust BVH ray traversal" (2013), for bounds that lose no box.
 //!
 //! Not the index of the broad phase: that one is built anew whenever bodies have moved, in half the time, and takes
 //! 60 bytes per box; and its order of distance is strict, which takes a heap.

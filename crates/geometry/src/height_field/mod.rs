@@ -34,8 +34,9 @@ use std::sync::Arc;
 /// ```
 ///
 /// It is what a [`TriMesh`](crate::TriMesh) of these triangles would be, in a tenth of the memory: a set of points
-/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided), of bodies that are always fixed. Bodies that
-/// are sunk deep may get other contacts from the one than from the other, since triangles are looked at in another order.
+/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided), of bodies that are always
+/// fixed. Bodies that are sunk deep may get other contacts from the one than from the other, since triangles are looked
+/// at in another order.
 ///
 /// # Costs and limits
 /// From 2 to [`MAX_FIELD_SIDE`](crate::tolerance::MAX_FIELD_SIDE) columns and rows, within 1e6 m of the shape's

@@ -56,7 +56,8 @@ impl Loops {
         self
     }
 
-    /// In an order that depends on nothing but themselves: each from its lowest corner, and sorted. Beside each, what belongs to it.
+    /// In an order that depends on nothing but themselves: each from its lowest corner, and sorted. Beside each, what
+    /// belongs to it.
     pub(super) fn in_order<T: Copy>(mut self, beside: &[T]) -> (Self, Vec<T>) {
         for index in 0..self.len() {
             let places = self.places(index);

@@ -270,8 +270,8 @@ impl Polygon {
         grown(self.data.outer_radius, self.radius)
     }
 
-    /// Radius of a circle about [`Polygon::center`] that lies inside the shape, in metres, rounded down. Zero where there is none:
-    /// the centre of a sliver is rounded, and may lie beside it.
+    /// Radius of a circle about [`Polygon::center`] that lies inside the shape, in metres, rounded down. Zero where
+    /// there is none: the centre of a sliver is rounded, and may lie beside it.
     #[inline]
     pub fn inner_radius(&self) -> f32 {
         round_down(f64::from(self.data.inner_radius) + f64::from(self.radius)).max(0.0)

@@ -174,8 +174,8 @@ fn are_of_one_size(factors: &[f32]) -> bool {
     factors.iter().all(|factor| factor.abs() == factors[0].abs())
 }
 
-/// The normal of a plane through the origin, under factors for its points. Bit for bit where they are of one size; else rounded once,
-/// since only a power of two is divided out so that it fits an f32.
+/// The normal of a plane through the origin, under factors for its points. Bit for bit where they are of one size; else
+/// rounded once, since only a power of two is divided out so that it fits an f32.
 fn scaled_normal<const N: usize>(normal: [f32; N], factors: [f32; N]) -> [f32; N] {
     if are_of_one_size(&factors) {
         return array::from_fn(|axis| normal[axis] * factors[axis].signum());

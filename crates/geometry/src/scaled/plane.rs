@@ -33,8 +33,8 @@ impl Shape2 {
     /// ```
     ///
     /// # Errors
-    /// A factor that is zero or not finite; a round shape or a rounding under factors that differ in size; a result that is out of
-    /// range or has lost a dimension.
+    /// A factor that is zero or not finite; a round shape or a rounding under factors that differ in size; a result
+    /// that is out of range or has lost a dimension.
     pub fn scaled(&self, factors: Vec2) -> Result<Self, ScaleError> {
         check(&factors.to_array())?;
         match self {
@@ -80,7 +80,8 @@ fn moved(shape: &Shape2, place: impl Fn(Vec2) -> Vec2, factors: Vec2) -> Result<
             if do_mirror(factors) {
                 outline[1..].reverse();
             }
-            // Rounding may have pushed a vertex into the hull of the others, by less than it moves any: the hull is the shape then.
+            // Rounding may have pushed a vertex into the hull of the others, by less than it moves any: the hull is the
+            // shape then.
             let new = Polygon::new(&outline).or_else(|_| Polygon::hull_of(&outline))?;
             let error = if let Shape2::Polygon(polygon) = shape { polygon.error() } else { 0.0 };
             let error = f64::from(error) * f64::from(factors.abs().max_element());

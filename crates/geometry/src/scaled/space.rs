@@ -18,12 +18,13 @@ impl Shape3 {
     /// The shape with every local point multiplied by the factors: `Vec3::splat(0.01)` takes centimetres to metres, and
     /// negative ones mirror. A new shape, which shares nothing with the old one.
     ///
-    /// Triangles of a mesh, cells of a height field and parts of a compound keep their numbers. So do the vertices of solid
-    /// hulls, unless a hull becomes thousands of times flatter and loses some. A mirror renumbers the corners of cuboids
-    /// and of flat hulls. Cuboids that are turned in a compound become hulls if the factors differ. A flat hull stays flat
-    /// if its new vertices, rounded, still lie in one plane (along two axes, or under powers of two); otherwise it becomes a
-    /// solid, as thick as a rounding. [`Hull::error`] is scaled as well, without the roundings of new vertices. Triangles that become too small are dropped, as in [`TriMesh::new`]. Cost: that of
-    /// making the shape.
+    /// Triangles of a mesh, cells of a height field and parts of a compound keep their numbers. So do the vertices of
+    /// solid hulls, unless a hull becomes thousands of times flatter and loses some. A mirror renumbers the corners of
+    /// cuboids and of flat hulls. Cuboids that are turned in a compound become hulls if the factors differ. A flat hull
+    /// stays flat if its new vertices, rounded, still lie in one plane (along two axes, or under powers of two);
+    /// otherwise it becomes a solid, as thick as a rounding. [`Hull::error`] is scaled as well, without the roundings
+    /// of new vertices. Triangles that become too small are dropped, as in [`TriMesh::new`]. Cost: that of making the
+    /// shape.
     ///
     /// ```
     /// use asunder_geometry::{Capsule3, Hull, Shape3, glam::Vec3};

@@ -14,12 +14,13 @@ use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::tolerance::{CAST_GAP2, SAME_NORMAL};
 use asunder_geometry::{Chain, Core2, Pose2, Rotation2, Run, Shape2};
 
-/// Rounds after which a cast gives up and tells an impact with the gap that is left. Those that graze take some 25, the others 1 to 10.
+/// Rounds after which a cast gives up and tells an impact with the gap that is left. Those that graze take some 25, the
+/// others 1 to 10.
 const MAX_ROUNDS: usize = 96;
 
-/// Rounds after which axes that turn along with a body are tried as well. Beside the face of a body that turns, a fixed axis shows
-/// no more than what its far corner leaves of the gap: what parts slowly by a twentieth more a round, and 96 rounds are not
-/// enough to get away from a gap of 0.1 mm. The face's own normal shows all of it.
+/// Rounds after which axes that turn along with a body are tried as well. Beside the face of a body that turns, a fixed
+/// axis shows no more than what its far corner leaves of the gap: what parts slowly by a twentieth more a round, and 96
+/// rounds are not enough to get away from a gap of 0.1 mm. The face's own normal shows all of it.
 const PATIENT: usize = 12;
 
 /// Tries for one round's step of shapes that turn.
@@ -118,8 +119,8 @@ pub(super) fn meeting(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Optio
     (first <= last).then_some([first, last])
 }
 
-/// Whether circles that hold both parts, about where they are when a stretch begins, pass each other for certain: who turns a little
-/// is not all around its body.
+/// Whether circles that hold both parts, about where they are when a stretch begins, pass each other for certain: who
+/// turns a little is not all around its body.
 fn passes_by(stretch: &Stretch, pieces: [&Piece; 2]) -> bool {
     let center = |i: usize| stretch.spins[i].turn_at(0.0).turn(pieces[i].center);
     let offset = stretch.offset + (center(1) - center(0));

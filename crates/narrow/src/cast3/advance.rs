@@ -146,9 +146,9 @@ impl Course<'_> {
         pace <= 0.0
     }
 
-    /// Whether all that a body may sweep out by turning about its axis stays clear along the axis of a meeting, from then on until
-    /// the limit: where steps lead no further, what tells that a wheel of many sides rolls on beside another for good. What
-    /// is swept out does not turn: along one axis the gap is least at one end or the other.
+    /// Whether all that a body may sweep out by turning about its axis stays clear along the axis of a meeting, from
+    /// then on until the limit: where steps lead no further, what tells that a wheel of many sides rolls on beside
+    /// another for good. What is swept out does not turn: along one axis the gap is least at one end or the other.
     fn rounds_pass(&self, met: &Met, until: f64) -> bool {
         let turns = &self.passage.turns;
         let is_plane = |i: usize| matches!(self.parts[i].shape, Shape3::HalfSpace(_));

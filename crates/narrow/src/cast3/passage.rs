@@ -156,8 +156,8 @@ impl Passage {
         (self.is_straight() || self.may_meet(parts, until)).then_some(stretch)
     }
 
-    /// Whether the bounding spheres of two parts may meet until a fraction, by what they do while their bodies turn: from where they
-    /// are, on to where they may meet at the earliest (as `advance`, of spheres).
+    /// Whether the bounding spheres of two parts may meet until a fraction, by what they do while their bodies turn:
+    /// from where they are, on to where they may meet at the earliest (as `advance`, of spheres).
     fn may_meet(&self, parts: [&Part; 2], until: f64) -> bool {
         let arms = parts.map(|part| part.center.length());
         let local = |i: usize| self.bases[i].turn_back(parts[i].center);
@@ -198,8 +198,8 @@ impl Passage {
         self.turns[i].map_or(0.0, |turn| turn.chord() + 2.0 * f64::from(f32::EPSILON))
     }
 
-    /// Where the parts of a body are, at the start, that may meet a part of the other, or all of it, and how that moves: parts of A
-    /// (0), or of B (1).
+    /// Where the parts of a body are, at the start, that may meet a part of the other, or all of it, and how that
+    /// moves: parts of A (0), or of B (1).
     pub(super) fn region(&self, i: usize, body: &Shape3, other: &Part) -> (Region3, DVec3) {
         let (center, way) = match i {
             0 => (self.between + other.center, -self.drift),

@@ -106,8 +106,8 @@ impl Surface {
         };
         // Away from the corner.
         let leaving = if end == 1 { next } else { -next };
-        // Behind the face is who meets a hollow corner so; of a convex one of less than a right angle, nobody: normals of it may look
-        // away from the face.
+        // Behind the face is who meets a hollow corner so; of a convex one of less than a right angle, nobody: normals
+        // of it may look away from the face.
         let is_convex = leaving.dot(self.normal) < 0.0;
         let is_seen = !self.is_one_sided || is_convex || height >= -ALONG_GROUND;
         if direction.dot(leaving) <= ALONG_GROUND && is_seen {

@@ -6,9 +6,10 @@
 //! passed by   on one side of the triangle's plane from start to end
 //!             along the same way, square to the motion
 //! ```
-//! The point of a cuboid that is nearest to the triangle's point, and the triangle's that is nearest to that, lie nearer by each step,
-//! for a few products: the way between them is most often the distance but for rounding, and no kernel is asked. Of boxes on hills, yes
-//! or no took 0.75 of the time by it, distances 0.89 (AMD EPYC, Zen 4, 2026-11-26).
+//! The point of a cuboid that is nearest to the triangle's point, and the triangle's that is nearest to that, lie
+//! nearer by each step, for a few products: the way between them is most often the distance but for rounding, and no
+//! kernel is asked. Of boxes on hills, yes or no took 0.75 of the time by it, distances 0.89 (AMD EPYC, Zen 4,
+//! 2026-11-26).
 //!
 //! An axis is any: what all corners of both show along it is proved, however it was found. And any two points bound a
 //! separation from above.
@@ -177,7 +178,8 @@ impl Corners {
         Beside { corners, near: nearest(self.center, corners), of: None }
     }
 
-    /// One step closer, up to rounding: the cuboid's point nearest to the last of the triangle, and the triangle's nearest to that.
+    /// One step closer, up to rounding: the cuboid's point nearest to the last of the triangle, and the triangle's
+    /// nearest to that.
     pub(crate) fn narrowed(&self, beside: &Beside) -> Beside {
         let &Beside { corners, near, of } = beside;
         let Extent::Cuboid(half) = self.extent else { return *beside };
@@ -205,9 +207,9 @@ impl Corners {
         towards.map_or(shown, |axis| shown.max(self.along(axis, corners).gap()))
     }
 
-    /// An upper bound on the separation from a triangle: the way from its point nearest to the part's centre to the sphere
-    /// inside the part, or from a cuboid's point where the two are narrowed, else from the part's corner nearest to that point. Infinite for a
-    /// half-space.
+    /// An upper bound on the separation from a triangle: the way from its point nearest to the part's centre to the
+    /// sphere inside the part, or from a cuboid's point where the two are narrowed, else from the part's corner nearest
+    /// to that point. Infinite for a half-space.
     pub(crate) fn at_most(&self, beside: &Beside) -> f64 {
         let &Beside { corners, near, of } = beside;
         let mut least = self.gap_of_ball(beside);
@@ -334,8 +336,9 @@ impl Corners {
     }
 }
 
-/// The way from a triangle's nearest point to another point, up to rounding, and how far above its corners that point is along it,
-/// times its length: the plane square to it through the highest corner parts them by that, whatever the way is worth.
+/// The way from a triangle's nearest point to another point, up to rounding, and how far above its corners that point
+/// is along it, times its length: the plane square to it through the highest corner parts them by that, whatever the
+/// way is worth.
 #[inline]
 pub(super) fn way_from(corners: [DVec3; 3], point: DVec3) -> (DVec3, f64) {
     let away = point - nearest(point, corners);

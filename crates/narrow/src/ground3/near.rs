@@ -71,8 +71,8 @@ impl<'a> OnGround<'a> {
         }
     }
 
-    /// The box around a convex part of the body in the ground's axes, grown by `reach` metres and rounded outwards, from that around its
-    /// core as good as f64 has it. Everything, for a half-space.
+    /// The box around a convex part of the body in the ground's axes, grown by `reach` metres and rounded outwards,
+    /// from that around its core as good as f64 has it. Everything, for a half-space.
     pub(crate) fn bounds_around(&self, part: &Part, [low, high]: [DVec3; 2], reach: f64) -> Aabb3 {
         if matches!(part.shape, Shape3::HalfSpace(_)) {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
@@ -90,7 +90,8 @@ impl<'a> OnGround<'a> {
     }
 }
 
-/// A box that holds all between two corners and so many metres around them, which are off by what rounding takes from such lengths.
+/// A box that holds all between two corners and so many metres around them, which are off by what rounding takes from
+/// such lengths.
 #[inline]
 pub(crate) fn grown_around([low, high]: [DVec3; 2], grow: f64, lengths: f64) -> Aabb3 {
     let grow = DVec3::splat(grow + 64.0 * f64::EPSILON * lengths);

@@ -9,8 +9,8 @@ use crate::polygon::apart::Apart;
 use crate::polygon::measure::{Asked, Near, Probe};
 
 impl Pair2<'_> {
-    /// The closest points of shapes that do not overlap; nothing where they do. Cost: as [`overlaps`](Self::overlaps), and where they
-    /// do not some support searches, each linear in the vertices up to 16, above logarithmic.
+    /// The closest points of shapes that do not overlap; nothing where they do. Cost: as [`overlaps`](Self::overlaps),
+    /// and where they do not some support searches, each linear in the vertices up to 16, above logarithmic.
     pub fn distance(&self) -> Option<Closest2> {
         // Yes or no is cheap, where the search below would end in an overlap, or in how deep each part is, for nothing.
         if (!self.has_ground() || self.has_many_parts()) && self.overlaps() {
@@ -77,8 +77,8 @@ impl Parts<'_> {
         }
     }
 
-    /// The same where they all but touch, or overlap. Out of line: with one copy more of what is asked there, contacts took 1.08 times
-    /// as long.
+    /// The same where they all but touch, or overlap. Out of line: with one copy more of what is asked there, contacts
+    /// took 1.08 times as long.
     #[cold]
     #[inline(never)]
     fn look_closer(&self, limit: f64) -> Result<Option<Closest2>, f32> {

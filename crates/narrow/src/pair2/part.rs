@@ -99,8 +99,8 @@ pub(super) fn for_parts_near<'a>(
     compound.visit_near(&bounds, is_enough).is_break()
 }
 
-/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up to a limit in
-/// metres that the visitor may lower: it returns the new one.
+/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up
+/// to a limit in metres that the visitor may lower: it returns the new one.
 pub(super) fn for_nearest_parts<'a>(
     compound: &'a Compound2,
     turn: &Turn,

@@ -1,5 +1,5 @@
-//! A sphere over a face, an edge or a corner of a triangle or a hull, both parts of nothing: what is told of them, in the axes of the
-//! shape with faces.
+//! A sphere over a face, an edge or a corner of a triangle or a hull, both parts of nothing: what is told of them, in
+//! the axes of the shape with faces.
 
 use super::Pair3;
 use super::balls::Told;

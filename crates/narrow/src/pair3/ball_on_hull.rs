@@ -10,9 +10,10 @@
 //! normal        that of the face, inside and over it; else along that way
 //! yes or no     the number's beyond twice the bound, else by integers
 //! ```
-//! The walk is that of Mirtich, "V-Clip: fast and robust polyhedral collision detection" (1998), of a point, which has one feature. It
-//! proposes; the projection proves. The general path searches for closest points of both, and names the features of a patch: a manifold
-//! takes 1,640 ns there and 440 here with hulls of 16 (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
+//! The walk is that of Mirtich, "V-Clip: fast and robust polyhedral collision detection" (1998), of a point, which has
+//! one feature. It proposes; the projection proves. The general path searches for closest points of both, and names the
+//! features of a patch: a manifold takes 1,640 ns there and 440 here with hulls of 16 (Intel Xeon, Ice Lake, 2 virtual
+//! cores, 2026-11-26).
 
 use super::Pair3;
 use super::ball_on_faces::{BallOnFaces, Nearest};
@@ -311,8 +312,8 @@ mod tests {
         }
     }
 
-    /// The general path, which parts of compounds take, says the same: of hulls of few corners and of many, thin ones, flat ones, rounded
-    /// ones, and prisms, whose faces are flat up to rounding.
+    /// The general path, which parts of compounds take, says the same: of hulls of few corners and of many, thin ones,
+    /// flat ones, rounded ones, and prisms, whose faces are flat up to rounding.
     #[test]
     fn a_part_of_a_compound_says_the_same() {
         let mut numbers = Numbers::new(80);
@@ -340,8 +341,8 @@ mod tests {
         assert!(counts.near > 2000 && counts.apart > 2000, "{counts:?}");
     }
 
-    /// Of hulls so thin that their sides are merged away, what is behind all faces may be beside them; and the centre that radii are
-    /// about, rounded to f32, may lie beside one without volume.
+    /// Of hulls so thin that their sides are merged away, what is behind all faces may be beside them; and the centre
+    /// that radii are about, rounded to f32, may lie beside one without volume.
     #[test]
     fn what_is_behind_all_faces_of_a_thin_hull_may_be_beside_it() {
         let hull = |points: &[[f32; 3]]| {

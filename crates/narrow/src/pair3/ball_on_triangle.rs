@@ -7,8 +7,8 @@
 //! normal        the face's where that point is inside of it, or the centre lies on the triangle; else along both
 //! yes or no     the number's beyond twice the bound, else by integers
 //! ```
-//! The general path sees a solid with two faces, looks for the closest points of that and a point, and names a feature for them: a
-//! manifold takes 830 ns there and 260 here (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
+//! The general path sees a solid with two faces, looks for the closest points of that and a point, and names a feature
+//! for them: a manifold takes 830 ns there and 260 here (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
 
 use super::Pair3;
 use super::ball_on_faces::{BallOnFaces, Nearest};

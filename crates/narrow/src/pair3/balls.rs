@@ -33,8 +33,8 @@ struct Balls<'p> {
     precision: Precision,
 }
 
-/// What is told at once of two spheres, of a sphere and a cuboid, a capsule, a triangle or a hull, of two capsules, and of what is over a
-/// half-space; nothing of all other pairs.
+/// What is told at once of two spheres, of a sphere and a cuboid, a capsule, a triangle or a hull, of two capsules, and
+/// of what is over a half-space; nothing of all other pairs.
 impl Pair3<'_> {
     /// Itself, where there may be a closed form: asked first, since most pairs have none, and are told apart in some ns.
     #[inline(always)]
@@ -304,8 +304,8 @@ pub(super) mod tests {
     use asunder_geometry::glam::Quat;
     use asunder_geometry::{Compound3, Sphere};
 
-    /// Checks that a pair says what the same pair does by the general path, with ends of points so near to each other, as a share of a
-    /// metre and of how far they are from their bodies; whether they are near enough for a point.
+    /// Checks that a pair says what the same pair does by the general path, with ends of points so near to each other,
+    /// as a share of a metre and of how far they are from their bodies; whether they are near enough for a point.
     fn says_as(whole: &Pair3<'_>, general: &Pair3<'_>, near: f32) -> bool {
         assert_eq!(whole.overlaps(), general.overlaps());
         let found = [whole, general].map(|pair| pair.separation(f32::INFINITY));
@@ -383,7 +383,8 @@ pub(super) mod tests {
         }
     }
 
-    /// Checks that a shape and one that a way of whole length, or of quarters, leads to, touch there, in both orders, and nowhere beyond.
+    /// Checks that a shape and one that a way of whole length, or of quarters, leads to, touch there, in both orders,
+    /// and nowhere beyond.
     pub(in crate::pair3) fn touch_exactly([shape, other]: [&Shape3; 2], place: DVec3, way: DVec3) {
         let verdict = |longer: f64| {
             let there = Pose3::at(place + way * longer).unwrap();

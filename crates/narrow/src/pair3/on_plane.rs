@@ -1,5 +1,5 @@
-//! A half-space and a shape that is no compound and no ground, both parts of nothing: answered at once, in the world's axes about the
-//! half-space's position.
+//! A half-space and a shape that is no compound and no ground, both parts of nothing: answered at once, in the world's
+//! axes about the half-space's position.
 //!
 //! ```text
 //! separation    n . (lowest vertex - a point of the plane) - radius: vertex and normal are turned once each, which is what the bound of
@@ -7,8 +7,9 @@
 //! yes or no     the number's beyond twice the bound, else by integers
 //! points        the corners of the face that looks at the plane                                             (polyhedron::half_space)
 //! ```
-//! The general path sees one shape in the other's axes, which takes a rotation between both, and one back: of a sphere a manifold takes
-//! 330 ns there and 60 here, of a cuboid 340 and 260, its distance 110 and 40 (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-26).
+//! The general path sees one shape in the other's axes, which takes a rotation between both, and one back: of a sphere
+//! a manifold takes 330 ns there and 60 here, of a cuboid 340 and 260, its distance 110 and 40 (AMD EPYC, Zen 4, 2
+//! virtual cores, 2026-11-26).
 
 use super::balls::Told;
 use super::{IDENTITY, Pair3, reach_of};

@@ -131,8 +131,8 @@ pub(crate) fn for_parts_along<'a>(
     in_order(walk, |index| visit(Part::of(compound, index, basis)))
 }
 
-/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up to a limit in
-/// metres that the visitor may lower: it returns the new one.
+/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up
+/// to a limit in metres that the visitor may lower: it returns the new one.
 pub(super) fn for_nearest_parts<'a>(
     compound: &'a Compound3,
     basis: &Basis3,

@@ -33,8 +33,8 @@ pub(super) struct Found {
 }
 
 impl<'a> Pair3<'a> {
-    /// Two shapes that are no compounds as parts, in A's axes: as [`Pair3::parts`] has them, but for what no whole shape asks for.
-    /// A frame of hulls in the air makes thousands of them.
+    /// Two shapes that are no compounds as parts, in A's axes: as [`Pair3::parts`] has them, but for what no whole
+    /// shape asks for. A frame of hulls in the air makes thousands of them.
     #[inline(always)]
     pub(super) fn wholes(&self) -> Parts<'a> {
         if let Shape3::Sphere(_) = self.shape_a {

@@ -6,9 +6,9 @@
 //! yes or no     the number's beyond twice the bound, else by integers
 //! points        one, or both ends of the stretch along which they lie side by side
 //! ```
-//! The general path sees B in A's axes, which takes a rotation between both, and one back: a distance takes 390 ns there and 170 here.
-//! Yes or no, and manifolds, take as long as there; they are told here for the number, which is one whatever is asked (Intel Xeon, Ice
-//! Lake, 2 virtual cores, 2026-11-26).
+//! The general path sees B in A's axes, which takes a rotation between both, and one back: a distance takes 390 ns
+//! there and 170 here. Yes or no, and manifolds, take as long as there; they are told here for the number, which is one
+//! whatever is asked (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
 
 use super::balls::Told;
 use super::{Pair3, reach_of};

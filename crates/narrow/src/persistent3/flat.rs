@@ -48,8 +48,9 @@ impl<'a> NearPoints<'a> {
         near
     }
 
-    /// Where a point on ground may come to another patch than its own, whose unit normal is known, within so many metres: what it costs
-    /// is the sine of the greatest angle to that normal. Where ground ends or folds back, nobody knows.
+    /// Where a point on ground may come to another patch than its own, whose unit normal is known, within so many
+    /// metres: what it costs is the sine of the greatest angle to that normal. Where ground ends or folds back, nobody
+    /// knows.
     pub(super) fn seam_around(&self, foot: DVec3, (normal, patch): (DVec3, u32), reach: f64) -> Seam {
         let unknown = Seam { free: 0.0, cost: UNKNOWN };
         // Seen from behind, all that goes on from it is.

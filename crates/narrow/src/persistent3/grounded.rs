@@ -15,14 +15,15 @@
 //! yes or no:   no, while the drift is less than what parts them
 //!              yes, while a segment of the body crosses a triangle, or a point of ground is in the box      (witness)
 //! ```
-//! **How far.** Up to 2^-8 of the radius, of a cube of a metre 3.4 mm. Which directions ground lets through is chosen anew
-//! only then. And no further than the margin: all that the body can come to overlap has been within the margin, and so has
-//! been told; with a smaller margin, up to 2^-15 as for solids. It ends, too, where the first point may leave its features, unless
-//! what that costs is bearable for longer: then it costs, from the start, a share of the drift, by how steeply ground bends at
-//! the next, and twice the drift where nobody knows; no further than that is 2^-14 of the radius. (Charged wherever the longest
-//! way would lead past a feature, frames of boxes and hulls at rest on hills took 1.05 to 1.23 times as long: AMD EPYC, Zen 5,
-//! 2026-11-25.) Ground between points rises otherwise than they do: twice the greatest of the low bends around them. A ball
-//! has no features to leave, and pays for the way around itself.
+//! **How far.** Up to 2^-8 of the radius, of a cube of a metre 3.4 mm. Which directions ground lets through is chosen
+//! anew only then. And no further than the margin: all that the body can come to overlap has been within the margin,
+//! and so has been told; with a smaller margin, up to 2^-15 as for solids. It ends, too, where the first point may
+//! leave its features, unless what that costs is bearable for longer: then it costs, from the start, a share of the
+//! drift, by how steeply ground bends at the next, and twice the drift where nobody knows; no further than that is
+//! 2^-14 of the radius. (Charged wherever the longest way would lead past a feature, frames of boxes and hulls at rest
+//! on hills took 1.05 to 1.23 times as long: AMD EPYC, Zen 5, 2026-11-25.) Ground between points rises otherwise than
+//! they do: twice the greatest of the low bends around them. A ball has no features to leave, and pays for the way
+//! around itself.
 //!
 //! parry3d keeps a manifold a triangle until a point of it slips by a millimetre.
 
@@ -77,8 +78,8 @@ pub(super) struct Memory {
     witness: Vec<Witness>,
 }
 
-/// Places where points may leave their features, of one body: four points a manifold, and what is between them. Bodies with more are
-/// not kept.
+/// Places where points may leave their features, of one body: four points a manifold, and what is between them. Bodies
+/// with more are not kept.
 const MOST_SEAMS: usize = 80;
 
 /// Manifolds of most bodies: for so many there is room from the start.

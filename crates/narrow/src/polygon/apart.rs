@@ -20,9 +20,9 @@ pub(crate) struct Apart {
 }
 
 impl Convex<'_> {
-    /// What [`Convex::probe`] would say of the closest points, by the shortest way, without axes and edges; or that they are further apart
-    /// than a limit, by at least so many metres. Nothing where it takes a closer look: of what overlaps or all but touches,
-    /// of half-planes, and of points among themselves.
+    /// What [`Convex::probe`] would say of the closest points, by the shortest way, without axes and edges; or that
+    /// they are further apart than a limit, by at least so many metres. Nothing where it takes a closer look: of what
+    /// overlaps or all but touches, of half-planes, and of points among themselves.
     pub(crate) fn apart(&self, limit: f64) -> Option<Result<Apart, f32>> {
         if self.has_line() {
             return None;

@@ -170,8 +170,8 @@ fn is_around_origin(places @ [a, b, c]: [DVec2; 3], precision: &Precision) -> bo
     areas.iter().all(|&area| area > doubt) || areas.iter().all(|&area| area < -doubt)
 }
 
-/// How much of the way from one corner to another leads to its point nearest to the origin, held to the way, and that point. Of corners
-/// in one place, the first.
+/// How much of the way from one corner to another leads to its point nearest to the origin, held to the way, and that
+/// point. Of corners in one place, the first.
 #[inline(always)]
 fn nearest_between(from: DVec2, to: DVec2) -> (f64, DVec2) {
     let along = to - from;

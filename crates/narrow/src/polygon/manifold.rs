@@ -56,9 +56,9 @@ impl Touch {
     }
 }
 
-/// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which.
-/// `preference` is how much another axis must beat an edge of A by, and `near` how near a point must be to a vertex of either to be named
-/// after it.
+/// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which. `preference` is
+/// how much another axis must beat an edge of A by, and `near` how near a point must be to a vertex of either to be
+/// named after it.
 ///
 /// An axis that only nearly is the best may have its deepest point clipped away, because what touches lies just beside
 /// its edge. Then the best axis is asked in its place, and in a gap, the witness points.
@@ -430,8 +430,9 @@ struct End {
 type Clipped = Option<[End; 2]>;
 
 /// The ends of the incident edge held to the width of the reference edge; none where they face past each other. `edges`
-/// are the vertices at their ends, the reference's first. Where ends of both are within `near` metres of each other, the point is named
-/// after both, whichever is further in: so that names stay while bodies of equal width tremble on each other.
+/// are the vertices at their ends, the reference's first. Where ends of both are within `near` metres of each other,
+/// the point is named after both, whichever is further in: so that names stay while bodies of equal width tremble on
+/// each other.
 #[inline]
 fn clip(
     &[from, to]: &[DVec2; 2],

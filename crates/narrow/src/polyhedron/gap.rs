@@ -1,7 +1,7 @@
 //! What is told of two solids of which nothing but closest points are wanted.
 //!
-//! Few words, and no axes, faces or edges: what the kernels know of a pair besides is a kilobyte, and to write that took a third of the
-//! time that the points took.
+//! Few words, and no axes, faces or edges: what the kernels know of a pair besides is a kilobyte, and to write that
+//! took a third of the time that the points took.
 
 use super::distance::{Close, Reached, Witness};
 use crate::precision::{Precision, at_least, signed};

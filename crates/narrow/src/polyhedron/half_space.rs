@@ -88,8 +88,8 @@ impl Plane {
         self.touch_corners(corners, lowest, (core.radius, outwards), margin, slacks)
     }
 
-    /// The same of a shape that has its axes and its origin there: where it can be told without a [`Solid`], which takes as long as all
-    /// else of a cuboid or a capsule.
+    /// The same of a shape that has its axes and its origin there: where it can be told without a [`Solid`], which
+    /// takes as long as all else of a cuboid or a capsule.
     #[inline]
     pub(crate) fn touch_shape(
         &self,
@@ -123,8 +123,8 @@ impl Plane {
         self.touch(&Solid::new(&core, *basis, origin, f64::from(shape.radius())), margin, slacks)
     }
 
-    /// The face of a cuboid that looks at the plane: as [`opposed_face`], where no more than four corners are as low as the lowest, up to
-    /// the slack, and those on one face.
+    /// The face of a cuboid that looks at the plane: as [`opposed_face`], where no more than four corners are as low as
+    /// the lowest, up to the slack, and those on one face.
     fn face_of(&self, cuboid: &Cuboid, basis: &Basis3, slack: f64) -> Option<usize> {
         let down = basis.turn_back(-self.normal).to_array();
         let rises = [0, 1, 2].map(|axis| 2.0 * f64::from(cuboid.half_extents()[axis]) * down[axis].abs());
@@ -141,8 +141,8 @@ impl Plane {
         faces.reduce(|best, next| if next.1 > best.1 { next } else { best }).map(|(face, _)| face)
     }
 
-    /// What corners of a face become contacts, by their numbers, with the lowest of all, and how far the surface lies beyond them and in
-    /// which direction.
+    /// What corners of a face become contacts, by their numbers, with the lowest of all, and how far the surface lies
+    /// beyond them and in which direction.
     #[inline]
     fn touch_corners(
         &self,

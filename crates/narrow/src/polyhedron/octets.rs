@@ -1,7 +1,7 @@
 //! Vertices eight by eight, in f32 lanes.
 //!
-//! Lanes are made where they are used, in explicit vectors: of plain loops LLVM made vectors of two where the greatest of eight is wanted
-//! next, four for each eight vertices in place of two.
+//! Lanes are made where they are used, in explicit vectors: of plain loops LLVM made vectors of two where the greatest
+//! of eight is wanted next, four for each eight vertices in place of two.
 
 use crate::counted::count_step;
 use asunder_geometry::VertexOctet;
@@ -78,7 +78,8 @@ impl Along {
         (best, place + lane)
     }
 
-    /// The one vertex whose projection comes to the greatest but for what both may be off by, of up to 32; nothing where there are more.
+    /// The one vertex whose projection comes to the greatest but for what both may be off by, of up to 32; nothing
+    /// where there are more.
     #[inline(always)]
     pub(super) fn only(&self, octets: &[VertexOctet], extent: f32) -> Option<usize> {
         if octets.len() > IN_A_WORD {
@@ -136,8 +137,9 @@ fn greatest(lanes: f32x8) -> f32 {
 
 /// Which of eight lanes come to `least`: a bit each, the first the lowest.
 ///
-/// Processors have an instruction for it that plain loops do not come to: they make eight shifts, or turn four octets into
-/// columns first. [`Solid::support`](super::solid::Solid::support) takes two thirds of the time with it, a frame of falling hulls 0.91.
+/// Processors have an instruction for it that plain loops do not come to: they make eight shifts, or turn four octets
+/// into columns first. [`Solid::support`](super::solid::Solid::support) takes two thirds of the time with it, a frame
+/// of falling hulls 0.91.
 #[inline(always)]
 pub(super) fn lanes_from(lanes: f32x8, least: f32) -> u32 {
     lanes.simd_ge(f32x8::splat(least)).to_bitmask()

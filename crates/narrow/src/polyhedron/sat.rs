@@ -104,7 +104,8 @@ const SEEN: usize = 6;
 pub(crate) struct Search<'a> {
     /// A separation that the shapes have for certain: what is no better is left out.
     pub(crate) known: f64,
-    /// What the axis of the last frame shows, where it was not proved to be the best: no walk begins at a face that shows no more.
+    /// What the axis of the last frame shows, where it was not proved to be the best: no walk begins at a face that
+    /// shows no more.
     pub(crate) unproved: f64,
     /// How far edges may lie from the supporting planes of the axis that is theirs.
     pub(crate) slack: f64,

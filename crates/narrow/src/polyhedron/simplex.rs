@@ -10,8 +10,9 @@
 //! else            of the edges from the last corner the one that leads the furthest towards the origin
 //! else            that corner
 //! ```
-//! So the first that fits is taken ([`nearest_to_origin`]). Where the corners are flat but for rounding, that may be the wrong one, and
-//! the iteration comes no nearer: then all that fit are compared ([`nearest_of_all`]), and no branch leads astray.
+//! So the first that fits is taken ([`nearest_to_origin`]). Where the corners are flat but for rounding, that may be
+//! the wrong one, and the iteration comes no nearer: then all that fit are compared ([`nearest_of_all`]), and no branch
+//! leads astray.
 
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
@@ -100,8 +101,8 @@ impl Corners {
         is_over.then(|| ([(i, of_i / area), (j, of_j / area)], 2))
     }
 
-    /// The nearest point of an edge or a triangle, by its corners in ascending order, if the origin is over its inside; measured from
-    /// the corner that is nearest.
+    /// The nearest point of an edge or a triangle, by its corners in ascending order, if the origin is over its inside;
+    /// measured from the corner that is nearest.
     fn over_face(&self, face: &[usize]) -> Option<Nearest> {
         let length = |&corner: &usize| self.places[corner].length_squared();
         let mut order: ArrayVec<usize, 3> = face.iter().copied().collect();
@@ -165,8 +166,9 @@ fn of_four(corners: &Corners) -> Option<Found> {
 
 /// The same with squared distances compared: what is nearest whatever rounding makes of sides.
 ///
-/// Each face is measured from its corner nearest to the origin: what a last corner far away rounds may be more than a step that it
-/// brings. Of plates of a millionth of their width, edge to edge, the iteration stopped 1.35e-6 m from the origin that they touch.
+/// Each face is measured from its corner nearest to the origin: what a last corner far away rounds may be more than a
+/// step that it brings. Of plates of a millionth of their width, edge to edge, the iteration stopped 1.35e-6 m from the
+/// origin that they touch.
 #[cold]
 pub(crate) fn nearest_of_all(corners: &Corners) -> Nearest {
     let last = corners.last().0;

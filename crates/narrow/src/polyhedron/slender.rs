@@ -25,7 +25,8 @@ pub(crate) struct Slender {
 }
 
 impl Slender {
-    /// Of a shape with its axes and its origin there, if it is one: to make a [`Solid`] of it takes as long as to find closest points.
+    /// Of a shape with its axes and its origin there, if it is one: to make a [`Solid`] of it takes as long as to find
+    /// closest points.
     #[inline]
     pub(crate) fn of(shape: &Shape3, (basis, origin): (&Basis3, DVec3)) -> Option<Self> {
         let [from, to] = match shape {
@@ -98,10 +99,11 @@ pub(crate) fn nearest(a: &Slender, b: &Slender, rounding: f64) -> Nearest {
     nearest_at_once(a, b, rounding).unwrap_or_else(|| nearest_of_all(a, b, rounding))
 }
 
-/// The closest points of two segments by one solution of their equations, clamped (Ericson, "Real-Time Collision Detection", 2005, 5.1.9);
-/// nothing of points, of segments that are all but parallel, and where a projection does not prove it to a sixteenth of the
-/// rounding: most pairs of capsules need neither the four ends nor another axis. Without it their distance takes 208 ns in place of 165, and
-/// their manifold 265 in place of 227 (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-27).
+/// The closest points of two segments by one solution of their equations, clamped (Ericson, "Real-Time Collision
+/// Detection", 2005, 5.1.9); nothing of points, of segments that are all but parallel, and where a projection does not
+/// prove it to a sixteenth of the rounding: most pairs of capsules need neither the four ends nor another axis. Without
+/// it their distance takes 208 ns in place of 165, and their manifold 265 in place of 227 (Intel Xeon, Ice Lake, 2
+/// virtual cores, 2026-11-27).
 #[inline]
 fn nearest_at_once(a: &Slender, b: &Slender, rounding: f64) -> Option<Nearest> {
     if a.is_point || b.is_point {

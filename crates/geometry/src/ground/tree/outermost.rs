@@ -15,9 +15,9 @@ use arrayvec::ArrayVec;
 pub(crate) type Reach = [f64; 6];
 
 impl Tree {
-    /// Hands boxes to `visitor`, some more than once, which returns how far all that it was handed reaches by then: until no other
-    /// reaches further. `reach_of` tells how far a box can reach, no less than all that is in it. Cost: logarithmic in the boxes,
-    /// and linear in those about which `reach_of` leaves it open.
+    /// Hands boxes to `visitor`, some more than once, which returns how far all that it was handed reaches by then:
+    /// until no other reaches further. `reach_of` tells how far a box can reach, no less than all that is in it. Cost:
+    /// logarithmic in the boxes, and linear in those about which `reach_of` leaves it open.
     pub(crate) fn visit_outermost(
         &self,
         reach_of: impl Fn(Sides) -> Reach,

@@ -1,4 +1,5 @@
-//! Walks down a tree of boxes: all that overlap one, and whatever a rank puts in order, as what a moved box crosses or what is nearest.
+//! Walks down a tree of boxes: all that overlap one, and whatever a rank puts in order, as what a moved box crosses or
+//! what is nearest.
 
 use super::{EMPTY, IS_BOX, IS_LEAF, MOST_DEPTH, Rows, Sides, Tree, WIDTH};
 use crate::aabb::{Aabb3, Bounds};
@@ -10,8 +11,8 @@ use glam::{DVec3, Vec3};
 /// What waits while another is looked at: all but one of each node that stands above it.
 pub(super) const STACK: usize = WIDTH * (MOST_DEPTH + 1);
 
-/// Boxes that wait, each with its place in the order. Not an array, which is written all over before it is used: of a ray on 20,000
-/// triangles that was 4 % of the time (AMD EPYC, Zen 4, 2026-11-25).
+/// Boxes that wait, each with its place in the order. Not an array, which is written all over before it is used: of a
+/// ray on 20,000 triangles that was 4 % of the time (AMD EPYC, Zen 4, 2026-11-25).
 type Stack = ArrayVec<(f32, u32), STACK>;
 
 /// Three roundings to f32 stand between a corner and a time, and five between corners and the square of a distance,

@@ -5,8 +5,8 @@ use super::{Course, Look};
 use asunder_geometry::glam::DVec2;
 
 impl Course<'_> {
-    /// Whether circles around all that turns pass, along the axis of a look, from then on until the end. Circles do not turn: along
-    /// one axis their gap is least at one end or the other.
+    /// Whether circles around all that turns pass, along the axis of a look, from then on until the end. Circles do not
+    /// turn: along one axis their gap is least at one end or the other.
     pub(super) fn circles_pass(&self, look: &Look, now: f64) -> bool {
         let is_turning = |which: usize| self.stretch.spins[which].rounding > 0.0;
         // Where nothing turns, a circle tells no more; a line that turns sweeps over all the plane.

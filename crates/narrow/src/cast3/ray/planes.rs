@@ -44,13 +44,14 @@ const COMPACT: f64 = 4.0;
 
 /// Inside of all planes: the ray enters some and leaves others.
 ///
-/// Faces that were merged are not flat, and the planes are those of their highest corners, so that beyond a sharp edge the planes
-/// hold more than the hull, and two of faces back to back an endless slab. How much more: be r the radius of a ball inside the
-/// hull, R that of one around it, both about its centre c, and q how far corners of a face lie below its plane at most, with rounding.
-/// Where the way from c to a point that the planes hold leaves the hull, it is no more than q below some plane; c is at least
-/// r below that, and the point not above it. So at most the share q / r of the way is outside of the hull, and the point no
-/// further from it than R q / r. Where that would be too much, the face that is entered is looked at: over a face, the hull is at
-/// most q below its plane, however sharp the edges are. What enters beside it goes by steps.
+/// Faces that were merged are not flat, and the planes are those of their highest corners, so that beyond a sharp edge
+/// the planes hold more than the hull, and two of faces back to back an endless slab. How much more: be r the radius of
+/// a ball inside the hull, R that of one around it, both about its centre c, and q how far corners of a face lie below
+/// its plane at most, with rounding. Where the way from c to a point that the planes hold leaves the hull, it is no
+/// more than q below some plane; c is at least r below that, and the point not above it. So at most the share q / r of
+/// the way is outside of the hull, and the point no further from it than R q / r. Where that would be too much, the
+/// face that is entered is looked at: over a face, the hull is at most q below its plane, however sharp the edges are.
+/// What enters beside it goes by steps.
 pub(super) fn hull(line: &Line, basis: &Basis3, hull: &Hull, core: &Core3) -> Meeting {
     let (origin, way) = (basis.turn_back(line.origin), basis.turn_back(line.way));
     let (mut enter, mut leave, mut furthest) = (f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY);

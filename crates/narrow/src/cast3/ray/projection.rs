@@ -9,10 +9,10 @@ use asunder_geometry::glam::{DVec3, Vec3};
 
 /// The slack, in squares of the reach.
 ///
-/// A place in the plane is right to 8 roundings of the reach R, so a span between two, each within 4 R of zero, to 64 of
-/// R^2. A triangle alone takes what passes within 128 roundings of R, and its box what passes within 512: an edge is no longer than
-/// 2 R, and along a ray that is no more than the root of 3 steeper, they are 1800. The rest is to spare: on a mesh a kilometre
-/// wide the slack is 2e-6 m^2.
+/// A place in the plane is right to 8 roundings of the reach R, so a span between two, each within 4 R of zero, to 64
+/// of R^2. A triangle alone takes what passes within 128 roundings of R, and its box what passes within 512: an edge is
+/// no longer than 2 R, and along a ray that is no more than the root of 3 steeper, they are 1800. The rest is to spare:
+/// on a mesh a kilometre wide the slack is 2e-6 m^2.
 const SLACK: f64 = 8192.0 * f64::EPSILON;
 
 /// On which side of a triangle's edges a ray's line is.

@@ -19,8 +19,9 @@ use crate::feature::Feature;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
-/// How much of an edge's rise may be cut off and go into the error, in slacks: what rotations in f32 leave of edges that were meant
-/// to be level. With none, cuboids that start on hills with their faces along the ground's took 17 % more instructions.
+/// How much of an edge's rise may be cut off and go into the error, in slacks: what rotations in f32 leave of edges
+/// that were meant to be level. With none, cuboids that start on hills with their faces along the ground's took 17 %
+/// more instructions.
 const MOST_CUT_OFF: f64 = 1.0 / 64.0;
 
 /// What a part's face says of a triangle.
@@ -68,8 +69,8 @@ impl Prism<'_> {
         let Some(stretch) = self.stretch(incident.face, outwards, (from, along)) else {
             return Against::Unknown;
         };
-        // An edge that counts as level may rise a little. Where its upper end is cut off, in a gap another edge may pass under the face
-        // nearer to it, by no more than was cut off.
+        // An edge that counts as level may rise a little. Where its upper end is cut off, in a gap another edge may
+        // pass under the face nearer to it, by no more than was cut off.
         let [(begin, _), (end, _)] = stretch.ends;
         let nearest = separation(begin).min(separation(end));
         let is_little = nearest - least <= MOST_CUT_OFF * standing.slack;

@@ -86,7 +86,8 @@ impl Standing<'_> {
         place.axes.turn_back(facet.normal)
     }
 
-    /// Whether some axis shows that a cuboid, once it has moved, is no deeper in a triangle than the slack. Of others nothing is known.
+    /// Whether some axis shows that a cuboid, once it has moved, is no deeper in a triangle than the slack. Of others
+    /// nothing is known.
     pub(super) fn is_clear_of(&self, facet: &Facet, moved: DVec3) -> bool {
         let Shape3::Cuboid(cuboid) = self.part.shape else { return false };
         let least = self.radius - self.slack;

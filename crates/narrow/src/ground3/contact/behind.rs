@@ -6,9 +6,10 @@
 //!     than a right angle: a move along it, by how deep the part is there, leaves all of the triangle behind: it is hidden
 //! all others are looked at as if they had not waited
 //! ```
-//! A crate on a step, a hair deep in the tread, has a strip of the riser as high as that before it, from the inside: told as what it runs
-//! into, that stopped a crate without friction at the edge of the step it slid from. Ground that only lies lower, and is no part of what
-//! the crate stands on, hides nothing: between fences that cross, bodies tipped over one into the other.
+//! A crate on a step, a hair deep in the tread, has a strip of the riser as high as that before it, from the inside:
+//! told as what it runs into, that stopped a crate without friction at the edge of the step it slid from. Ground that
+//! only lies lower, and is no part of what the crate stands on, hides nothing: between fences that cross, bodies tipped
+//! over one into the other.
 
 use super::facet::Facet;
 use super::prism::Prism;

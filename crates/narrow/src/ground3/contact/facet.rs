@@ -9,8 +9,8 @@ use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_NORMAL;
 
-/// Triangles around a corner that are looked at, each way. More than that meet at the poles of very fine spheres alone: such a corner
-/// gives no direction but its triangles' own.
+/// Triangles around a corner that are looked at, each way. More than that meet at the poles of very fine spheres alone:
+/// such a corner gives no direction but its triangles' own.
 const MOST_AROUND: usize = 256;
 
 /// Cosine of 0.1 rad: within that, a triangle's own normal may stand in for a direction that ground refuses.
@@ -204,8 +204,9 @@ impl Facet {
         if self.is_front { self.normal } else { -self.normal }
     }
 
-    /// Walks over the other triangles around a corner, first one way and, where ground ends there, the other; as long as something
-    /// holds of each: by its number, the place of the corner in it, and the place of the next corner on the way.
+    /// Walks over the other triangles around a corner, first one way and, where ground ends there, the other; as long
+    /// as something holds of each: by its number, the place of the corner in it, and the place of the next corner on
+    /// the way.
     fn walk_around(
         &self,
         ground: Ground,
@@ -351,9 +352,9 @@ impl Facet {
         } else {
             2
         };
-        // Edge `top` leaves the corner, the one before leads to it. Tried: both sides of a needle's tip, which are level in many
-        // directions, taken for an edge where the direction is not its face's own. A box that slides over needles of a floor, whose
-        // normals are rounding, was then told of their edges.
+        // Edge `top` leaves the corner, the one before leads to it. Tried: both sides of a needle's tip, which are
+        // level in many directions, taken for an edge where the direction is not its face's own. A box that slides over
+        // needles of a floor, whose normals are rounding, was then told of their edges.
         match (is_level(top), is_level((top + 2) % 3)) {
             (true, true) => Furthest::Face,
             (true, false) => Furthest::Edge(top),

@@ -8,9 +8,10 @@
 //!     distance up to rounding: else the kernels are asked
 //! ground refuses that axis: no contact, and where they are nearest is all there is to say; else the kernels make points
 //! ```
-//! A triangle is nearest to a cuboid on its rim, or under what the cuboid has lowest. If that is an edge or a face, either the foot
-//! of the corner that is chosen here is in the triangle, or what is lowest reaches across the rim as seen from above, which is then
-//! as near. On hills of triangles 24 of 39 calls of the kernels end here, for a cuboid that rolls.
+//! A triangle is nearest to a cuboid on its rim, or under what the cuboid has lowest. If that is an edge or a face,
+//! either the foot of the corner that is chosen here is in the triangle, or what is lowest reaches across the rim as
+//! seen from above, which is then as near. On hills of triangles 24 of 39 calls of the kernels end here, for a cuboid
+//! that rolls.
 
 use super::axes::Axes;
 use super::prism::Prism;

@@ -31,8 +31,9 @@ pub(super) enum Met {
     Apart,
     /// They are not, and points were made of it; whether they share a point.
     Told(bool),
-    /// They are not, and ground refused the direction: whether they share a point, whether it is nearly the triangle's own, where they are
-    /// nearest if they share none, and how deep they are, up to an error, of a triangle to which that direction is level.
+    /// They are not, and ground refused the direction: whether they share a point, whether it is nearly the triangle's
+    /// own, where they are nearest if they share none, and how deep they are, up to an error, of a triangle to which
+    /// that direction is level.
     Refused { overlapping: bool, is_own: bool, gap: Option<Unsaid>, told: Option<[f64; 2]> },
 }
 

@@ -8,12 +8,13 @@
 //! of those that are left, the nearest by these bounds first, the kernels are asked:
 //!     nearer than all that is told, and so along its own normal but for a few low bends: it is told
 //! ```
-//! Told as what a group's points have between them, where that has the same normal and the same ground; else as a point of its own:
-//! so a crate stands on the top of a dome that falls away under its corners. What is left goes into the error: a millionth of a body
-//! at most, or where more were left open than are asked about, what their bounds leave; of an overlap a thousandth of the radius at most.
+//! Told as what a group's points have between them, where that has the same normal and the same ground; else as a point
+//! of its own: so a crate stands on the top of a dome that falls away under its corners. What is left goes into the
+//! error: a millionth of a body at most, or where more were left open than are asked about, what their bounds leave; of
+//! an overlap a thousandth of the radius at most.
 //!
-//! A body on a dome of bends below 1e-4 pays for ground twice or more. On a plane nobody comes here, nor where bends are such as one
-//! sees; on a plane that was turned as a whole, capsules and wide bodies may.
+//! A body on a dome of bends below 1e-4 pays for ground twice or more. On a plane nobody comes here, nor where bends
+//! are such as one sees; on a plane that was turned as a whole, capsules and wide bodies may.
 
 use super::facet::Facet;
 use super::prism::Prism;
@@ -37,9 +38,9 @@ const MOST_LOOKS: usize = 4;
 /// Zen 5, 2 virtual cores, 2026-11-24).
 const LEEWAY: f64 = 0.875;
 
-/// Share of the radius by which ground that is overlapped may be deeper than what is told of it, and be hidden by low bends:
-/// tens of them in a row under one body. No error grows by more. With a sixteenth, bodies that stick through ground were told with
-/// errors of a hundredth of their radius, in one case of ten thousand.
+/// Share of the radius by which ground that is overlapped may be deeper than what is told of it, and be hidden by low
+/// bends: tens of them in a row under one body. No error grows by more. With a sixteenth, bodies that stick through
+/// ground were told with errors of a hundredth of their radius, in one case of ten thousand.
 const DEEPER: f64 = 1.0 / 1024.0;
 
 /// Triangles that may be nearer than what is told, and bounds on how near.

@@ -294,8 +294,9 @@ impl Prism<'_> {
         self.add_pin(pin, base, groups)
     }
 
-    /// Where the surface is that a vertex rounds, its separation, and the height of what it is measured from: the vertex where it is
-    /// as deep as any; else the surface, which belongs to a tilted face, and lies out along its normal.
+    /// Where the surface is that a vertex rounds, its separation, and the height of what it is measured from: the
+    /// vertex where it is as deep as any; else the surface, which belongs to a tilted face, and lies out along its
+    /// normal.
     #[inline]
     fn moved_out(&self, vertex: usize, incident: &Incident) -> Option<(DVec3, f64, f64)> {
         let (standing, facet) = (self.standing, self.facet);
@@ -309,8 +310,9 @@ impl Prism<'_> {
         Some((at, separation, separation))
     }
 
-    /// By how much a point's height may differ from its distance, in metres, whose foot is outside the triangle by no more than the
-    /// slack. `up` is the height of the point, or of the vertex that it rounds; at 0 that is the whole way to the triangle.
+    /// By how much a point's height may differ from its distance, in metres, whose foot is outside the triangle by no
+    /// more than the slack. `up` is the height of the point, or of the vertex that it rounds; at 0 that is the whole
+    /// way to the triangle.
     fn overhang(&self, pin: &Pin, up: f64) -> f64 {
         let aside = (pin.on_ground - nearest_to(self.facet, pin.on_ground).1).length();
         (up * up + aside * aside).sqrt() - up
@@ -344,8 +346,8 @@ impl Prism<'_> {
         is_any
     }
 
-    /// What a point on an edge of the triangle is named after, at a share of its length where a half-edge of the part's face passes
-    /// over it, or at its nearer end.
+    /// What a point on an edge of the triangle is named after, at a share of its length where a half-edge of the part's
+    /// face passes over it, or at its nearer end.
     pub(super) fn names_on_edge(
         &self,
         face: usize,

@@ -13,9 +13,10 @@
 //! rounded, some 1e-8 of a body, and never more than the tolerance for normals makes of it. What lies further off along the same
 //! normal is other ground, as a stair beside the one that a crate stands on.
 //!
-//! Many low bends in a row may add up to more than that tolerance under one body. So what is told as the least of all is held against
-//! these bounds whatever their normals; where they leave open as much as the slack, ground is gone through once more, and what
-//! was overlooked is told (see `overlooked`). So it is, too, where there are more levels than are kept.
+//! Many low bends in a row may add up to more than that tolerance under one body. So what is told as the least of all
+//! is held against these bounds whatever their normals; where they leave open as much as the slack, ground is gone
+//! through once more, and what was overlooked is told (see `overlooked`). So it is, too, where there are more levels
+//! than are kept.
 
 use super::Known;
 use super::facet::is_same;

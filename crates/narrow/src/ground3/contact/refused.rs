@@ -6,10 +6,10 @@
 //!     those not nearly their own also by any that is heard by then and far from it; those that a gap parts from the part
 //!     only if they would be told as deeper than all else
 //! ```
-//! A normal frees a triangle if a move along it, by how deep the part was found along it, leaves the triangle, too. Of a crate that lies
-//! over the edge of a step, a millimetre deep in the tread and half a metre beyond the riser, the riser is freed by the tread.
-//! Between normals that are nearly the same it makes no such difference, and there the second rule would only give what trembles
-//! one manifold more in every other frame.
+//! A normal frees a triangle if a move along it, by how deep the part was found along it, leaves the triangle, too. Of
+//! a crate that lies over the edge of a step, a millimetre deep in the tread and half a metre beyond the riser, the
+//! riser is freed by the tread. Between normals that are nearly the same it makes no such difference, and there the
+//! second rule would only give what trembles one manifold more in every other frame.
 
 use super::facet::{Facet, is_same};
 use super::groups::MOST_GROUPS;
@@ -38,9 +38,10 @@ pub(super) struct Refusal {
     pub(super) told: Option<[f64; 2]>,
 }
 
-/// Most triangles that wait until all others have been seen: by their numbers, and seen anew then, which takes less than what was
-/// asked before. Those beyond are told at once, and nothing frees them: with 32 and a margin of 0.3 m, one in forty bodies on stairs of many pieces, a millimetre
-/// deep at most, was told to be more than 5 cm deep in one of them.
+/// Most triangles that wait until all others have been seen: by their numbers, and seen anew then, which takes less
+/// than what was asked before. Those beyond are told at once, and nothing frees them: with 32 and a margin of 0.3 m,
+/// one in forty bodies on stairs of many pieces, a millimetre deep at most, was told to be more than 5 cm deep in one
+/// of them.
 const MOST_REFUSED: usize = 256;
 
 pub(super) type AllRefused = ArrayVec<(u32, Refusal), MOST_REFUSED>;
@@ -80,8 +81,8 @@ impl Seen<'_> {
         let (by_now, deepest) = (known.heard(), known.groups.least().min(0.0));
         self.add_those(false, known, |refused, known| {
             let is_far = |by: &&Heard| refused.plane.facet.normal.dot(by.0) < FRAC_1_SQRT_2;
-            // What a gap parts from the part is clear of it before any move, which shows nothing: the floor beside a wall was told by one
-            // corner. Only what would be told as deeper than all else is left out.
+            // What a gap parts from the part is clear of it before any move, which shows nothing: the floor beside a
+            // wall was told by one corner. Only what would be told as deeper than all else is left out.
             let may_be_freed = !refused.refusal.is_apart || self.is_deeper(refused, deepest);
             let mut far = by_now.iter().filter(is_far);
             is_freed(refused)
@@ -117,7 +118,8 @@ impl Seen<'_> {
         self.is_deeper(refused, by.1) && !is_same(facet.normal, by.0) && self.is_left_below(facet, by)
     }
 
-    /// Whether a move along a normal, by how deep the part was found along it, leaves all of a triangle below the part's lowest vertex.
+    /// Whether a move along a normal, by how deep the part was found along it, leaves all of a triangle below the
+    /// part's lowest vertex.
     pub(super) fn is_left_below(&self, facet: &Facet, (normal, least): Heard) -> bool {
         let standing = self.standing;
         let [a, b, c] = facet.corners;
@@ -127,7 +129,8 @@ impl Seen<'_> {
         low - top >= least - standing.slack
     }
 
-    /// The same where that vertex is beside all ground: as any axis shows of a cuboid, of others the face that they turn to the normal.
+    /// The same where that vertex is beside all ground: as any axis shows of a cuboid, of others the face that they
+    /// turn to the normal.
     fn is_freed_by_face(&self, refused: &Refused, (normal, least): Heard, known: &mut Known) -> bool {
         let standing = self.standing;
         let facet = &refused.plane.facet;

@@ -9,8 +9,9 @@
 //!   the point, where ground lets the direction through                                           (Nearest::add_point)
 //! what ground refused is nearer than all points: the general way                                (unsaid)
 //! ```
-//! Answers are those of the general way to the last bit, but for needles whose normals are worth little. Where rounding leaves it open whether the two share a point, or
-//! the centre is on the triangle, that way is asked instead: it knows how to go on.
+//! Answers are those of the general way to the last bit, but for needles whose normals are worth little. Where rounding
+//! leaves it open whether the two share a point, or the centre is on the triangle, that way is asked instead: it knows
+//! how to go on.
 //!
 //! What it buys: no core, no solid, no vertices eight by eight, and for most triangles no side.
 
@@ -107,9 +108,10 @@ impl Round {
     /// Whether a triangle may be within reach: not where a plane has it and the ball on either side, further apart than that.
     ///
     /// The plane is square to the way from the triangle's nearest point to the centre, or from where rounding has that;
-    /// corners decide, whatever it is worth, and no root is taken. Six triangles of ten near a ball on hills end here: frames of
-    /// balls that roll take 0.84 of the time. Tried: eight at a time in f32, of which LLVM makes more moves than products, for SSE2;
-    /// one by one without a branch: frames take 1.05 to 1.7, and 1.2 times as long (AMD EPYC, Zen 5, 2026-11-25).
+    /// corners decide, whatever it is worth, and no root is taken. Six triangles of ten near a ball on hills end here:
+    /// frames of balls that roll take 0.84 of the time. Tried: eight at a time in f32, of which LLVM makes more moves
+    /// than products, for SSE2; one by one without a branch: frames take 1.05 to 1.7, and 1.2 times as long (AMD EPYC,
+    /// Zen 5, 2026-11-25).
     #[inline]
     fn may_reach(&self, corners: &[Vec3; 3]) -> bool {
         let corners = widened(*corners);

@@ -52,8 +52,9 @@ impl Unsaid {
     ) -> Self {
         let is_own = is_same(facet.normal, towards);
         let normal = if is_own { facet.normal } else { towards };
-        // What was refused may be a face of the part that is all but as good as this. To a needle many directions are level: with none but
-        // its own, bodies beside the rim of a strip of needles were told to be further away than they are.
+        // What was refused may be a face of the part that is all but as good as this. To a needle many directions are
+        // level: with none but its own, bodies beside the rim of a strip of needles were told to be further away than
+        // they are.
         let is_given = || match facet.furthest(towards) {
             Furthest::Face => facet.normal.dot(towards) > 0.0,
             furthest => facet.may_give(ground, furthest, towards),

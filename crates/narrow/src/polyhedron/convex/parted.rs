@@ -1,8 +1,9 @@
 //! Whether last frame's direction parts two shapes still, before anything is made of them.
 //!
-//! Of the pairs of hulls in the air that a broad phase hands over, every third is apart along the direction that it was apart along in
-//! the frame before. To find that out takes two furthest vertices. Axes, faces and edges of both shapes, put together for the kernels,
-//! took three times as long as those. Here f32 lanes bound what they reach; which vertex it is nobody asks.
+//! Of the pairs of hulls in the air that a broad phase hands over, every third is apart along the direction that it was
+//! apart along in the frame before. To find that out takes two furthest vertices. Axes, faces and edges of both shapes,
+//! put together for the kernels, took three times as long as those. Here f32 lanes bound what they reach; which vertex
+//! it is nobody asks.
 
 use super::{Asked, Convex, Probe};
 use crate::polyhedron::octets::bound_of_reach;

@@ -61,8 +61,8 @@ impl Convex<'_> {
         {
             return self.told_gap((a, b), axes, witness, asked.hint);
         }
-        // Closest points are the distance's, and no axis tells of them. Here are those that all but touch: others went the shortest
-        // way (`apart`).
+        // Closest points are the distance's, and no axis tells of them. Here are those that all but touch: others went
+        // the shortest way (`apart`).
         if asked.wanted != Wanted::Closest
             && let Some(cuboids) = self.cuboids()
         {
@@ -119,9 +119,9 @@ impl Convex<'_> {
         }
     }
 
-    /// Where to begin where no hint tells. A walk from there, most often, settles what meets for the first time, without a
-    /// search: hulls face on face 0.72 to 0.8 of the time, what a broad phase hands over 0.94 (AMD EPYC, Zen 4, 2026-11-26). Of what
-    /// overlaps deeply it seldom does, and there the search takes nothing.
+    /// Where to begin where no hint tells. A walk from there, most often, settles what meets for the first time,
+    /// without a search: hulls face on face 0.72 to 0.8 of the time, what a broad phase hands over 0.94 (AMD EPYC, Zen
+    /// 4, 2026-11-26). Of what overlaps deeply it seldom does, and there the search takes nothing.
     fn first_axis(&self, (a, b): (&Solid, &Solid), wanted: Wanted) -> Option<Hinted> {
         let is_deep = || {
             let apart = (a.center() - b.center()).length();

@@ -5,7 +5,8 @@
 //! else            all fifteen axes at once: none parts them, or towards each other along the face that parts them the furthest
 //! from there on   as any two solids                                                                     (distance)
 //! ```
-//! No vertices and no faces are put together for it: what is furthest along a direction has its signs, and a corner is three signs.
+//! No vertices and no faces are put together for it: what is furthest along a direction has its signs, and a corner is
+//! three signs.
 
 use super::Cuboids;
 use super::fifteen::Fifteen;
@@ -18,8 +19,8 @@ use crate::precision::Precision;
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 
-/// Which sides of the three axes a corner is on. Looked up: asked of a corner's bits, each would be a branch that nobody can guess,
-/// and a pair 1.6 times as slow (AMD EPYC, Zen 4, 2026-11-26).
+/// Which sides of the three axes a corner is on. Looked up: asked of a corner's bits, each would be a branch that
+/// nobody can guess, and a pair 1.6 times as slow (AMD EPYC, Zen 4, 2026-11-26).
 const SIDES: [DVec3; 8] = [
     DVec3::new(-1.0, -1.0, -1.0),
     DVec3::new(1.0, -1.0, -1.0),
@@ -104,8 +105,8 @@ impl Posed<'_> {
 }
 
 impl Cuboids {
-    /// Whether they have a gap between them, and where it is the narrowest, if that is no more than a limit in metres. They are rounded
-    /// by such radii.
+    /// Whether they have a gap between them, and where it is the narrowest, if that is no more than a limit in metres.
+    /// They are rounded by such radii.
     pub(crate) fn gap(&self, radii: [f32; 2], limit: f64, precision: &Precision) -> Gap {
         let apart = self.offset.length();
         let towards = if apart > precision.size + precision.projection() {

@@ -157,8 +157,8 @@ impl Touching<'_> {
         wide::fill(self, patch, None, manifold)
     }
 
-    /// The same along whatever axis the heights of the patch are: the reference face's own, or one that leans. To be called through
-    /// `super::wide`, which compiles it.
+    /// The same along whatever axis the heights of the patch are: the reference face's own, or one that leans. To be
+    /// called through `super::wide`, which compiles it.
     #[inline(always)]
     pub(super) fn fill_along(
         &self,

@@ -85,8 +85,8 @@ impl Fifteen {
         best
     }
 
-    /// Whether an edge pair parts the cores by more than `limit` metres, which is not negative, and more than its closed form may be
-    /// off by.
+    /// Whether an edge pair parts the cores by more than `limit` metres, which is not negative, and more than its
+    /// closed form may be off by.
     #[inline(always)]
     pub(super) fn do_edges_part(&self, limit: f64, doubt: f64) -> bool {
         let (squared_limit, mut part) = (limit * limit, false);

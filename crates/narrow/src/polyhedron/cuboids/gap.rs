@@ -56,9 +56,9 @@ impl Touching<'_> {
     /// Whether two edges part them by more than the best face for certain: then no corner of a patch is as low as that says, and
     /// none need be looked at.
     ///
-    /// Heights at a patch's corners are no less than the distance but for two projections, and the distance no less than what
-    /// edges show but for one more. Of a heap of boxes that falls, a fifth of all pairs across a gap went through a patch for nothing,
-    /// and none does now: a hundredth of a frame (AMD EPYC, Zen 5, 2026-11-24).
+    /// Heights at a patch's corners are no less than the distance but for two projections, and the distance no less
+    /// than what edges show but for one more. Of a heap of boxes that falls, a fifth of all pairs across a gap went
+    /// through a patch for nothing, and none does now: a hundredth of a frame (AMD EPYC, Zen 5, 2026-11-24).
     #[inline(always)]
     fn is_beyond_faces(&self) -> bool {
         let Self { placed, best, .. } = *self;

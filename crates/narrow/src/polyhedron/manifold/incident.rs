@@ -44,8 +44,8 @@ pub(crate) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> Opposed 
     Opposed { face: best.face.unwrap_or(0), deepest: far.deepest }
 }
 
-/// A face, how many far vertices it must have at least, and the dot product of its normal with the direction; that is not a number
-/// until a rival makes it worth having.
+/// A face, how many far vertices it must have at least, and the dot product of its normal with the direction; that is
+/// not a number until a rival makes it worth having.
 struct Best {
     far: usize,
     facing: f64,

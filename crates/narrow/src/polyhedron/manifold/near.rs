@@ -10,7 +10,8 @@
 //! of their patch is now a vertex of one, now of the other, and now lies where edges cross. Names that changed with it would cost
 //! a solver what it knew of the point: stacks of six cubes that were told so still trembled after 20 seconds.
 //!
-//! Cuboids, whose patches are made otherwise (`super::super::cuboids::patch`), ask here where any corner is near; most often none is.
+//! Cuboids, whose patches are made otherwise (`super::super::cuboids::patch`), ask here where any corner is near; most
+//! often none is.
 
 use asunder_geometry::glam::DVec2;
 
@@ -39,8 +40,8 @@ impl<P: Fn(usize) -> [f64; 2]> Rim<P> {
         [DVec2::from_array((self.place)(edge)), DVec2::from_array((self.place)(next))]
     }
 
-    /// What a place is named after that lies on a feature of the face, by what of it is within so many metres. Cost: linear in the
-    /// edges where it lies in the face alone.
+    /// What a place is named after that lies on a feature of the face, by what of it is within so many metres. Cost:
+    /// linear in the edges where it lies in the face alone.
     #[inline]
     pub(in crate::polyhedron) fn near(&self, at: [f64; 2], lies_on: LiesOn, near: f64) -> LiesOn {
         let at = DVec2::from_array(at);
