@@ -10,7 +10,7 @@
 //! the distance from a convex set is a convex function, and so is largest at a vertex. The same argument
 //! gives [`Hull::error`].
 
-use super::cloud::Cloud;
+use super::cloud::{Cloud, half_diagonal};
 use super::distance::Surface;
 use super::loops::Loops;
 use super::merge::{Merged, merge_facets};
@@ -19,7 +19,7 @@ use super::quick::{Growth, Measure, hull_facets};
 use super::{Hull, HullData, HullError};
 use crate::octets::Octets;
 use crate::outward::{round_down, round_up};
-use crate::tolerance::{COPLANAR, MAX_HULL_VERTICES, MIN_RADIUS, STANDS_OUT};
+use crate::tolerance::{COPLANAR, MAX_HULL_VERTICES, MERGED_PLANARITY, MIN_RADIUS, STANDS_OUT};
 use crate::topology::Topology;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
@@ -120,7 +120,11 @@ impl Hull {
             let Merged { faces, inside, normals } =
                 merge_facets(&points, &facets, COPLANAR * 0.5 * cloud.scale);
             if inside.is_empty() {
-                return solid.finish(Made { faces, facets, normals });
+                let are_facets = normals.is_some();
+                let hull = solid.finish(Made { faces, facets: facets.clone(), normals })?;
+                let is_flat = f64::from(hull.planarity_error()) <= MERGED_PLANARITY * half_diagonal(&points);
+                // Of what is thinner than rounding, faces may have grown that lie nowhere near one plane.
+                return if are_facets || is_flat { Ok(hull) } else { solid.finish(Made::of(facets)) };
             }
             let (count, turned_out) = (points.len(), inside.len());
             // What shrinks slowly from far too many will not end up small enough; and it would be slow.
@@ -186,11 +190,11 @@ impl Solid<'_> {
             })
             .collect();
         let facets = facets.renumbered(|i| corners.binary_search(&i).unwrap_or(0) as u32);
-        self.finish(Made { faces: facets.clone(), facets, normals: None })
+        self.finish(Made::of(facets))
     }
 
     /// Derives everything else from the loops of places in `kept`.
-    fn finish(self, made: Made) -> Result<Hull, HullError> {
+    fn finish(&self, made: Made) -> Result<Hull, HullError> {
         let at = |i: &u32| self.cloud.points[*i as usize];
         let source: Vec<u32> = self.kept.iter().map(|&i| self.cloud.source[i as usize]).collect();
         Hull::of_faces(self.kept.iter().map(at).collect(), made, &source, |surface| {
@@ -207,6 +211,13 @@ pub(super) struct Made {
     pub(super) facets: Loops,
     /// Of the faces, where they are the facets in canonical order.
     pub(super) normals: Option<Vec<DVec3>>,
+}
+
+impl Made {
+    /// Of facets that are not merged.
+    fn of(facets: Loops) -> Self {
+        Self { faces: facets.clone(), facets, normals: None }
+    }
 }
 
 impl Hull {

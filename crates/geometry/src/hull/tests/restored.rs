@@ -60,6 +60,25 @@ fn what_is_thinner_than_rounding_comes_back() {
     }
 }
 
+/// Merging grew faces over a plate 3e-14 thick that left each other's planes by more than stored ones may.
+#[test]
+fn faces_that_grow_out_of_their_plane_are_facets() {
+    let points = [
+        (1.3254032e-7, -3.5830903e-14, 0.0),
+        (5.819945e-20, -2.3813492e-25, -0.6132314),
+        (0.903376, -5.540068e-25, -0.30114028),
+        (0.0007407181, -4.772981e-13, -0.06359551),
+        (-0.6171715, -5.3434194e-25, -0.83721524),
+        (0.0, 0.0, 3.3123969e-25),
+        (2.5109666e-11, 0.0, 0.0),
+        (0.0, -1.4299785e-20, 0.0),
+    ];
+    let points = points.map(Vec3::from);
+    let hull = Hull::from_points(&points).unwrap();
+    assert_eq!(hull.check(&points), Ok(()));
+    assert_comes_back(&hull, "a plate");
+}
+
 /// The share of a stored hull's size by which hulls that were built here are not flat: what the bound is derived from.
 #[test]
 fn no_hull_comes_near_the_bound_on_what_merging_leaves() {
