@@ -2,7 +2,7 @@
 
 use super::{Freed, Gap, Linear, Walks};
 use crate::collider::Collider;
-use crate::query::{Filter, Met, bodies_along_ray, boxes_over};
+use crate::query::{Filter, bodies_along_ray, visit_bodies_in};
 use crate::space::Space;
 use crate::world::{World, slot_of};
 use asunder_narrow::ArrayVec;
@@ -142,8 +142,7 @@ pub(super) fn near<S: Walks>(
 ) -> ArrayVec<Near<S>, MOST_NEAR> {
     let margin = margin as f32;
     let mut found = ArrayVec::<Near<S>, MOST_NEAR>::new();
-    let _ = boxes_over(world, &S::bounds(at.0, at.1, margin), filter).visit(|Met(key)| {
-        let Some(body) = world.bodies.get(key) else { return ControlFlow::Continue(()) };
+    let _ = visit_bodies_in((world, filter), &S::bounds(at.0, at.1, margin), |key, body| {
         let mut order = 0;
         S::gaps(at, body, margin, |plane| {
             let next = Near { body: key, order, plane };
@@ -191,11 +190,7 @@ fn is_any<S: Walks>(
     filter: &Filter<'_, S>,
     ask: impl Fn(&Collider<S>) -> bool,
 ) -> bool {
-    let bounds = S::bounds(at.0, at.1, 0.0);
-    let flow =
-        boxes_over(world, &bounds, filter).visit(|Met(key)| match world.bodies.get(key).is_some_and(&ask) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        });
-    flow.is_break()
+    let look =
+        |_, body: &Collider<S>| if ask(body) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    visit_bodies_in((world, filter), &S::bounds(at.0, at.1, 0.0), look).is_break()
 }

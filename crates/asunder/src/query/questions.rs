@@ -33,6 +33,18 @@ pub(crate) fn boxes_over<'q, S: Asked>(
     Question { world, filter, reach: Reach::Over(*bounds), bounds_of, limit: 0.0, ask }
 }
 
+/// Hands over each body whose box overlaps one, in no promised order, until the visitor breaks off.
+pub(crate) fn visit_bodies_in<S: Asked>(
+    (world, filter): (&World<S>, &Filter<'_, S>),
+    bounds: &S::Aabb,
+    mut visitor: impl FnMut(S::Key, &Collider<S>) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    boxes_over(world, bounds, filter).visit(|Met(key)| match world.bodies.get(key) {
+        Some(body) => visitor(key, body),
+        None => ControlFlow::Continue(()),
+    })
+}
+
 /// Which bodies overlap a shape.
 pub(crate) fn bodies_over<'q, S: Asked>(
     world: &'q World<S>,
@@ -56,15 +68,13 @@ pub(crate) fn visit_manifolds<S: Asked>(
     margin: f32,
     mut visitor: impl FnMut(S::Key, &S::Manifold) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    boxes_over(world, &bounds_around::<S>(at, margin), filter).visit(|Met(key)| {
+    visit_bodies_in((world, filter), &bounds_around::<S>(at, margin), |key, body| {
         let mut flow = ControlFlow::Continue(());
-        if let Some(body) = world.bodies.get(key) {
-            S::visit_manifolds(at, body, margin, |manifold| {
-                if flow.is_continue() {
-                    flow = visitor(key, manifold);
-                }
-            });
-        }
+        S::visit_manifolds(at, body, margin, |manifold| {
+            if flow.is_continue() {
+                flow = visitor(key, manifold);
+            }
+        });
         flow
     })
 }
@@ -146,9 +156,8 @@ pub(crate) fn first_ahead<S: Asked>(
     let first = bodies_ahead((world, filter), at, displacement, &[]).first()?;
     with_kept(S::kept_touches(), |touches| {
         touches.clear();
-        let bounds = S::bounds(at.0, at.1, 0.0);
-        let _ = boxes_over(world, &bounds, filter).visit(|Met(key)| {
-            if let Some(body) = world.bodies.get(key).filter(|body| !body.sensor) {
+        let _ = visit_bodies_in((world, filter), &S::bounds(at.0, at.1, 0.0), |_, body| {
+            if !body.sensor {
                 S::add_touches(at, body, touches);
             }
             ControlFlow::Continue(())

@@ -283,7 +283,7 @@ impl<'a> Course<'a> {
     /// Where both are at a fraction.
     pub(super) fn at(&self, fraction: f64) -> Moment<'a> {
         let passage = self.passage;
-        let between = passage.between - passage.drift * fraction;
+        let between = passage.between_at(fraction);
         let basis = |i: usize| passage.turns[i].map_or(passage.bases[i], |turn| turn.basis_at(fraction));
         let spin =
             |i: usize| passage.turns[i].map_or(DVec3::ZERO, |turn| turn.axis() * turn.speed_at(fraction));
