@@ -50,6 +50,12 @@ impl Grid {
         Ok(grid)
     }
 
+    /// The same cells and holes with other heights.
+    pub(super) fn with_heights(&self, heights: Vec<f32>) -> Result<Self, HeightFieldError> {
+        let sides = self.cells.map(|count| count as usize + 1);
+        Ok(Self { holes: self.holes.clone(), ..Self::new(sides, heights, self.cell)? })
+    }
+
     fn check_reach(&self) -> Result<(), HeightFieldError> {
         let is_far = |vertex: &u32| self.vertex(*vertex).as_dvec3().length() > f64::from(MAX_RADIUS);
         let columns = self.cells[0] + 1;

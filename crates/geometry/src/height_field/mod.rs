@@ -132,6 +132,27 @@ impl HeightField {
         self.with_holes([(column, row)])
     }
 
+    /// The same with other heights, in metres, row by row: holes stay, and so do cells and the solid side. For craters, say: a
+    /// field made anew would be built once more for its holes. Cost: of a new field.
+    ///
+    /// ```
+    /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
+    /// let plain = HeightField::new(3, 3, [1.0; 9], Vec2::ONE)?.with_hole(0, 0)?;
+    /// let mut heights = plain.heights().to_vec();
+    /// heights[8] = 0.5; // column 2, row 2
+    /// let crater = plain.with_heights(heights)?;
+    /// assert_eq!((crater.height_at(2.0, 2.0), crater.height_at(1.0, 2.0)), (Some(0.5), Some(1.0)));
+    /// assert!(crater.is_hole(0, 0));
+    /// # Ok::<(), HeightFieldError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As of a new field: another number of heights; what is not finite or out of range; cells too steep for a normal.
+    pub fn with_heights(self, heights: impl Into<Vec<f32>>) -> Result<Self, HeightFieldError> {
+        let grid = self.data.grid.with_heights(heights.into())?;
+        Ok(Self { data: Arc::new(build::build(grid)?), ..self })
+    }
+
     /// Whether it is solid only from above.
     #[inline]
     pub const fn is_one_sided(&self) -> bool {

@@ -3,7 +3,7 @@
 use super::Dice;
 use crate::aabb::Aabb3;
 use crate::ground::Ground;
-use crate::height_field::HeightField;
+use crate::height_field::{HeightField, HeightFieldError};
 use crate::mesh::TriMesh;
 use crate::pose3::Pose3;
 use crate::shape::Shape3;
@@ -187,4 +187,30 @@ fn heights_at_vertices_are_the_heights_given() {
     }
     assert!(seen > 300);
     assert_eq!([f64::NAN, f64::INFINITY, -0.001, 1e300].map(|x| field.height_at(x, 0.5)), [None; 4]);
+}
+
+#[test]
+fn other_heights_are_those_of_a_field_made_anew() {
+    for seed in 0..24 {
+        let (columns, rows) = (2 + seed as usize % 5, 3 + seed as usize % 3);
+        let [field, other] = [seed, seed + 100].map(|seed| random(columns, rows, seed));
+        let field = if seed % 2 == 0 { field.one_sided() } else { field };
+        let anew = HeightField::new(columns, rows, other.heights(), field.cell()).unwrap();
+        let cells = (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| (column, row)));
+        let holes: Vec<_> = cells.filter(|&(column, row)| field.is_hole(column, row)).collect();
+        let anew = if holes.is_empty() { anew } else { anew.with_holes(holes).unwrap() };
+        let anew = if field.is_one_sided() { anew.one_sided() } else { anew };
+        let changed = field.clone().with_heights(other.heights()).unwrap();
+        assert_eq!(changed, anew, "seed {seed}");
+
+        let [one, two] = [changed.clone(), anew].map(Shape3::from);
+        let [one, two] = [&one, &two].map(|shape| Ground::of(shape).unwrap());
+        for triangle in 0..one.triangle_count() {
+            assert_eq!(one.prominent(triangle), two.prominent(triangle), "seed {seed}, triangle {triangle}");
+            assert_eq!(one.patch(triangle), two.patch(triangle), "seed {seed}, triangle {triangle}");
+        }
+        assert_eq!(changed.with_heights(field.heights()).unwrap(), field, "and back");
+        let short = &other.heights()[1..];
+        assert!(matches!(field.with_heights(short), Err(HeightFieldError::Count { .. })));
+    }
 }
