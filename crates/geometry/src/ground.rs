@@ -316,7 +316,7 @@ impl<'a> Ground<'a> {
             Self::Field(field) => {
                 let Some(slab) = Slab::new(from, direction, grown) else { return };
                 let visitor = |number| visitor(number, None);
-                field.visit_in_order(&line, |low, high| slab.enters(low, high), limit, visitor);
+                field.visit_along(&line, &slab, limit, visitor);
             }
         }
     }

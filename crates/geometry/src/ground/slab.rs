@@ -11,6 +11,8 @@ use glam::{DVec3, Vec3};
 pub(crate) struct Slab {
     from: DVec3,
     direction: DVec3,
+    /// One over each; without a meaning where that is zero.
+    pace: DVec3,
     grown: DVec3,
 }
 
@@ -19,32 +21,47 @@ impl Slab {
     pub(crate) fn new(from: DVec3, direction: DVec3, grown: Vec3) -> Option<Self> {
         let grown = grown.as_dvec3();
         let is_good = from.is_finite() && direction.is_finite() && grown.is_finite();
-        (is_good && grown.min_element() >= 0.0).then_some(Self { from, direction, grown })
+        (is_good && grown.min_element() >= 0.0).then_some(Self {
+            from,
+            direction,
+            pace: direction.recip(),
+            grown,
+        })
     }
 
-    /// When the moving box first meets this one, in lengths of the direction, not above; nothing where it never does.
+    /// When, of a stretch of time, the moving box is over an interval on an axis, not less; nothing where it never is.
     #[inline(always)]
-    pub(crate) fn enters(&self, low: [f32; 3], high: [f32; 3]) -> Option<f64> {
-        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
-        for axis in 0..3 {
-            let (from, along, grown) = (self.from[axis], self.direction[axis], self.grown[axis]);
-            let (low, high) = (f64::from(low[axis]), f64::from(high[axis]));
-            let slack = LOST * (low.abs() + high.abs() + from.abs() + grown);
-            let (low, high) = (low - grown - from - slack, high + grown - from + slack);
-            if along == 0.0 {
-                // Standing still on this axis: inside all the time, or never.
-                if low > 0.0 || high < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let (first, last) =
-                if along > 0.0 { (low / along, high / along) } else { (high / along, low / along) };
-            let (first, last) = (first - LOST * first.abs(), last + LOST * last.abs());
-            enter = if first > enter { first } else { enter };
-            leave = if last < leave { last } else { leave };
+    pub(crate) fn over(
+        &self,
+        axis: usize,
+        [low, high]: [f32; 2],
+        [enter, leave]: [f64; 2],
+    ) -> Option<[f64; 2]> {
+        let (from, along, grown) = (self.from[axis], self.direction[axis], self.grown[axis]);
+        let pace = self.pace[axis];
+        let (low, high) = (f64::from(low), f64::from(high));
+        let slack = LOST * (low.abs() + high.abs() + from.abs() + grown);
+        let (low, high) = (low - grown - from - slack, high + grown - from + slack);
+        if along == 0.0 {
+            // Standing still on this axis: inside all the time, or never.
+            return (low <= 0.0 && high >= 0.0).then_some([enter, leave]);
         }
-        (enter <= leave).then_some(enter)
+        let (first, last) = if along > 0.0 { (low * pace, high * pace) } else { (high * pace, low * pace) };
+        let (first, last) = (first - LOST * first.abs(), last + LOST * last.abs());
+        let (first, last) =
+            (if first > enter { first } else { enter }, if last < leave { last } else { leave });
+        (first <= last).then_some([first, last])
+    }
+
+    /// Where the moving box is on an axis in a stretch of time, not less.
+    #[inline(always)]
+    pub(crate) fn reach(&self, axis: usize, time: [f64; 2]) -> [f64; 2] {
+        let (from, along, grown) = (self.from[axis], self.direction[axis], self.grown[axis]);
+        // Standing still, it is there for ever.
+        let [start, end] = if along == 0.0 { [from; 2] } else { time.map(|time| from + along * time) };
+        let (low, high) = if start < end { (start, end) } else { (end, start) };
+        let slack = LOST * (low.abs() + high.abs() + from.abs() + grown);
+        [low - grown - slack, high + grown + slack]
     }
 }
 

@@ -3,7 +3,9 @@
 use super::HeightField;
 use super::grid::{Cell, Grid};
 use crate::aabb::{Aabb3, Bounds};
+use crate::ground::slab::Slab;
 use crate::ground::tree::Ask;
+use arrayvec::ArrayVec;
 use core::ops::{ControlFlow, Range};
 
 /// Cells on a side of a block.
@@ -73,6 +75,33 @@ impl HeightField {
         })
     }
 
+    /// Hands triangles that a moving box comes over to `visitor`, as [`Ground::visit_along`](crate::Ground::visit_along) does,
+    /// block by block as `line` has them in order; where few cells are below its way, these at once.
+    pub(crate) fn visit_along(
+        &self,
+        line: &impl Ask,
+        slab: &Slab,
+        limit: f64,
+        mut visitor: impl FnMut(u32) -> f64,
+    ) {
+        let grid = &self.data.grid;
+        let (low, high) = (self.data.low, self.data.high);
+        let over = |time, axis| slab.over(axis, [low[axis], high[axis]], time);
+        let Some(time) = [0, 1, 2].into_iter().try_fold([0.0, limit], over) else { return };
+        let mut way = Way { grid, slab, limit, visitor: &mut visitor };
+        let reach = [0, 1].map(|axis| slab.reach(2 * axis, time));
+        if [0, 1]
+            .iter()
+            .all(|&axis| reach[axis][1] - reach[axis][0] <= FEW_CELLS * f64::from(grid.cell[axis]))
+        {
+            return way.go_over([0, 1].map(|axis| grid.reached(axis, reach[axis][0], reach[axis][1])));
+        }
+        self.data.blocks.visit_in_order(line, limit, |block, _| {
+            way.go_over(BLOCK.ranges(grid, block));
+            way.limit
+        });
+    }
+
     /// Hands triangles to `visitor` block by block as the order has it, and in its order within each. `place` is what
     /// `ask` is, of a single box.
     pub(crate) fn visit_in_order(
@@ -103,6 +132,60 @@ impl HeightField {
             }
             limit
         });
+    }
+}
+
+/// How far a way goes at most, in cells, that leads over no more than a block's columns and rows.
+const FEW_CELLS: f64 = (BLOCK.side - 2) as f64;
+
+/// Something that moves on a line over cells.
+struct Way<'a, V> {
+    grid: &'a Grid,
+    slab: &'a Slab,
+    limit: f64,
+    visitor: &'a mut V,
+}
+
+impl<V: FnMut(u32) -> f64> Way<'_, V> {
+    /// Hands over the triangles of some cells, of no more than a block's columns and rows, in the order in which it
+    /// comes to them.
+    ///
+    /// When it is over each column and each row says when it is over each cell. Where every triangle's box was asked, rays on
+    /// 128 x 128 cells took 1.5 to 1.8 times as long (Intel Xeon, family 6 model 106, 2026-11-27).
+    fn go_over(&mut self, [columns, rows]: [Range<u32>; 2]) {
+        const SIDE: usize = BLOCK.side as usize;
+        debug_assert!(columns.len() <= SIDE && rows.len() <= SIDE, "{columns:?}, {rows:?}");
+        let (grid, slab) = (self.grid, self.slab);
+        let over = |axis: usize, number: u32| {
+            let sides = [number, number + 1].map(|line| grid.line(axis, line));
+            slab.over(2 * axis, sides, [0.0, self.limit]).unwrap_or([f64::INFINITY, f64::NEG_INFINITY])
+        };
+        let mut over_columns = [[0.0; 2]; SIDE];
+        for (time, column) in over_columns.iter_mut().zip(columns.clone()) {
+            *time = over(0, column);
+        }
+        let mut found: ArrayVec<(f64, u32), { 2 * SIDE * SIDE }> = ArrayVec::new_const();
+        for row in rows {
+            let [enter, leave] = over(1, row);
+            for (time, column) in over_columns.iter().zip(columns.clone()) {
+                let time = [
+                    if time[0] > enter { time[0] } else { enter },
+                    if time[1] < leave { time[1] } else { leave },
+                ];
+                let cell = Cell { column, row };
+                if time[0] <= time[1] && !grid.is_hole(cell) {
+                    for (triangle, heights) in (2 * grid.number(cell)..).zip(grid.spans(cell)) {
+                        found.extend(slab.over(1, heights, time).map(|[place, _]| (place, triangle)));
+                    }
+                }
+            }
+        }
+        found.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+        for (place, triangle) in found {
+            if place <= self.limit {
+                self.limit = (self.visitor)(triangle).min(self.limit);
+            }
+        }
     }
 }
 
