@@ -154,8 +154,8 @@ impl World<Volume> {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update, by time; nothing for a stale key, for what is no bullet, or had no
-    /// motion. Cost: the logarithm of all impacts.
+    /// What one bullet ran into at the last update, by time; nothing for a stale key, or for what is no bullet. One that had no
+    /// motion itself is run into by what had. Cost: the logarithm of all impacts.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Motion3, Pose3, World3};
@@ -168,6 +168,10 @@ impl World<Volume> {
     /// world.update();
     /// assert!(world.impacts_of(shot).iter().map(|hit| hit.other).eq([gate, wall]));
     /// assert!(world.impacts_of(wall).is_empty(), "it is no bullet");
+    ///
+    /// world.set_motion(wall, Motion3::shift([-9.0, 0.0, 0.0])?)?;
+    /// world.update();
+    /// assert!(world.impacts_of(shot).iter().map(|hit| hit.other).eq([wall]), "which stood");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn impacts_of(&self, bullet: BodyKey3) -> &[Hit3] {
