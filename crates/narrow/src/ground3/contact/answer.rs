@@ -18,16 +18,16 @@ impl Asking<'_> {
         is_overlap_known: bool,
         manifolds: &mut impl Room,
     ) -> Option<bool> {
-        let overlapping = known.overlapping;
-        if !overlapping && known.groups.least() == f64::INFINITY {
+        let (overlapping, least) = (known.overlapping, known.groups.least());
+        let how = (overlapping, is_overlap_known, least);
+        // What is told decides, as between solids: whatever a slack let in that is not touched may be told to be beyond the margin.
+        if !overlapping && (least == f64::INFINITY || told(least, how) > self.margin) {
             return None;
         }
         if manifolds.is_wanted() {
-            let least = known.groups.least();
             let order = known.groups.finish();
             for group in order.into_iter().filter_map(|place| known.groups.at(place)) {
                 let hidden = known.hidden((group, least), part.shape.outer_radius().into());
-                let how = (overlapping, is_overlap_known, least);
                 self.add_manifold(part.index, (group, hidden), how, manifolds);
             }
         }
@@ -38,17 +38,15 @@ impl Asking<'_> {
         &self,
         part: u32,
         (group, hidden): (&Group, f64),
-        (overlapping, is_overlap_known, least): (bool, bool, f64),
+        how: (bool, bool, f64),
         to: &mut impl Room,
     ) {
         let on = self.on;
         let [deepest, doubt] = group.told;
-        // The deepest of all has the sign of the decision.
-        let separation = match overlapping {
-            true if deepest <= least => signed(deepest, true),
-            false if !is_overlap_known => signed(deepest, false),
-            _ => deepest as f32,
-        };
+        let separation = told(deepest, how);
+        if separation > self.margin {
+            return;
+        }
         let Some(manifold) = to.room(separation) else { return };
         [manifold.part_a, manifold.part_b] = on.in_order([part, group.base.patch]);
         let towards = on.basis.turn(group.base.normal);
@@ -67,5 +65,14 @@ impl Asking<'_> {
             ContactPoint3 { separation, anchor_a, anchor_b, feature }
         }));
         manifold.points.sort_unstable_by_key(|point| point.feature);
+    }
+}
+
+/// A group's separation as it is told: the deepest of all has the sign of the decision.
+fn told(deepest: f64, (overlapping, is_overlap_known, least): (bool, bool, f64)) -> f32 {
+    match overlapping {
+        true if deepest <= least => signed(deepest, true),
+        false if !is_overlap_known => signed(deepest, false),
+        _ => deepest as f32,
     }
 }

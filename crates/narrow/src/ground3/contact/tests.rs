@@ -5,7 +5,7 @@ use super::*;
 use crate::answer::Manifold3;
 use crate::numbers::Numbers;
 use asunder_geometry::glam::{Quat, Vec3};
-use asunder_geometry::{Cuboid, Hull, Sphere, TriMesh};
+use asunder_geometry::{Cuboid, Hull, Segment3, Sphere, TriMesh};
 
 impl Numbers {
     /// Bumps of some height over cells of a metre, flat ground among them; solid from one side, or from both.
@@ -79,6 +79,29 @@ fn short_ways_say_what_the_general_way_says() {
         apart += usize::from(short.is_none());
     }
     assert!(touching > 1500 && apart > 1000 && points > 5000, "{touching} {apart} {points}");
+}
+
+/// A rod's end beside an edge, less than a picometre away: along the triangle's normal it is as much below the plane, so that a
+/// point is made, and what is told of it is that they are apart.
+#[test]
+fn what_is_a_hair_apart_is_beyond_a_margin_of_zero() {
+    let ends = [[-0.19427104, 0.12651876, -0.54291815], [-0.24687144, 0.772727, 0.110613234]].map(Vec3::from);
+    let rod = Shape3::from(Segment3::new(ends[0], ends[1]).unwrap());
+    let corners = [
+        [-0.55388564, 0.6238234, -0.52682],
+        [0.34605, 0.42008463, -0.86538863],
+        [0.43734345, -0.21932538, 0.90064514],
+    ];
+    let ground = Shape3::from(TriMesh::new(corners.map(Vec3::from), [[0, 1, 2]]).unwrap());
+    let at = Pose3::new(DVec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.70710677, -0.70710677)).unwrap();
+    let place = DVec3::new(-0.00012648984419429463, 0.001000080046595707, 0.0036906442459535005);
+    let under = Pose3::at(place).unwrap();
+    let pair = Pair3::new(&rod, &at, &ground, &under);
+    assert!(!pair.overlaps());
+    assert!(pair.distance().is_some_and(|closest| closest.distance < 1e-12));
+    assert_eq!((pair.manifold(0.0), pair.manifolds(0.0)), (None, vec![]), "beyond the margin");
+    let near = pair.manifold(1e-12).expect("within the margin");
+    assert!(near.separation > 0.0 && near.separation <= 1e-12);
 }
 
 /// A hull as ground whose fronts look out of it.
