@@ -171,7 +171,7 @@ impl World<Plane> {
     ///
     /// world.set_motion(wall, Motion2::shift([-9.0, 0.0])?)?;
     /// world.update();
-    /// assert!(world.impacts_of(shot).iter().map(|hit| hit.other).eq([wall]), "which stood");
+    /// assert!(world.impacts_of(shot).iter().map(|hit| hit.other).eq([wall]), "the shot stood");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn impacts_of(&self, bullet: BodyKey2) -> &[Hit2] {

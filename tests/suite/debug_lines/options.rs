@@ -1,10 +1,10 @@
 //! What is asked for is drawn, where it is, and nothing else.
 
 use super::SHAPES;
-use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
+use asunder::glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 use asunder::{
-    Collider2, Collider3, Cuboid, DebugLine, DebugOptions, HalfPlane, HalfSpace, Motion3, Pose2, Pose3, Rect,
-    World2, World3,
+    Aabb2, Aabb3, Chain, Collider2, Collider3, Cuboid, DebugLine, DebugOptions, HalfPlane, HalfSpace,
+    HeightField, Motion3, Plane, Pose2, Pose3, Rect, Volume, World2, World3,
 };
 use asunder_tests::cases::Random;
 use asunder_tests::engine::Engine;
@@ -266,4 +266,59 @@ fn lengths_that_are_no_numbers_give_lines_that_can_be_drawn() {
             }
         }
     }
+}
+
+/// The lines of a region are those of the whole world that reach into it, in their order: of ground as of all else.
+#[test]
+fn a_region_has_the_lines_of_the_world_that_reach_into_it() {
+    let random = &mut Random::new(5);
+    let options = DebugOptions { boxes: true, columns: true, ..DebugOptions::default() };
+    let (mut space, mut plane) = (World3::new(), World2::new());
+    for _ in 0..60 {
+        Volume::insert(&mut space, Volume::random_body(random, 4.0));
+        Plane::insert(&mut plane, Plane::random_body(random, 4.0));
+    }
+    let heights: Vec<f32> = (0..400).map(|i| (i % 7) as f32 * 0.2).collect();
+    let turn = Quat::from_xyzw(0.1, -0.3, 0.2, 0.9);
+    let field = Collider3::new(HeightField::new(20, 20, heights, Vec2::splat(0.7)).unwrap());
+    space.insert(field.at(Pose3::new(DVec3::new(-7.0, 1.0, -6.0), turn).unwrap()));
+    let line: Vec<Vec2> = (0..40).map(|i| Vec2::new(8.0 - 0.4 * i as f32, (i % 5) as f32 * 0.3)).collect();
+    plane.insert(Collider2::new(Chain::open(line).unwrap()));
+    space.update();
+    plane.update();
+    let (all3, all2) = (drawn3(&space, &options), drawn2(&plane, &options));
+    let mut counts = [0; 2];
+    for _ in 0..50 {
+        let corner = |random: &mut Random| {
+            let reach = f64::from(random.below(800) as u32) / 100.0 - 4.0;
+            let side = f64::from(random.below(300) as u32) / 100.0;
+            (reach as f32, (reach + side) as f32)
+        };
+        let [(x, x_end), (y, y_end), (z, z_end)] = [corner(random), corner(random), corner(random)];
+        let region = Aabb3::new(Vec3::new(x, y, z), Vec3::new(x_end, y_end, z_end));
+        let reaches_in = |[from, to]: &[DVec3; 2]| {
+            (0..3).all(|i| {
+                from[i].min(to[i]) <= f64::from(region.max[i])
+                    && from[i].max(to[i]) >= f64::from(region.min[i])
+            })
+        };
+        let expected: Vec<_> = all3.iter().copied().filter(|(line, _)| reaches_in(line)).collect();
+        let mut found = vec![];
+        space.debug_lines_in(&region, &options, &mut |from, to, what| found.push(([from, to], what)));
+        assert_eq!(found, expected, "{region:?}");
+        let flat = Aabb2::new(Vec2::new(x, y), Vec2::new(x_end, y_end));
+        let reaches_in = |[from, to]: &[DVec2; 2]| {
+            (0..2).all(|i| {
+                from[i].min(to[i]) <= f64::from(flat.max[i]) && from[i].max(to[i]) >= f64::from(flat.min[i])
+            })
+        };
+        let all: Vec<([DVec2; 2], DebugLine)> =
+            all2.iter().map(|(line, what)| (line.map(|end| end.truncate()), *what)).collect();
+        let expected: Vec<_> = all.into_iter().filter(|(line, _)| reaches_in(line)).collect();
+        let mut drawn = vec![];
+        plane.debug_lines_in(&flat, &options, &mut |from, to, what| drawn.push(([from, to], what)));
+        assert_eq!(drawn, expected, "{flat:?}");
+        counts = [counts[0] + found.len(), counts[1] + drawn.len()];
+    }
+    assert!(counts.iter().all(|&count| count > 500), "{counts:?}");
 }

@@ -4,7 +4,7 @@ use super::{DebugLine, DebugOptions, HALVINGS};
 use crate::space::Plane;
 use crate::world::World;
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{HalfPlane, Pose2, Shape2};
+use asunder_geometry::{Aabb2, HalfPlane, Pose2, Shape2};
 
 impl World<Plane> {
     /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with what
@@ -24,14 +24,50 @@ impl World<Plane> {
     /// # Ok::<(), asunder::ExtentError>(())
     /// ```
     pub fn debug_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec2, DVec2, DebugLine)) {
-        self.draw(options, line);
+        self.draw(None, options, line);
     }
 
-    fn draw(&self, options: &DebugOptions, line: &mut dyn FnMut(DVec2, DVec2, DebugLine)) {
+    /// The same of a region: the lines whose own boxes overlap it, in the order in which they come of the whole world. Cost: a
+    /// look at every body, contact and box, and at all that there is of a body that reaches in; nothing is allocated.
+    ///
+    /// ```
+    /// use asunder::{Aabb2, Collider2, DebugOptions, Rect, Pose2, World2, glam::Vec2};
+    /// let mut world = World2::new();
+    /// let crate_ = Collider2::new(Rect::from_half_extents(Vec2::ONE)?);
+    /// for x in [0.0, 10.0, 20.0] {
+    ///     world.insert(crate_.clone().at(Pose2::at([x, 0.0])?));
+    /// }
+    /// world.update();
+    /// let (mut count, region) = (0, Aabb2::new(Vec2::splat(-2.0), Vec2::splat(9.5)));
+    /// world.debug_lines_in(&region, &DebugOptions::default(), &mut |_, _, _| count += 1);
+    /// assert_eq!(count, 4 + 3, "all of the first, and what reaches in of the second");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn debug_lines_in(
+        &self,
+        region: &Aabb2,
+        options: &DebugOptions,
+        line: &mut impl FnMut(DVec2, DVec2, DebugLine),
+    ) {
+        self.draw(Some(region), options, &mut |from, to, what| {
+            if reaches_into(region, from, to) {
+                line(from, to, what);
+            }
+        });
+    }
+
+    fn draw(
+        &self,
+        region: Option<&Aabb2>,
+        options: &DebugOptions,
+        line: &mut dyn FnMut(DVec2, DVec2, DebugLine),
+    ) {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
-                let what = DebugLine::of(body);
-                outline(body.shape(), body.pose(), options, &mut |from, to| line(from, to, what));
+                let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
+                if region.is_none_or(|region| shape.bounds(pose, 0.0).overlaps(region)) {
+                    outline(shape, pose, options, &mut |from, to| line(from, to, what));
+                }
             }
         }
         if options.boxes {
@@ -82,7 +118,7 @@ impl DebugOptions {
     /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost of what is
     /// to be built. Lengths are those of the options.
     ///
-    /// To draw but a part of a large world, ask [`World::visit_boxes_overlapping`] who is there, and draw each.
+    /// To draw but a part of a large world: [`debug_lines_in`](World::debug_lines_in).
     ///
     /// ```
     /// use asunder::{DebugOptions, Pose2, Rect, Shape2, glam::DVec2, glam::Vec2};
@@ -96,6 +132,12 @@ impl DebugOptions {
     pub fn outline2(&self, (shape, pose): (&Shape2, &Pose2), line: &mut impl FnMut(DVec2, DVec2)) {
         outline(shape, pose, self, line);
     }
+}
+
+/// Whether a line's box overlaps a region.
+fn reaches_into(region: &Aabb2, from: DVec2, to: DVec2) -> bool {
+    let (low, high) = (region.min.as_dvec2(), region.max.as_dvec2());
+    from.min(to).cmple(high).all() && from.max(to).cmpge(low).all()
 }
 
 fn rectangle(low: DVec2, high: DVec2, line: &mut impl FnMut(DVec2, DVec2)) {

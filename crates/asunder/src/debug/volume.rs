@@ -4,7 +4,8 @@ use super::{DebugLine, DebugOptions, HALVINGS};
 use crate::space::Volume;
 use crate::world::World;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Ground, HalfSpace, Pose3, Shape3};
+use asunder_geometry::{Aabb3, Ground, HalfSpace, Pose3, Shape3};
+use core::ops::ControlFlow;
 
 impl World<Volume> {
     /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with what
@@ -31,14 +32,50 @@ impl World<Volume> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn debug_lines(&self, options: &DebugOptions, line: &mut impl FnMut(DVec3, DVec3, DebugLine)) {
-        self.draw(options, line);
+        self.draw(None, options, line);
     }
 
-    fn draw(&self, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3, DebugLine)) {
+    /// The same of a region: the lines whose own boxes overlap it, in the order in which they come of the whole world. Of ground,
+    /// only what is there is looked at. Cost: linear in what is drawn, with a look at every body, contact and box.
+    ///
+    /// ```
+    /// use asunder::{Aabb3, Collider3, DebugOptions, Cuboid, Pose3, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let crate_ = Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?);
+    /// for x in [0.0, 10.0, 20.0] {
+    ///     world.insert(crate_.clone().at(Pose3::at([x, 0.0, 0.0])?));
+    /// }
+    /// world.update();
+    /// let (mut count, region) = (0, Aabb3::new(Vec3::splat(-2.0), Vec3::splat(9.5)));
+    /// world.debug_lines_in(&region, &DebugOptions::default(), &mut |_, _, _| count += 1);
+    /// assert_eq!(count, 12 + 8, "all of the first, and what reaches in of the second");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn debug_lines_in(
+        &self,
+        region: &Aabb3,
+        options: &DebugOptions,
+        line: &mut impl FnMut(DVec3, DVec3, DebugLine),
+    ) {
+        self.draw(Some(region), options, &mut |from, to, what| {
+            if reaches_into(region, from, to) {
+                line(from, to, what);
+            }
+        });
+    }
+
+    fn draw(
+        &self,
+        region: Option<&Aabb3>,
+        options: &DebugOptions,
+        line: &mut dyn FnMut(DVec3, DVec3, DebugLine),
+    ) {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
-                let what = DebugLine::of(body);
-                outline(body.shape(), body.pose(), options, &mut |from, to| line(from, to, what));
+                let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
+                if region.is_none_or(|region| shape.bounds(pose, 0.0).overlaps(region)) {
+                    outline((shape, pose), region, options, &mut |from, to| line(from, to, what));
+                }
             }
         }
         if options.boxes {
@@ -89,7 +126,7 @@ impl DebugOptions {
     /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost of what is
     /// to be built. Lengths are those of the options.
     ///
-    /// To draw but a part of a large world, ask [`World::visit_boxes_overlapping`] who is there, and draw each.
+    /// To draw but a part of a large world: [`debug_lines_in`](World::debug_lines_in).
     ///
     /// ```
     /// use asunder::{DebugOptions, Pose3, Cuboid, Shape3, glam::DVec3, glam::Vec3};
@@ -101,7 +138,7 @@ impl DebugOptions {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn outline3(&self, (shape, pose): (&Shape3, &Pose3), line: &mut impl FnMut(DVec3, DVec3)) {
-        outline(shape, pose, self, line);
+        outline((shape, pose), None, self, line);
     }
 }
 
@@ -116,19 +153,25 @@ fn box_edges(low: DVec3, high: DVec3, line: &mut impl FnMut(DVec3, DVec3)) {
     }
 }
 
-/// The outline of a posed shape: faces moved out by the radius, and arcs over the edges between them.
-fn outline(shape: &Shape3, pose: &Pose3, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3)) {
+/// The outline of a posed shape: faces moved out by the radius, and arcs over the edges between them. Of ground, what may reach
+/// into a region is enough.
+fn outline(
+    (shape, pose): (&Shape3, &Pose3),
+    region: Option<&Aabb3>,
+    options: &DebugOptions,
+    line: &mut dyn FnMut(DVec3, DVec3),
+) {
     match shape {
         Shape3::HalfSpace(half_space) => patch(half_space, pose, options, line),
         Shape3::Compound(compound) => {
             for part in compound.parts() {
                 // The part's pose, then the body's.
                 let mut moved = |from, to| line(pose.transform(from), pose.transform(to));
-                outline(part.shape(), part.pose(), options, &mut moved);
+                outline((part.shape(), part.pose()), None, options, &mut moved);
             }
         }
-        Shape3::TriMesh(mesh) => edges(Ground::Mesh(mesh), pose, line),
-        Shape3::HeightField(field) => edges(Ground::Field(field), pose, line),
+        Shape3::TriMesh(mesh) => edges(Ground::Mesh(mesh), pose, region, line),
+        Shape3::HeightField(field) => edges(Ground::Field(field), pose, region, line),
         // A hull may be a point or a segment, too.
         _ => match *shape.core().vertices() {
             [center] => ball(pose, pose.transform(center), f64::from(shape.radius()), line),
@@ -138,10 +181,19 @@ fn outline(shape: &Shape3, pose: &Pose3, options: &DebugOptions, line: &mut dyn 
     }
 }
 
-/// Every edge of ground, once.
-fn edges(ground: Ground<'_>, pose: &Pose3, line: &mut dyn FnMut(DVec3, DVec3)) {
-    let triangles = (0..ground.triangle_count()).filter(|&number| ground.triangle(number).is_some());
-    for triangle in triangles {
+/// Every edge of ground, once, or those that may reach into a region.
+fn edges(ground: Ground<'_>, pose: &Pose3, region: Option<&Aabb3>, line: &mut dyn FnMut(DVec3, DVec3)) {
+    let mut near = Vec::new();
+    if let Some(region) = region {
+        // Both triangles of an edge that reaches in do so, too.
+        let _ = ground.visit_near(&seen_from(pose, region), |triangle| {
+            near.push(triangle);
+            ControlFlow::Continue(())
+        });
+        near.sort_unstable();
+    }
+    let all = if region.is_none() { 0..ground.triangle_count() } else { 0..0 };
+    for triangle in near.into_iter().chain(all).filter(|&number| ground.triangle(number).is_some()) {
         let corners = ground.corners(triangle).map(|corner| pose.transform(corner));
         for edge in 0..3 {
             if ground.neighbor(triangle, edge).is_none_or(|(other, _)| triangle < other) {
@@ -149,6 +201,26 @@ fn edges(ground: Ground<'_>, pose: &Pose3, line: &mut dyn FnMut(DVec3, DVec3)) {
             }
         }
     }
+}
+
+/// A box, in the axes of a body, around a region.
+fn seen_from(pose: &Pose3, region: &Aabb3) -> Aabb3 {
+    let (low, high) = (region.min.as_dvec3(), region.max.as_dvec3());
+    let corner =
+        |i: usize| DVec3::new([low.x, high.x][i & 1], [low.y, high.y][i >> 1 & 1], [low.z, high.z][i >> 2]);
+    let corners = (0..8).map(|i| pose.transform_back(corner(i)));
+    let far = DVec3::splat(f64::INFINITY);
+    let (low, high) = corners.fold((far, -far), |(low, high), at| (low.min(at), high.max(at)));
+    // More than f32 rounds, of a region and of ground.
+    let reach = region.min.abs().max(region.max.abs()).max_element();
+    let slack = 1e-6 * (low.abs().max_element() + high.abs().max_element() + f64::from(reach));
+    Aabb3::new((low - slack).as_vec3(), (high + slack).as_vec3())
+}
+
+/// Whether a line's box overlaps a region.
+fn reaches_into(region: &Aabb3, from: DVec3, to: DVec3) -> bool {
+    let (low, high) = (region.min.as_dvec3(), region.max.as_dvec3());
+    from.min(to).cmple(high).all() && from.max(to).cmpge(low).all()
 }
 
 /// A triangle, cuboid or hull, with or without a radius.

@@ -73,6 +73,21 @@ impl<'a, S: Space> Filter<'a, S> {
     }
 
     /// Asks as a body of these layers would: only bodies that these meet, where both sides must agree, are found.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Layers, Ray3, Sphere, World3, glam::Vec3};
+    /// const WALL: u32 = 1;
+    /// const FRIEND: u32 = 2;
+    /// let mut world = World3::new();
+    /// let friend = Layers { member_of: FRIEND, collides_with: u32::MAX };
+    /// world.insert(Collider3::new(Sphere::new(0.5)?).layers(friend));
+    /// // What is found is what it collides with.
+    /// let shot = Layers { member_of: u32::MAX, collides_with: WALL };
+    /// let ray = Ray3::new([-5.0, 0.0, 0.0], Vec3::X)?;
+    /// assert!(world.cast_ray(&ray, 99.0, &Filter3::new().layers(shot)).is_none(), "friends are passed");
+    /// assert!(world.cast_ray(&ray, 99.0, &Filter3::new()).is_some());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub const fn layers(mut self, layers: Layers) -> Self {
         self.layers = Some(layers);
