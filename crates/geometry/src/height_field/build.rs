@@ -24,13 +24,9 @@ pub(super) fn build(grid: Grid) -> Result<Data, HeightFieldError> {
     // Of two zeros with different signs, either may be the least: added to zero they are the same.
     let center = (low + high) * 0.5 + Vec3::ZERO;
     let reach = |corner: Vec3| (corner.as_dvec3() - center.as_dvec3()).length_squared();
-    let corners = |cell| {
-        let first = 2 * grid.number(cell);
-        [first, first + 1].into_iter().flat_map(|triangle| grid.corners(triangle))
-    };
-    let outer = kept().flat_map(corners).map(reach).fold(0.0, f64::max).sqrt();
+    let outer = grid.vertices().map(reach).fold(0.0, f64::max).sqrt();
     let neighbor = |triangle, edge| Some(grid.neighbor(triangle, edge)?.0);
-    let normals: Vec<DVec3> = (0..grid.triangle_count()).map(|triangle| normal(&grid, triangle)).collect();
+    let normals: Vec<DVec3> = grid.all_cells().flat_map(|cell| grid.triangles_of(cell).map(normal)).collect();
     let normal = |triangle: u32| normals[triangle as usize];
     let patches = patches(grid.triangle_count(), |triangle| grid.has(triangle), normal, neighbor);
     let marks = Marks::of(&grid, &normals);
@@ -109,6 +105,8 @@ impl<'a> Marks<'a> {
         let far = near + self.grid.cells[0] as usize + 1;
         let first = |cell: Cell| (!self.grid.is_hole(cell)).then(|| 2 * self.grid.number(cell));
         let here = first(cell);
+        // All three are edges of one triangle.
+        let corners = here.map(|here| self.grid.corners(here).map(|corner| corner.as_dvec3()));
         // Beyond the first row and column, where nothing is, numbers wrap to beyond the last.
         let above = first(Cell { column, row: row.wrapping_sub(1) });
         let left = first(Cell { column: column.wrapping_sub(1), row });
@@ -120,7 +118,8 @@ impl<'a> Marks<'a> {
         ];
         for (shift, edge, other, ends) in edges {
             let other = other.map(second);
-            let sight = self.sight((here, edge), other);
+            let along = corners.map(|corners| corners[(edge + 1) % 3] - corners[edge]);
+            let sight = self.sight(here.zip(along), other);
             self.put(ends, near, shift, sight);
             if self.is_low(here, other) {
                 self.marks[near] |= 1 << (LOW + shift / 2);
@@ -134,15 +133,13 @@ impl<'a> Marks<'a> {
             .is_some_and(|(one, other)| is_low([one, other].map(|number| self.normals[number as usize])))
     }
 
-    /// How an edge is seen between a triangle, of which it is a half-edge, and another; of an edge that is not there,
-    /// not at all.
-    fn sight(&self, (one, edge): (Option<u32>, usize), other: Option<u32>) -> Sight {
+    /// How an edge is seen between a triangle, with the way along its half-edge there, and another; of an edge that is not
+    /// there, not at all.
+    fn sight(&self, one: Option<(u32, DVec3)>, other: Option<u32>) -> Sight {
         match (one, other) {
             (None, None) => [false; 2],
-            (Some(one), Some(other)) => {
-                let corners = self.grid.corners(one).map(|corner| corner.as_dvec3());
-                let along = (corners[(edge + 1) % 3] - corners[edge]).normalize();
-                sight([one, other].map(|triangle| self.normals[triangle as usize]), along)
+            (Some((one, along)), Some(other)) => {
+                sight([one, other].map(|triangle| self.normals[triangle as usize]), along.normalize())
             }
             _ => RIM,
         }
@@ -157,8 +154,8 @@ impl<'a> Marks<'a> {
     }
 }
 
-fn normal(grid: &Grid, triangle: u32) -> DVec3 {
-    let [a, b, c] = grid.corners(triangle).map(|corner| corner.as_dvec3());
+fn normal(triangle: [Vec3; 3]) -> DVec3 {
+    let [a, b, c] = triangle.map(|corner| corner.as_dvec3());
     unit((b - a).cross(c - a))
 }
 

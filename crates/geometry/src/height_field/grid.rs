@@ -162,6 +162,22 @@ impl Grid {
         cell.row * (self.cells[0] + 1) + cell.column
     }
 
+    /// All that are corners of ground.
+    pub(super) fn vertices(&self) -> impl Iterator<Item = Vec3> + '_ {
+        let is_ground = |column: u32, row: u32| !self.is_hole(Cell { column, row });
+        let at = move |column: u32, row: u32| {
+            let number = self.vertex_number(Cell { column, row }) as usize;
+            // Before the first, numbers wrap to beyond the last, where nothing is.
+            let (left, above) = (column.wrapping_sub(1), row.wrapping_sub(1));
+            let is_kept = is_ground(column, row)
+                || is_ground(left, row)
+                || is_ground(column, above)
+                || is_ground(left, above);
+            is_kept.then(|| Vec3::new(self.line(0, column), self.heights[number], self.line(1, row)))
+        };
+        (0..=self.cells[1]).flat_map(move |row| (0..=self.cells[0]).filter_map(move |column| at(column, row)))
+    }
+
     fn vertex(&self, number: u32) -> Vec3 {
         let columns = self.cells[0] + 1;
         let height = self.heights.get(number as usize).copied().unwrap_or(0.0);
@@ -187,15 +203,18 @@ impl Grid {
     #[inline]
     pub(super) fn corners(&self, triangle: u32) -> [Vec3; 3] {
         let Some(cell) = self.cell_of(triangle) else { return [Vec3::ZERO; 3] };
+        let [first, second] = self.triangles_of(cell);
+        if triangle.is_multiple_of(2) { first } else { second }
+    }
+
+    /// The corners of both triangles of a cell that is there.
+    #[inline]
+    pub(super) fn triangles_of(&self, cell: Cell) -> [[Vec3; 3]; 2] {
         let [a, b, c, d] = self.heights_of(cell);
         let [x, next_x] = [cell.column, cell.column + 1].map(|column| self.line(0, column));
         let [z, next_z] = [cell.row, cell.row + 1].map(|row| self.line(1, row));
         let (left, right) = (Vec3::new(x, c, next_z), Vec3::new(next_x, b, z));
-        if triangle.is_multiple_of(2) {
-            [Vec3::new(x, a, z), left, right]
-        } else {
-            [right, left, Vec3::new(next_x, d, next_z)]
-        }
+        [[Vec3::new(x, a, z), left, right], [right, left, Vec3::new(next_x, d, next_z)]]
     }
 
     /// The triangle across an edge, and its edge there.
