@@ -133,14 +133,12 @@ fn run_from(vertices: &[Vec2], start: usize, most: usize) -> usize {
     for count in 1..most {
         let [inner, next] = [vertex(count), vertex(count + 1)];
         let (along, ahead) = (inner.as_dvec2() - from.as_dvec2(), next.as_dvec2() - from.as_dvec2());
-        let [aside, length] = [corridor([from, inner], along), along.length()];
-        if length > aside {
-            let across = along.perp() * (aside / length);
+        if let Some([least, most]) = seen_around(along, rounding([from, inner])) {
             wedge = Some(match wedge {
-                None => [along - across, along + across],
+                None => [least, most],
                 Some([right, left]) => [
-                    if right.perp_dot(along - across) > 0.0 { along - across } else { right },
-                    if left.perp_dot(along + across) < 0.0 { along + across } else { left },
+                    if right.perp_dot(least) > 0.0 { least } else { right },
+                    if left.perp_dot(most) < 0.0 { most } else { left },
                 ],
             });
         }
@@ -155,8 +153,26 @@ fn run_from(vertices: &[Vec2], start: usize, most: usize) -> usize {
 }
 
 /// How far beside a line through two points a vertex between them may lie: what all coordinates round to.
-fn corridor([one, other]: [Vec2; 2], along: DVec2) -> f64 {
-    let largest = one.abs().max(other.abs()).as_dvec2();
+fn corridor(ends: [Vec2; 2], along: DVec2) -> f64 {
     let normal = along.perp().abs() / along.length().max(f64::MIN_POSITIVE);
-    STRAIGHT * normal.dot(largest)
+    normal.dot(rounding(ends))
+}
+
+/// How far beside its place, on each axis, a vertex between two others may lie.
+fn rounding([one, other]: [Vec2; 2]) -> DVec2 {
+    one.abs().max(other.abs()).as_dvec2() * STRAIGHT
+}
+
+/// The rightmost and the leftmost direction to a box, by its middle and half extents; nothing from inside. A line passes the middle
+/// within its corridor, whichever way it leads, exactly where it meets the box.
+fn seen_around(middle: DVec2, half: DVec2) -> Option<[DVec2; 2]> {
+    if middle.abs().cmple(half).all() {
+        return None;
+    }
+    let corners =
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| middle + half * DVec2::new(x, y));
+    let furthest = |is_further: fn(f64) -> bool| {
+        corners.into_iter().reduce(|best, next| if is_further(best.perp_dot(next)) { next } else { best })
+    };
+    Some([furthest(|turn| turn < 0.0)?, furthest(|turn| turn > 0.0)?])
 }

@@ -137,6 +137,31 @@ fn a_line_that_was_cut_is_one_run_at_any_angle_and_distance() {
 }
 
 #[test]
+fn no_vertex_lies_further_beside_its_run_than_is_told() {
+    // Rounded along the line by as much as the bump is long: the bump is none of the rounding across it.
+    let bump = Chain::open([(1000.0, 0.0), (999.999_9, 1e-4), (900.0, 0.0)].map(Vec2::from)).unwrap();
+    assert_eq!(names(&bump), [0, 1]);
+    for i in 0..20_000 {
+        let random = |k: usize| noise(i * 64 + k);
+        let far = Vec2::new(random(0), random(1) * random(2)) * [1.0, 1e1, 1e2, 1e3, 1e4, 1e5][i % 6];
+        let pace = far.length() * [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7][i / 6 % 8];
+        let mut at = far;
+        let place = |k: usize| {
+            at += Vec2::new(random(3 * k) * random(3 * k + 1), (random(3 * k + 2) - 0.5) * 0.5) * pace;
+            at
+        };
+        let Ok(chain) = Chain::open((1..12).map(place)) else { continue };
+        for segment in 0..chain.segment_count() as u32 {
+            let run = chain.run_of(segment).unwrap();
+            let [from, to] = chain.chord(&run).unwrap().ends().map(Vec2::as_dvec2);
+            let aside = chain.vertices()[segment as usize].as_dvec2() - from;
+            let aside = (to - from).normalize().perp_dot(aside).abs();
+            assert!(aside <= run.unevenness() * (1.0 + 1e-6), "{i}: {aside} {run:?} {chain:?}");
+        }
+    }
+}
+
+#[test]
 fn bends_end_a_run_and_the_seam_of_a_closed_chain_does_not() {
     let bent = |angle: f32| {
         [Vec2::ZERO, Vec2::X, Vec2::new(2.0, 0.0), Vec2::new(3.0, angle), Vec2::new(4.0, 2.0 * angle)]
