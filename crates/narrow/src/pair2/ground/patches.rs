@@ -48,6 +48,9 @@ impl Patch {
             feature: renamed(point.feature),
         };
         let [part_a, part_b] = place.indices;
+        let mut points: ContactPoints<ContactPoint2, 2> = points.iter().map(point).collect();
+        // Where a closed chain comes back to its first vertex, what the kernel named later is named before.
+        points.sort_unstable_by_key(|point| point.feature);
         let uneven = (run.unevenness() as f32).next_up();
         Some(Self(Manifold2 {
             part_a,
@@ -55,7 +58,7 @@ impl Patch {
             normal: normal.as_vec2(),
             separation: near.separation,
             error: if run.unevenness() > 0.0 { (near.error + uneven).next_up() } else { near.error },
-            points: points.iter().map(point).collect(),
+            points,
         }))
     }
 

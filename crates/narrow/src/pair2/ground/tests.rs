@@ -1,4 +1,4 @@
-//! What is asked about a chain takes steps for what is near, however long the chain is.
+//! What is asked about a chain takes steps for what is near, however long the chain is; points are in order on all of it.
 
 use crate::counted::steps_of;
 use crate::{Batch2, Hint, Job2, Pair2, cast_ray2, collide2};
@@ -61,4 +61,24 @@ fn a_million_segments_cost_what_a_thousand_do() {
     let (found, steps) = steps_of(|| pair.separation(f32::INFINITY));
     let crate::Separation2::Measured(found) = found else { panic!("without a limit") };
     assert!(found.separation == -2.0 && steps < 40, "{found:?} {steps}");
+}
+
+#[test]
+fn where_a_closed_chain_comes_back_to_its_first_vertex_points_are_in_order_as_elsewhere() {
+    let corners = [(-2.0, 0.0), (-2.0, -4.0), (2.0, -4.0), (2.0, 0.0)].map(Vec2::from);
+    // On all of its top: points are above the ends, and named after them.
+    let plank = Shape2::from(Rect::from_half_extents(Vec2::new(3.0, 0.25)).unwrap());
+    let pose = Pose2::at([0.0, 0.24]).unwrap();
+    for first in 0..4 {
+        let mut corners = corners;
+        corners.rotate_left(first);
+        let island = Shape2::from(Chain::closed(corners).unwrap());
+        for found in [
+            Pair2::new(&island, &Pose2::IDENTITY, &plank, &pose).manifolds(0.0),
+            Pair2::new(&plank, &pose, &island, &Pose2::IDENTITY).manifolds(0.0),
+        ] {
+            assert!(found.len() == 1 && found[0].points.len() == 2, "{first}: {found:?}");
+            assert!(found[0].points.is_sorted_by_key(|point| point.feature), "{first}: {found:?}");
+        }
+    }
 }
