@@ -205,8 +205,7 @@ impl Pair2<'_> {
             return None;
         }
         with_touched((self, &travel), (do_touch, touches), |touched| {
-            let mut stretches = travel.stretches().iter();
-            let first = stretches.find_map(|stretch| self.first_touch_in(stretch, Some(touched)));
+            let first = self.first_touch_along(&travel, Some(touched));
             if do_touch { touched.across([motion_a, motion_b], first.as_ref()).or(first) } else { first }
         })
     }
@@ -227,14 +226,23 @@ impl Pair2<'_> {
         if travel.is_still() {
             return None;
         }
-        travel.stretches().iter().find_map(|stretch| self.first_touch_in(stretch, None))
+        self.first_touch_along(travel, None)
     }
 
-    /// The first pair of parts that touch within a stretch; beyond those that are touched, where they are given.
-    fn first_touch_in(&self, stretch: &Stretch, beyond: Option<&Touched>) -> Option<Impact2> {
-        if self.has_ground() {
-            return self.first_touch_of_ground(stretch, beyond);
-        }
+    /// The first pair of parts that touch on the way; beyond those that are touched, where they are given.
+    fn first_touch_along(&self, travel: &Travel, beyond: Option<&Touched>) -> Option<Impact2> {
+        let mut last = None;
+        travel.stretches().iter().find_map(|stretch| {
+            let before = last.replace(stretch);
+            if self.has_ground() {
+                return self.first_touch_of_ground((before, stretch), beyond);
+            }
+            self.first_touch_of_parts(stretch, beyond)
+        })
+    }
+
+    /// The same within a stretch, of two bodies that are no ground.
+    fn first_touch_of_parts(&self, stretch: &Stretch, beyond: Option<&Touched>) -> Option<Impact2> {
         let whole_b = Piece::whole(self.shape_b);
         let mut first: Option<Impact2> = None;
         let mut end = 1.0;

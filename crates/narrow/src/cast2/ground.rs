@@ -28,13 +28,13 @@ impl Pair2<'_> {
         Some(deepest.as_ref().and_then(at_start).unwrap_or_else(|| self.touching_at_start()))
     }
 
-    /// The first segment and part that touch within a stretch.
+    /// The first segment and part that touch within a stretch, which may follow another.
     pub(super) fn first_touch_of_ground(
         &self,
-        stretch: &Stretch,
+        (before, stretch): (Option<&Stretch>, &Stretch),
         beyond: Option<&Touched>,
     ) -> Option<Impact2> {
-        let mut first = First { stretch, end: 1.0, impact: None, beyond };
+        let mut first = First { before, stretch, end: 1.0, impact: None, beyond };
         match (self.shape_a, self.shape_b) {
             (Shape2::Chain(a), Shape2::Chain(b)) => {
                 let whole_b = Piece::whole(self.shape_b);
@@ -50,6 +50,8 @@ impl Pair2<'_> {
 
 /// What is met first, as far as it is known.
 struct First<'s> {
+    /// What went before the stretch, if anything did.
+    before: Option<&'s Stretch>,
     stretch: &'s Stretch,
     /// When.
     end: f64,
@@ -95,6 +97,12 @@ impl First<'_> {
             if first.impact.is_some() && touching.at >= first.end {
                 return;
             }
+            // What it came to touch in the stretch before, from behind, it goes on passing.
+            if touching.at <= 0.0
+                && first.before.is_some_and(|before| is_passed(before, (chain, side), pieces))
+            {
+                return;
+            }
             if first
                 .beyond
                 .is_some_and(|touched| touched.passes_over(pieces, (first.stretch, touching.at), axis))
@@ -108,6 +116,16 @@ impl First<'_> {
             first.impact = Some(impact);
         });
     }
+}
+
+/// Whether a segment, on one side of the two, is touched within a stretch by who it does not see.
+fn is_passed(stretch: &Stretch, (chain, side): (&Chain, usize), pieces: [&Piece; 2]) -> bool {
+    let course = Course::new(stretch, pieces, 1.0);
+    let met = course.and_then(|course| {
+        let touching = course.first_touch()?;
+        Some(surface_met((chain, pieces[side].index), &course, &touching, side))
+    });
+    matches!(met, Some(None))
 }
 
 /// The axis from A to B that the ground has where it is met, and the run there. Nothing where it does not see the

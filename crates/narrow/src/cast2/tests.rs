@@ -1,7 +1,8 @@
 use crate::{Impact2, Pair2, RayHit2, cast_ray2};
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{
-    Capsule2, Circle, Compound2, HalfPlane, Motion2, Polygon, Pose2, Ray2, Rect, Rotation2, Segment2, Shape2,
+    Capsule2, Chain, Circle, Compound2, HalfPlane, Motion2, Polygon, Pose2, Ray2, Rect, Rotation2, Segment2,
+    Shape2,
 };
 
 fn circle(radius: f32) -> Shape2 {
@@ -164,6 +165,29 @@ fn a_ray_that_starts_on_the_outline_is_inside_and_one_a_rounding_away_is_not() {
             } else if along == normal {
                 assert_eq!(beside, None, "{shape:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn what_turns_while_it_passes_one_sided_ground_from_behind_is_not_stopped_half_way() {
+    let platform = Chain::open([(5.0, 0.0), (1.0, 0.0), (-5.0, 0.0)].map(Vec2::from)).unwrap().one_sided();
+    let (platform, ball, still) = (Shape2::from(platform), circle(0.5), Motion2::STILL);
+    for angle in [0.0, 1e-6, 0.5, -3.0] {
+        let turn = Rotation2::from_angle(angle).unwrap();
+        for i in 0..=60 {
+            // From below, so that its middle is on either side of the platform when half of the way is done.
+            let way = 1.6 + 0.025 * f64::from(i);
+            let (pose, motion) = (at(0.2, -1.0), Motion2::new([0.0, way], turn).unwrap());
+            let pair = Pair2::new(&ball, &pose, &platform, &Pose2::IDENTITY);
+            assert_eq!(pair.impact(&motion, &still), None, "{angle} {way}");
+            let back = Pair2::new(&platform, &Pose2::IDENTITY, &ball, &pose);
+            assert_eq!(back.next_impact(&still, &motion), None, "{angle} {way}");
+            // From above it is met wherever it comes to it, also half way.
+            let (pose, motion) = (at(0.2, 1.0), Motion2::new([0.0, -0.625 * way], turn).unwrap());
+            let met = Pair2::new(&ball, &pose, &platform, &Pose2::IDENTITY).impact(&motion, &still).unwrap();
+            assert!((met.fraction * 0.625 * way - 0.5).abs() < 1e-5, "{angle} {way} {met:?}");
+            assert_eq!(met.normal, Vec2::NEG_Y, "{angle} {way}");
         }
     }
 }
