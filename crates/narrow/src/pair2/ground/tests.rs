@@ -1,9 +1,9 @@
 //! What is asked about a chain takes steps for what is near, however long the chain is; points are in order on all of it.
 
 use crate::counted::steps_of;
-use crate::{Batch2, Hint, Job2, Pair2, cast_ray2, collide2};
+use crate::{Batch2, Hint, Job2, Manifold2, Pair2, cast_ray2, collide2};
 use asunder_geometry::glam::Vec2;
-use asunder_geometry::{Capsule2, Chain, Circle, HalfPlane, Pose2, Ray2, Rect, Shape2};
+use asunder_geometry::{Capsule2, Chain, Circle, HalfPlane, Pose2, Ray2, Rect, Rotation2, Shape2};
 
 /// Hills of half-metre segments around x = 0, as many as asked for.
 fn hills(count: i32) -> Shape2 {
@@ -65,20 +65,28 @@ fn a_million_segments_cost_what_a_thousand_do() {
 
 #[test]
 fn where_a_closed_chain_comes_back_to_its_first_vertex_points_are_in_order_as_elsewhere() {
-    let corners = [(-2.0, 0.0), (-2.0, -4.0), (2.0, -4.0), (2.0, 0.0)].map(Vec2::from);
-    // On all of its top: points are above the ends, and named after them.
-    let plank = Shape2::from(Rect::from_half_extents(Vec2::new(3.0, 0.25)).unwrap());
-    let pose = Pose2::at([0.0, 0.24]).unwrap();
+    let corners = [
+        (-1.297_922_1e-4, -1.762_594_8e-4),
+        (8.834_482e-5, -1.762_594_8e-4),
+        (-4.213_126e-5, 4.976_397e-5),
+        (-1.005_423_4e-4, -5.137_813e-5),
+    ];
+    let turned = Pose2::new([0.0, 0.0], Rotation2::new(0.983_723_3, 0.179_689_97).unwrap()).unwrap();
+    let plank = Rect::from_half_extents(Vec2::new(0.101_131_156, 0.120_154_18)).unwrap();
+    let plank = Shape2::from(plank.rounded(0.003_544_812).unwrap());
+    let rotation = Rotation2::new(1.0, 4.437_033_6e-7).unwrap();
+    let pose = Pose2::new([0.073_797_001_298_480_38, 0.057_728_919_841_969_525], rotation).unwrap();
     for first in 0..4 {
-        let mut corners = corners;
+        let mut corners = corners.map(Vec2::from);
         corners.rotate_left(first);
         let island = Shape2::from(Chain::closed(corners).unwrap());
         for found in [
-            Pair2::new(&island, &Pose2::IDENTITY, &plank, &pose).manifolds(0.0),
-            Pair2::new(&plank, &pose, &island, &Pose2::IDENTITY).manifolds(0.0),
+            Pair2::new(&island, &turned, &plank, &pose).manifolds(0.0),
+            Pair2::new(&plank, &pose, &island, &turned).manifolds(0.0),
         ] {
-            assert!(found.len() == 1 && found[0].points.len() == 2, "{first}: {found:?}");
-            assert!(found[0].points.is_sorted_by_key(|point| point.feature), "{first}: {found:?}");
+            let is_in_order = |it: &Manifold2| it.points.is_sorted_by_key(|point| point.feature);
+            assert!(found.len() == 2 && found.iter().all(|it| it.points.len() == 2), "{first}: {found:?}");
+            assert!(found.iter().all(is_in_order), "{first}: {found:?}");
         }
     }
 }
