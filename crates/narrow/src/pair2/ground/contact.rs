@@ -124,6 +124,27 @@ impl Standing<'_> {
         }
     }
 
+    /// Whether a segment of a run overlaps the part, where that is what remains to tell who is deep in its face from who is
+    /// behind that, past its end.
+    fn is_overlapped(&self, run: &Run, overlap: &mut Overlap) -> bool {
+        if let Overlap::Told(overlapping) = *overlap {
+            return overlapping;
+        }
+        let zone = self.pair.zone(self.side, &self.part);
+        let verdict = |parts: Parts| parts.convex.verdict().overlapping;
+        let met = self.chain.visit_where(self.is_near(&zone), |segment| {
+            let is_of_run = self.chain.run_of(segment).is_some_and(|it| it.first() == run.first());
+            if is_of_run
+                && self.pair.with_segment(self.side, self.chain, (segment, self.part), verdict) == Some(true)
+            {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        });
+        *overlap = Overlap::Told(met.is_break());
+        met.is_break()
+    }
+
     /// How the part touches a run.
     fn on_run(&self, run: &Run, patches: &mut Patches) -> Overlap {
         count_step();
@@ -141,7 +162,7 @@ impl Standing<'_> {
         let Probe::Near(near) = parts.convex.probe(&Asked { limit, hint: Hint::NONE, points: true }) else {
             return Overlap::Told(false);
         };
-        let overlap = overlap(&near, run);
+        let mut overlap = overlap(&near, run);
         let Some(touch) = &near.touch else { return overlap };
         let preference = parts.convex.preference();
         let patch = |normal: DVec2, points: &[Point]| {
@@ -158,7 +179,10 @@ impl Standing<'_> {
                 let points: ArrayVec<Point, 2> = parts.convex.over_edge(self.side == 1, edge, limit);
                 let normal = if self.side == 0 { surface.normal } else { -surface.normal };
                 let over = patch(normal, &points).map(Patch::deep_by_its_points);
-                let over = over.filter(|over| !(is_apart(&near, run) && over.is_behind()));
+                let over = over.filter(|over| {
+                    let is_beyond = is_apart(&near, run) && over.is_behind();
+                    !is_beyond && (!over.is_deep() || self.is_overlapped(run, &mut overlap))
+                });
                 // At a corner that is hardly one, rounding may see nothing over either face.
                 let is_face = told == Told::Face;
                 if is_face { (over.or_else(kernels), None) } else { (over, kernels()) }

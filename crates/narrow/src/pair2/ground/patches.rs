@@ -74,6 +74,11 @@ impl Patch {
         self.0.separation < 0.0
     }
 
+    /// Whether any of it is, by more than rounding.
+    pub(super) fn is_deep(&self) -> bool {
+        self.0.separation < -self.0.error
+    }
+
     /// What of it is within a margin, if anything.
     pub(super) fn within(&self, margin: f32) -> Option<Self> {
         let mut manifold = self.0;

@@ -1,4 +1,5 @@
-//! What is asked about a chain takes steps for what is near, however long the chain is; points are in order on all of it.
+//! What is asked about a chain takes steps for what is near, however long the chain is; points are in order on all
+//! of it, and where nothing overlaps none is deep.
 
 use crate::counted::steps_of;
 use crate::{Batch2, Hint, Job2, Manifold2, Pair2, cast_ray2, collide2};
@@ -87,6 +88,29 @@ fn where_a_closed_chain_comes_back_to_its_first_vertex_points_are_in_order_as_el
             let is_in_order = |it: &Manifold2| it.points.is_sorted_by_key(|point| point.feature);
             assert!(found.len() == 2 && found.iter().all(|it| it.points.len() == 2), "{first}: {found:?}");
             assert!(found.iter().all(is_in_order), "{first}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn what_an_uneven_run_is_not_touched_by_lies_in_none_of_its_faces() {
+    // To and fro along one line: rounding alone tells its segments from their run.
+    let heights = [0.462_495_57, 0.630_679_3, 0.924_028_46, 0.508_104_56, 0.789_357_1];
+    let wall = heights.map(|height| Vec2::new(0.600_275_5, height));
+    let ground = Chain::open(wall.into_iter().chain([Vec2::new(0.265_088_74, 0.789_357_1)])).unwrap();
+    let turned = Pose2::new([0.0, 0.0], Rotation2::new(0.0, 1.0).unwrap()).unwrap();
+    // Past the end of the wall by less than that rounding, and behind its face.
+    let ends = [Vec2::new(0.939_055_44, 0.402_789), Vec2::new(0.260_933_85, -0.372_778_24)];
+    let rod = Shape2::from(Capsule2::new(ends[0], ends[1], 0.001_911_163_4).unwrap());
+    let rotation = Rotation2::new(-0.642_431_2, -0.766_343_36).unwrap();
+    let pose = Pose2::new([-0.569_277_857_243_340_3, 1.180_493_777_575_731_6], rotation).unwrap();
+    for ground in [Shape2::from(ground.clone().one_sided()), Shape2::from(ground)] {
+        for pair in [Pair2::new(&ground, &turned, &rod, &pose), Pair2::new(&rod, &pose, &ground, &turned)] {
+            assert!(!pair.overlaps());
+            for found in pair.manifolds(0.04) {
+                let least = found.points.iter().map(|point| point.separation).fold(f32::INFINITY, f32::min);
+                assert!(least >= -found.error, "{found:?}");
+            }
         }
     }
 }
