@@ -240,10 +240,17 @@ impl<'a> Course<'a> {
         self.closing(axis) + self.pace + off * self.stretch.velocity.length() <= 0.0
     }
 
-    /// Whether A moves away from B along an axis, where nothing turns.
-    pub(super) fn looks_back(&self, axis: DVec2) -> bool {
-        let velocity = self.stretch.velocity;
-        !self.stretch.is_turning() && axis.dot(velocity) < -SAME_NORMAL * velocity.length()
+    /// Whether A moves away from B along an axis, where they touch: as seen at the point of one of the two cores. A round
+    /// shape that turns about its middle moves as if it did not.
+    pub(super) fn looks_back(&self, axis: DVec2, touching: &Touching, which: usize) -> bool {
+        let radius = f64::from(self.pieces[which].shape.radius());
+        let inwards = if which == 0 { -touching.axis } else { touching.axis };
+        let point = touching.points[which] + inwards * radius;
+        let [spin_a, spin_b] = &self.stretch.spins;
+        let turning = spin_a.speed_at(touching.at) * point.perp()
+            - spin_b.speed_at(touching.at) * (point - self.stretch.offset_at(touching.at)).perp();
+        let velocity = self.stretch.velocity + turning;
+        axis.dot(velocity) < -SAME_NORMAL * velocity.length()
     }
 
     /// Whether an axis, at least so far, shows a gap for all the time there is.

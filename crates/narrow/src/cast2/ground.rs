@@ -151,9 +151,10 @@ fn surface_met(
         Told::Beyond(normal) => normal,
     };
     let axis = if side == 0 { normal } else { -normal };
-    if !course.looks_back(axis) {
+    let looks_back = |axis: DVec2| course.looks_back(axis, touching, 1 - side);
+    if !looks_back(axis) {
         return Some((axis, run));
     }
-    let is_met = !course.looks_back(touching.axis);
+    let is_met = !looks_back(touching.axis);
     (!chain.is_one_sided()).then_some((if is_met { touching.axis } else { axis }, run))
 }

@@ -181,6 +181,12 @@ impl Spin {
         self.change.length() + 4.0 * self.rounding
     }
 
+    /// How fast it turns at a time, in radians for the whole stretch, counterclockwise.
+    pub(super) fn speed_at(&self, at: f64) -> f64 {
+        let squared = (self.from + self.change * at).length_squared();
+        self.from.perp_dot(self.change) / squared.max(f64::MIN_POSITIVE)
+    }
+
     /// The rotation at a time: the stored one of a body that does not turn, else of unit length.
     #[inline]
     pub(super) fn turn_at(&self, at: f64) -> Turn {

@@ -191,3 +191,39 @@ fn what_turns_while_it_passes_one_sided_ground_from_behind_is_not_stopped_half_w
         }
     }
 }
+
+#[test]
+fn a_ball_that_turns_about_its_middle_meets_what_one_that_does_not_turn_meets() {
+    let hill = Chain::open([(2.0, -0.5), (0.0, 0.0), (-2.0, -0.5)].map(Vec2::from)).unwrap();
+    let (ball, still) = (circle(0.5), Motion2::STILL);
+    let mut passed = 0;
+    for (is_one_sided, hill) in [(true, hill.clone().one_sided()), (false, hill)] {
+        let hill = Shape2::from(hill);
+        for i in 0..400 {
+            // To a point around the top, from below: out of the right slope, and away from what the left one looks to.
+            let to = Rotation2::from_angle(0.01 * (i % 100) as f32).unwrap();
+            let to = DVec2::new(f64::from(to.cos()), f64::from(to.sin())) * 0.45;
+            let way = DVec2::new(-1.0, 0.5 + 0.5 * f64::from(i / 100)) * 2.0;
+            let from = Pose2::at(to - 0.8 * way).unwrap();
+            for angle in [1e-6, 0.3, -2.5] {
+                let turn = Rotation2::from_angle(angle).unwrap();
+                let [plain, turning] = [Motion2::shift(way).unwrap(), Motion2::new(way, turn).unwrap()];
+                let pair = Pair2::new(&ball, &from, &hill, &Pose2::IDENTITY);
+                let back = Pair2::new(&hill, &Pose2::IDENTITY, &ball, &from);
+                for (one, other, sign) in [
+                    (pair.impact(&plain, &still), pair.impact(&turning, &still), 1.0),
+                    (back.impact(&still, &plain), back.impact(&still, &turning), -1.0),
+                ] {
+                    passed += usize::from(one.is_none());
+                    assert_eq!(one.is_some(), other.is_some(), "{i} {angle} {one:?} {other:?}");
+                    let (Some(one), Some(other)) = (one, other) else { continue };
+                    assert!((one.fraction - other.fraction).abs() < 1e-6, "{i} {one:?} {other:?}");
+                    assert!(one.normal.abs_diff_eq(other.normal, 1e-4), "{i} {one:?} {other:?}");
+                    let closing = sign * one.normal.as_dvec2().dot(way);
+                    assert!(!is_one_sided || one.overlapping || closing > -1e-6, "{i} {one:?}");
+                }
+            }
+        }
+    }
+    assert!(passed > 200, "{passed}");
+}
