@@ -237,12 +237,16 @@ impl Pair2<'_> {
             if self.has_ground() {
                 return self.first_touch_of_ground((before, stretch), beyond);
             }
-            self.first_touch_of_parts(stretch, beyond)
+            self.first_touch_of_parts((before, stretch), beyond)
         })
     }
 
     /// The same within a stretch, of two bodies that are no ground.
-    fn first_touch_of_parts(&self, stretch: &Stretch, beyond: Option<&Touched>) -> Option<Impact2> {
+    fn first_touch_of_parts(
+        &self,
+        (before, stretch): (Option<&Stretch>, &Stretch),
+        beyond: Option<&Touched>,
+    ) -> Option<Impact2> {
         let whole_b = Piece::whole(self.shape_b);
         let mut first: Option<Impact2> = None;
         let mut end = 1.0;
@@ -256,6 +260,9 @@ impl Pair2<'_> {
                 let Some(touching) = touching.filter(|touching| first.is_none() || touching.at < end) else {
                     return;
                 };
+                if touching.at <= 0.0 && is_passed(before, [a, b]) {
+                    return;
+                }
                 let (when, axis) = ((stretch, touching.at), touching.axis);
                 if beyond.is_some_and(|touched| touched.passes_over([a, b], when, axis)) {
                     return;
@@ -279,6 +286,12 @@ impl Pair2<'_> {
             Impact2 { fraction, error, overlapping: true, normal, anchor_a, anchor_b, part_a, part_b }
         })
     }
+}
+
+/// Whether two parts came to touch in the stretch before, which was no impact: from then on they pass each other.
+fn is_passed(before: Option<&Stretch>, pieces: [&Piece; 2]) -> bool {
+    let course = before.and_then(|before| Course::new(before, pieces, 1.0));
+    course.is_some_and(|course| course.first_touch().is_some())
 }
 
 /// The deepest point of a manifold.

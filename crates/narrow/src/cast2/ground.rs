@@ -7,7 +7,7 @@ use super::beyond::Touched;
 use super::course::{Course, Touching, meeting};
 use super::piece::{Piece, for_pieces};
 use super::stretch::Stretch;
-use super::{at_start, impact};
+use super::{at_start, impact, is_passed};
 use crate::counted::count_step;
 use crate::ground2::{Surface, Told};
 use crate::impact2::Impact2;
@@ -97,10 +97,7 @@ impl First<'_> {
             if first.impact.is_some() && touching.at >= first.end {
                 return;
             }
-            // What it came to touch in the stretch before, from behind, it goes on passing.
-            if touching.at <= 0.0
-                && first.before.is_some_and(|before| is_passed(before, (chain, side), pieces))
-            {
+            if touching.at <= 0.0 && is_passed(first.before, pieces) {
                 return;
             }
             if first
@@ -116,16 +113,6 @@ impl First<'_> {
             first.impact = Some(impact);
         });
     }
-}
-
-/// Whether a segment, on one side of the two, is touched within a stretch by who it does not see.
-fn is_passed(stretch: &Stretch, (chain, side): (&Chain, usize), pieces: [&Piece; 2]) -> bool {
-    let course = Course::new(stretch, pieces, 1.0);
-    let met = course.and_then(|course| {
-        let touching = course.first_touch()?;
-        Some(surface_met((chain, pieces[side].index), &course, &touching, side))
-    });
-    matches!(met, Some(None))
 }
 
 /// The axis from A to B that the ground has where it is met, and the run there. Nothing where it does not see the

@@ -227,3 +227,29 @@ fn a_ball_that_turns_about_its_middle_meets_what_one_that_does_not_turn_meets() 
     }
     assert!(passed > 200, "{passed}");
 }
+
+#[test]
+fn what_is_passed_over_in_the_first_half_of_a_turn_is_in_the_second_too() {
+    // A floor that is flat by a tenth of a millimetre.
+    let height = |i: i32| [0.0, 1e-4, 3e-5, 8e-5][i.rem_euclid(4) as usize];
+    let floor = Chain::open((-10..=10).rev().map(|i| Vec2::new(0.4 * i as f32, height(i)))).unwrap();
+    let compound = |i: i32| {
+        let tile = Rect::from_half_extents(Vec2::new(0.2, 0.5)).unwrap();
+        (Pose2::at([0.4 * f64::from(i), -0.5 + f64::from(height(i))]).unwrap(), Shape2::from(tile))
+    };
+    let tiles = Compound2::new((-10..=10).map(compound).collect::<Vec<_>>()).unwrap();
+    let (ball, still) = (circle(0.5), Motion2::STILL);
+    for ground in [Shape2::from(floor), tiles.into()] {
+        for i in 0..200 {
+            let from = at(-1.0 + 0.01 * f64::from(i), 0.4999);
+            // Down into it, so that its middle is about as deep as the floor when half of the way is done.
+            for deep in [-0.95, -1.0, -1.02, -1.1] {
+                let way = [-0.8 + 0.008 * f64::from(i), deep];
+                let pair = Pair2::new(&ball, &from, &ground, &Pose2::IDENTITY);
+                let turn = Motion2::new(way, Rotation2::from_angle(0.7).unwrap()).unwrap();
+                let met = pair.next_impact(&turn, &still);
+                assert!(met.is_none_or(|met| met.fraction != 0.5), "{i} {deep} {met:?}");
+            }
+        }
+    }
+}
