@@ -133,12 +133,12 @@ fn run_from(vertices: &[Vec2], start: usize, most: usize) -> usize {
     for count in 1..most {
         let [inner, next] = [vertex(count), vertex(count + 1)];
         let (along, ahead) = (inner.as_dvec2() - from.as_dvec2(), next.as_dvec2() - from.as_dvec2());
-        if let Some([least, most]) = seen_around(along, rounding([from, inner])) {
+        if let Some([rightmost, leftmost]) = seen_around(along, rounding([from, inner])) {
             wedge = Some(match wedge {
-                None => [least, most],
+                None => [rightmost, leftmost],
                 Some([right, left]) => [
-                    if right.perp_dot(least) > 0.0 { least } else { right },
-                    if left.perp_dot(most) < 0.0 { most } else { left },
+                    if right.perp_dot(rightmost) > 0.0 { rightmost } else { right },
+                    if left.perp_dot(leftmost) < 0.0 { leftmost } else { left },
                 ],
             });
         }
