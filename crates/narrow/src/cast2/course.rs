@@ -240,6 +240,11 @@ impl<'a> Course<'a> {
         self.closing(axis) + self.pace + off * self.stretch.velocity.length() <= 0.0
     }
 
+    /// Whether anybody turns.
+    pub(super) fn is_turning(&self) -> bool {
+        self.stretch.is_turning()
+    }
+
     /// Whether A moves away from B along an axis, where they touch: as seen at the point of one of the two cores. A round
     /// shape that turns about its middle moves as if it did not.
     pub(super) fn looks_back(&self, axis: DVec2, touching: &Touching, which: usize) -> bool {

@@ -92,7 +92,7 @@ impl First<'_> {
                 let touching = course.first_touch()?;
                 Some((surface_met((chain, segment.index), &course, &touching, side)?, touching))
             });
-            let Some(((axis, run), touching)) = found else { return };
+            let Some((met, touching)) = found else { return };
             // Of equals, the first counts.
             if first.impact.is_some() && touching.at >= first.end {
                 return;
@@ -102,33 +102,43 @@ impl First<'_> {
             }
             if first
                 .beyond
-                .is_some_and(|touched| touched.passes_over(pieces, (first.stretch, touching.at), axis))
+                .is_some_and(|touched| touched.passes_over(pieces, (first.stretch, touching.at), met.level))
             {
                 return;
             }
             first.end = touching.at;
             let mut impact = impact(first.stretch, &touching, pieces);
-            impact.normal = axis.as_vec2();
-            *(if side == 0 { &mut impact.part_a } else { &mut impact.part_b }) = run.first();
+            impact.normal = met.axis.as_vec2();
+            *(if side == 0 { &mut impact.part_a } else { &mut impact.part_b }) = met.run.first();
             first.impact = Some(impact);
         });
     }
 }
 
-/// The axis from A to B that the ground has where it is met, and the run there. Nothing where it does not see the
-/// other.
+/// Ground where it is met.
+struct Met {
+    /// From A to B, as it is told.
+    axis: DVec2,
+    /// The axis that says whether it is passed over as level with what is touched already.
+    level: DVec2,
+    run: Run,
+}
+
+/// How the ground is where it is met. Nothing where it does not see the other.
 ///
 /// The ground's own normal may look the way the other goes, where a corner of it is met. What comes so out of one-sided ground
-/// passes; of other ground it is met along the axis that they touch along.
+/// passes; of other ground it is met along the axis that they touch along. But what turns is led over ground by that normal: a
+/// box that slides over a hill, pressed into it, meets the far corners from inside as it leans.
 fn surface_met(
     (chain, segment): (&Chain, u32),
     course: &Course,
     touching: &Touching,
     side: usize,
-) -> Option<(DVec2, Run)> {
+) -> Option<Met> {
     let run = chain.run_of(segment)?;
+    let along = |axis: DVec2, run: Run| Some(Met { axis, level: axis, run });
     if course.is_with_line(1 - side) {
-        return Some((touching.axis, run));
+        return along(touching.axis, run);
     }
     let surface: Surface = course.surface(side, chain, &run, touching.at)?;
     let away = if side == 0 { touching.axis } else { -touching.axis };
@@ -139,9 +149,9 @@ fn surface_met(
     };
     let axis = if side == 0 { normal } else { -normal };
     let looks_back = |axis: DVec2| course.looks_back(axis, touching, 1 - side);
-    if !looks_back(axis) {
-        return Some((axis, run));
+    if !looks_back(axis) || looks_back(touching.axis) && !chain.is_one_sided() {
+        return along(axis, run);
     }
-    let is_met = !looks_back(touching.axis);
-    (!chain.is_one_sided()).then_some((if is_met { touching.axis } else { axis }, run))
+    let level = if course.is_turning() { axis } else { touching.axis };
+    (!chain.is_one_sided()).then_some(Met { axis: touching.axis, level, run })
 }
