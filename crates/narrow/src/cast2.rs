@@ -125,7 +125,7 @@ impl Pair2<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn impact(&self, motion_a: &Motion2, motion_b: &Motion2) -> Option<Impact2> {
-        self.first_touch(&Travel::of([&self.pose_a, &self.pose_b], [motion_a, motion_b]))
+        self.first_touch(&Travel::of(self, [motion_a, motion_b]))
     }
 
     /// [`impact`](Self::impact), of bodies that may touch already: what they run into next.
@@ -195,7 +195,7 @@ impl Pair2<'_> {
         motion_a: &Motion2,
         motion_b: &Motion2,
     ) -> Option<Impact2> {
-        let travel = Travel::of([&self.pose_a, &self.pose_b], [motion_a, motion_b]);
+        let travel = Travel::of(self, [motion_a, motion_b]);
         let first = self.first_touch(&travel)?;
         let do_touch = first.overlapping;
         if !do_touch && touches.is_empty() {

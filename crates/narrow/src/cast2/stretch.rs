@@ -12,10 +12,11 @@
 //! ```
 
 use super::{position_of, sum};
+use crate::pair2::Pair2;
 use crate::polygon::outline::Turn;
 use arrayvec::ArrayVec;
-use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Motion2, Pose2, Rotation2};
+use asunder_geometry::glam::{DVec2, Vec2};
+use asunder_geometry::{Motion2, Pose2, Rotation2, Shape2};
 
 /// By how much a pose's rotation may lie beside the smooth way, in radians or as a stretch: it is rounded to f32
 /// twice, and where the way begins and ends of unit length up to one rounding.
@@ -73,8 +74,12 @@ impl Travel {
     }
 
     /// Both move, and perhaps turn.
-    pub(super) fn of(from: [&Pose2; 2], motions: [&Motion2; 2]) -> Self {
-        let [a, b] = [0, 1].map(|which| Way::new(from[which], motions[which]));
+    pub(super) fn of(pair: &Pair2, motions: [&Motion2; 2]) -> Self {
+        let (poses, shapes) = ([&pair.pose_a, &pair.pose_b], [pair.shape_a, pair.shape_b]);
+        let [a, b] = [0, 1].map(|which| {
+            let way = Way::new(poses[which], motions[which]);
+            Way { is_turning: way.is_turning && !is_round(shapes[which]), ..way }
+        });
         let offset = b.start.position() - a.start.position();
         let velocity = a.path - b.path;
         let mut stretches = ArrayVec::new();
@@ -195,6 +200,12 @@ impl Spin {
         }
         Turn::to((self.from + self.change * at).normalize())
     }
+}
+
+/// Whether nothing of a shape changes place as its body turns: a ball about its body's position. It counts as one that
+/// does not turn, so that it meets the same: of who turns, all of its arm would count as way that it makes.
+fn is_round(shape: &Shape2) -> bool {
+    shape.center() == Vec2::ZERO && shape.outer_radius() <= shape.radius()
 }
 
 fn vector(rotation: Rotation2) -> DVec2 {

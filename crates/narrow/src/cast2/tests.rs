@@ -253,3 +253,36 @@ fn what_is_passed_over_in_the_first_half_of_a_turn_is_in_the_second_too() {
         }
     }
 }
+
+#[test]
+fn a_ball_that_turns_about_its_middle_rolls_into_what_one_that_does_not_turn_rolls_into() {
+    // Hollows two metres apart, of slopes that get steeper; the ball is around the bottom, in one slope or deep in two.
+    let slopes = (-8..=8).rev().map(|i: i32| Vec2::new(i as f32, 0.02 * (i.rem_euclid(2) * (i + 9)) as f32));
+    let hollows = Shape2::from(Chain::open(slopes).unwrap());
+    let (ball, still) = (circle(0.5), Motion2::STILL);
+    let (mut at_start, mut later, mut passed) = (0, 0, 0);
+    for i in 0..287 {
+        let above = at(f64::from(i / 41 * 2 - 6) + 0.01 * f64::from(i % 41 - 20), 3.0);
+        let down = Pair2::new(&ball, &above, &hollows, &Pose2::IDENTITY).cast(Vec2::NEG_Y * 4.0).unwrap();
+        for (deep, way) in
+            [(0.45, [0.42, 0.0]), (1e-2, [-0.3, -0.01]), (1e-3, [0.4, -2.0]), (1e-3, [-2.5, 0.4])]
+        {
+            let from = above.shifted(DVec2::NEG_Y * (4.0 * down.fraction + deep)).unwrap();
+            let plain = Motion2::shift(way).unwrap();
+            let pair = Pair2::new(&ball, &from, &hollows, &Pose2::IDENTITY);
+            let back = Pair2::new(&hollows, &Pose2::IDENTITY, &ball, &from);
+            let (ours, theirs) = (pair.next_impact(&plain, &still), back.next_impact(&still, &plain));
+            match &ours {
+                Some(met) if met.fraction == 0.0 => at_start += 1,
+                Some(_) => later += 1,
+                None => passed += 1,
+            }
+            for angle in [1e-6, 0.3, -2.5] {
+                let turning = Motion2::new(way, Rotation2::from_angle(angle).unwrap()).unwrap();
+                assert_eq!(pair.next_impact(&turning, &still), ours, "{i} {way:?} {angle}");
+                assert_eq!(back.next_impact(&still, &turning), theirs, "{i} {way:?} {angle}");
+            }
+        }
+    }
+    assert!(at_start > 20 && later > 100 && passed > 100, "{at_start} {later} {passed}");
+}

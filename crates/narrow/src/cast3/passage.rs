@@ -6,7 +6,7 @@ use crate::polyhedron::closest::Placed;
 use crate::polyhedron::half_space::Plane;
 use crate::polyhedron::solid::Solid;
 use crate::precision::{IN_SPACE, Precision};
-use asunder_geometry::glam::DVec3;
+use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{IMPACT_GAP, IMPACT_REST};
 use asunder_geometry::{Basis3, Core3, Motion3, Pose3, Shape3, Turn3};
 
@@ -18,7 +18,7 @@ pub(super) struct Passage {
     pub(super) drift: DVec3,
     /// Both bodies' axes at the start.
     pub(super) bases: [Basis3; 2],
-    /// How they turn; nothing for one that does not.
+    /// How they turn; nothing for one that does not, nor for a ball about its body's position.
     pub(super) turns: [Option<Turn3>; 2],
     /// What rounding the positions of moved bodies may add to a gap.
     pub(super) rounding: f64,
@@ -96,6 +96,12 @@ pub(super) fn rounding_of(pose: &Pose3, displacement: DVec3) -> f64 {
     f64::EPSILON * (length(pose.position()) + length(displacement))
 }
 
+/// Whether nothing of a shape changes place as its body turns: a ball about its body's position. It counts as one that
+/// does not turn, so that it meets the same: of who turns, all of its arm would count as way that it makes.
+fn is_round(shape: &Shape3) -> bool {
+    shape.center() == Vec3::ZERO && shape.outer_radius() <= shape.radius()
+}
+
 impl Passage {
     /// A moves and B stands; nobody turns.
     pub(super) fn straight(pair: &Pair3, drift: DVec3) -> Self {
@@ -115,12 +121,15 @@ impl Passage {
             DVec3::ZERO => 0.0,
             path => rounding_of(poses[i], path),
         };
-        let turn = |motion: &Motion3, pose: &Pose3| Some(motion.turn(pose)).filter(|turn| !turn.is_still());
+        let shapes = [pair.shape_a, pair.shape_b];
+        let turn = |i: usize| {
+            Some(motions[i].turn(poses[i])).filter(|turn| !turn.is_still() && !is_round(shapes[i]))
+        };
         Self {
             between: pair.between,
             drift: paths[0] - paths[1],
             bases: pair.bases(),
-            turns: [turn(motions[0], poses[0]), turn(motions[1], poses[1])],
+            turns: [turn(0), turn(1)],
             rounding: moved(0) + moved(1),
         }
     }

@@ -1,8 +1,8 @@
 //! Casts whose answers are known beforehand.
 
 use crate::pair3::Pair3;
-use asunder_geometry::glam::{DVec3, Quat, Vec3};
-use asunder_geometry::{Cuboid, HalfSpace, Hull, Motion3, Pose3, Segment3, Shape3, Sphere};
+use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
+use asunder_geometry::{Cuboid, HalfSpace, HeightField, Hull, Motion3, Pose3, Segment3, Shape3, Sphere};
 
 fn cube() -> Shape3 {
     Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into()
@@ -178,4 +178,42 @@ fn boxes_by_their_axes_and_balls_by_their_own_meet_where_their_hulls_do() {
         }
     }
     assert!(hits > 1000 && misses > 300, "{hits} {misses}");
+}
+
+#[test]
+fn a_ball_that_turns_about_its_middle_rolls_into_what_one_that_does_not_turn_rolls_into() {
+    let mut number = numbers();
+    // Pits two metres apart, of uneven depth; the ball is near the bottom, in one face or in more.
+    let is_deep = |i: usize| (i / 9).is_multiple_of(2) && (i % 9).is_multiple_of(2);
+    let heights: Vec<f32> =
+        (0..81).map(|i| 0.1 * (1.0 + number()) * if is_deep(i) { -1.0 } else { 0.2 }).collect();
+    let hills = Shape3::from(HeightField::new(9, 9, heights, Vec2::ONE).unwrap());
+    let middle = hills.center().as_dvec3();
+    let (ball, still) = (Shape3::from(Sphere::new(0.5).unwrap()), Motion3::STILL);
+    let (mut at_start, mut later, mut passed) = (0, 0, 0);
+    for i in 0..1000 {
+        let pit = DVec3::new((i % 3) as f64 - 1.0, 0.0, (i / 3 % 3) as f64 - 1.0) * 2.0;
+        let above = middle + pit + DVec3::new(0.02 * f64::from(number()), 3.0, 0.02 * f64::from(number()));
+        let above = Pose3::at(above).unwrap();
+        let down = Pair3::new(&ball, &above, &hills, &Pose3::IDENTITY).cast(Vec3::NEG_Y * 4.0).unwrap();
+        let deep = [1e-5, 1e-3, 1e-2][i % 3];
+        let from = above.shifted(DVec3::NEG_Y * (4.0 * down.fraction + deep)).unwrap();
+        let way = Vec3::new(number(), 0.1 * number(), number()) * [0.3, 2.0][i % 2];
+        let plain = Motion3::shift(way).unwrap();
+        let pair = Pair3::new(&ball, &from, &hills, &Pose3::IDENTITY);
+        let back = Pair3::new(&hills, &Pose3::IDENTITY, &ball, &from);
+        let (ours, theirs) = (pair.next_impact(&plain, &still), back.next_impact(&still, &plain));
+        match &ours {
+            Some(met) if met.fraction == 0.0 => at_start += 1,
+            Some(_) => later += 1,
+            None => passed += 1,
+        }
+        for angle in [1e-6, 0.3, -2.5] {
+            let turn = Quat::from_xyzw(number(), number(), number(), 1.0 / angle);
+            let turning = Motion3::new(way, turn).unwrap();
+            assert_eq!(pair.next_impact(&turning, &still), ours, "{i} {way} {angle}");
+            assert_eq!(back.next_impact(&still, &turning), theirs, "{i} {way} {angle}");
+        }
+    }
+    assert!(at_start > 20 && later > 100 && passed > 100, "{at_start} {later} {passed}");
 }
