@@ -105,7 +105,8 @@ impl Pair2<'_> {
     /// [`cast`](Self::cast) says holds here too.
     ///
     /// The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they
-    /// touch, and there they are at most `error` apart. Where a body turns, that is no less than 1.2e-7 of its arm. Where many
+    /// touch, and there they are at most `error` apart. Where a body turns, and is no ball
+    /// about its position, that is no less than 1.2e-7 of its arm. Where many
     /// rounds lead no nearer, as for shapes that graze each other while they turn, the fraction is that of the last round, and
     /// `error` the gap that is left there. Two half-planes of which one turns touch at once.
     ///
