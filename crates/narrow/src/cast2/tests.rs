@@ -193,6 +193,50 @@ fn what_turns_while_it_passes_one_sided_ground_from_behind_is_not_stopped_half_w
 }
 
 #[test]
+fn a_box_that_hardly_turns_comes_out_of_one_sided_ground_as_one_that_does_not_turn() {
+    let hill = Chain::open([(2.0, -0.5), (0.0, 0.0), (-2.0, -0.5)].map(Vec2::from)).unwrap();
+    let (body, still) = (Shape2::from(Rect::from_half_extents(Vec2::new(0.5, 0.3)).unwrap()), Motion2::STILL);
+    let (hill, mut passed) = (Shape2::from(hill.one_sided()), 0);
+    for i in 0..400 {
+        // To a point around the top, from below.
+        let to = Rotation2::from_angle(0.01 * (i % 100) as f32).unwrap();
+        let to = DVec2::new(f64::from(to.cos()), f64::from(to.sin())) * 0.45;
+        let way = DVec2::new(-1.0, 0.5 + 0.5 * f64::from(i / 100)) * 2.0;
+        let from = Pose2::at(to - 0.8 * way).unwrap();
+        let turn = Rotation2::from_angle(1e-6).unwrap();
+        let [plain, turning] = [Motion2::shift(way).unwrap(), Motion2::new(way, turn).unwrap()];
+        let pair = Pair2::new(&body, &from, &hill, &Pose2::IDENTITY);
+        let back = Pair2::new(&hill, &Pose2::IDENTITY, &body, &from);
+        for (one, other) in [
+            (pair.impact(&plain, &still), pair.impact(&turning, &still)),
+            (back.impact(&still, &plain), back.impact(&still, &turning)),
+        ] {
+            passed += usize::from(one.is_none());
+            assert_eq!(one.is_some(), other.is_some(), "{i} {one:?} {other:?}");
+            let (Some(one), Some(other)) = (one, other) else { continue };
+            assert!((one.fraction - other.fraction).abs() < 1e-4, "{i} {one:?} {other:?}");
+        }
+    }
+    assert!(passed > 100, "{passed}");
+}
+
+/// What moves away may come near by its turn: the end of a bar that rises a little meets the floor below.
+#[test]
+fn the_end_of_a_bar_that_turns_and_rises_meets_one_sided_ground() {
+    let floor = Shape2::from(Chain::open([Vec2::X * 9.0, Vec2::X * -9.0]).unwrap().one_sided());
+    let bar = Shape2::from(Rect::from_half_extents(Vec2::new(1.0, 0.1)).unwrap());
+    for (rise, angle) in [(0.0, 1.4), (0.2, 1.4), (0.2, -1.4), (0.0, -1.4)] {
+        let from = Pose2::at([0.0, 0.5]).unwrap();
+        let motion = Motion2::new([0.0, rise], Rotation2::from_angle(angle).unwrap()).unwrap();
+        let (pair, still) = (Pair2::new(&bar, &from, &floor, &Pose2::IDENTITY), Motion2::STILL);
+        let met = pair.impact(&motion, &still).expect("it reaches a metre down");
+        let back = Pair2::new(&floor, &Pose2::IDENTITY, &bar, &from).impact(&still, &motion);
+        assert!(back.is_some_and(|back| (back.fraction - met.fraction).abs() < 1e-6), "{back:?} {met:?}");
+        assert!(met.fraction > 0.2 && met.fraction < 0.9 && met.normal.y < -0.999, "{met:?}");
+    }
+}
+
+#[test]
 fn a_ball_that_turns_about_its_middle_meets_what_one_that_does_not_turn_meets() {
     let hill = Chain::open([(2.0, -0.5), (0.0, 0.0), (-2.0, -0.5)].map(Vec2::from)).unwrap();
     let (ball, still) = (circle(0.5), Motion2::STILL);
