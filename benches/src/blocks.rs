@@ -1,9 +1,9 @@
 //! Frames in blocks, for threads that take turns.
 //!
-//! Who plays one frame and then waits for the others begins every frame with the caches full of what they left there, as
-//! no game does, and two threads lose more of their gain by it than one does: of heaps and pyramids they were 1.00 to 1.04
-//! times as fast frame by frame, and 1.08 to 1.26 block by block (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22). So each
-//! side plays some frames in a row, and the first of them are not counted.
+//! Who plays one frame and then waits for the others begins every frame with the caches full of what they left there,
+//! as no game does, and two threads lose more of their gain by it than one does: of heaps and pyramids they were 1.00
+//! to 1.04 times as fast frame by frame, and 1.08 to 1.26 block by block (AMD EPYC, Zen 4, 2 virtual cores,
+//! 2026-11-22). So each side plays some frames in a row, and the first of them are not counted.
 //!
 //! Threads that slept while others took their turn are woken on one processor, and moved apart by the system after some
 //! tens of milliseconds: of two threads the first 2 to 11 frames of a block took as long as one thread's (AMD EPYC, Zen
@@ -15,7 +15,8 @@ use core::ops::Range;
 use rayon::ThreadPool;
 use std::time::{Duration, Instant};
 
-/// How long all threads of a pool are kept busy until each has a processor of its own: some ticks of the system's clock.
+/// How long all threads of a pool are kept busy until each has a processor of its own: some ticks of the system's
+/// clock.
 const SPREAD: Duration = Duration::from_millis(60);
 
 /// Keeps all threads of a pool busy for some ticks of the system's clock, so that each has a processor of its own, if
@@ -37,8 +38,8 @@ pub fn spread(pool: &ThreadPool) {
     });
 }
 
-/// Frames at the start of a block that are not counted. At the very start, buffers grow in them, and a million bodies at
-/// rest are sorted in once.
+/// Frames at the start of a block that are not counted. At the very start, buffers grow in them, and a million bodies
+/// at rest are sorted in once.
 const WARM: usize = 2;
 
 /// Most frames of a block that are counted.

@@ -1,9 +1,9 @@
 //! Speed against error: how fast each method answers, and how wrong it is where that is hard.
 //!
 //! # The question
-//! Every method is asked **"apart, or how deep?"** about two posed shapes. In a gap "apart" is the whole answer; in overlap
-//! it is the depth, the least translation that parts them. How wide a gap is, which methods mean differently (the
-//! Euclidean distance, or the best axis that was tried), is not asked.
+//! Every method is asked **"apart, or how deep?"** about two posed shapes. In a gap "apart" is the whole answer; in
+//! overlap it is the depth, the least translation that parts them. How wide a gap is, which methods mean differently
+//! (the Euclidean distance, or the best axis that was tried), is not asked.
 //!
 //! | method | what is called |
 //! |---|---|
@@ -15,14 +15,15 @@
 //!
 //! # The truth
 //! Yes or no is exact: that of integers, wherever a separation in double-double is within 1e-9 of the size of zero. The
-//! separation is that of `asunder_tests::precise`, right to a unit or two in the last place of an f64. Both are found once
-//! a pair and held against every method.
+//! separation is that of `asunder_tests::precise`, right to a unit or two in the last place of an f64. Both are found
+//! once a pair and held against every method.
 //!
 //! # The figures
-//! - **Error**: |said - true separation| / size, the size being the sum of the bounding radii. Of pairs that share a point,
-//!   and of those of which a method says so; where there is a gap and it says so, there is no number to be wrong. A word without
-//!   a number is off by what contradicts it: "apart" by the depth that there is, a bare "touching" (which is all that
-//!   `fast` says) by the gap. So `fast` has a place among wrong answers, and none in a front of time against error.
+//! - **Error**: |said - true separation| / size, the size being the sum of the bounding radii. Of pairs that share a
+//!   point, and of those of which a method says so; where there is a gap and it says so, there is no number to be
+//!   wrong. A word without a number is off by what contradicts it: "apart" by the depth that there is, a bare
+//!   "touching" (which is all that `fast` says) by the gap. So `fast` has a place among wrong answers, and none in a
+//!   front of time against error.
 //! - **Wrong**: strictly apart or strictly overlapping, and answered otherwise. What touches exactly is neither; there
 //!   "apart" is wrong in [`GapRow`] alone, under the decade -99. A positive "depth" counts as "apart".
 //! - **Refused**: a NaN, also in the normal, a panic, or a shape that a method will not have. It is not wrong, and has

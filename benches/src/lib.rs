@@ -8,8 +8,8 @@
 //! - [`narrow`]: one question about many pairs of shapes, beside parry3d's queries; [`flat`] is its twin in the plane,
 //!   which has no peer here. A [`judge`] knows the true separations, and [`accuracy`] holds both sides against them.
 //! - [`certain`]: yes or no that is never wrong, beside the first tier alone.
-//! - [`error`]: speed against error, on easy pairs and hard ones, beside textbook SAT and parry3d in f32 and f64; steadiness;
-//!   time against vertices.
+//! - [`error`]: speed against error, on easy pairs and hard ones, beside textbook SAT and parry3d in f32 and f64;
+//!   steadiness; time against vertices.
 //! - [`shapes`]: every pair of shapes, and what is asked of one alone.
 //! - [`world`]: whole frames, beside the [`lean`] pipeline over parry3d.
 //! - [`mesh`]: bodies, questions and casts on triangle meshes, beside parry3d's `TriMesh`.

@@ -25,7 +25,8 @@ pub struct Race {
 }
 
 impl Race {
-    /// One turn of either side, of so many of what the row counts; who is first takes turns, too. Returns what both found.
+    /// One turn of either side, of so many of what the row counts; who is first takes turns, too. Returns what both
+    /// found.
     pub fn turn<A, B>(&mut self, count: usize, ours: impl FnOnce() -> A, peer: impl FnOnce() -> B) -> (A, B) {
         let ((ns, found), (peer_ns, found_by_peer)) = if self.ours.len().is_multiple_of(2) {
             let ours = time(ours);

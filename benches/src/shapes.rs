@@ -1,7 +1,7 @@
 //! Every pair of shapes, and what is asked of one shape alone, beside parry3d's same question.
 //!
-//! Shapes are about a metre wide, in any pose, half-spaces in the world's axes. Of a set about half overlap. Casts begin
-//! apart, and most of them meet. What is asked of one shape:
+//! Shapes are about a metre wide, in any pose, half-spaces in the world's axes. Of a set about half overlap. Casts
+//! begin apart, and most of them meet. What is asked of one shape:
 //!
 //! | question | ours | parry3d |
 //! |---|---|---|

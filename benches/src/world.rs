@@ -1,7 +1,8 @@
 //! Whole frames: from setting poses to having walked every contact point, beside the [`lean`](crate::lean) pipeline.
 //!
-//! Both sides keep contacts up to 2 cm apart. Rows that start with `plane/` are in the plane and have no peer. Rows that
-//! end with `/falling` play poses that the examples' stepper made at the start of the run: both sides play the same.
+//! Both sides keep contacts up to 2 cm apart. Rows that start with `plane/` are in the plane and have no peer. Rows
+//! that end with `/falling` play poses that the examples' stepper made at the start of the run: both sides play the
+//! same.
 
 pub(crate) mod play;
 pub mod rows;
@@ -109,8 +110,8 @@ pub fn name(case: &Case) -> String {
     }
 }
 
-/// Measures one row, on one thread. Cost: about a second a variant; of a heap that falls, all of the effort's frames, and
-/// some seconds for stepping it.
+/// Measures one row, on one thread. Cost: about a second a variant; of a heap that falls, all of the effort's frames,
+/// and some seconds for stepping it.
 ///
 /// Must run where the library finds no second thread, as in a pool of one: thread time would miss it.
 ///

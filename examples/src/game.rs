@@ -9,8 +9,8 @@ use asunder::glam::{DQuat, DVec3};
 use asunder::{AnyWorld, Collider, Event};
 use flights::Flights;
 
-/// Makes this thread one of those that share the work of updates, as the guide's page on game loops says; where there is a pool
-/// already, nothing changes.
+/// Makes this thread one of those that share the work of updates, as the guide's page on game loops says; where there
+/// is a pool already, nothing changes.
 ///
 /// ```
 /// asunder_examples::game::share_work();

@@ -2,8 +2,8 @@
 //!
 //! [`Stepper::step`] reads as what it does: [`solve`](Stepper::solve), which turns contacts into motions;
 //! [`advance`](Stepper::advance), which moves the bodies; [`settle`](Stepper::settle), which sends to sleep what rests;
-//! and [`update`](Stepper::update), which finds the next contacts and wakes what they concern. A game that has something
-//! to do in between calls the four by itself.
+//! and [`update`](Stepper::update), which finds the next contacts and wakes what they concern. A game that has
+//! something to do in between calls the four by itself.
 //!
 //! | file | what is in it |
 //! |---|---|
@@ -107,8 +107,8 @@ impl<S: Dimension> Stepper<S> {
         Some(number)
     }
 
-    /// Drives a body from now on: no push moves it, it goes with the speed that it is given in [`Self::bodies_mut`], and
-    /// pushes and carries others with that. No such body is no fault.
+    /// Drives a body from now on: no push moves it, it goes with the speed that it is given in [`Self::bodies_mut`],
+    /// and pushes and carries others with that. No such body is no fault.
     pub fn drive(&mut self, number: usize) {
         self.wake(&[number]);
         let Some(body) = self.bodies.get_mut(number) else { return };
@@ -172,8 +172,8 @@ impl<S: Dimension> Stepper<S> {
         self.numbers.get(key).copied()
     }
 
-    /// One step of some seconds, more than none: the contacts of the last update push, bodies move, what is at rest falls
-    /// asleep, and the world finds the next contacts.
+    /// One step of some seconds, more than none: the contacts of the last update push, bodies move, what is at rest
+    /// falls asleep, and the world finds the next contacts.
     pub fn step(&mut self, seconds: f64) {
         self.solve(seconds);
         self.advance();

@@ -151,8 +151,8 @@ fn changes_between_updates_take_no_memory_each() {
     assert!(grown < 2000, "{grown} bytes");
 }
 
-/// Cubes that hop on and off a level, while others elsewhere hop onto each other: what was kept of one pair serves another,
-/// however far apart they are in the list of pairs.
+/// Cubes that hop on and off a level, while others elsewhere hop onto each other: what was kept of one pair serves
+/// another, however far apart they are in the list of pairs.
 #[test]
 fn what_hops_takes_no_memory_each_time() {
     let grown = counted(1, || {

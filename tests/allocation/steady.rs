@@ -12,8 +12,8 @@ use asunder_tests::recorded::{Fnv1a, Recorded, Recording};
 /// Frames after which everything begins anew.
 const CYCLE: u32 = 30;
 
-/// What the sixth cycle allocates: the first began in another place than it ended, and within five a sweep has tried what
-/// it tries now and then.
+/// What the sixth cycle allocates: the first began in another place than it ended, and within five a sweep has tried
+/// what it tries now and then.
 ///
 /// With more threads, the least of some more: which thread takes which pairs is chance, and each must have met its
 /// longest exact question once.

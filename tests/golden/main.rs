@@ -1,5 +1,5 @@
-//! Golden hashes: what every named scene and stage, and bodies on ground, say over sixty frames, bit for bit, on any number
-//! of threads, in any build.
+//! Golden hashes: what every named scene and stage, and bodies on ground, say over sixty frames, bit for bit, on any
+//! number of threads, in any build.
 //!
 //! `table.txt` was made by `cargo test -p asunder-tests --test golden -- --ignored --nocapture | grep ^scene >
 //! tests/golden/table.txt` and is to be made again only where an output is meant to change. A row that differs
@@ -57,8 +57,8 @@ fn row<S: Recording, R: Replay<S>>(name: &str, mut recorded: Recorded<S, R>) -> 
     told.row(name)
 }
 
-/// A stage as the examples' stepper plays it: what a solver makes of contacts comes back as poses, so that whatever differs
-/// goes on differing.
+/// A stage as the examples' stepper plays it: what a solver makes of contacts comes back as poses, so that whatever
+/// differs goes on differing.
 fn stage_row(stage: Stage, size: usize) -> String {
     fn played<S: Recording + Playable>(mut game: Game<S>) -> Told {
         let mut told = Told::default();

@@ -17,8 +17,8 @@ use crate::engine::Engine;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Numbers further from zero than this, in metres, say yes or no: f64 is off by some 1e-15 of a few metres, or, where edges
-/// are nearly parallel, by as much as their axis leans, which is far less as well.
+/// Numbers further from zero than this, in metres, say yes or no: f64 is off by some 1e-15 of a few metres, or, where
+/// edges are nearly parallel, by as much as their axis leans, which is far less as well.
 const SURE: f64 = 1e-7;
 
 /// Centres nearer than this to a one-sided plane, in metres, may be on either side of it.
@@ -170,7 +170,8 @@ impl<S: Judged> Stand<S> {
     }
 }
 
-/// Whether the side that one of two parts is seen from is the one that the other is on; nothing where rounding would tell.
+/// Whether the side that one of two parts is seen from is the one that the other is on; nothing where rounding would
+/// tell.
 fn is_seen<S: Judged>(a: &Place<S>, b: &Place<S>) -> Option<bool> {
     let [normal, at, center] = match (a.front, b.front) {
         (Some([normal, at]), _) => [normal, at, b.center?],

@@ -21,8 +21,8 @@
 //! - [`recorded`]: the named worlds, played frame by frame, and what they say in one number
 //! - [`rolling`]: bodies that roll, fall, hop and creep over ground, played as those are
 //! - [`engine`], [`played`]: one face for both worlds, and for what is done to them
-//! - [`judged`], [`naive_world`]: which bodies touch, by [`cores`] and [`exact_overlap`] alone, and the model of a world
-//!   that says so
+//! - [`judged`], [`naive_world`]: which bodies touch, by [`cores`] and [`exact_overlap`] alone, and the model of a
+//!   world that says so
 //!
 //! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
 //! against each other first (`tests/suite/oracles.rs`).

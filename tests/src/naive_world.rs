@@ -123,8 +123,8 @@ impl<S: Judged> Default for NaiveWorld<S> {
 }
 
 impl<S: Judged> NaiveWorld<S> {
-    /// A model that knows every bit of the manifolds. Without motions, ground and moves by a hair: what is moved along keeps
-    /// its points then.
+    /// A model that knows every bit of the manifolds. Without motions, ground and moves by a hair: what is moved along
+    /// keeps its points then.
     pub fn to_the_bit() -> Self {
         Self { bits: Some(Bits::default()), ..Self::default() }
     }
@@ -228,8 +228,8 @@ impl<S: Judged> NaiveWorld<S> {
         self.bodies.clear();
     }
 
-    /// Contacts from all pairs, and events from the difference of two sets; of a world that has just been updated, whose word
-    /// goes where both answers are right.
+    /// Contacts from all pairs, and events from the difference of two sets; of a world that has just been updated,
+    /// whose word goes where both answers are right.
     pub fn update(&mut self, world: &World<S>) {
         self.update_with(world, |_, _| true, |_, _| usize::MAX);
     }
@@ -385,8 +385,8 @@ fn met<S: Judged>(
     let mut overlapping = word.overlapping;
     // Without a margin all is exact.
     let is_close = margin > 0.0 && (word.separation - margin).abs() <= BAND;
-    // A one-sided surface is seen by what is in front of it and over it. Beside a hollow edge it may be in front of the one
-    // piece and behind the other: a contact, or none, until they overlap.
+    // A one-sided surface is seen by what is in front of it and over it. Beside a hollow edge it may be in front of the
+    // one piece and behind the other: a contact, or none, until they overlap.
     let is_beside = word.separation <= margin && (a.stand.is_one_sided() || b.stand.is_one_sided());
     let is_near = if word.is_doubtful && word.separation <= margin + BAND || is_close && !overlapping {
         *unsure += 1;

@@ -1,4 +1,5 @@
-//! What lists of operations do to either world, beside [`Engine`]'s calls: many at once, by a hair, on a grid, and ground.
+//! What lists of operations do to either world, beside [`Engine`]'s calls: many at once, by a hair, on a grid, and
+//! ground.
 
 use crate::cases::Random;
 use crate::engine::Engine;

@@ -198,7 +198,8 @@ fn the_stepper_stands_on_the_engine_alone() {
 #[test]
 fn the_stepper_is_as_small_as_the_architecture_page_says() {
     let lines: usize = stepper().iter().map(|(_, text)| code(text).count()).sum();
-    // It is there to be read whole, in both dimensions: about 500 lines were asked for. What needs more is a layer on it.
+    // It is there to be read whole, in both dimensions: about 500 lines were asked for. What needs more is a layer on
+    // it.
     assert!(lines <= 550, "{lines} lines of code: move to `game` what a stepper can do without");
     let page = std::fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
     assert!(page.contains(&format!("The examples' stepper is {lines} lines of code")), "it is {lines} lines");

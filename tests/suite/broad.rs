@@ -341,8 +341,8 @@ fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
     assert!(kept_frames > 600 && refused > 100, "{kept_frames} frames with few movers, {refused} refused");
 }
 
-/// Movers that reach many columns are looked up while that costs less than to sweep all; then all are swept, and the filter
-/// is asked about pairs at rest, too. Either way about each pair once.
+/// Movers that reach many columns are looked up while that costs less than to sweep all; then all are swept, and the
+/// filter is asked about pairs at rest, too. Either way about each pair once.
 #[test]
 fn movers_that_reach_too_far_are_swept_with_all_others() {
     let mut random = Random::new(705);

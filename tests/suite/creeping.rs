@@ -1,7 +1,7 @@
 //! Worlds whose bodies creep: what is carried on from frame to frame says what a world says that was made this frame.
 //!
-//! Steps are from a ten-millionth of a body's size to a hundredth, so that pairs stay apart for many frames, manifolds are
-//! moved along for some, and both end within the run.
+//! Steps are from a ten-millionth of a body's size to a hundredth, so that pairs stay apart for many frames, manifolds
+//! are moved along for some, and both end within the run.
 
 use asunder::{Collider2, Collider3, Contact, Contact2, Contact3, World2, World3};
 use asunder_geometry::{
@@ -22,8 +22,8 @@ struct Seen {
     manifolds: Vec<(f64, f64)>,
 }
 
-/// Fails unless both say the same: overlaps in every bit, separations within their errors, and contacts or none but where
-/// the error of the margin leaves it open.
+/// Fails unless both say the same: overlaps in every bit, separations within their errors, and contacts or none but
+/// where the error of the margin leaves it open.
 fn check_alike(carried: &[Seen], fresh: &[Seen], margin: f64, story: &str) {
     let of = |list: &[Seen], bodies: (usize, usize)| list.iter().position(|seen| seen.bodies == bodies);
     for (one, others) in [(carried, fresh), (fresh, carried)] {

@@ -1,5 +1,5 @@
-//! Meshes and height fields as a game meets them: stored and loaded, of two million triangles, and under rays that parry3d
-//! casts too. What they say of themselves is held against plain loops in the geometry crate.
+//! Meshes and height fields as a game meets them: stored and loaded, of two million triangles, and under rays that
+//! parry3d casts too. What they say of themselves is held against plain loops in the geometry crate.
 
 use asunder::tolerance::MAX_TRIANGLES;
 use asunder::{

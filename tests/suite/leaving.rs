@@ -155,8 +155,8 @@ fn what_parts_slowly_while_it_turns_is_told_near_or_not_at_all() {
     assert!(told > 1500 && free > 1500, "{told} {free}");
 }
 
-/// Fails unless an impact, a share of a motion and its error, is where two bodies all but touch, of which it is known how far
-/// they are apart at each share; and they are apart until then.
+/// Fails unless an impact, a share of a motion and its error, is where two bodies all but touch, of which it is known
+/// how far they are apart at each share; and they are apart until then.
 fn check_told(seed: u128, told: Option<(f64, f32)>, apart: impl Fn(f64) -> f32) {
     if let Some((fraction, error)) = told {
         assert!(

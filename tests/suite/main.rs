@@ -36,15 +36,18 @@
 //!   parry3d's word
 //! - [`casts_plane`]: shapes in the plane that move and turn first touch, and rays go in, where sampling and the
 //!   exact yes or no say
-//! - [`leaving`]: what a cast has brought to another may leave it, in the plane and in space; walls are met from the front
+//! - [`leaving`]: what a cast has brought to another may leave it, in the plane and in space; walls are met from the
+//!   front
 //! - [`ground_worlds`]: ground is fixed; slides begin and end once; snapshots hold it once; its edges are drawn
 //! - [`ground_questions`]: overlaps, distances, rays and casts over meshes and height fields are the least of all
 //!   triangles', one by one; sides; characters on ground
-//! - [`chains`]: polylines to stand on: exact, without ghost collisions, at any angle; in casts, worlds and snapshots, too
+//! - [`chains`]: polylines to stand on: exact, without ghost collisions, at any angle; in casts, worlds and snapshots,
+//!   too
 //! - [`ground_contacts`]: bodies slide over triangles without noticing; edges and corners give normals of their Voronoi
 //!   regions alone; yes or no, points and depths against a loop over all triangles
 //! - [`persistent`]: manifolds that are moved along are true at the new poses within their error, or refused
-//! - [`persistent_ground`]: the same on triangles, chains apart: within their errors, and what overlaps goes on doing so
+//! - [`persistent_ground`]: the same on triangles, chains apart: within their errors, and what overlaps goes on doing
+//!   so
 //! - [`creeping`]: worlds whose bodies creep say in every frame what a new world says
 //! - [`hints`]: over sixty frames, memory changes no yes or no, and no number by more than its error; nor does
 //!   another's
@@ -71,8 +74,8 @@
 //!   player expects
 //!
 //! Binaries of their own
-//! - `tests/golden`: what every named scene and stage, and bodies on ground, say over sixty frames, by hash, on any number
-//!   of threads and in any build
+//! - `tests/golden`: what every named scene and stage, and bodies on ground, say over sixty frames, by hash, on any
+//!   number of threads and in any build
 //! - `tests/allocation`: a steady scene allocates nothing, a million operations let no memory grow, and what a body
 //!   takes
 //!

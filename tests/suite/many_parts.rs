@@ -1,5 +1,5 @@
-//! Compounds of many parts, which are looked up in a tree, against the same parts in compounds of few, which are asked one after
-//! the other.
+//! Compounds of many parts, which are looked up in a tree, against the same parts in compounds of few, which are asked
+//! one after the other.
 
 mod plane;
 
@@ -311,8 +311,8 @@ fn walks_over_parts_find_what_a_loop_over_their_boxes_finds() {
     }
 }
 
-/// Segments have no width, and are hit by what passes within rounding: by what comes out of the loop over few parts, too, which
-/// goes on until it is some thousand roundings near.
+/// Segments have no width, and are hit by what passes within rounding: by what comes out of the loop over few parts,
+/// too, which goes on until it is some thousand roundings near.
 #[test]
 fn a_ray_beside_a_segment_meets_it_among_many_as_among_few() {
     let segment: Shape3 = Segment3::new(Vec3::ZERO, Vec3::X).unwrap().into();

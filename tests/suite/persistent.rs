@@ -13,8 +13,8 @@ use asunder_scenes::random::Random;
 use asunder_tests::precise::{along2, separation2, separation3};
 use glam::{DQuat, DVec2, DVec3, Vec2, Vec3};
 
-/// What a manifold may say that it is off by, as a share of the pair's size: twice a drift of 2^-15 of the smaller radius, or
-/// once that on a footing, and next to nothing for rounding.
+/// What a manifold may say that it is off by, as a share of the pair's size: twice a drift of 2^-15 of the smaller
+/// radius, or once that on a footing, and next to nothing for rounding.
 const PROMISED: f64 = 3.1e-5;
 
 const SETS: [PairSet; 4] = [PairSet::Rest, PairSet::Touch, PairSet::Mixed, PairSet::Slide];
@@ -186,8 +186,8 @@ fn what_is_close_to_call_is_not_kept() {
     assert!(seen > 100);
 }
 
-/// A corner across a gap from a corner, or from an edge, has a normal of its own, which turns with the bodies; in the plane,
-/// nothing is kept.
+/// A corner across a gap from a corner, or from an edge, has a normal of its own, which turns with the bodies; in the
+/// plane, nothing is kept.
 #[test]
 fn corners_across_a_gap_are_kept_by_what_is_nearest() {
     let square = Shape2::from(Rect::from_half_extents(Vec2::ONE).unwrap());
@@ -234,9 +234,9 @@ fn corners_across_a_gap_are_kept_by_what_is_nearest() {
     assert!(seen[0] > 40 && seen[1] > 40, "{seen:?}");
 }
 
-/// Along the normal of what was moved along, all of both bodies are as far apart as is told: not only what is near. Edges and
-/// corners that stand nearly face to face would lean with every step if they turned the normal; a face that is turned by
-/// its own small body, and not by the ground under it, lifts that at its far end.
+/// Along the normal of what was moved along, all of both bodies are as far apart as is told: not only what is near.
+/// Edges and corners that stand nearly face to face would lean with every step if they turned the normal; a face that
+/// is turned by its own small body, and not by the ground under it, lifts that at its far end.
 #[test]
 fn far_ends_are_as_far_apart_along_the_normal_as_is_told() {
     let cube = |half: f32| Shape3::from(Cuboid::from_half_extents(Vec3::splat(half)).unwrap());
@@ -294,9 +294,9 @@ fn what_has_parts_is_not_kept() {
     assert_eq!(kept(&pair(2.003), 0.0041), None);
 }
 
-/// The second axis is as good as the first, and gains on it with every step: what a footing may lose is lost here. B leans by
-/// `lean` on A's top, with its deepest corners over A's rim: the normals of both faces show the same, and sliding along
-/// the slope changes one alone.
+/// The second axis is as good as the first, and gains on it with every step: what a footing may lose is lost here. B
+/// leans by `lean` on A's top, with its deepest corners over A's rim: the normals of both faces show the same, and
+/// sliding along the slope changes one alone.
 #[test]
 fn what_a_footing_may_lose_is_in_the_error() {
     let cuboid =

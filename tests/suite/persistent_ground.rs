@@ -1,7 +1,7 @@
 //! Manifolds of bodies on ground that are moved along: they say what new ones would, within the error that they state.
 //!
-//! The judges are exact overlap, heights of vertices over planes, what is made anew at the same poses, and drifts measured
-//! at the vertices.
+//! The judges are exact overlap, heights of vertices over planes, what is made anew at the same poses, and drifts
+//! measured at the vertices.
 
 mod spikes;
 
@@ -463,10 +463,10 @@ fn a_world_moves_contacts_with_a_level_along() {
     }
 }
 
-/// On ground in narrow strips another normal often stands in for one that is refused: along it bodies were told to be further
-/// apart than they are, more than five times in these. What is told is what parts them, and they are kept no longer than that.
-/// One-sided ground does not tell of its rims and its back: there what is told is still more, and they are kept no longer all the
-/// same.
+/// On ground in narrow strips another normal often stands in for one that is refused: along it bodies were told to be
+/// further apart than they are, more than five times in these. What is told is what parts them, and they are kept no
+/// longer than that. One-sided ground does not tell of its rims and its back: there what is told is still more, and
+/// they are kept no longer all the same.
 #[test]
 fn a_gap_is_kept_no_longer_than_what_parts_them() {
     let mut random = Random::new(17);

@@ -1,4 +1,5 @@
-//! Contact points of solids in space: one end is the foot of the other, bit by bit, and what is kept of them gives them back.
+//! Contact points of solids in space: one end is the foot of the other, bit by bit, and what is kept of them gives them
+//! back.
 
 use asunder_geometry::{Compound3, Cuboid, Pose3, Shape3, Sphere};
 use asunder_narrow::{Batch3, Hint, Job3, Manifold3, Pair3, Persistent3, collide3};

@@ -1,7 +1,8 @@
-//! Large worlds in which hardly anything moves: whole chunks of pairs go on from one update to the next without a look, and
-//! nobody can tell.
+//! Large worlds in which hardly anything moves: whole chunks of pairs go on from one update to the next without a look,
+//! and nobody can tell.
 //!
-//! What is held against them is a clone of the moment before: it has no chunk that it could go on with, and looks at every pair.
+//! What is held against them is a clone of the moment before: it has no chunk that it could go on with, and looks at
+//! every pair.
 
 use crate::stored::Stored;
 use asunder::{Collider, Hooks, Plane, Volume, World};

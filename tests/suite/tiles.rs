@@ -247,8 +247,8 @@ fn met_by_ball(walls: Vec<Collider3>, from: [f64; 3], way: [f64; 3]) -> Option<f
     hit
 }
 
-/// Symptom: balls went through half-spaces whose pose stood level with the floor. Cause: a half-space was taken to end at its
-/// position along whatever axis.
+/// Symptom: balls went through half-spaces whose pose stood level with the floor. Cause: a half-space was taken to end
+/// at its position along whatever axis.
 #[test]
 fn what_has_no_end_is_flush_with_nothing() {
     for height in [0.0, 0.001, -0.0005, 1.0, -3.0] {
@@ -271,8 +271,8 @@ fn what_has_no_end_is_flush_with_nothing() {
     }
 }
 
-/// Symptom: who lay deep in the floor and rose went through fences whose tops were level with it. Cause: how deep it was at the
-/// start counted nowhere, and rising took it away.
+/// Symptom: who lay deep in the floor and rose went through fences whose tops were level with it. Cause: how deep it
+/// was at the start counted nowhere, and rising took it away.
 #[test]
 fn who_is_stuck_deep_and_rises_is_led_over_nothing() {
     let fence = |half: f32| slab([half, 0.5, 4.0], [9.0 + 3.0, -0.5, 0.0]);

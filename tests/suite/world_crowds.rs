@@ -1,7 +1,7 @@
 //! A world whose pairs come and go by tens of thousands: contacts and events are those of a double loop over balls.
 //!
-//! Lists of operations elsewhere are long, and their worlds small: here pairs fill many chunks of the frame, fewer in the next
-//! one, or none.
+//! Lists of operations elsewhere are long, and their worlds small: here pairs fill many chunks of the frame, fewer in
+//! the next one, or none.
 
 use asunder::glam::DVec3;
 use asunder::{BodyKey3, Collider3, Event3, Hooks, Pose3, Sphere, World3};

@@ -72,8 +72,8 @@ struct Options {
     /// Only rows whose name contains this.
     #[arg(long, value_name = "TEXT", default_value = "")]
     only: String,
-    /// Keep the rows in `benches/results/<cpu>/compare.csv`, in place of those of the same names: README shows some. Those
-    /// of `certain`, and of several threads, are not kept.
+    /// Keep the rows in `benches/results/<cpu>/compare.csv`, in place of those of the same names: README shows some.
+    /// Those of `certain`, and of several threads, are not kept.
     #[arg(long, conflicts_with = "quick")]
     save: bool,
 }

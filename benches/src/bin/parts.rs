@@ -1,7 +1,7 @@
 //! Prints what compounds of many parts cost, beside parry3d's: `parts [rounds]`.
 //!
-//! Cubes of n x n x n boxes and balls, a fifth of a metre apart from each other, and what is asked of two of them, of a crate
-//! among their parts, and of a ray; thread CPU time a question, both sides in turns, medians.
+//! Cubes of n x n x n boxes and balls, a fifth of a metre apart from each other, and what is asked of two of them, of a
+//! crate among their parts, and of a ray; thread CPU time a question, both sides in turns, medians.
 
 use asunder_benches::clock::{Samples, time};
 use asunder_benches::parry::{self, Shapes};

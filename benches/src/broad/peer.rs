@@ -41,8 +41,8 @@ const ALWAYS: [(Update, bool); 4] =
 const WHERE_FEW_MOVE: [(Update, bool); 4] =
     [(Changes, false), (Changes, true), (Reinsert, false), (Reinsert, true)];
 /// Where a tenth of a million boxes jump anywhere. Ways that mend the tree in place have no end there: a frame of
-/// 100,000 boxes takes them 1.5 to 2.2 s, thirty times what rebuilding takes, one of 10,000 a twentieth of that (AMD EPYC
-/// (Zen 4), 2026-11-22).
+/// 100,000 boxes takes them 1.5 to 2.2 s, thirty times what rebuilding takes, one of 10,000 a twentieth of that (AMD
+/// EPYC (Zen 4), 2026-11-22).
 const WHERE_MANY_JUMP: [(Update, bool); 4] =
     [(Rebuild, false), (Rebuild, true), (Reinsert, false), (Reinsert, true)];
 /// Whole traversals of a million boxes are beside the point where a hundred move.

@@ -10,8 +10,8 @@ use asunder_broad::PairId;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::Instant;
 
-/// Measures our broad phase on one thread and on several, in turns, in [`blocks`](crate::blocks) of frames. No peer takes
-/// part.
+/// Measures our broad phase on one thread and on several, in turns, in [`blocks`](crate::blocks) of frames. No peer
+/// takes part.
 ///
 /// The row's time is that of our best mode on all threads. Cost: about a second a mode and number of threads.
 ///

@@ -150,8 +150,8 @@ fn is_wrong(relation: Relation, said: Said) -> bool {
     }
 }
 
-/// How far an answer is off, as a share of the size. A word without a number is off by what contradicts it; nothing where
-/// there is a gap and the method says so, for that has no number.
+/// How far an answer is off, as a share of the size. A word without a number is off by what contradicts it; nothing
+/// where there is a gap and the method says so, for that has no number.
 fn error(truth: &Truth, said: Said) -> Option<f64> {
     let off = match said {
         Said::Refused => return None,

@@ -40,7 +40,8 @@ pub(super) fn all(quick: bool, progress: &dyn Fn(&str)) -> Vec<VertexRow> {
 }
 
 /// All questions take turns with each other: one that is asked alone, again and again, has its pairs learned by heart.
-/// So manifolds of polygons of 32 took half of what their separations took, which is as much (AMD EPYC, Zen 4, 2026-11-22).
+/// So manifolds of polygons of 32 took half of what their separations took, which is as much (AMD EPYC, Zen 4,
+/// 2026-11-22).
 fn of_pairs<P: Grouped + Asked>(vertices: usize, pairs: &[P], seconds: f64) -> Vec<VertexRow> {
     let asked =
         |operation: Operation| P::methods_for(operation, vertices).into_iter().map(move |m| (operation, m));

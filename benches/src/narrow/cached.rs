@@ -61,8 +61,8 @@ pub(super) fn said(frames: &[Vec<&Both>]) -> (Vec<Said>, Vec<Said>) {
     (ours, peer)
 }
 
-/// What either side remembers of a block of pairs. On our side that is what a world remembers: hints, manifolds that can
-/// be moved along, and where bodies were, which tells whether keeping one is of use.
+/// What either side remembers of a block of pairs. On our side that is what a world remembers: hints, manifolds that
+/// can be moved along, and where bodies were, which tells whether keeping one is of use.
 struct Memory {
     kept: Vec<Kept>,
     batch: Batch3,

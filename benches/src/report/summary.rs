@@ -256,8 +256,8 @@ const SHOWN: [&str; 11] = [
 /// The same of shapes in the plane.
 const SHOWN_IN_PLANE: [&str; 2] = ["mixed/boolean", "mixed/manifold"];
 
-/// Rows of a part of `compare`. Pairs of shapes are named by the shape first, or by both, anything on a mesh by what happens
-/// first, a question to boxes by its scene.
+/// Rows of a part of `compare`. Pairs of shapes are named by the shape first, or by both, anything on a mesh by what
+/// happens first, a question to boxes by its scene.
 fn kept_rows(data: &Data, part: &str) -> Vec<Measured> {
     let of_row = |row: &KeptRow| {
         let (first, rest) = row.row.split_once('/')?;

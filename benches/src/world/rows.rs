@@ -55,8 +55,8 @@ pub struct FrameRow {
 }
 
 impl FrameRow {
-    /// The part of the candidates that have no contact point: boxes overlap, shapes do not touch; margins included, here
-    /// as there.
+    /// The part of the candidates that have no contact point: boxes overlap, shapes do not touch; margins included,
+    /// here as there.
     ///
     /// ```
     /// use asunder_benches::world::rows::FrameRow;

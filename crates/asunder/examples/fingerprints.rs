@@ -1,5 +1,5 @@
-//! One line per scene: everything that sixty frames say, as one number. Two machines, builds or platforms that print the same
-//! lines agree in every bit: compare a phone, a browser and a server with it.
+//! One line per scene: everything that sixty frames say, as one number. Two machines, builds or platforms that print
+//! the same lines agree in every bit: compare a phone, a browser and a server with it.
 //!
 //! ```text
 //! cargo run --release -p asunder --example fingerprints | diff - crates/asunder/examples/fingerprints.txt
@@ -9,10 +9,9 @@
 //! node crates/asunder/examples/wasi.mjs target/wasm32-wasip1/release/examples/fingerprints.wasm | diff - crates/asunder/examples/fingerprints.txt
 //! ```
 //!
-//! The golden table of `tests` holds more scenes, but stands on packages that cannot be built everywhere; this needs only the
-//! engine and its scenes. The file was made by
-//! `cargo run --release -p asunder --example fingerprints > crates/asunder/examples/fingerprints.txt`,
-//! and is to be made again only where an output is meant to change.
+//! The golden table of `tests` holds more scenes, but stands on packages that cannot be built everywhere; this needs
+//! only the engine and its scenes. The file was made by `cargo run --release -p asunder --example fingerprints >
+//! crates/asunder/examples/fingerprints.txt`, and is to be made again only where an output is meant to change.
 
 use asunder::glam::{DVec3, Vec3};
 use asunder::{
@@ -28,8 +27,8 @@ use std::fmt::{Debug, Write};
 const BODIES: usize = 301;
 const FRAMES: u32 = 60;
 
-/// The hash of Fowler, Noll and Vo, variant 1a, of text. A float's text has all its bits: `Debug` writes as many digits as it
-/// takes to read the same number back.
+/// The hash of Fowler, Noll and Vo, variant 1a, of text. A float's text has all its bits: `Debug` writes as many digits
+/// as it takes to read the same number back.
 struct Fingerprint(u64);
 
 impl Write for Fingerprint {

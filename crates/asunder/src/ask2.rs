@@ -13,10 +13,10 @@ use asunder_narrow::Manifold2;
 use core::ops::ControlFlow;
 
 /// # Queries
-/// Queries see bodies where they are, also before the next update. Any number of threads may ask at once. What
-/// comes in a list is sorted by distance, then by the bodies' slots (lists without distances by slots), and lists
-/// are cleared first; visitors get answers in no promised order, until they break off. A [`Filter2`] says which bodies a
-/// query may find.
+/// Queries see bodies where they are, also before the next update. Any number of threads may ask at once. What comes in
+/// a list is sorted by distance, then by the bodies' slots (lists without distances by slots), and lists are cleared
+/// first; visitors get answers in no promised order, until they break off. A [`Filter2`] says which bodies a query may
+/// find.
 ///
 /// Cost: the first query makes a tree of all boxes, in 50 to 120 ns per body, and it is kept while few bodies move; of
 /// those that have moved since, a second one is made by the first query after an update. Then, a query takes
@@ -162,10 +162,10 @@ impl World<Plane> {
         bodies_over(self, at, filter).visit(|Met(body)| visitor(body))
     }
 
-    /// How a posed shape touches what is here, as a body there would: one manifold for each pair of convex parts, and on ground
-    /// for each normal, at most `margin` metres apart; with the body, by slot, then in the order of
-    /// [`Pair2::manifolds`](crate::Pair2::manifolds). Normals point from the shape to the body; `a` is the shape, and `b` the
-    /// body.
+    /// How a posed shape touches what is here, as a body there would: one manifold for each pair of convex parts, and
+    /// on ground for each normal, at most `margin` metres apart; with the body, by slot, then in the order of
+    /// [`Pair2::manifolds`](crate::Pair2::manifolds). Normals point from the shape to the body; `a` is the shape, and
+    /// `b` the body.
     ///
     /// For who places something, or moves a body that is in no world; what bodies touch each other is in
     /// [`World::contacts`]. Sensors are found, unless the filter leaves them out. A NaN counts as a margin of 0.
@@ -219,8 +219,8 @@ impl World<Plane> {
         visit_manifolds((self, filter), at, margin, visitor)
     }
 
-    /// The body closest to a point, and the closest point on it, if that is within a distance (all in metres); of bodies
-    /// equally near, the one in the lowest slot. A body that contains the point is at distance 0.
+    /// The body closest to a point, and the closest point on it, if that is within a distance (all in metres); of
+    /// bodies equally near, the one in the lowest slot. A body that contains the point is at distance 0.
     ///
     /// A NaN counts as no limit, and a negative distance as zero. Nothing is near a point that is not finite, or
     /// beyond 1e9 m on an axis.

@@ -58,8 +58,8 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    /// Gives a body another shape, and forgets what was learnt with the one before. What becomes ground is fixed, and stays
-    /// so.
+    /// Gives a body another shape, and forgets what was learnt with the one before. What becomes ground is fixed, and
+    /// stays so.
     pub(crate) fn reshape_body(&mut self, key: S::Key, shape: S::Shape) -> Result<(), StaleKey> {
         let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
         let is_reshaped = body.shape != shape;

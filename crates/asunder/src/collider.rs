@@ -256,8 +256,9 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Marks a body that only senses: its contacts have no manifolds. It meets the same bodies as a solid one would, and
-    /// other sensors. If it is fixed it meets nothing fixed, so a sensor that has to notice a fixed lift must not be fixed.
+    /// Marks a body that only senses: its contacts have no manifolds. It meets the same bodies as a solid one would,
+    /// and other sensors. If it is fixed it meets nothing fixed, so a sensor that has to notice a fixed lift must not
+    /// be fixed.
     #[must_use]
     pub fn sensor(mut self) -> Self {
         self.sensor = true;
@@ -266,8 +267,8 @@ impl<S: Space> Collider<S> {
 
     /// Marks a body that must not pass through things. If it is given a motion
     /// ([`World3::set_motion`](crate::World3::set_motion)), the update says what it runs into first
-    /// ([`World3::impacts`](crate::World3::impacts)); stopping it there is up to the game. Whatever it touches at the start
-    /// is left out; of ground and compounds, only the parts that it touches.
+    /// ([`World3::impacts`](crate::World3::impacts)); stopping it there is up to the game. Whatever it touches at the
+    /// start is left out; of ground and compounds, only the parts that it touches.
     #[must_use]
     pub fn bullet(mut self) -> Self {
         self.bullet = true;
@@ -295,7 +296,8 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Attaches a number of your own; events and contacts carry it, and [`get_user_data`](Self::get_user_data) reads it.
+    /// Attaches a number of your own; events and contacts carry it, and [`get_user_data`](Self::get_user_data) reads
+    /// it.
     #[must_use]
     pub fn user_data(mut self, user_data: u64) -> Self {
         self.user_data = user_data;

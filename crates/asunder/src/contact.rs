@@ -26,7 +26,8 @@ pub struct Contact<'a, K, M> {
     pub a: K,
     /// The other body.
     pub b: K,
-    /// What the game keeps with `a` and with `b`, as of the last update: see [`Collider::user_data`](crate::Collider::user_data).
+    /// What the game keeps with `a` and with `b`, as of the last update: see
+    /// [`Collider::user_data`](crate::Collider::user_data).
     pub user_data: (u64, u64),
     /// Whether either is a sensor: then there are no manifolds.
     pub sensor: bool,
@@ -34,15 +35,15 @@ pub struct Contact<'a, K, M> {
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
-    /// Whether they are further apart than their margins, and listed only because their motions may bring them together. A
-    /// solver that lets no point close by more than its separation lets nothing through. Such a pair does not count as
-    /// touching, and has no `Began`, until it overlaps.
+    /// Whether they are further apart than their margins, and listed only because their motions may bring them
+    /// together. A solver that lets no point close by more than its separation lets nothing through. Such a pair does
+    /// not count as touching, and has no `Began`, until it overlaps.
     pub speculative: bool,
-    /// One manifold for each pair of convex parts within the margins; on ground, one for each normal of each part. Where the
-    /// bodies have motions, also manifolds of parts that these may bring together, even if other parts touch: a solver that
-    /// does not handle speculative points leaves out those whose separation is more than both margins. Normals point from
-    /// `a` to `b`. Empty for a sensor, and for two half-spaces that overlap without end: make all of those fixed, as a level's
-    /// are, and they never pair.
+    /// One manifold for each pair of convex parts within the margins; on ground, one for each normal of each part.
+    /// Where the bodies have motions, also manifolds of parts that these may bring together, even if other parts touch:
+    /// a solver that does not handle speculative points leaves out those whose separation is more than both margins.
+    /// Normals point from `a` to `b`. Empty for a sensor, and for two half-spaces that overlap without end: make all of
+    /// those fixed, as a level's are, and they never pair.
     pub manifolds: &'a [M],
 }
 
@@ -64,8 +65,8 @@ impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
         other_of((self.a, self.b), body)
     }
 
-    /// Which way normals point, as this body sees it: 1 for `a`, from which they point to the other body, -1 for `b`, and 0 for
-    /// whoever else.
+    /// Which way normals point, as this body sees it: 1 for `a`, from which they point to the other body, -1 for `b`,
+    /// and 0 for whoever else.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Pose2, World2, glam::Vec2};
@@ -129,8 +130,8 @@ pub(crate) struct Candidate<K> {
     pub(crate) until: f64,
 }
 
-/// The number of a candidate's contact among the records, if it has one, and whether that has begun: of most contacts that go on,
-/// nothing else of last update's is read.
+/// The number of a candidate's contact among the records, if it has one, and whether that has begun: of most contacts
+/// that go on, nothing else of last update's is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ContactNumber(u32);
 

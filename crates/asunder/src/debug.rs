@@ -18,8 +18,8 @@ use asunder_geometry::tolerance;
 pub struct DebugOptions {
     /// The outline of every body that is enabled, where it stands now. On at first.
     pub shapes: bool,
-    /// The boxes of the broad phase, as of the last update; none around half-spaces. A restored world has those around bodies
-    /// where they stand now, until it is updated. Off at first.
+    /// The boxes of the broad phase, as of the last update; none around half-spaces. A restored world has those around
+    /// bodies where they stand now, until it is updated. Off at first.
     pub boxes: bool,
     /// The columns that the broad phase last sorted boxes into, those that hold any. How fast it is depends on them,
     /// and which were last depends on what came before; contacts do not. Off at first.
@@ -28,7 +28,8 @@ pub struct DebugOptions {
     pub contacts: bool,
     /// The normal at each contact point, from there towards the body in the higher slot. On at first.
     pub normals: bool,
-    /// Length of a normal, in metres, at most 1e6; a cross is a quarter of it. What is no number counts as 0. 0.2 at first.
+    /// Length of a normal, in metres, at most 1e6; a cross is a quarter of it. What is no number counts as 0. 0.2 at
+    /// first.
     pub length: f32,
     /// Half of the side of the patch that stands for a half-space, in metres, at most 1e6. What is no number counts as 0. 20 at first.
     pub endless: f32,

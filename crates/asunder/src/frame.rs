@@ -13,8 +13,8 @@
 //! 4. **merge**: what the chunks found, in their order.
 //! 5. **report**: events in pair order.
 //!
-//! Hooks are asked by one thread, in pair order: who may pair after the sweep, what to make of a contact after the report.
-//! What bullets run into comes last, a function of one pair and of what the bullet touches, and sorted.
+//! Hooks are asked by one thread, in pair order: who may pair after the sweep, what to make of a contact after the
+//! report. What bullets run into comes last, a function of one pair and of what the bullet touches, and sorted.
 //!
 //! No stage walks a hash map, calls std's trigonometry or fuses a multiplication with an addition.
 
@@ -43,11 +43,11 @@ use core::time::Duration;
 impl<S: Space> World<S> {
     /// Brings contacts, candidates and events up to date with the bodies. Cannot fail.
     ///
-    /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where
-    /// few bodies move, else in all bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow
-    /// phase of every candidate of which one body moved, but for those that were apart by more than they went since.
-    /// While two bodies move against each other by no more than 2^-15 of the smaller bounding radius (2^-10 where they rest on
-    /// a broad patch, up to 2^-8 on ground), their contact is moved along for a fraction of the cost of a new one.
+    /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where few
+    /// bodies move, else in all bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow phase of
+    /// every candidate of which one body moved, but for those that were apart by more than they went since. While two
+    /// bodies move against each other by no more than 2^-15 of the smaller bounding radius (2^-10 where they rest on a
+    /// broad patch, up to 2^-8 on ground), their contact is moved along for a fraction of the cost of a new one.
     pub fn update(&mut self) {
         self.update_with(&Hooks::new());
     }

@@ -100,9 +100,9 @@ impl<'a, S: Space> Hooks<'a, S> {
         Self { pair: None, contact: None }
     }
 
-    /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on
-    /// agree. A refused pair is not a candidate: a contact that it had ends, and a bullet of it does not run into the other.
-    /// It still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are asked.
+    /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on agree. A
+    /// refused pair is not a candidate: a contact that it had ends, and a bullet of it does not run into the other. It
+    /// still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are asked.
     ///
     /// If a pair hook panics and the game goes on, candidates and contacts stay those of the update before, none of
     /// them new; there are no events and no impacts, and motions are kept. The next update tells all that has begun and
@@ -113,12 +113,13 @@ impl<'a, S: Space> Hooks<'a, S> {
         self
     }
 
-    /// Hands over every contact that has manifolds, to be edited, speculative ones too. Impacts of bullets are not contacts
-    /// and are not handed over: to let bullets through, refuse the pair in [`pair`](Self::pair). A bullet counts as
-    /// standing only on manifolds that the hook has left: without those of its floor, the next tile may stop it.
+    /// Hands over every contact that has manifolds, to be edited, speculative ones too. Impacts of bullets are not
+    /// contacts and are not handed over: to let bullets through, refuse the pair in [`pair`](Self::pair). A bullet
+    /// counts as standing only on manifolds that the hook has left: without those of its floor, the next tile may stop
+    /// it.
     ///
-    /// The update's events are already written when the hook runs. If the hook panics and the game goes on, contacts are as
-    /// they were found, there are no impacts, and motions are kept for the next update.
+    /// The update's events are already written when the hook runs. If the hook panics and the game goes on, contacts
+    /// are as they were found, there are no impacts, and motions are kept for the next update.
     #[must_use]
     pub fn contact(mut self, edit: &'a (dyn Fn(Meeting<'_, S>) + Sync)) -> Self {
         self.contact = Some(edit);

@@ -2,8 +2,8 @@
 //!
 //! A world holds bodies. Each has a pose and a shape: a convex one, a compound of convex parts, or ground. Move them as
 //! your game pleases and call `update` once a frame: a broad phase sorts and sweeps their boxes, a narrow phase tests
-//! the candidate pairs, and the world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]). It
-//! moves nothing itself.
+//! the candidate pairs, and the world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]).
+//! It moves nothing itself.
 //!
 //! ```
 //! use asunder::{Collider3, Cuboid, Event3, Pose3, World3, glam::Vec3};
@@ -37,9 +37,9 @@
 //! - The [`guide`] has pages on most of these, with whole examples.
 //!
 //! All of it is there in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
-//! `asunder_geometry` or `asunder_narrow`, the crates that this one is built on: what a game needs of them is re-exported
-//! here under the same name (`asunder::Pose3`). To write a world of your own, see the jobs, batches and hints in
-//! `asunder_narrow`.
+//! `asunder_geometry` or `asunder_narrow`, the crates that this one is built on: what a game needs of them is
+//! re-exported here under the same name (`asunder::Pose3`). To write a world of your own, see the jobs, batches and
+//! hints in `asunder_narrow`.
 //!
 //! # Words
 //! A **candidate** is a pair whose boxes, margins included, overlap, and that may meet; a **contact**, a candidate
@@ -49,9 +49,10 @@
 //! table.
 //!
 //! # Debug builds
-//! A debug build of a game leaves its dependencies unoptimised, which makes this one tens of times slower than it has to
-//! be. Put `[profile.dev.package."*"]` with `opt-level = 3` into the game's Cargo.toml. Updates and queries are compiled
-//! with this crate, so that this covers them, except the `visit_*` calls, which are compiled with your closure.
+//! A debug build of a game leaves its dependencies unoptimised, which makes this one tens of times slower than it has
+//! to be. Put `[profile.dev.package."*"]` with `opt-level = 3` into the game's Cargo.toml. Updates and queries are
+//! compiled with this crate, so that this covers them, except the `visit_*` calls, which are compiled with your
+//! closure.
 //!
 //! # How sure the answers are
 //! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches
@@ -67,8 +68,8 @@
 //!   without. For a few hundred bodies leave it out: threads gain nothing there, and may cost a little. For many, let
 //!   the game's main thread be one of the pool: see [`game_loops`](guide::game_loops).
 //! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and
-//!   serde's traits for bodies, shapes, poses, rays, keys, events, manifolds, answers to queries, walks and debug options.
-//!   Whatever is loaded passes the same checks as in the constructors.
+//!   serde's traits for bodies, shapes, poses, rays, keys, events, manifolds, answers to queries, walks and debug
+//!   options. Whatever is loaded passes the same checks as in the constructors.
 #![deny(missing_docs)]
 
 mod any_world;

@@ -5,8 +5,8 @@
 //! no point of either has come nearer to the other than they have gone since
 //! while they have gone less than s + beyond together, they are apart, whatever their ways
 //! ```
-//! Bodies that rest a few millimetres from each other, and tremble, are asked about once in thousands of frames; so is who
-//! passes by at a distance, as long as the distance allows. One number a body and one a pair, and no pose is read.
+//! Bodies that rest a few millimetres from each other, and tremble, are asked about once in thousands of frames; so is
+//! who passes by at a distance, as long as the distance allows. One number a body and one a pair, and no pose is read.
 
 /// What a body went since it last changed otherwise, in metres.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +66,8 @@ impl Odometer {
         if self.travel.is_finite() { self.travel } else { 0.0 }
     }
 
-    /// The sum of both bodies' ways up to which they stay apart that are now `beyond` metres further apart than they need to be.
+    /// The sum of both bodies' ways up to which they stay apart that are now `beyond` metres further apart than they
+    /// need to be.
     #[inline]
     pub(crate) fn until([a, b]: [Self; 2], beyond: f32) -> f64 {
         (a.counted() + b.counted() + f64::from(beyond)).next_down().next_down()
@@ -75,8 +76,8 @@ impl Odometer {
     /// Whether they have not gone as far together.
     #[inline]
     pub(crate) fn are_before([a, b]: [Self; 2], until: f64) -> bool {
-        // The next number up, of one that is not negative: past infinity there is none, which is before nothing. `next_up`
-        // asks for more, and this is asked of each candidate.
+        // The next number up, of one that is not negative: past infinity there is none, which is before nothing.
+        // `next_up` asks for more, and this is asked of each candidate.
         let ways = a.travel + b.travel;
         f64::from_bits(ways.to_bits().wrapping_add(1)) < until
     }

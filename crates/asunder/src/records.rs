@@ -1,7 +1,7 @@
 //! What is known of pairs, sorted by pair, in chunks: the candidates of an update, and the contacts among them.
 //!
-//! A list in one piece would be written twice: nobody knows where a chunk's contacts go before all others are counted. Tried:
-//! putting 30,000 of them together took 7 % of the frame (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
+//! A list in one piece would be written twice: nobody knows where a chunk's contacts go before all others are counted.
+//! Tried: putting 30,000 of them together took 7 % of the frame (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
 //!
 //! Chunks go on from one update to the next, as long as none grows too large. So a chunk of which nothing moved is what
 //! it was, and is not looked at: see `frame::collide`.
@@ -18,8 +18,9 @@ const MANY: usize = 96;
 /// Fewest pairs in a chunk, but for the last, where hardly any is asked about.
 const FEW: usize = 256;
 
-/// Most pairs in a chunk, of so many, where of last update's so many were asked about: enough chunks to share out, and no more.
-/// Each has lists of its own, and begins with waiting for each of them: some 3 us (AMD EPYC, Zen 4, 2026-11-23).
+/// Most pairs in a chunk, of so many, where of last update's so many were asked about: enough chunks to share out, and
+/// no more. Each has lists of its own, and begins with waiting for each of them: some 3 us (AMD EPYC, Zen 4,
+/// 2026-11-23).
 ///
 /// To ask takes some ten times as long as all else: a crowd has 1,300 pairs, all of them asked about, and in chunks of
 /// 256 they took 16 threads 1.0 ms, of 128 0.7 and of 64 0.6 (Intel Xeon, family 6 model 207, 16 virtual cores,
@@ -143,8 +144,8 @@ impl<T: OfPair> Chunked<T> {
         Walk { here: [].iter(), number: 0, chunks: self.chunks.iter(), next_chunk: 0 }
     }
 
-    /// Those from one pair on, or from the beginning, up to the one before another, or to the end: as slices, none of which is
-    /// looked at before it is its turn.
+    /// Those from one pair on, or from the beginning, up to the one before another, or to the end: as slices, none of
+    /// which is looked at before it is its turn.
     pub(crate) fn between(&self, first: Option<PairId>, end: Option<PairId>) -> impl Iterator<Item = &[T]> {
         let start = first.map_or_else(|| self.iter(), |first| self.from(first));
         let slices = core::iter::once(start.here.as_slice()).chain(start.chunks.map(Vec::as_slice));

@@ -34,8 +34,8 @@ impl<T> Slab<T> {
         self.vacant.push(place);
     }
 
-    /// Puts something in the place it had, or where there is one if it had none; says where it is now. What was there is shown
-    /// first: it is large, and handed back it would be moved twice more.
+    /// Puts something in the place it had, or where there is one if it had none; says where it is now. What was there
+    /// is shown first: it is large, and handed back it would be moved twice more.
     #[inline]
     pub(crate) fn put(&mut self, own: u32, item: T, show: impl FnOnce(&mut T)) -> u32 {
         let place = if own == NOWHERE { self.vacant.pop().unwrap_or(NOWHERE) } else { own };

@@ -118,8 +118,9 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     type Job<'a>: Send + Sync;
 
-    /// One frame. Not generic where it is defined, so that it is compiled with this crate, and optimised as this crate is:
-    /// a game that calls [`World::update`] would else compile all of it anew, and in a debug build run it unoptimised.
+    /// One frame. Not generic where it is defined, so that it is compiled with this crate, and optimised as this crate
+    /// is: a game that calls [`World::update`] would else compile all of it anew, and in a debug build run it
+    /// unoptimised.
     #[doc(hidden)]
     fn advance(world: &mut World<Self>, hooks: &Hooks<'_, Self>);
 
@@ -164,8 +165,8 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
     /// When two bodies first touch in their motions where they do not touch at the start, and the share of the motions
-    /// that is done by then. Where either is a sensor and they overlap already, there is no impact with other parts; where
-    /// both are solid, the first is led over what is flush with what it touches.
+    /// that is done by then. Where either is a sensor and they overlap already, there is no impact with other parts;
+    /// where both are solid, the first is led over what is flush with what it touches.
     #[doc(hidden)]
     fn impact(
         of: [(&Self::Shape, &Self::Pose); 2],

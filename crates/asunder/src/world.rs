@@ -47,11 +47,12 @@ impl core::error::Error for StaleKey {}
 /// what is stored is a snapshot.
 ///
 /// Memory, not counting the shapes' own data: at most 450 bytes per body and 1,600 per candidate pair in space, 400 and
-/// 1,300 in the plane; and 1,300 for each manifold beyond the first of a pair, as on ground and with compounds. What counts is
-/// the greatest number of bodies, pairs and manifolds so far: a world gives nothing back, but a clone takes no more than it
-/// needs, apart from empty slots of bodies. In a steady scene an update allocates nothing if it is called inside a thread
-/// pool (`rayon::ThreadPool::install`) or if the feature `parallel` is off; from outside, rayon allocates a block for its
-/// queue now and then. Overwriting a world by `clone_from` allocates nothing in such a scene, either.
+/// 1,300 in the plane; and 1,300 for each manifold beyond the first of a pair, as on ground and with compounds. What
+/// counts is the greatest number of bodies, pairs and manifolds so far: a world gives nothing back, but a clone takes
+/// no more than it needs, apart from empty slots of bodies. In a steady scene an update allocates nothing if it is
+/// called inside a thread pool (`rayon::ThreadPool::install`) or if the feature `parallel` is off; from outside, rayon
+/// allocates a block for its queue now and then. Overwriting a world by `clone_from` allocates nothing in such a scene,
+/// either.
 pub struct World<S: Space> {
     pub(crate) bodies: SlotMap<S::Key, Collider<S>>,
     /// Key of the body in each slot; null where the slot is empty.
@@ -156,8 +157,8 @@ impl<S: Space> Clone for World<S> {
         copy
     }
 
-    /// The same in the memory of a world that is no longer wanted: what a game that keeps its last frames, and goes back to one
-    /// of them, does every frame.
+    /// The same in the memory of a world that is no longer wanted: what a game that keeps its last frames, and goes
+    /// back to one of them, does every frame.
     ///
     /// ```
     /// use asunder::{Collider3, Sphere, World3};

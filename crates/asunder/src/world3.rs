@@ -11,8 +11,9 @@ use asunder_narrow::{Impact3, Pair3};
 
 /// A world of bodies in space.
 ///
-/// Insert bodies, move them, [`update`](World::update) once a frame, and read what touches. Contacts, candidates and events
-/// are those of the last update; calls about one body, such as `contacts_of`, leave out bodies that were removed since.
+/// Insert bodies, move them, [`update`](World::update) once a frame, and read what touches. Contacts, candidates and
+/// events are those of the last update; calls about one body, such as `contacts_of`, leave out bodies that were removed
+/// since.
 ///
 /// ```
 /// use asunder::{Collider3, Cuboid, Pose3, World3, glam::Vec3};
@@ -113,8 +114,8 @@ impl World<Volume> {
         self.move_body(key, pose)
     }
 
-    /// Moves many bodies, in this order. Cost: some 5 to 11 ns per body that is in the cache, 50 of one that must be fetched;
-    /// their boxes, 25 ns each, are made by the next update, in parallel.
+    /// Moves many bodies, in this order. Cost: some 5 to 11 ns per body that is in the cache, 50 of one that must be
+    /// fetched; their boxes, 25 ns each, are made by the next update, in parallel.
     ///
     /// # Errors
     /// A stale key among them; all the others are moved.
@@ -130,9 +131,9 @@ impl World<Volume> {
     /// Its pose stays.
     ///
     /// Contacts that the motion may bring are among [`contacts`](Self::contacts), as speculative ones: all pairs whose
-    /// separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer their motions
-    /// can bring them. For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. A pair with a sensor
-    /// has no speculative contact; impacts do include sensors.
+    /// separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer their
+    /// motions can bring them. For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. A pair
+    /// with a sensor has no speculative contact; impacts do include sensors.
     ///
     /// A body that sleeps is woken. Of a compound, every part within that reach has a manifold: thousands of parts
     /// are better put into the world as bodies of their own, with one owner.
@@ -154,8 +155,8 @@ impl World<Volume> {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update, by time; nothing for a stale key, or for what is no bullet. One that had no
-    /// motion itself is run into by what had. Cost: the logarithm of all impacts.
+    /// What one bullet ran into at the last update, by time; nothing for a stale key, or for what is no bullet. One
+    /// that had no motion itself is run into by what had. Cost: the logarithm of all impacts.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Motion3, Pose3, World3};
@@ -227,8 +228,8 @@ impl World<Volume> {
         self.change_body(key, |body| body.layers = layers)
     }
 
-    /// Attaches another number to a body. Events and contacts of later updates carry it; but an `Ended` carries what was
-    /// attached at the last update at which the contact was there.
+    /// Attaches another number to a body. Events and contacts of later updates carry it; but an `Ended` carries what
+    /// was attached at the last update at which the contact was there.
     ///
     /// # Errors
     /// A stale key.
@@ -253,8 +254,8 @@ impl World<Volume> {
         self.bodies.get(key).map(|body| &body.pose)
     }
 
-    /// Makes a body a sensor, or solid again. A contact that goes on simply becomes one of the other kind: there is no new
-    /// `Began`, and its `Ended` tells which kind it was last.
+    /// Makes a body a sensor, or solid again. A contact that goes on simply becomes one of the other kind: there is no
+    /// new `Began`, and its `Ended` tells which kind it was last.
     ///
     /// # Errors
     /// A stale key.
@@ -341,7 +342,8 @@ impl World<Volume> {
         self.change_body(key, |body| body.margin = margin).map_err(|StaleKey| SetMarginError::Stale)
     }
 
-    /// Says whether the next updates tell what a body runs into in its motions: [`Collider::bullet`](crate::Collider::bullet).
+    /// Says whether the next updates tell what a body runs into in its motions:
+    /// [`Collider::bullet`](crate::Collider::bullet).
     ///
     /// # Errors
     /// A stale key.
@@ -383,7 +385,8 @@ impl World<Volume> {
     /// Notes that a body is at rest. Another pose wakes it.
     ///
     /// This is only a note for the game and its solver, which [`Filter3`](crate::Filter3) and hooks can read. The world
-    /// itself does not rely on it: it sees which bodies did not move, and keeps their contacts without computing them anew.
+    /// itself does not rely on it: it sees which bodies did not move, and keeps their contacts without computing them
+    /// anew.
     ///
     /// # Errors
     /// A stale key.
@@ -399,8 +402,8 @@ impl World<Volume> {
         self.set_asleep(key, false)
     }
 
-    /// Replaces the whole body under the same key and returns the old one: for changes that have no call of their own. A
-    /// motion that it was given for this frame is forgotten.
+    /// Replaces the whole body under the same key and returns the old one: for changes that have no call of their own.
+    /// A motion that it was given for this frame is forgotten.
     ///
     /// # Errors
     /// A stale key.
@@ -413,12 +416,12 @@ impl World<Volume> {
         self.candidates.iter().map(|(_, candidate)| candidate.keys)
     }
 
-    /// The candidate pairs of one body: those whose boxes overlapped and whose filters agreed. Pairs with bodies removed
-    /// since are left out. In order of the other's slot; empty for a stale key. They show whom the body may meet next;
-    /// [`contacts_of`](Self::contacts_of) has only those within their margins.
+    /// The candidate pairs of one body: those whose boxes overlapped and whose filters agreed. Pairs with bodies
+    /// removed since are left out. In order of the other's slot; empty for a stale key. They show whom the body may
+    /// meet next; [`contacts_of`](Self::contacts_of) has only those within their margins.
     ///
-    /// Cost: linear in the candidates of lower slots, some 1 ns each, since no frame makes a list for it. For many bodies,
-    /// rather go through [`candidates`](Self::candidates) once.
+    /// Cost: linear in the candidates of lower slots, some 1 ns each, since no frame makes a list for it. For many
+    /// bodies, rather go through [`candidates`](Self::candidates) once.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Pose3, World3};

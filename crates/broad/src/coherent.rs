@@ -10,8 +10,8 @@
 //! sweep all again: when a fifth of all boxes has moved by now; when looking up movers that have come to rest has cost as
 //!   much as a sweep; or when movers reach so many boxes at rest that looking them up would cost as much
 //! ```
-//! A frame costs some 150 to 310 ns a mover and a copy of the kept pairs (0.3 ns each); boxes that rest cost nothing. The
-//! list is that of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
+//! A frame costs some 150 to 310 ns a mover and a copy of the kept pairs (0.3 ns each); boxes that rest cost nothing.
+//! The list is that of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
 
 mod rest;
 
@@ -153,15 +153,15 @@ impl<B: Bounds> CoherentSweep<B> {
         Ok(())
     }
 
-    /// The columns of the last sweep of all boxes, as [`Sweep::columns`] tells them: what moves meanwhile is looked up in
-    /// them, and sorted into none.
+    /// The columns of the last sweep of all boxes, as [`Sweep::columns`] tells them: what moves meanwhile is looked up
+    /// in them, and sorted into none.
     pub fn columns(&self) -> impl Iterator<Item = Column> {
         self.sweep.columns()
     }
 
-    /// Memory that is held for the next call, in bytes: some 80 a box (30 to 60 more where several threads sort them) and
-    /// 16 a pair, and 28 for every column that a mover reaches, of which there are about four for every box at most;
-    /// where columns are of no use, 64 a box more, and for each thread.
+    /// Memory that is held for the next call, in bytes: some 80 a box (30 to 60 more where several threads sort them)
+    /// and 16 a pair, and 28 for every column that a mover reaches, of which there are about four for every box at
+    /// most; where columns are of no use, 64 a box more, and for each thread.
     ///
     /// ```
     /// assert_eq!(asunder_broad::CoherentSweep::<asunder_geometry::Aabb2>::new().bytes(), 0);

@@ -11,9 +11,10 @@
 //! where that costs no less than sweeping the boxes, or the pairs of loose boxes are many more: no box is loose, and that is
 //!   tried again after twice as many frames each time
 //! ```
-//! A frame in which all boxes get new loose ones, or give them up, takes up to three sweeps of the boxes. Bodies that rest on
-//! each other tremble, but they stay in their loose boxes while they do: a frame then costs one comparison per box and one
-//! per pair. The pairs are those of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
+//! A frame in which all boxes get new loose ones, or give them up, takes up to three sweeps of the boxes. Bodies that
+//! rest on each other tremble, but they stay in their loose boxes while they do: a frame then costs one comparison per
+//! box and one per pair. The pairs are those of [`Sweep`](crate::Sweep), whatever came before: history decides only
+//! what it costs.
 //!
 //! Heaps at rest, awake, one thread (AMD EPYC, Zen 4, 2026-11-23): a sweep of 8,005 boxes takes 0.15 ms in place of
 //! 0.67, of 10,081 boxes in pyramids 0.12 in place of 0.53; whole frames are 1.08 and 1.15 times as fast. Tried: a
@@ -21,8 +22,8 @@
 //! two thirds of the gain. All loose boxes made anew whenever some are worn, and narrower where they turned out too
 //! wide: who had turned back leaves them again.
 //!
-//! Sources: neighbour lists with a skin, L. Verlet, *Computer "experiments" on classical fluids*, Phys. Rev. 159 (1967); the
-//! fat boxes of the dynamic trees of Bullet and Box2D.
+//! Sources: neighbour lists with a skin, L. Verlet, *Computer "experiments" on classical fluids*, Phys. Rev. 159
+//! (1967); the fat boxes of the dynamic trees of Bullet and Box2D.
 
 use crate::coherent::{CoherentSweep, FEW};
 use crate::columns::Column;
@@ -44,8 +45,8 @@ mod tests;
 pub struct Moved<'a, C> {
     /// Their places; in any order, and again if need be.
     pub places: &'a [u32],
-    /// Whether such a box is another one than before: whether it is to be asked anew whom it may meet. Asked by any thread,
-    /// in any order.
+    /// Whether such a box is another one than before: whether it is to be asked anew whom it may meet. Asked by any
+    /// thread, in any order.
     pub has_changed: C,
 }
 
@@ -112,10 +113,12 @@ const NEAR: usize = 3;
 /// Frames at a box's pace that a loose box is to last for. Bodies that tremble turn back long before.
 const PACE: f32 = 64.0;
 
-/// A loose box is wider by this part of a box's least extent at most; of a plate or a needle, of a sixteenth of its greatest.
+/// A loose box is wider by this part of a box's least extent at most; of a plate or a needle, of a sixteenth of its
+/// greatest.
 const WIDEST: f32 = 0.125;
 
-/// Frames in a row in which few boxes move until no box is loose: what rests is then kept, which costs less than to tell pairs.
+/// Frames in a row in which few boxes move until no box is loose: what rests is then kept, which costs less than to
+/// tell pairs.
 const STILL: u32 = 8;
 
 /// Least and most frames until loose boxes are tried again.
@@ -146,8 +149,8 @@ impl<B: Bounds> LooseSweep<B> {
 
     /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
     ///
-    /// What moved is told as to [`CoherentSweep::update`]. `admit` may be asked about boxes that do not overlap but nearly
-    /// do, and what it said is believed until one of the two has changed.
+    /// What moved is told as to [`CoherentSweep::update`]. `admit` may be asked about boxes that do not overlap but
+    /// nearly do, and what it said is believed until one of the two has changed.
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty, and the next call starts from here.
@@ -178,8 +181,8 @@ impl<B: Bounds> LooseSweep<B> {
         self.sweep.columns()
     }
 
-    /// Memory that is held for the next call, in bytes: that of [`CoherentSweep::bytes`]; where most boxes move, 32 a box
-    /// and 8 a pair more.
+    /// Memory that is held for the next call, in bytes: that of [`CoherentSweep::bytes`]; where most boxes move, 32 a
+    /// box and 8 a pair more.
     pub fn bytes(&self) -> usize {
         self.sweep.bytes()
             + self.loose.capacity() * size_of::<B>()

@@ -23,7 +23,8 @@ mod sealed {
 pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Sealed + 'static {
     /// Number of axes.
     const AXES: usize;
-    /// The same boxes, of the type that they are: for what is compiled once for each, and not again wherever it is called.
+    /// The same boxes, of the type that they are: for what is compiled once for each, and not again wherever it is
+    /// called.
     #[doc(hidden)]
     fn list(boxes: &[Self]) -> BoxList<'_>;
     /// A box that overlaps nothing, itself included.
@@ -41,8 +42,8 @@ pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Se
     }
     /// The same of two boxes that are valid: what it says of others means nothing. No branch.
     fn overlaps_valid(&self, other: &Self) -> bool;
-    /// Whether the other box lies in this one: none of its bounds is beyond. The empty [`Bounds::NOTHING`] lies in every
-    /// box.
+    /// Whether the other box lies in this one: none of its bounds is beyond. The empty [`Bounds::NOTHING`] lies in
+    /// every box.
     fn encloses(&self, other: &Self) -> bool;
     /// The box with all bounds moved outwards by so many metres, each rounded once.
     fn widened(&self, metres: f32) -> Self;
@@ -103,8 +104,8 @@ impl Aabb2 {
         Self { min, max }
     }
 
-    /// The least box around points, in metres. Around none it is [`Bounds::NOTHING`]; coordinates that are no numbers are
-    /// left out.
+    /// The least box around points, in metres. Around none it is [`Bounds::NOTHING`]; coordinates that are no numbers
+    /// are left out.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, Bounds, glam::Vec2};
@@ -180,8 +181,8 @@ impl Aabb3 {
         Self { min, max }
     }
 
-    /// The least box around points, in metres. Around none it is [`Bounds::NOTHING`]; coordinates that are no numbers are
-    /// left out.
+    /// The least box around points, in metres. Around none it is [`Bounds::NOTHING`]; coordinates that are no numbers
+    /// are left out.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};

@@ -1,7 +1,7 @@
 //! Clones that are written over others.
 
-/// Makes a type `Clone`, field by field: what is copied, in the memory that there is, as derived clones do not; and what stays
-/// each one's own, since no output depends on it. All fields are named, so that none is forgotten.
+/// Makes a type `Clone`, field by field: what is copied, in the memory that there is, as derived clones do not; and
+/// what stays each one's own, since no output depends on it. All fields are named, so that none is forgotten.
 ///
 /// Where one value is written over another of the same type by other means than `Clone`, `from => to` does the same.
 #[doc(hidden)]

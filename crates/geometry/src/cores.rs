@@ -255,8 +255,9 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// Half of a segment about the centre, in metres, on which a ball of [`ARM_SHARE`](crate::tolerance::ARM_SHARE) of the
-    /// inner radius stays inside the core; zero where there is none. A plank holds more balls than the one in its middle.
+    /// Half of a segment about the centre, in metres, on which a ball of [`ARM_SHARE`](crate::tolerance::ARM_SHARE) of
+    /// the inner radius stays inside the core; zero where there is none. A plank holds more balls than the one in its
+    /// middle.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
@@ -282,8 +283,8 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// The half extents, in metres, if it is the core of a cuboid: corner `i` is on the upper side of axis `k` where bit `k`
-    /// of `i` is set.
+    /// The half extents, in metres, if it is the core of a cuboid: corner `i` is on the upper side of axis `k` where
+    /// bit `k` of `i` is set.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};

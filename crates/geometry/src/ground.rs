@@ -51,8 +51,8 @@ pub enum Ground<'a> {
 }
 
 /// Which edges and corners of a triangle may give a contact another normal than the triangle's: where the ground bends
-/// away from the body there, or ends. And whether an edge bends so low that what is nearest along it counts as the triangle's
-/// own normal. Conservative: a bit that is set may be needless.
+/// away from the body there, or ends. And whether an edge bends so low that what is nearest along it counts as the
+/// triangle's own normal. Conservative: a bit that is set may be needless.
 ///
 /// ```
 /// use asunder_geometry::Prominent;
@@ -108,8 +108,8 @@ impl Prominent {
         Self(self.0 | Self::LOW_BEND)
     }
 
-    /// Whether an edge bends by more than rounding, and by no more than two normals that count as one may differ from what is
-    /// between them.
+    /// Whether an edge bends by more than rounding, and by no more than two normals that count as one may differ from
+    /// what is between them.
     #[inline]
     pub const fn bends_low(self) -> bool {
         self.0 & Self::LOW_BEND != 0
@@ -266,7 +266,8 @@ impl<'a> Ground<'a> {
         self.meet_along([from, direction], grown, limit, |number, _| visitor(number));
     }
 
-    /// As [`visit_along`](Self::visit_along), with [`corners`](Self::corners). Cost: as that, with fewer waits for memory.
+    /// As [`visit_along`](Self::visit_along), with [`corners`](Self::corners). Cost: as that, with fewer waits for
+    /// memory.
     ///
     /// ```
     /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
@@ -342,7 +343,8 @@ impl<'a> Ground<'a> {
         self.meet_nearest(bounds, limit, |number, _| visitor(number));
     }
 
-    /// As [`visit_nearest`](Self::visit_nearest), with [`corners`](Self::corners). Cost: as that, with fewer waits for memory.
+    /// As [`visit_nearest`](Self::visit_nearest), with [`corners`](Self::corners). Cost: as that, with fewer waits for
+    /// memory.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};

@@ -86,8 +86,8 @@ impl Motion2 {
     /// counter-clockwise about its position.
     ///
     /// It ends where the body would, by `libm`, rounded to f32: the same bits on every platform. Turns of less than
-    /// 1e-7 rad a step are lost to f32: it stands still, or turns by up to twice as much. On the way it turns the shorter
-    /// way, so half a turn and more in one step is a wheel seen to run backwards: take shorter steps.
+    /// 1e-7 rad a step are lost to f32: it stands still, or turns by up to twice as much. On the way it turns the
+    /// shorter way, so half a turn and more in one step is a wheel seen to run backwards: take shorter steps.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, glam::{DVec2, Vec2}};

@@ -91,10 +91,11 @@ impl Motion3 {
         Ok(Self { displacement, rotation: None })
     }
 
-    /// The motion that leads from one pose to another: what a solver's step is, once it is done. It turns the shorter way.
+    /// The motion that leads from one pose to another: what a solver's step is, once it is done. It turns the shorter
+    /// way.
     ///
-    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Of poses with the same
-    /// rotation it is a shift.
+    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Of poses with the
+    /// same rotation it is a shift.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::Quat};
@@ -115,8 +116,8 @@ impl Motion3 {
         Ok(Self { rotation: is_turned.then_some(end), ..motion })
     }
 
-    /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second about the axis that the
-    /// angular one points along, through the body's position; both in world axes.
+    /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second about the axis
+    /// that the angular one points along, through the body's position; both in world axes.
     ///
     /// It ends where the body would after a turn at constant speed, by `libm`, rounded to f32: the same bits on every
     /// platform. What turns by less than 1e-7 rad a step may stand still, or turn by twice as much. On the way it turns
@@ -269,8 +270,8 @@ impl Turn3 {
         self.axis
     }
 
-    /// How far the end of an arm of unit length is from where it started, at most and at any fraction: twice the sine of half
-    /// the angle, 2 for half a turn.
+    /// How far the end of an arm of unit length is from where it started, at most and at any fraction: twice the sine
+    /// of half the angle, 2 for half a turn.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};

@@ -31,8 +31,8 @@ pub(crate) fn round_up(value: f64) -> f32 {
     step(nearest, i32::from(f64::from(nearest) < value))
 }
 
-/// The next f32 up (1) or down (-1), or the same (0). Of zeros, whose sign says which side they were rounded from, the next
-/// away from zero: `next_up` and `next_down` for all that is asked here.
+/// The next f32 up (1) or down (-1), or the same (0). Of zeros, whose sign says which side they were rounded from, the
+/// next away from zero: `next_up` and `next_down` for all that is asked here.
 #[inline]
 fn step(value: f32, by: i32) -> f32 {
     let bits = value.to_bits();
@@ -83,11 +83,11 @@ pub(crate) fn around3(points: impl Iterator<Item = DVec3>, pose: &Pose3, grow: f
     around(low, high, pose, grow)
 }
 
-/// The same around many, none of whose coordinates exceeds `extent`, eight by eight in f32: wider by what that may lose, less
-/// than a millionth of the extent. 32 vertices: 99 ns one by one, 67 here (AMD EPYC, Zen 4, 2026-11-23).
+/// The same around many, none of whose coordinates exceeds `extent`, eight by eight in f32: wider by what that may
+/// lose, less than a millionth of the extent. 32 vertices: 99 ns one by one, 67 here (AMD EPYC, Zen 4, 2026-11-23).
 ///
-/// Tried: four vertices at a time along all three axes, so that each is loaded once: nothing, with 32 vertices and with 16 (AMD
-/// EPYC, Zen 5, 2026-11-24). Most of it is one result after another, before the vertices and after.
+/// Tried: four vertices at a time along all three axes, so that each is loaded once: nothing, with 32 vertices and with
+/// 16 (AMD EPYC, Zen 5, 2026-11-24). Most of it is one result after another, before the vertices and after.
 pub(crate) fn around_octets(octets: &[VertexOctet], extent: f32, pose: &Pose3, grow: f64) -> Aabb3 {
     let basis = pose.basis();
     let mut sides = [[0.0; 2]; 3];

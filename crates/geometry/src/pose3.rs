@@ -213,8 +213,8 @@ impl Pose3 {
         Basis3::between(other.components(), self.components())
     }
 
-    /// The turn, in world axes, that takes directions from where they pointed in another pose to where they point in this
-    /// one: right to 31 units of 2^-53, and exactly none where both are turned alike. Cost: as
+    /// The turn, in world axes, that takes directions from where they pointed in another pose to where they point in
+    /// this one: right to 31 units of 2^-53, and exactly none where both are turned alike. Cost: as
     /// [`Pose3::basis_from`].
     ///
     /// ```
@@ -251,8 +251,8 @@ impl Pose3 {
         self.basis().turn_back(point - self.position)
     }
 
-    /// The same as an affine matrix, which takes local points to the world: for renderers and scene graphs. Right to some
-    /// units of 2^-53; its 3 by 3 part is a rotation, whatever the quaternion's length.
+    /// The same as an affine matrix, which takes local points to the world: for renderers and scene graphs. Right to
+    /// some units of 2^-53; its 3 by 3 part is a rotation, whatever the quaternion's length.
     ///
     /// An f32 matrix of it is as coarse as the position is far away. Draw relative to the camera, and nothing trembles:
     ///
@@ -322,8 +322,8 @@ impl Pose3 {
         (straight + turned) * (1.0 + 64.0 * f64::EPSILON)
     }
 
-    /// How far the tips of unit vectors went at most, as [`Basis3::spin_from`], of quaternions alone: twice the sine of half the
-    /// angle, which is the share of the vector part in the turn from one to the other. A third of the work.
+    /// How far the tips of unit vectors went at most, as [`Basis3::spin_from`], of quaternions alone: twice the sine of
+    /// half the angle, which is the share of the vector part in the turn from one to the other. A third of the work.
     #[inline]
     fn spin_since(&self, other: &Self) -> f64 {
         let ([a, b, c, d], [x, y, z, w]) = (other.components(), self.components());
@@ -363,8 +363,8 @@ impl Default for Pose3 {
 
 /// conjugate(p) q: the turn from one rotation to another, as the first sees it.
 ///
-/// Products of f32 are exact in f64, so that equal rotations cancel to the last bit; pairs first, so that each component is
-/// rounded twice.
+/// Products of f32 are exact in f64, so that equal rotations cancel to the last bit; pairs first, so that each
+/// component is rounded twice.
 #[inline(always)]
 pub(crate) fn turn_between([a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]) -> [f64; 4] {
     [

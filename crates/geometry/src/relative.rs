@@ -30,7 +30,8 @@ impl Pose3 {
         Self::new(self.transform(local.position()), rounded(rotation))
     }
 
-    /// This pose as another one sees it: what [`Pose3::compose`] undoes. Of the identity it is the inverse of the other.
+    /// This pose as another one sees it: what [`Pose3::compose`] undoes. Of the identity it is the inverse of the
+    /// other.
     ///
     /// Positions are subtracted before they are turned, so that it is as good far from the origin.
     ///
@@ -87,7 +88,8 @@ impl Pose2 {
         Self::new(self.transform(local.position()), self.rotation().then(local.rotation(), 1.0))
     }
 
-    /// This pose as another one sees it: what [`Pose2::compose`] undoes. Of the identity it is the inverse of the other.
+    /// This pose as another one sees it: what [`Pose2::compose`] undoes. Of the identity it is the inverse of the
+    /// other.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};

@@ -1,7 +1,7 @@
 //! What shapes of many numbers print with `{:?}`.
 //!
-//! What they were made of, where that is a few lines, and how much of it, where it may be millions; never the tables that are
-//! looked up in. Ground of any size is one line of a log.
+//! What they were made of, where that is a few lines, and how much of it, where it may be millions; never the tables
+//! that are looked up in. Ground of any size is one line of a log.
 
 use crate::{Chain, Compound2, Compound3, HeightField, Hull, Polygon, TriMesh};
 use core::fmt::{Debug, Formatter, Result};

@@ -26,8 +26,8 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// A sphere of radius zero, for queries about points. Do not give it to a body: snapshots refuse spheres without a radius.
-    /// Use a hull of one point instead ([`Hull::of_any_dimension`](crate::Hull::of_any_dimension)).
+    /// A sphere of radius zero, for queries about points. Do not give it to a body: snapshots refuse spheres without a
+    /// radius. Use a hull of one point instead ([`Hull::of_any_dimension`](crate::Hull::of_any_dimension)).
     ///
     /// ```
     /// use asunder_geometry::{Sphere, glam::DVec3};

@@ -43,13 +43,15 @@ pub const FACE_PREFERENCE: f64 = 5e-7;
 /// chosen to hold it.
 ///
 /// A body that a solver holds at rest leans now here and now there, by up to some 1e-5 rad, which lifts one side of its
-/// face by as much of its width. With a smaller value the deepest corner changes with every lean, and with it which four
-/// are told; with a larger one, what leans more may be held beside its deepest corner by as much. Twice as far as
+/// face by as much of its width. With a smaller value the deepest corner changes with every lean, and with it which
+/// four are told; with a larger one, what leans more may be held beside its deepest corner by as much. Twice as far as
 /// manifolds are moved along. Only the choice of corners depends on it: what is told of the pair, and of each corner,
-/// is exact. (2^-12 was tried: ids stay at 1e-4 rad, too, but a box of a metre may stand 0.4 mm beside its deepest corner.)
+/// is exact. (2^-12 was tried: ids stay at 1e-4 rad, too, but a box of a metre may stand 0.4 mm beside its deepest
+/// corner.)
 pub const EVEN_DEPTH: f64 = 1.0 / 32_768.0;
 
-/// How near a contact point must be to a vertex or an edge to be named after it, as a share of the smaller shape's diameter.
+/// How near a contact point must be to a vertex or an edge to be named after it, as a share of the smaller shape's
+/// diameter.
 ///
 /// Bodies that a solver holds tremble by up to a thousandth of their size. With a smaller value the names of points
 /// between crates that stand squarely on each other change from frame to frame; with a larger one, those of bodies that
@@ -59,9 +61,9 @@ pub const SAME_PLACE: f64 = 1.0 / 512.0;
 
 /// Share of their area within which four corners of a patch hold it as well as the four that hold it best.
 ///
-/// A regular face of many corners has several fours of the same area, and a body that trembles by 1e-4 rad changes areas
-/// by some 2e-4, where sides of two faces cross. A smaller value leaves it to that which four are told; a larger one takes a
-/// worse four of faces of more than sixty corners, and brings nearer the 5 % that may be lost in all.
+/// A regular face of many corners has several fours of the same area, and a body that trembles by 1e-4 rad changes
+/// areas by some 2e-4, where sides of two faces cross. A smaller value leaves it to that which four are told; a larger
+/// one takes a worse four of faces of more than sixty corners, and brings nearer the 5 % that may be lost in all.
 pub const EVEN_AREA: f64 = 1.0 / 1024.0;
 
 /// Cosine of the angle up to which two faces beside a pair of touching edges count as resting on each other: 0.1 rad.
@@ -90,8 +92,8 @@ pub const IMPACT_REST: f64 = 1e-9;
 /// Share of a body's thickness within which what it meets next counts as level with what it touches.
 ///
 /// It is what a body may end deeper in ground that it passes over, and how far in front of it that may begin: see
-/// `next_impact` of a pair. A larger value lets bodies run deeper into ramps; a smaller one stops a ball that rolls at every
-/// bend of its floor.
+/// `next_impact` of a pair. A larger value lets bodies run deeper into ramps; a smaller one stops a ball that rolls at
+/// every bend of its floor.
 pub const NEXT_LEVEL: f64 = 1.0 / 64.0;
 
 /// Share of its outer radius that a body's thickness counts for at least where [`NEXT_LEVEL`] is a share of it: so that
@@ -108,9 +110,9 @@ pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 
 /// Share of its inner radius that a core's ball keeps on its arm, which is a segment about the centre.
 ///
-/// A face that the arm runs along but for rounding leaves the whole ball no way at all, and a slightly smaller one as much as
-/// there is. Only proofs that spare work depend on it: a smaller value proves less of what overlaps deeply, a larger one
-/// less of hulls that are long only nearly along an edge.
+/// A face that the arm runs along but for rounding leaves the whole ball no way at all, and a slightly smaller one as
+/// much as there is. Only proofs that spare work depend on it: a smaller value proves less of what overlaps deeply, a
+/// larger one less of hulls that are long only nearly along an edge.
 pub const ARM_SHARE: f64 = 63.0 / 64.0;
 
 /// Share of a hull's half diagonal up to which a stored hull's vertices may lie beyond one of its faces: what
@@ -123,8 +125,8 @@ pub const MERGED_PLANARITY: f64 = 8.0 * COPLANAR;
 /// Share of its coordinates by which a vertex of a chain may lie beside the line of its neighbours and count as on it.
 ///
 /// A line that is cut into segments has vertices rounded to f32, each by 6e-8 of its coordinates, as are the ends that
-/// it is measured from; this is four times as much, for what was computed in f32. A larger value takes bends for rounding,
-/// and contact points lie as much beside the segments; a smaller one lets the rounding of short segments turn
+/// it is measured from; this is four times as much, for what was computed in f32. A larger value takes bends for
+/// rounding, and contact points lie as much beside the segments; a smaller one lets the rounding of short segments turn
 /// normals.
 pub const STRAIGHT: f64 = 2.0 * (f32::EPSILON as f64);
 
@@ -213,8 +215,8 @@ pub const EDGE_HOLD: f64 = 0.05;
 /// one a body on a flat floor of thin triangles has several manifolds, and may trip over their edges.
 pub const SAME_NORMAL: f64 = 1e-4;
 
-/// Share of a triangle's extent within which a point counts as lying on it, where all triangles are looked for that meet
-/// in a touched point.
+/// Share of a triangle's extent within which a point counts as lying on it, where all triangles are looked for that
+/// meet in a touched point.
 ///
 /// Above the rounding of f32 vertices, so that edges that nearly meet do; a larger value takes faces into account that
 /// are beside the point, and with a smaller one what touches in an inner edge may seem to touch a rim.

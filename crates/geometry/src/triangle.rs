@@ -107,8 +107,8 @@ impl Triangle3 {
     }
 
     /// Whether a local point, in metres, lies on the triangle: its edges and corners are of it, so that where two
-    /// triangles meet in an edge, no point between them is on neither. Exact, as long as no product of three coordinates
-    /// underflows, as of a coordinate below 1e-200 m.
+    /// triangles meet in an edge, no point between them is on neither. Exact, as long as no product of three
+    /// coordinates underflows, as of a coordinate below 1e-200 m.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         let [a, b, c] = self.vertices.map(|vertex| vertex.as_dvec3());

@@ -7,7 +7,8 @@
 //! moved bodies          found along the way, then as contacts
 //! rays                  in the order in which boxes are met; of equals, the lowest number
 //! ```
-//! Every pair that is found asks for itself whether it is near, as in a loop: the tree only leaves out what none would take.
+//! Every pair that is found asks for itself whether it is near, as in a loop: the tree only leaves out what none would
+//! take.
 //!
 //! Cubes of so many boxes and balls, a hair from touching; microseconds per question with loops and with trees, `cargo
 //! run --release -p asunder-benches --bin parts` (AMD EPYC, Zen 4, 2026-11-25):
@@ -70,8 +71,8 @@ pub(crate) type Region2 = Region<DVec2>;
 pub(crate) type Region3 = Region<DVec3>;
 
 impl Region2 {
-    /// Its radius while it moves so far, and more than rotations and all sums may have lost: a stored rotation stretches by its
-    /// length, which is one up to the rounding of f32; a part has two.
+    /// Its radius while it moves so far, and more than rotations and all sums may have lost: a stored rotation
+    /// stretches by its length, which is one up to the rounding of f32; a part has two.
     pub(crate) fn grown(&self, way: DVec2, compound: &Compound2) -> f32 {
         let size = f64::from(compound.outer_radius()) + compound.center().as_dvec2().length();
         let lengths = self.center.length() + way.length() + self.radius + size;

@@ -44,8 +44,8 @@ pub enum Tier {
     /// distance in closed form. For the rest a search for an axis that parts them, or for corners around a common
     /// point.
     Bound,
-    /// For pairs that `Bound` tests by axes (cuboids, polygons of few edges) and cannot settle: the search that it uses for
-    /// all other shapes.
+    /// For pairs that `Bound` tests by axes (cuboids, polygons of few edges) and cannot settle: the search that it uses
+    /// for all other shapes.
     Double,
     /// Exact arithmetic.
     Exact,
@@ -135,8 +135,9 @@ pub enum Separation3 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured2 {
-    /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest translation
-    /// that separates them; of several parts, the least over pairs of those. At most zero exactly when they overlap.
+    /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest
+    /// translation that separates them; of several parts, the least over pairs of those. At most zero exactly when they
+    /// overlap.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -160,8 +161,9 @@ pub struct Measured2 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured3 {
-    /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest translation
-    /// that separates them; of several parts, the least over pairs of those. At most zero exactly when they overlap.
+    /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest
+    /// translation that separates them; of several parts, the least over pairs of those. At most zero exactly when they
+    /// overlap.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -351,12 +353,12 @@ pub struct Manifold3 {
     pub part_b: u32,
     /// Unit normal in world axes, from A to B.
     pub normal: Vec3,
-    /// Separation of the two parts, in metres. The least separation of the points is within `error` of it, plus 2e-6 of the
-    /// smaller bounding radius, with three exceptions. Where there are four points, which may stand for more, and on ground
-    /// made of triangles, the points may lie higher than that by up to 2^-15 of the smaller bounding diameter: the price of a
-    /// choice that is steady from frame to frame. Where ground bends in steps too small to give normals, what stands up between
-    /// the points counts here and in no point: up to 2^-11 of the smaller bounding radius. So does the depth of a needle-thin
-    /// triangle along a direction that the ground refuses.
+    /// Separation of the two parts, in metres. The least separation of the points is within `error` of it, plus 2e-6 of
+    /// the smaller bounding radius, with three exceptions. Where there are four points, which may stand for more, and
+    /// on ground made of triangles, the points may lie higher than that by up to 2^-15 of the smaller bounding
+    /// diameter: the price of a choice that is steady from frame to frame. Where ground bends in steps too small to
+    /// give normals, what stands up between the points counts here and in no point: up to 2^-11 of the smaller bounding
+    /// radius. So does the depth of a needle-thin triangle along a direction that the ground refuses.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,

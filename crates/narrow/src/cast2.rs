@@ -68,16 +68,16 @@ impl Pair2<'_> {
     ///
     /// - Touching at the start, exactly, is an impact at fraction 0, also where A moves away. Its anchors are the
     ///   deepest contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
-    /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin; further
-    ///   out some 8 units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, but
-    ///   where A parts from it; `overlapping` says no, and `error` how far apart they may be. So what a cast has brought to
+    /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin; further out some 8
+    ///   units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, but where A
+    ///   parts from it; `overlapping` says no, and `error` how far apart they may be. So what a cast has brought to
     ///   another may leave it.
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
     ///   by how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.
-    /// - A one-sided chain is met from its front alone: what is behind a segment when it comes to touch it passes. Inner
-    ///   vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the first
-    ///   segment of the straight run that is met.
+    /// - A one-sided chain is met from its front alone: what is behind a segment when it comes to touch it passes.
+    ///   Inner vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the
+    ///   first segment of the straight run that is met.
     /// - A displacement that is not finite counts as none: who touches is told so, unlike by a world's `cast_shape`.
     ///
     /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap,
@@ -104,11 +104,11 @@ impl Pair2<'_> {
     /// Where the bodies first touch when both move, and perhaps turn; nothing if they do not. All that
     /// [`cast`](Self::cast) says holds here too.
     ///
-    /// The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they
-    /// touch, and there they are at most `error` apart. Where a body turns, and is no ball
-    /// about its position, that is no less than 1.2e-7 of its arm. Where many
-    /// rounds lead no nearer, as for shapes that graze each other while they turn, the fraction is that of the last round, and
-    /// `error` the gap that is left there. Two half-planes of which one turns touch at once.
+    /// The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they touch,
+    /// and there they are at most `error` apart. Where a body turns, and is no ball about its position, that is no less
+    /// than 1.2e-7 of its arm. Where many rounds lead no nearer, as for shapes that graze each other while they turn,
+    /// the fraction is that of the last round, and `error` the gap that is left there. Two half-planes of which one
+    /// turns touch at once.
     ///
     /// Cost: as a cast where nothing turns; else 5 to 20 us, most of it distances, and two supports for every time
     /// tried.
@@ -141,10 +141,10 @@ impl Pair2<'_> {
     /// crosses the floor's vertices and still runs into the level's walls, steps and ramps. A motion that sinks a body
     /// into its floor by its whole thickness leads it under what stands there.
     ///
-    /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at the
-    /// start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as half a
-    /// thickness. Of bodies of one part each that touch, nothing. Never `overlapping`. Cost: as the impact, which is asked
-    /// first; for those that touch their manifolds too, and another search.
+    /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at
+    /// the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as
+    /// half a thickness. Of bodies of one part each that touch, nothing. Never `overlapping`. Cost: as the impact,
+    /// which is asked first; for those that touch their manifolds too, and another search.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Circle, Motion2, Pose2, Shape2, glam::Vec2};
@@ -168,10 +168,10 @@ impl Pair2<'_> {
     /// well, as the next of the tiles that a floor is made of; but for parts of ground that it touches too, which has
     /// no such seams.
     ///
-    /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A never
-    /// sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual. Half-spaces are
-    /// never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where there is one, another
-    /// search.
+    /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
+    /// never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
+    /// Half-spaces are never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where
+    /// there is one, another search.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rect, Shape2, glam::Vec2};

@@ -50,11 +50,11 @@ pub use ray::cast_ray3;
 impl Pair3<'_> {
     /// When A, moved by this displacement in metres, first touches B, which stands; nothing where it never does.
     ///
-    /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most
-    /// 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds, save
-    /// where the displacement is so long or the bodies so far from the origin that f64 has no nearer place. A miss is
-    /// certain too. Shapes that pass each other within `error` may be told as an impact; those that part from each other
-    /// are not, however near they are, so that what a cast has brought to another may leave it.
+    /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most 1e-6
+    /// of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds, save where
+    /// the displacement is so long or the bodies so far from the origin that f64 has no nearer place. A miss is certain
+    /// too. Shapes that pass each other within `error` may be told as an impact; those that part from each other are
+    /// not, however near they are, so that what a cast has brought to another may leave it.
     ///
     /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal
     /// with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own,
@@ -63,10 +63,10 @@ impl Pair3<'_> {
     /// the parts that meet first. Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches
     /// of both for others.
     ///
-    /// Of ground, the first triangle that is met; `part_b` (or `part_a`) is its number. One-sided ground stops what is in
-    /// front of a triangle at the start, by the centre of the part, however fast it is, and nothing else; what
-    /// overlaps no triangle that sees it does not touch at the start. The normal is the triangle's own, except where
-    /// an edge or vertex stands out of the ground around it. Cost: that for each triangle whose box the moved part's box
+    /// Of ground, the first triangle that is met; `part_b` (or `part_a`) is its number. One-sided ground stops what is
+    /// in front of a triangle at the start, by the centre of the part, however fast it is, and nothing else; what
+    /// overlaps no triangle that sees it does not touch at the start. The normal is the triangle's own, except where an
+    /// edge or vertex stands out of the ground around it. Cost: that for each triangle whose box the moved part's box
     /// meets and whose plane it reaches; for ground that turns, and for half-spaces, every triangle.
     ///
     /// ```
@@ -139,10 +139,10 @@ impl Pair3<'_> {
     /// crosses the floor's seams and still runs into the level's walls, steps and ramps. A motion that sinks a body
     /// into its floor by its whole thickness leads it under what stands there.
     ///
-    /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at the
-    /// start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as half a
-    /// thickness. Of bodies of one part each that touch, nothing. Never `overlapping`. Cost: as the impact, which is asked
-    /// first; for those that touch their manifolds too, and another search.
+    /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at
+    /// the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as
+    /// half a thickness. Of bodies of one part each that touch, nothing. Never `overlapping`. Cost: as the impact,
+    /// which is asked first; for those that touch their manifolds too, and another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Compound3, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
@@ -168,10 +168,10 @@ impl Pair3<'_> {
     /// well, as the next of the tiles that a floor is made of; but for parts of ground that it touches too, which has
     /// no such seams.
     ///
-    /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A never
-    /// sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual. Half-spaces are
-    /// never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where there is one, another
-    /// search.
+    /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
+    /// never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
+    /// Half-spaces are never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where
+    /// there is one, another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::Vec3};

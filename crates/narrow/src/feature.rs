@@ -5,10 +5,10 @@ use asunder_geometry::glam::{DVec3, Vec3};
 /// A feature of one shape, by the index that its topology gives it.
 ///
 /// Vertices count as in `vertices()`. Edges of a polyhedron count by their lower half-edge
-/// ([`Topology::edge_of`](asunder_geometry::Topology::edge_of)), edges of a polygon by the vertex they start from.
-/// The edges of a chain are its straight runs, by their first segments ([`Run`](asunder_geometry::Run)). Of meshes and height
-/// fields a face is a plane, by its least triangle; an edge counts by the lower of its half-edges, of which triangle `t` has
-/// `3 t` to `3 t + 2`.
+/// ([`Topology::edge_of`](asunder_geometry::Topology::edge_of)), edges of a polygon by the vertex they start from. The
+/// edges of a chain are its straight runs, by their first segments ([`Run`](asunder_geometry::Run)). Of meshes and
+/// height fields a face is a plane, by its least triangle; an edge counts by the lower of its half-edges, of which
+/// triangle `t` has `3 t` to `3 t + 2`.
 ///
 /// ```
 /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -71,7 +71,8 @@ impl Feature {
     derive(serde::Serialize, serde::Deserialize),
     serde(from = "u64", into = "u64")
 )]
-// Not a u64, which would make each contact point 4 bytes longer, and a frame of bodies that rest reads and writes little else.
+// Not a u64, which would make each contact point 4 bytes longer, and a frame of bodies that rest reads and writes
+// little else.
 pub struct FeatureId([u32; 2]);
 
 impl FeatureId {

@@ -11,15 +11,17 @@
 //! an axis that points back: a ball in either body, which the patch and the ball span M to, keeps it away
 //! so the separation is S + the rise of the points, up to   d (lean + lean^2) + 5 spin * arm
 //! ```
-//! The last term bounds what turning by `spin` adds, where `arm` is how far the moving body reaches: counted once about the point
-//! that is deepest now, once since another was deepest before, with a fifth part to spare. For faces that rest on each other
-//! `lean` is a thousandth, so a drift of a millimetre costs a micrometre of error, and is all that points may stand beside
-//! where new ones would.
+//! The last term bounds what turning by `spin` adds, where `arm` is how far the moving body reaches: counted once about
+//! the point that is deepest now, once since another was deepest before, with a fifth part to spare. For faces that
+//! rest on each other `lean` is a thousandth, so a drift of a millimetre costs a micrometre of error, and is all that
+//! points may stand beside where new ones would.
 //!
 //! Source: the polar form of the separating axis theorem (the separation is minus the support function of the Minkowski
-//! difference: Cameron and Culley, "Determining the minimum translational distance between two convex polyhedra", 1986).
+//! difference: Cameron and Culley, "Determining the minimum translational distance between two convex polyhedra",
+//! 1986).
 
-/// Share of the smaller bounding radius by which two bodies may slide on wide ground, 2^-10: of cubes of a metre, 0.85 mm.
+/// Share of the smaller bounding radius by which two bodies may slide on wide ground, 2^-10: of cubes of a metre, 0.85
+/// mm.
 pub(crate) const SLIDE: f32 = 1.0 / 1024.0;
 
 /// Share of the width by which they may: four points lose no more than a thirtieth of the patch.
@@ -48,12 +50,12 @@ pub(crate) struct Girth {
 }
 
 impl Footing {
-    /// Of a patch so wide, whose points and separation are at these heights, up to an error; nothing where it is too narrow, too
-    /// steep, or too deep for the bodies on it.
+    /// Of a patch so wide, whose points and separation are at these heights, up to an error; nothing where it is too
+    /// narrow, too steep, or too deep for the bodies on it.
     pub(crate) fn new(width: f64, heights: [f32; 2], error: f32, girths: [Girth; 2]) -> Option<Self> {
         let least = girths[0].outer.min(girths[1].outer);
-        // Points stand on their faces up to what merging left and rounding took. And where all are below, `high` counts for
-        // less at an angle: by less than a 64th of the lean, as they are no deeper than half the width.
+        // Points stand on their faces up to what merging left and rounding took. And where all are below, `high` counts
+        // for less at an angle: by less than a 64th of the lean, as they are no deeper than half the width.
         let width = (width as f32 * (31.0 / 32.0) - least * (1.0 / 4096.0)).next_down();
         let spread = (heights[1] - heights[0] + 2.0 * error + least * f32::EPSILON * 8.0).next_up();
         let reach = (SLIDE * least).min(OF_WIDTH * width);

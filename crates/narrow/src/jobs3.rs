@@ -5,9 +5,9 @@
 //!                         all eight are looked at at once
 //!                         every job of the run is answered, in order
 //! ```
-//! Tried for hulls, whose code does not fit into the processor's nearest memory: sixteen pairs at a time in three stages, all
-//! separations, then all points, then all manifolds. It halves how often code is fetched anew (callgrind), and takes 2 %
-//! longer: what is handed from stage to stage is as much (AMD EPYC, Zen 4, 2026-11-23).
+//! Tried for hulls, whose code does not fit into the processor's nearest memory: sixteen pairs at a time in three
+//! stages, all separations, then all points, then all manifolds. It halves how often code is fetched anew (callgrind),
+//! and takes 2 % longer: what is handed from stage to stage is as much (AMD EPYC, Zen 4, 2026-11-23).
 
 use crate::answer::Separation3;
 use crate::batch::Batch3;

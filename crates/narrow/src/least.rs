@@ -45,7 +45,8 @@ impl<P> Least<P> {
         is_out_of_reach
     }
 
-    /// Whether parts at least so far apart are no nearer than the nearest so far but for its error, and need no looking at.
+    /// Whether parts at least so far apart are no nearer than the nearest so far but for its error, and need no looking
+    /// at.
     pub(crate) fn is_no_less(&self, at_least: f64) -> bool {
         self.best.as_ref().is_some_and(|best| at_least >= f64::from(best.separation) - f64::from(best.error))
     }

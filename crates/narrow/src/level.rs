@@ -27,10 +27,10 @@
 //! n all the way or comes out all the way. Along a hill's later faces it begins deep as well, and only comes out: so a
 //! depth at the start is no impact by itself.
 //!
-//! What goes into the touched is what a game's solver takes out of the motion: (d.m) (m.n) for a contact's normal m. So a body
-//! that is pressed to a floor runs over its seams and over bends that fall, and into ramps and walls. A body that passes over
-//! ends no deeper in it than that 64th beyond what it does in the touched. What a motion sinks into the touched by all its
-//! thickness, as a coin that falls for a frame while it lies, passes under what stands there.
+//! What goes into the touched is what a game's solver takes out of the motion: (d.m) (m.n) for a contact's normal m. So
+//! a body that is pressed to a floor runs over its seams and over bends that fall, and into ramps and walls. A body
+//! that passes over ends no deeper in it than that 64th beyond what it does in the touched. What a motion sinks into
+//! the touched by all its thickness, as a coin that falls for a frame while it lies, passes under what stands there.
 
 use asunder_geometry::tolerance::{NEXT_LEVEL, NEXT_THICKNESS};
 
@@ -112,8 +112,8 @@ impl<V: Copy> Passing<'_, V> {
     }
 }
 
-/// What a convex part counts for: how thick it is from its middle, for a core with planes at these heights above its middle,
-/// around which there is a radius; all in metres, as its outer radius is.
+/// What a convex part counts for: how thick it is from its middle, for a core with planes at these heights above its
+/// middle, around which there is a radius; all in metres, as its outer radius is.
 pub(crate) fn thickness(heights: impl Iterator<Item = f64>, radius: f32, outer: f32) -> f64 {
     let inner = heights.fold(f64::INFINITY, f64::min);
     let inner = if inner.is_finite() { inner.max(0.0) } else { 0.0 };

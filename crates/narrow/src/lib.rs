@@ -31,7 +31,8 @@
 //! `docs/accuracy.md` derives the bounds.
 //!
 //! To ask about the same pairs frame after frame, hand back the [`Hint`] that each answer left. Of bodies that hardly
-//! move, a [`Persistent2`] or [`Persistent3`] moves last frame's manifold along, for a fraction of what a new one costs.
+//! move, a [`Persistent2`] or [`Persistent3`] moves last frame's manifold along, for a fraction of what a new one
+//! costs.
 //!
 //! ```
 //! use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};

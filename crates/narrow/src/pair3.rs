@@ -327,8 +327,8 @@ impl<'a> Pair3<'a> {
         (hint, found.map(|found| found.overlapping))
     }
 
-    /// What is told of the pair of parts with the least separation, or a bound where all are beyond the limit. Told here, since
-    /// what is known of a pair is a kilobyte: handed back, closest points of hulls took 1.13 times as long.
+    /// What is told of the pair of parts with the least separation, or a bound where all are beyond the limit. Told
+    /// here, since what is known of a pair is a kilobyte: handed back, closest points of hulls took 1.13 times as long.
     fn nearest<R>(&self, limit: f64, tell: impl FnOnce(&Parts<'a>, &Near) -> R) -> Result<R, f32> {
         let gap = self.gap_of_spheres();
         if gap > limit {

@@ -9,15 +9,15 @@
 //!     their own separations are measured anew, and the normal turns with the body that sees the lesser drift
 //!     what the faces share moves sideways under them by no more than the drift
 //! ```
-//! That alone costs up to twice the drift in error. Where what carries the bodies is wide the axis can be shown to stay the
-//! best, and they may slide 32 times as far for a smaller error: see `footing`.
+//! That alone costs up to twice the drift in error. Where what carries the bodies is wide the axis can be shown to stay
+//! the best, and they may slide 32 times as far for a smaller error: see `footing`.
 //!
-//! Bullet and PhysX keep manifolds too ("persistent contact manifold"), until points slip by centimetres; parry3d until one
-//! slips by a millimetre. Here the limit is a share of the bodies, what it costs goes into the error that is reported, and it
-//! counts from where the manifold was made, not from frame to frame, so that it does not pile up.
+//! Bullet and PhysX keep manifolds too ("persistent contact manifold"), until points slip by centimetres; parry3d until
+//! one slips by a millimetre. Here the limit is a share of the bodies, what it costs goes into the error that is
+//! reported, and it counts from where the manifold was made, not from frame to frame, so that it does not pile up.
 //!
-//! parry3d's time over ours for heaps of boxes and hulls, and pyramids (AMD EPYC, Zen 4, 2026-11-22): nothing kept 0.67,
-//! 0.79, 0.79; 2^-17 of the radius 0.74, 1.04, 0.75; 2^-15 0.9, 2.5, 1.1.
+//! parry3d's time over ours for heaps of boxes and hulls, and pyramids (AMD EPYC, Zen 4, 2026-11-22): nothing kept
+//! 0.67, 0.79, 0.79; 2^-17 of the radius 0.74, 1.04, 0.75; 2^-15 0.9, 2.5, 1.1.
 
 use crate::answer::Answer;
 use crate::feature::{Feature, Hint, OnFace};
@@ -36,8 +36,8 @@ const DRIFT_OF_SLIDE: f32 = DRIFT / SLIDE;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Terms {
     pub(crate) overlapping: bool,
-    /// Whether the points are measured from a face of B (an edge, in the plane); all that is from no face counts as if it
-    /// were from A.
+    /// Whether the points are measured from a face of B (an edge, in the plane); all that is from no face counts as if
+    /// it were from A.
     pub(crate) is_from_b: bool,
     pub(crate) margin: f32,
     /// Up to which drift the answer holds, in metres.
@@ -58,8 +58,8 @@ pub(crate) struct Way {
     pub(crate) rise: f64,
 }
 
-/// Whether these can be the lengths of a manifold that is kept, in metres: so far from what f32 holds that nothing that is made
-/// of them is infinite.
+/// Whether these can be the lengths of a manifold that is kept, in metres: so far from what f32 holds that nothing that
+/// is made of them is infinite.
 pub(crate) fn are_lengths(lengths: &[f32]) -> bool {
     lengths.iter().all(|length| length.abs() <= MAX_POSITION as f32)
 }
@@ -129,8 +129,8 @@ pub(crate) fn slack_of(
     (slack > 0.0).then_some(slack)
 }
 
-/// The face (edge, in the plane) that points may be measured from, by the hint that was left with them. Nothing where they
-/// are from none: two edges that cross, a direction. Corners across a gap may have one too: ask their normal.
+/// The face (edge, in the plane) that points may be measured from, by the hint that was left with them. Nothing where
+/// they are from none: two edges that cross, a direction. Corners across a gap may have one too: ask their normal.
 pub(crate) fn measured_from(hint: Hint) -> Option<OnFace> {
     let features = hint.features()?;
     match (hint.points_on(), features.a(), features.b()) {
@@ -158,8 +158,8 @@ pub(crate) fn single(answer: &Answer) -> Option<(Hint, usize, bool)> {
     }
 }
 
-/// What rounding may cost in the difference of two offsets, by the sum of one's coordinates, and of unit vectors times an
-/// arm, in metres.
+/// What rounding may cost in the difference of two offsets, by the sum of one's coordinates, and of unit vectors times
+/// an arm, in metres.
 #[inline(always)]
 pub(crate) fn lost(summed: f64, arm: f64) -> f64 {
     64.0 * f64::EPSILON * (summed + arm)

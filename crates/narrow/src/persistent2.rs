@@ -13,10 +13,10 @@ use asunder_geometry::{Pose2, Shape2};
 /// A manifold, and how its two bodies stood to each other when it was made: until they drift, it is moved along for a
 /// fraction of what a new one costs.
 ///
-/// Bodies at rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of the
-/// smaller bounding radius (2^-10 where they rest on a broad patch), the manifold is reused: the same points of the same
-/// features, with separations and the normal updated. It is certain that the shapes still overlap, or are still within the
-/// margin, as before; a pair too close to either limit for that is not kept at all.
+/// Bodies at rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of
+/// the smaller bounding radius (2^-10 where they rest on a broad patch), the manifold is reused: the same points of the
+/// same features, with separations and the normal updated. It is certain that the shapes still overlap, or are still
+/// within the margin, as before; a pair too close to either limit for that is not kept at all.
 ///
 /// ```
 /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -53,8 +53,8 @@ pub struct Persistent2 {
 impl Persistent2 {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
-    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where they
-    /// touch in several parts; and where a point is on no edge, as of corners across a gap. Cost: a square root.
+    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where
+    /// they touch in several parts; and where a point is on no edge, as of corners across a gap. Cost: a square root.
     pub fn of(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let edge = measured_from(hint)?;
@@ -79,8 +79,8 @@ impl Persistent2 {
         terms.are_sound(found).then_some(Self { manifold: *manifold, terms, poses })
     }
 
-    /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of no
-    /// use in the next.
+    /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of
+    /// no use in the next.
     pub fn lasting(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2], step: f64) -> Option<Self> {
         if step > f64::from(Self::most_reach(job)) {
             return None;
@@ -168,7 +168,8 @@ impl Persistent2 {
         };
         let [arm_a, arm_b] = self.terms.arms;
         let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
-        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as wholes.
+        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as
+        // wholes.
         let (seen, arm, seen_from) =
             if from_a <= from_b { (from_a, arm_b, &of_a) } else { (from_b, arm_a, &of_b) };
         // What stored rotations scale their bodies by moves points as turning does.
@@ -253,8 +254,8 @@ fn between([a, b]: [&Pose2; 2]) -> DVec2 {
     b.position() - a.position()
 }
 
-/// Whether a manifold's normal is that of an edge. Corners across a gap are hinted to by the edge that all but parts them,
-/// and have a normal of their own.
+/// Whether a manifold's normal is that of an edge. Corners across a gap are hinted to by the edge that all but parts
+/// them, and have a normal of their own.
 fn is_normal_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> bool {
     let (shape, pose, edge, out) = match edge {
         OnFace::OfA(edge) => (job.shape_a, job.pose_a, edge as usize, 1.0),

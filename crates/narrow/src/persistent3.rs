@@ -14,13 +14,13 @@ use asunder_geometry::{Ground, Pose3};
 use grounded::{Grounded, Memory};
 use solids::Solids;
 
-/// Manifolds, and how their two bodies stood to each other when they were made: until they drift, they are moved along for
-/// a fraction of what new ones cost.
+/// Manifolds, and how their two bodies stood to each other when they were made: until they drift, they are moved along
+/// for a fraction of what new ones cost.
 ///
-/// Bodies at rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of the
-/// smaller bounding radius (2^-10 where they rest on a broad patch), the manifold is reused: the same points of the same
-/// features, with separations and the normal updated. It is certain that the shapes still overlap, or are still within the
-/// margin, as before; a pair too close to either limit for that is not kept at all.
+/// Bodies at rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of
+/// the smaller bounding radius (2^-10 where they rest on a broad patch), the manifold is reused: the same points of the
+/// same features, with separations and the normal updated. It is certain that the shapes still overlap, or are still
+/// within the margin, as before; a pair too close to either limit for that is not kept at all.
 ///
 /// On ground made of triangles the same goes for all manifolds of a body of one part, up to 2^-8 of its radius, and no
 /// further than the margin; the ground must not have moved at all.
@@ -100,7 +100,8 @@ enum Kind {
 pub struct Spare3(Vec<Memory>);
 
 impl Spare3 {
-    /// Takes the memory of what is kept no longer, which then carries nothing on. Of what has none, nothing. Cost: constant.
+    /// Takes the memory of what is kept no longer, which then carries nothing on. Of what has none, nothing. Cost:
+    /// constant.
     pub fn take(&mut self, kept: &mut Persistent3) {
         if let Kind::Grounded(kept) = &mut kept.0 {
             self.0.push(kept.take_memory());
@@ -130,17 +131,17 @@ impl Spare3 {
 impl Persistent3 {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
-    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where solids
-    /// touch in several parts; where points are neither on a face, nor where two edges cross, nor, of single solids, across a
-    /// gap from each other. Of bodies on ground, nothing of compounds and half-spaces, nor where a point is between corners, or
-    /// a corner and an edge. Cost: some square roots, and linear in the vertices of a face; on ground that of finding the
-    /// triangles near the points.
+    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where
+    /// solids touch in several parts; where points are neither on a face, nor where two edges cross, nor, of single
+    /// solids, across a gap from each other. Of bodies on ground, nothing of compounds and half-spaces, nor where a
+    /// point is between corners, or a corner and an edge. Cost: some square roots, and linear in the vertices of a
+    /// face; on ground that of finding the triangles near the points.
     pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         Self::made((job, answer, manifolds), &mut Spare3::default())
     }
 
-    /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of no
-    /// use in the next.
+    /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of
+    /// no use in the next.
     pub fn lasting(
         job: &Job3<'_>,
         answer: &Answer,
@@ -219,9 +220,9 @@ impl Persistent3 {
         }
     }
 
-    /// Appends the manifolds as they are for the poses of A and B; says no where they have to be made anew. Shapes and margin
-    /// must be those of its job. Their errors hold what the drift may cost. Cost: linear in the points, least where no body
-    /// turned.
+    /// Appends the manifolds as they are for the poses of A and B; says no where they have to be made anew. Shapes and
+    /// margin must be those of its job. Their errors hold what the drift may cost. Cost: linear in the points, least
+    /// where no body turned.
     pub fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
         match &self.0 {
             Kind::Solids(kept) => kept.carry_on(poses, to),

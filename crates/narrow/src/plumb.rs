@@ -1,10 +1,10 @@
 //! Points in space whose ends are plumb: one is the foot of the other, along the normal as it was rounded.
 //!
-//! So they have in common what makes one of them the other, bit by bit, and of a point that is kept from frame to frame one end
-//! is enough (`persistent3::solids`). The end that is moved goes by some 1e-7 of how deep the point is.
+//! So they have in common what makes one of them the other, bit by bit, and of a point that is kept from frame to frame
+//! one end is enough (`persistent3::solids`). The end that is moved goes by some 1e-7 of how deep the point is.
 //!
-//! The end that lies much further from its body's position is always the one that is moved: on a floor as wide as a town it was
-//! rounded to millimetres, and kept, it took the other with it.
+//! The end that lies much further from its body's position is always the one that is moved: on a floor as wide as a
+//! town it was rounded to millimetres, and kept, it took the other with it.
 
 use crate::answer::Manifold3;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -12,16 +12,16 @@ use asunder_geometry::glam::{DVec3, Vec3};
 /// How much further an end may be from its body's position than the other, squared, and be the one that stays.
 const MUCH: f64 = 16.0;
 
-/// Whether the ends on A stay: those on the body whose face points are not measured from, unless they reach out further by much.
-/// By the squares of how far both reach.
+/// Whether the ends on A stay: those on the body whose face points are not measured from, unless they reach out further
+/// by much. By the squares of how far both reach.
 #[inline(always)]
 pub(crate) fn stays_on_a(is_from_b: bool, [of_a, of_b]: [f64; 2]) -> bool {
     if is_from_b { of_a <= of_b * MUCH } else { of_b > of_a * MUCH }
 }
 
 impl Manifold3 {
-    /// Moves one end of each point to the foot of the other. From A's position to B's it is so far, in metres. Cost: linear in
-    /// the points.
+    /// Moves one end of each point to the foot of the other. From A's position to B's it is so far, in metres. Cost:
+    /// linear in the points.
     #[inline(always)]
     pub(crate) fn plumb(&mut self, is_from_b: bool, offset: DVec3) {
         let Some(first) = self.points.first() else { return };

@@ -8,8 +8,8 @@ use core::ops::{Deref, DerefMut};
 
 /// Up to `N` contact points, in place; reads as a slice.
 ///
-/// A list of its own since it is [`Copy`]: `arrayvec`'s has something to drop, and to forget last frame's manifolds each of them
-/// was read once more, a twenty-fifth of a frame of boxes or pyramids (AMD EPYC, Zen 4, 2026-11-23).
+/// A list of its own since it is [`Copy`]: `arrayvec`'s has something to drop, and to forget last frame's manifolds
+/// each of them was read once more, a twenty-fifth of a frame of boxes or pyramids (AMD EPYC, Zen 4, 2026-11-23).
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};

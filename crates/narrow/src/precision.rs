@@ -63,8 +63,8 @@ impl Precision {
         self.roundings * (f64::EPSILON / 2.0) * self.reach
     }
 
-    /// So much of the diameter of a body with this bounding radius, the smaller one of a pair, and never less than rounding: what
-    /// preferences and places of features are measured by. In metres.
+    /// So much of the diameter of a body with this bounding radius, the smaller one of a pair, and never less than
+    /// rounding: what preferences and places of features are measured by. In metres.
     #[inline]
     pub(crate) fn share(&self, share: f64, radius: f64) -> f64 {
         (share * 2.0 * radius).max(self.projection())

@@ -14,8 +14,8 @@ const MOMENTS: u32 = 16;
 /// stop within some 1e-6 of their sizes.
 const LOOSE: f64 = 1e-5;
 
-/// How much wider than the plain box a world's may be, in metres: corners are rounded outwards to f32, in a room of a few
-/// metres.
+/// How much wider than the plain box a world's may be, in metres: corners are rounded outwards to f32, in a room of a
+/// few metres.
 const ROUNDED_OUT: f64 = 1e-5;
 
 /// Bodies that move, at every moment; and pairs of which one does.
@@ -43,8 +43,8 @@ impl<S: Judged> Ahead<S> {
         Self { paths: going.map(path).collect(), seen: BTreeMap::new() }
     }
 
-    /// Whether the boxes around two bodies overlap, throughout their motions and grown by their margins; nothing where the
-    /// world may know better, which makes its boxes a little wider.
+    /// Whether the boxes around two bodies overlap, throughout their motions and grown by their margins; nothing where
+    /// the world may know better, which makes its boxes a little wider.
     pub(super) fn boxes_overlap(&self, slots: Slots, [a, b]: [&Tenant<S>; 2]) -> Option<bool> {
         let margin = margin_of([a, b]);
         let boxes = [self.corners(slots.0, a), self.corners(slots.1, b)];
@@ -55,7 +55,8 @@ impl<S: Judged> Ahead<S> {
             return Some(said);
         }
         let wider = |tenant: &Tenant<S>| {
-            // Boxes of what turns are as wide as all that it may sweep; those of ground may be those of its own box, turned.
+            // Boxes of what turns are as wide as all that it may sweep; those of ground may be those of its own box,
+            // turned.
             let loose =
                 if S::parts(S::shape_of(&tenant.body)).len() > 1 { 2.0 * tenant.stand.reach() } else { 0.0 };
             loose + turned_by(tenant) + ROUNDED_OUT
@@ -157,8 +158,8 @@ impl<S: Judged> Ahead<S> {
         hits.len()
     }
 
-    /// Whether a bullet may go over another by what it touches, as over the next tile of a floor: it touches a third that is
-    /// solid, and goes into the other by no more than half of what it is thick.
+    /// Whether a bullet may go over another by what it touches, as over the next tile of a floor: it touches a third
+    /// that is solid, and goes into the other by no more than half of what it is thick.
     fn is_led_over(&self, bodies: &BTreeMap<u32, Tenant<S>>, bullet: u32, other: u32) -> bool {
         let is_solid = |slot: &u32| !bodies[slot].body.is_sensor();
         let stands_on = |(&(a, b), seen): (&Slots, &Seen)| {
@@ -213,9 +214,9 @@ fn moment(number: u32) -> f64 {
     f64::from(number) / f64::from(MOMENTS)
 }
 
-/// How far a turn may bring any point of a body, at the most that may be reckoned. A world knows of a turn no more than its
-/// top speed, which is four thirds of the angle or, in the plane, up to half more, and the angle is at most pi / 2 of the
-/// chord; and no point comes further than across.
+/// How far a turn may bring any point of a body, at the most that may be reckoned. A world knows of a turn no more than
+/// its top speed, which is four thirds of the angle or, in the plane, up to half more, and the angle is at most pi / 2
+/// of the chord; and no point comes further than across.
 fn turned_by<S: Judged>(tenant: &Tenant<S>) -> f64 {
     let chord = tenant.motion.map_or(0.0, |motion| S::chord(&motion, &S::pose_of(&tenant.body)));
     // Of the reach it knows the centre's distance and the radius around it.

@@ -130,8 +130,8 @@ macro_rules! peer {
                     Some(if sum.is_nan() { f64::NAN } else { found.dist as f64 })
                 }
 
-                /// Where they overlap, how deep; the inner nothing where they are apart, the outer where the peer has no
-                /// such query.
+                /// Where they overlap, how deep; the inner nothing where they are apart, the outer where the peer has
+                /// no such query.
                 #[allow(clippy::unnecessary_cast, reason = "written once for f32 and f64")]
                 pub fn contact(&self) -> Option<Option<Contact>> {
                     let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);

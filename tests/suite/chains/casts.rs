@@ -150,7 +150,8 @@ fn a_shape_that_moves_meets_what_it_meets_first_of_all_segments() {
     assert!(counts.iter().all(|&count| count > 40), "{counts:?}");
 }
 
-/// What rests on a line, or hovers over it by next to nothing, and is cast along it, meets nothing that stands in its way.
+/// What rests on a line, or hovers over it by next to nothing, and is cast along it, meets nothing that stands in its
+/// way.
 #[test]
 fn a_cast_along_a_line_that_was_cut_is_told_of_no_edge() {
     let mut met = 0;

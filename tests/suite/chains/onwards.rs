@@ -92,7 +92,8 @@ fn nothing_that_touches_a_rough_chain_comes_through_it() {
             let into = impact.normal.as_dvec2().dot(way);
             assert!(into > 0.0 && !impact.overlapping, "{seed}: {impact:?}");
         }
-        // What it goes into the slope that it touches is that contact's matter, and comes on top of what it is pressed in.
+        // What it goes into the slope that it touches is that contact's matter, and comes on top of what it is pressed
+        // in.
         let into = |manifold: Manifold2| manifold.normal.as_dvec2().dot(way).max(0.0) * fraction;
         let sunk = pressed + radius / 32.0 + pair.manifolds(0.0).into_iter().map(into).fold(0.0, f64::max);
         if sunk < 0.9 * radius {

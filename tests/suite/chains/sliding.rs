@@ -21,7 +21,8 @@ struct Slider<'w> {
 }
 
 impl Slider<'_> {
-    /// One step of a sixtieth: falls, moves, and is pushed out of what it is in. Manifolds have normals out of the ground.
+    /// One step of a sixtieth: falls, moves, and is pushed out of what it is in. Manifolds have normals out of the
+    /// ground.
     fn step(&mut self) -> Vec<Manifold2> {
         let dt = 1.0 / 60.0;
         self.velocity -= self.up * (10.0 * dt);
@@ -208,7 +209,8 @@ fn depth_leads_out_of_the_ground_and_not_along_it() {
     }
 }
 
-/// Two runs, whose normals differ by less than can be told, and by more than rounding: one manifold, as wide as the body.
+/// Two runs, whose normals differ by less than can be told, and by more than rounding: one manifold, as wide as the
+/// body.
 #[test]
 fn a_line_that_is_all_but_straight_is_one_to_a_body_that_lies_on_it() {
     let bend = 5e-8_f32;

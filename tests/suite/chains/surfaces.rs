@@ -277,10 +277,10 @@ fn from_core(core: &[Vec2], point: DVec2) -> (f64, DVec2) {
     (far(&foot), foot)
 }
 
-/// Symptom: where a capsule was pushed out of a hollow along the normal of a piece that it is tilted to, its anchor lay up
-/// to 0.98 of its radius inside it, and was told to be as much less deep than the capsule is there.
-/// Cause: where the end of the piece cuts off the side of a core, that was moved out along the normal, as corners are that
-/// look that way, and not to the surface that is there.
+/// Symptom: where a capsule was pushed out of a hollow along the normal of a piece that it is tilted to, its anchor lay
+/// up to 0.98 of its radius inside it, and was told to be as much less deep than the capsule is there. Cause: where the
+/// end of the piece cuts off the side of a core, that was moved out along the normal, as corners are that look that
+/// way, and not to the surface that is there.
 #[test]
 fn where_a_piece_ends_the_anchor_of_a_tilted_body_lies_on_its_surface() {
     let capsule = Capsule2::from_half_height(0.6, 0.25).unwrap();
@@ -331,8 +331,9 @@ fn where_a_piece_ends_the_anchor_of_a_tilted_body_lies_on_its_surface() {
     assert!(tilted_at_ends > 300, "{tilted_at_ends}");
 }
 
-/// Symptom: a capsule 40 cm deep in a chain was told, with a margin of 4 cm and not without, to be a little above the next
-/// segment. Cause: what is deep along no side of the ground counts where nothing else does, and what a margin brings in did.
+/// Symptom: a capsule 40 cm deep in a chain was told, with a margin of 4 cm and not without, to be a little above the
+/// next segment. Cause: what is deep along no side of the ground counts where nothing else does, and what a margin
+/// brings in did.
 #[test]
 fn a_margin_takes_no_contact_away() {
     let jags = [

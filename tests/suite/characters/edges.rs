@@ -18,8 +18,8 @@ fn thin_person() -> Shape3 {
     Capsule3::from_half_height(0.6, 0.3).unwrap().into()
 }
 
-/// Symptom: a character that fell past the edge of a box hung in the air beside it for good, and was told of no ground and no
-/// wall. Cause: the edge took its fall, as one to stand on, and was too far down the way to be found as ground.
+/// Symptom: a character that fell past the edge of a box hung in the air beside it for good, and was told of no ground
+/// and no wall. Cause: the edge took its fall, as one to stand on, and was too far down the way to be found as ground.
 #[test]
 fn who_falls_on_an_edge_stands_on_it_or_falls_past() {
     let world = block();
@@ -103,7 +103,8 @@ fn a_wall_that_is_pressed_slowly_is_told() {
     }
 }
 
-/// Symptom: in the corner of a slope that is too steep and a wall that leaned over it by a degree, a run became a climb.
+/// Symptom: in the corner of a slope that is too steep and a wall that leaned over it by a degree, a run became a
+/// climb.
 #[test]
 fn nobody_climbs_between_a_slope_and_what_leans_over_it() {
     let (sin, cos) = (|angle: f64| sine(angle.to_radians()), |angle: f64| cosine(angle.to_radians()));

@@ -6,8 +6,8 @@ use asunder::{
 };
 use glam::{Vec2, Vec3};
 
-/// Symptom: who was pressed against a wall of one-sided ground was put behind it, and said to be free. Cause: of poses on the way
-/// out, one behind the ground's front counted as free of it.
+/// Symptom: who was pressed against a wall of one-sided ground was put behind it, and said to be free. Cause: of poses
+/// on the way out, one behind the ground's front counted as free of it.
 #[test]
 fn nobody_is_pressed_through_a_one_sided_wall() {
     let hero: Shape2 = Circle::new(0.3).unwrap().into();

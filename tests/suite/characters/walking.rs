@@ -161,8 +161,9 @@ fn who_falls_on_a_slope_that_is_too_steep_slides_down() {
     }
 }
 
-/// Symptom: down a slope of 40 degrees 3 m/s became 3.9, and who walked came as near as half its skin to the floor, so that it
-/// bobbed whenever it stopped. Cause: the ground that was stood on at first was met only where the way led into it by enough.
+/// Symptom: down a slope of 40 degrees 3 m/s became 3.9, and who walked came as near as half its skin to the floor, so
+/// that it bobbed whenever it stopped. Cause: the ground that was stood on at first was met only where the way led into
+/// it by enough.
 #[test]
 fn slopes_are_walked_as_fast_up_as_down_and_a_skin_above_them() {
     for shape in SHAPES {
@@ -190,8 +191,8 @@ fn slopes_are_walked_as_fast_up_as_down_and_a_skin_above_them() {
     }
 }
 
-/// Symptom: who jumped once at a slope that is too steep, and ran on, climbed it for as long as it ran. Cause: the guide's hero
-/// took out of its velocity what goes into the slope, and the speed of its run became one upwards.
+/// Symptom: who jumped once at a slope that is too steep, and ran on, climbed it for as long as it ran. Cause: the
+/// guide's hero took out of its velocity what goes into the slope, and the speed of its run became one upwards.
 #[test]
 fn who_jumps_at_a_slope_that_is_too_steep_and_runs_on_comes_down_again() {
     for degrees in [48.0, 60.0, 80.0] {

@@ -1,4 +1,5 @@
-//! Contacts on height fields against those on meshes of the same triangles, which a loop over all triangles vouches for.
+//! Contacts on height fields against those on meshes of the same triangles, which a loop over all triangles vouches
+//! for.
 
 use super::scenes::{BODIES, Random, body, stick};
 use asunder_geometry::glam::{Quat, Vec2, Vec3};
@@ -91,8 +92,8 @@ fn on_a_small_height_field_all_is_told_that_the_mesh_of_its_triangles_tells_bit_
     assert!(counts.iter().all(|&count| count > 100), "apart, near, overlapping: {counts:?}");
 }
 
-/// Of many, a mesh hands them over in another order, and of those that say the same, as two beside an edge do, the first
-/// is heard: names depend on it, and points of deep contacts. Not so yes and no, nor how wide a gap is.
+/// Of many, a mesh hands them over in another order, and of those that say the same, as two beside an edge do, the
+/// first is heard: names depend on it, and points of deep contacts. Not so yes and no, nor how wide a gap is.
 #[test]
 fn on_a_height_field_yes_and_no_and_gaps_are_those_of_the_mesh_of_its_triangles() {
     let mut random = Random::new(59);

@@ -45,7 +45,8 @@ fn height(random: &mut Random, kind: usize, [x, z]: [f64; 2], [along_x, along_z]
     }
 }
 
-/// Domes, roofs, cylinders, saddles, bowls, cobbles, ridges and bumps on a dome: meshes, turned or not, and height fields.
+/// Domes, roofs, cylinders, saddles, bowls, cobbles, ridges and bumps on a dome: meshes, turned or not, and height
+/// fields.
 fn ground(random: &mut Random, bend: f64) -> Laid {
     let (kind, cells) = (random.below(8), random.pick(&[6_u32, 10, 16, 24]));
     let step = random.pick(&[0.04, 0.1, 0.25, 0.6]) * random.between(0.7, 1.3);
@@ -238,9 +239,9 @@ fn an_overlap_over_many_low_bends_is_no_deeper_than_its_error() {
     assert!(told > 5_000, "{told}");
 }
 
-/// Symptom: manifolds that were moved along over low bends were off by up to a millionth of the body beyond their errors, in one
-/// case of four hundred. Cause: ground that stands between points, along normals that count as theirs, rises otherwise than they
-/// do; what the way costs was known of the points alone.
+/// Symptom: manifolds that were moved along over low bends were off by up to a millionth of the body beyond their
+/// errors, in one case of four hundred. Cause: ground that stands between points, along normals that count as theirs,
+/// rises otherwise than they do; what the way costs was known of the points alone.
 #[test]
 fn what_is_moved_along_over_low_bends_is_within_its_error() {
     let mut random = Random::new(0x0010_BE4D_0A1C);

@@ -12,8 +12,9 @@ const ROUNDED: f64 = 4.0 * f32::EPSILON as f64;
 /// Kinds of ground.
 const GROUNDS: usize = 8;
 
-/// Rough ground, steps, a plane whose vertices are rounded, bends far below the tolerance, and about as large: of a row of
-/// normals that are each the same as the next and not as the last, which come together depends on which are heard first.
+/// Rough ground, steps, a plane whose vertices are rounded, bends far below the tolerance, and about as large: of a row
+/// of normals that are each the same as the next and not as the last, which come together depends on which are heard
+/// first.
 fn ground(random: &mut Random, kind: usize) -> TriMesh {
     let bumps = |random: &mut Random, rough: f64| {
         let heights: Vec<f32> = (0..81).map(|_| (random.signed() * rough) as f32).collect();

@@ -1,5 +1,5 @@
-//! What reaches around the rim of two-sided ground, or around a fold: its centre is on one side, and what is nearest on the
-//! other.
+//! What reaches around the rim of two-sided ground, or around a fold: its centre is on one side, and what is nearest on
+//! the other.
 
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, TriMesh, Triangle3};
@@ -125,10 +125,10 @@ fn what_reaches_around_a_rim_is_told() {
     assert!(told > 3000 && behind > 300, "{told} told, {behind} of them on the other side than the middle");
 }
 
-/// Symptom: a rounded crate in a groove was told to be 4 mm from both its slopes, or to have no contact, and was 0.9 mm from
-/// either. Cause: the rounds of its lower edges lead over the narrow slopes from rim to rim, no corner is over them, and along
-/// the slopes' own normals only what crosses the rims was told. Three millimetres lower, 1.2 mm from one slope and in it in
-/// truth: the surface was taken for the face's plane where it is the round of an edge.
+/// Symptom: a rounded crate in a groove was told to be 4 mm from both its slopes, or to have no contact, and was 0.9 mm
+/// from either. Cause: the rounds of its lower edges lead over the narrow slopes from rim to rim, no corner is over
+/// them, and along the slopes' own normals only what crosses the rims was told. Three millimetres lower, 1.2 mm from
+/// one slope and in it in truth: the surface was taken for the face's plane where it is the round of an edge.
 #[test]
 fn a_rounded_crate_in_a_groove_stands_on_both_slopes() {
     let vertices: Vec<Vec3> = [-1.0_f32, 0.0, 1.0]

@@ -1,7 +1,7 @@
 //! Bodies that slide over a plane that was cut into triangles notice nothing of it.
 //!
-//! A body falls a little each step and is pushed out by its deepest point; there is no friction. On a plane it keeps its
-//! speed and its height.
+//! A body falls a little each step and is pushed out by its deepest point; there is no friction. On a plane it keeps
+//! its speed and its height.
 
 use super::scenes::{BODIES, FLATS, Random, baked, body, flat, rest_height};
 use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};

@@ -79,8 +79,8 @@ fn a_gap_over_turned_ground_is_within_its_error() {
     );
 }
 
-/// Symptom: a corner that hung past the end of ground by less than a millionth of its body was told as near as it was above the
-/// triangle's plane. Cause: places count as the same up to that much, and it was not in the error.
+/// Symptom: a corner that hung past the end of ground by less than a millionth of its body was told as near as it was
+/// above the triangle's plane. Cause: places count as the same up to that much, and it was not in the error.
 #[test]
 fn a_corner_beside_the_end_of_ground_is_within_its_error() {
     let mut random = Random::new(0xBE51_DE00);
@@ -177,8 +177,8 @@ fn what_stands_over_a_low_bend_has_its_contact() {
     assert!(over > 3_000, "{over}");
 }
 
-/// What low bends may hide is no reason to doubt what is told where bends give normals: of contacts on hills of bends about a
-/// thousandth, one in ten may happen to be where triangles bend less than that gives a normal.
+/// What low bends may hide is no reason to doubt what is told where bends give normals: of contacts on hills of bends
+/// about a thousandth, one in ten may happen to be where triangles bend less than that gives a normal.
 #[test]
 fn errors_on_hills_are_small() {
     let mut random = Random::new(0x4111);

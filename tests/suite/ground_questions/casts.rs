@@ -41,8 +41,8 @@ fn slowly(course: &Course) -> Vec<Touched> {
     touched
 }
 
-/// The numbers of the triangles that may be the first: those that are touched as early as the first of all, or are as near
-/// as touching when that is, as far as the errors tell.
+/// The numbers of the triangles that may be the first: those that are touched as early as the first of all, or are as
+/// near as touching when that is, as far as the errors tell.
 fn first_of(course: &Course, touched: &[Touched]) -> Vec<u32> {
     let Some((.., first)) = touched.first() else { return vec![] };
     let Case3 { shape_a, pose_a, pose_b, .. } = course.case.clone();

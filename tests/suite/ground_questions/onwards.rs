@@ -114,7 +114,8 @@ fn no_body_that_touches_rough_ground_comes_through_it() {
         if let Some(impact) = &told {
             assert!(impact.normal.as_dvec3().dot(way) > 0.0 && !impact.overlapping, "{seed}: {impact:?}");
             let there = Pose3::at(start + way * fraction).unwrap();
-            // It may be in what it touched; what it met is as near as is said. At once, that is some triangle of a plane.
+            // It may be in what it touched; what it met is as near as is said. At once, that is some triangle of a
+            // plane.
             let triangle = Ground::of(&ground).unwrap().triangle(impact.part_b);
             let triangle = Shape3::Triangle(triangle.unwrap());
             let met = Pair3::new(&ball, &there, &triangle, &lies).distance();
@@ -123,7 +124,8 @@ fn no_body_that_touches_rough_ground_comes_through_it() {
                 "{seed}: {met:?} {impact:?}"
             );
         }
-        // What it goes into the slope that it touches is that contact's matter, and comes on top of what it is pressed in.
+        // What it goes into the slope that it touches is that contact's matter, and comes on top of what it is pressed
+        // in.
         let into = |manifold: Manifold3| manifold.normal.as_dvec3().dot(way).max(0.0) * fraction;
         let sunk = pressed + radius / 32.0 + pair.manifolds(0.0).into_iter().map(into).fold(0.0, f64::max);
         if sunk < 0.9 * radius {
@@ -261,8 +263,8 @@ fn what_turns_or_is_thin_is_stopped_by_the_wall_beside_it() {
         assert!(pair.overlaps());
         pair.next_impact(&motion, &Motion3::STILL)
     };
-    // A rod on the floor, a millimetre from the wall, turns by half a turn: both ends are in the wall on the way, and neither at
-    // the end.
+    // A rod on the floor, a millimetre from the wall, turns by half a turn: both ends are in the wall on the way, and
+    // neither at the end.
     let rod = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.1, 0.1, 1.0)).unwrap());
     for turn in [Quat::from_xyzw(0.0, 1.0, 0.0, 0.0), Quat::from_xyzw(0.0, 0.99, 0.0, 0.01)] {
         let motion = Motion3::new(DVec3::ZERO, turn).unwrap();
@@ -286,7 +288,8 @@ fn a_moved_shape_is_cast_on_from_the_floor_that_it_touches() {
         let (shape, down, ahead) = bodies().swap_remove(random.below(4));
         let mut world = World3::new();
         let yard = world.insert(Collider3::new(yard(&mut random)));
-        // Stands level with the yard's floor, and in the way; a door that is open stands before it, and one around the start.
+        // Stands level with the yard's floor, and in the way; a door that is open stands before it, and one around the
+        // start.
         let crate_at = random.between(2.0, 8.0);
         let post = Cuboid::from_half_extents(Vec3::new(0.5, 1.0, 9.0)).unwrap();
         let post = Collider3::new(post).fixed().at(Pose3::at([crate_at + 0.5, 1.0, 0.0]).unwrap());

@@ -133,9 +133,9 @@ fn four_points_keep_nineteen_parts_in_twenty_of_what_faces_share() {
     assert!(whole > 100 && reduced > 500, "patches of both kinds: {whole}, {reduced}");
 }
 
-/// Tilted, one corner is the deepest. It is kept, and the others make the most of it that there is.
-/// Symptom: a chip on the corner of a floor 140 km wide stood on four points that covered 63 % of what four can. Cause: areas
-/// were told apart in f32, of places as far from the floor's middle as its corner.
+/// Tilted, one corner is the deepest. It is kept, and the others make the most of it that there is. Symptom: a chip on
+/// the corner of a floor 140 km wide stood on four points that covered 63 % of what four can. Cause: areas were told
+/// apart in f32, of places as far from the floor's middle as its corner.
 #[test]
 fn a_chip_on_the_corner_of_a_huge_floor_stands_on_as_much_from_either_side() {
     let floor = Cuboid::from_half_extents(Vec3::new(7e4, 0.5, 7e4)).unwrap();

@@ -1,4 +1,5 @@
-//! Names of points between bodies that stand squarely on each other, or edge to edge: they stay while the bodies tremble.
+//! Names of points between bodies that stand squarely on each other, or edge to edge: they stay while the bodies
+//! tremble.
 //!
 //! Symptom: of unit cubes in a stack that trembled by 1e-5 m to 1e-3 m, up to one point in sixteen had another name in
 //! every frame, and a solver did not know it again: six of them still shook after 20 seconds. Cause: a corner was now a

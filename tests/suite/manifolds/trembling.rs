@@ -99,8 +99,8 @@ fn stand(
 }
 
 /// Symptom: the four corners that a post was told to stand on changed in up to four of five frames, with them what a
-/// solver starts from. Cause: the deepest corner had to be one of them, by however little it was, and of fours with the same
-/// area rounding took one.
+/// solver starts from. Cause: the deepest corner had to be one of them, by however little it was, and of fours with the
+/// same area rounding took one.
 #[test]
 fn a_post_that_trembles_stands_on_the_same_four_corners() {
     let mut random = Random::new(340);
@@ -131,8 +131,8 @@ fn nearest(p: &[DVec2], q: &[DVec2]) -> f64 {
     q.iter().map(|&at| to_sides(at, p)).fold(one, f64::min)
 }
 
-/// The same where the post's foot hangs over a smaller prism, and corners of what they share are crossings of their sides:
-/// as long as no corner comes near a side, all features stay, and so do the four.
+/// The same where the post's foot hangs over a smaller prism, and corners of what they share are crossings of their
+/// sides: as long as no corner comes near a side, all features stay, and so do the four.
 #[test]
 fn a_post_that_trembles_on_another_keeps_the_names_of_their_crossings() {
     let mut random = Random::new(341);
@@ -159,8 +159,9 @@ fn a_post_that_trembles_on_another_keeps_the_names_of_their_crossings() {
     assert!(crossed > 100, "{crossed} with crossings");
 }
 
-/// Symptom: a cube that trembled on its like, turned by 45 degrees, was told to stand on one four of their eight corners and
-/// then on the other. Cause: both cover as much, and which of them covers a millionth more was left to decide.
+/// Symptom: a cube that trembled on its like, turned by 45 degrees, was told to stand on one four of their eight
+/// corners and then on the other. Cause: both cover as much, and which of them covers a millionth more was left to
+/// decide.
 #[test]
 fn a_cube_that_trembles_on_its_like_stands_on_the_same_four_corners() {
     let mut random = Random::new(343);

@@ -6,8 +6,8 @@ use asunder_narrow::{Feature, Manifold3, Pair3};
 use asunder_scenes::random::Random;
 use glam::{DVec3, Quat, Vec3};
 
-/// On spikes and knives, deep and shallow, from either side or the front alone: yes or no is for certain, and corners are as
-/// high as they are told to be.
+/// On spikes and knives, deep and shallow, from either side or the front alone: yes or no is for certain, and corners
+/// are as high as they are told to be.
 #[test]
 fn what_is_moved_along_on_spikes_overlaps_or_not_for_certain() {
     let mut random = Random::new(92);

@@ -15,8 +15,8 @@ fn errors(pair: &Pair3) -> [f32; 4] {
     [measured.error, of_distance, of_manifold(0.0), of_manifold(0.01)]
 }
 
-/// Symptom: of boxes of a metre with a gap below 1e-12 m an error of up to half a metre was told. Cause: where four corners
-/// were around the origin but for rounding, the error was as far as the last step had been from it.
+/// Symptom: of boxes of a metre with a gap below 1e-12 m an error of up to half a metre was told. Cause: where four
+/// corners were around the origin but for rounding, the error was as far as the last step had been from it.
 #[test]
 fn boxes_that_all_but_touch_are_told_as_well_as_any() {
     let mut random = Random::new(350);

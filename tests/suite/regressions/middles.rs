@@ -41,8 +41,8 @@ fn a_capsule_that_lies_far_from_its_origin_is_not_met_beside_it() {
     assert!(apart > 10_000 && touching > 10_000, "{apart}, {touching}");
 }
 
-/// Symptom: the same of a rounded sliver. Cause: where the centre lay outside, the circle inside was taken to be as large as the
-/// rounding.
+/// Symptom: the same of a rounded sliver. Cause: where the centre lay outside, the circle inside was taken to be as
+/// large as the rounding.
 #[test]
 fn a_rounded_sliver_is_not_met_beside_it() {
     let ulp = 8.0 * f32::EPSILON;

@@ -79,8 +79,8 @@ fn who_turns_on_its_floor_of_the_plane_runs_into_the_wall() {
     assert!((told.fraction - alone.fraction).abs() < 1e-6 && !told.overlapping, "{told:?} {alone:?}");
 }
 
-/// What begins deep along a later normal without being beside it: the far faces of a hill, on whose top a body slides and spins.
-/// It comes out of them, and runs into none.
+/// What begins deep along a later normal without being beside it: the far faces of a hill, on whose top a body slides
+/// and spins. It comes out of them, and runs into none.
 #[test]
 fn who_spins_and_slides_over_a_hill_is_stopped_by_none_of_its_faces() {
     let (radius, step, count) = (60.0, 0.5, 24);

@@ -88,7 +88,8 @@ fn shape_reach2(shape: &Shape2) -> f64 {
     f64::from(shape.outer_radius()) + f64::from(shape.center().length())
 }
 
-/// Vertices of hulls, and so of compounds, are turned in f32, eight at a time: four units of 2^-24 of a sum of three terms.
+/// Vertices of hulls, and so of compounds, are turned in f32, eight at a time: four units of 2^-24 of a sum of three
+/// terms.
 fn room(shape: &Shape3) -> f64 {
     let is_of_hulls = matches!(shape, Shape3::Hull(_) | Shape3::Compound(_));
     if is_of_hulls { 5e-7 * shape_reach3(shape) } else { 0.0 }

@@ -79,8 +79,8 @@ impl World<Plane> {
     /// bodies met at the same time, that of the lowest slot. One that it touches already is met at fraction 0.
     ///
     /// A displacement of zero meets what the shape overlaps, except one-sided ground that it is behind; one that is not
-    /// finite meets nothing. To slide on along what was met, keep a skin of a tenth of a millimetre: normals are f32, so a
-    /// velocity from which the normal was removed still points slightly into the surface.
+    /// finite meets nothing. To slide on along what was met, keep a skin of a tenth of a millimetre: normals are f32,
+    /// so a velocity from which the normal was removed still points slightly into the surface.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::{DVec2, Vec2}};
@@ -103,11 +103,12 @@ impl World<Plane> {
         bodies_along(self, from, displacement, filter).first()
     }
 
-    /// What a moved shape runs into next: like [`World::cast_shape`], but what it touches at the start is passed over, even if
-    /// the displacement leads into it. So a ball on a floor finds the wall, even where both are one body. Whatever is level
-    /// with what is touched is passed over, too: by the rule of [`Pair2::next_impact`](crate::Pair2::next_impact), and for
-    /// other bodies, like the tiles of a floor, by that of [`next_impact_beside`](crate::Pair2::next_impact_beside). A
-    /// displacement of zero, or that is not finite, leads into nothing: `None`.
+    /// What a moved shape runs into next: like [`World::cast_shape`], but what it touches at the start is passed over,
+    /// even if the displacement leads into it. So a ball on a floor finds the wall, even where both are one body.
+    /// Whatever is level with what is touched is passed over, too: by the rule of
+    /// [`Pair2::next_impact`](crate::Pair2::next_impact), and for other bodies, like the tiles of a floor, by that of
+    /// [`next_impact_beside`](crate::Pair2::next_impact_beside). A displacement of zero, or that is not finite, leads
+    /// into nothing: `None`.
     ///
     /// ```
     /// use asunder::{Chain, Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};

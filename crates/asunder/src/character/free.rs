@@ -26,7 +26,8 @@ pub(super) struct Near<S: Walks> {
 }
 
 impl<S: Walks> Near<S> {
-    /// Whether it comes before another: in no other order than this does anything depend on which bodies were found first.
+    /// Whether it comes before another: in no other order than this does anything depend on which bodies were found
+    /// first.
     fn is_before(&self, other: &Self) -> bool {
         let rank = |near: &Self| (near.plane.gap, slot_of(near.body), near.order);
         rank(self) < rank(other)
@@ -173,7 +174,8 @@ pub(super) fn has_entered<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Fi
     is_any(world, at, filter, |body| !S::has_one_side(body) && blocks(at, body))
 }
 
-/// Whether a shape overlaps a body that sees it: of one-sided ground, a front. Two grounds see each other from all sides.
+/// Whether a shape overlaps a body that sees it: of one-sided ground, a front. Two grounds see each other from all
+/// sides.
 fn blocks<S: Walks>(at: At<'_, S>, body: &Collider<S>) -> bool {
     if S::is_ground(&body.shape) && !S::is_ground(at.0) {
         let mut is_deep = false;

@@ -83,17 +83,18 @@ impl World<Plane> {
     ///
     /// - Where it overlaps solids, it is freed first, much as by [`depenetrate`](World::depenetrate). From then on it
     ///   moves by casts alone: it never enters anything, nor passes through, however far it goes.
-    /// - On ground that it can walk on, downward motion is cancelled, so it does not slide off. Steeper ground is a wall when
-    ///   walked into, and a slope to slide down when falling.
-    /// - Standing on ground, it climbs at most one step per call and follows the ground downwards. A displacement that points
-    ///   up is a jump: it does neither and finds no ground. So add what a lift carries upwards to the pose, not to the
-    ///   displacement.
-    /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting what it took to
-    ///   free it, or to move it back to its skin's distance out of an acute corner.
-    /// - A displacement that is not finite counts as none, as does one that leads beyond 1e9 m. Half-spaces do not move.
+    /// - On ground that it can walk on, downward motion is cancelled, so it does not slide off. Steeper ground is a
+    ///   wall when walked into, and a slope to slide down when falling.
+    /// - Standing on ground, it climbs at most one step per call and follows the ground downwards. A displacement that
+    ///   points up is a jump: it does neither and finds no ground. So add what a lift carries upwards to the pose, not
+    ///   to the displacement.
+    /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting what it
+    ///   took to free it, or to move it back to its skin's distance out of an acute corner.
+    /// - A displacement that is not finite counts as none, as does one that leads beyond 1e9 m. Half-spaces do not
+    ///   move.
     ///
-    /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a wall that
-    /// may be a step.
+    /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a
+    /// wall that may be a step.
     ///
     /// ```
     /// use asunder::{Capsule2, Rect, Collider2, Filter2, Pose2, Shape2, Walk2, World2, glam::Vec2};

@@ -332,8 +332,8 @@ impl<S: Walks> Mover<'_, S> {
         }
     }
 
-    /// What carries a character that stands: the plane of a face, which it goes along, up and down; on an edge, that it goes no
-    /// further down.
+    /// What carries a character that stands: the plane of a face, which it goes along, up and down; on an edge, that it
+    /// goes no further down.
     fn footing(&self, hit: &Hit<S>) -> Bound<S> {
         let Gait { up, skin, .. } = self.gait;
         let bound = self.bound(hit);

@@ -7,11 +7,11 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, HalfPlane, Pose2, Shape2};
 
 impl World<Plane> {
-    /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with what
-    /// it is about.
+    /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with
+    /// what it is about.
     ///
-    /// Always the same lines in the same order for the same world; columns for a world with the same past. Cost: linear in
-    /// what is drawn; nothing is allocated.
+    /// Always the same lines in the same order for the same world; columns for a world with the same past. Cost: linear
+    /// in what is drawn; nothing is allocated.
     ///
     /// ```
     /// use asunder::{Collider2, DebugLine, DebugOptions, Rect, World2, glam::{DVec2, Vec2}};
@@ -27,8 +27,9 @@ impl World<Plane> {
         self.draw(None, options, line);
     }
 
-    /// The same of a region: the lines whose own boxes overlap it, in the order in which they come of the whole world. Cost: a
-    /// look at every body, contact and box, and at all that there is of a body that reaches in; nothing is allocated.
+    /// The same of a region: the lines whose own boxes overlap it, in the order in which they come of the whole world.
+    /// Cost: a look at every body, contact and box, and at all that there is of a body that reaches in; nothing is
+    /// allocated.
     ///
     /// ```
     /// use asunder::{Aabb2, Collider2, DebugOptions, Rect, Pose2, World2, glam::Vec2};
@@ -115,8 +116,8 @@ impl World<Plane> {
 }
 
 impl DebugOptions {
-    /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost of what is
-    /// to be built. Lengths are those of the options.
+    /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost
+    /// of what is to be built. Lengths are those of the options.
     ///
     /// To draw but a part of a large world: [`debug_lines_in`](World::debug_lines_in).
     ///

@@ -8,11 +8,11 @@ use asunder_geometry::{Aabb3, Ground, HalfSpace, Pose3, Shape3};
 use core::ops::ControlFlow;
 
 impl World<Volume> {
-    /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with what
-    /// it is about.
+    /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with
+    /// what it is about.
     ///
-    /// Always the same lines in the same order for the same world; columns for a world with the same past. Cost: linear in
-    /// what is drawn; nothing is allocated.
+    /// Always the same lines in the same order for the same world; columns for a world with the same past. Cost: linear
+    /// in what is drawn; nothing is allocated.
     ///
     /// ```
     /// use asunder::{Collider3, Cuboid, DebugLine, DebugOptions, Sphere, World3, glam::Vec3};
@@ -35,8 +35,9 @@ impl World<Volume> {
         self.draw(None, options, line);
     }
 
-    /// The same of a region: the lines whose own boxes overlap it, in the order in which they come of the whole world. Of ground,
-    /// only what is there is looked at. Cost: linear in what is drawn, with a look at every body, contact and box.
+    /// The same of a region: the lines whose own boxes overlap it, in the order in which they come of the whole world.
+    /// Of ground, only what is there is looked at. Cost: linear in what is drawn, with a look at every body, contact
+    /// and box.
     ///
     /// ```
     /// use asunder::{Aabb3, Collider3, DebugOptions, Cuboid, Pose3, World3, glam::Vec3};
@@ -123,8 +124,8 @@ impl World<Volume> {
 }
 
 impl DebugOptions {
-    /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost of what is
-    /// to be built. Lengths are those of the options.
+    /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost
+    /// of what is to be built. Lengths are those of the options.
     ///
     /// To draw but a part of a large world: [`debug_lines_in`](World::debug_lines_in).
     ///
@@ -153,8 +154,8 @@ fn box_edges(low: DVec3, high: DVec3, line: &mut impl FnMut(DVec3, DVec3)) {
     }
 }
 
-/// The outline of a posed shape: faces moved out by the radius, and arcs over the edges between them. Of ground, what may reach
-/// into a region is enough.
+/// The outline of a posed shape: faces moved out by the radius, and arcs over the edges between them. Of ground, what
+/// may reach into a region is enough.
 fn outline(
     (shape, pose): (&Shape3, &Pose3),
     region: Option<&Aabb3>,

@@ -73,7 +73,8 @@ pub(super) enum Way {
     Carried,
     /// Somebody must look at it.
     Open,
-    /// Its manifolds were moved along: so many, from this one on. With what is told of the bodies: they have just been read.
+    /// Its manifolds were moved along: so many, from this one on. With what is told of the bodies: they have just been
+    /// read.
     Moved { at: u32, count: u32, overlapping: bool, user_data: (u64, u64) },
     /// The narrow phase is asked.
     Asked,
@@ -92,7 +93,8 @@ impl<S: Space> Asker<'_, S> {
         self.settle(chunk);
     }
 
-    /// Which pairs are carried on, and what is known of the others. Pairs are sorted, and so are last update's: one walk.
+    /// Which pairs are carried on, and what is known of the others. Pairs are sorted, and so are last update's: one
+    /// walk.
     fn choose(&self, pairs: &[PairId], chunk: &mut Chunk<'_, S>) {
         let Chunk { number, candidates, settled, .. } = chunk;
         // What is before the first chunk's first pair is its own, too.
@@ -150,10 +152,10 @@ impl<S: Space> Asker<'_, S> {
 
     /// Moves manifolds along, or asks the narrow phase.
     ///
-    /// A loop of its own, and a short one: bodies and what is kept lie all over memory, and the next ones are fetched while
-    /// these are waited for. In one loop with the choice, moving along took 13 to 19 % more samples (2026-11-23).
-    /// Tried: the margins of 32 pairs' bodies read ahead, in a loop of its own: boxes at rest 10 % slower, mixed 2 % (AMD EPYC,
-    /// Zen 4, 2026-11-25).
+    /// A loop of its own, and a short one: bodies and what is kept lie all over memory, and the next ones are fetched
+    /// while these are waited for. In one loop with the choice, moving along took 13 to 19 % more samples (2026-11-23).
+    /// Tried: the margins of 32 pairs' bodies read ahead, in a loop of its own: boxes at rest 10 % slower, mixed 2 %
+    /// (AMD EPYC, Zen 4, 2026-11-25).
     fn answer(&self, chunk: &mut Chunk<'_, S>) {
         let Chunk { candidates, answered, settled, .. } = chunk;
         let Settled { ways, bullets, .. } = &mut **settled;
@@ -203,8 +205,8 @@ fn blank<K: Key>() -> Candidate<K> {
     Candidate { pair, keys, hint: Hint::NONE, persistent, contact, until: f64::NEG_INFINITY }
 }
 
-/// Whether what was learnt of a pair is about another shape than the one a body has now. Asked of every pair, and mostly there is
-/// no such body: then it is no call.
+/// Whether what was learnt of a pair is about another shape than the one a body has now. Asked of every pair, and
+/// mostly there is no such body: then it is no call.
 #[inline(always)]
 fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
     !reshaped.is_empty() && is_either_among(reshaped, pair)

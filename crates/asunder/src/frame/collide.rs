@@ -7,18 +7,20 @@
 //!   what is carried on, moved along, or asked about                                         (ask)
 //!   candidates and contacts, and what of last update's goes on                              (settle)
 //! ```
-//! Most of a frame of bodies that rest is waiting for memory. What bought what, of heaps and pyramids of boxes (AMD EPYC,
-//! Zen 4, 2026-11-22 and -23):
+//! Most of a frame of bodies that rest is waiting for memory. What bought what, of heaps and pyramids of boxes (AMD
+//! EPYC, Zen 4, 2026-11-22 and -23):
 //!
 //! 1. manifolds stay in the list of the chunk that made them: 17 % of the time was copying, and 3 % is;
 //! 2. bodies are read once, while a pair is asked about: a twentieth;
-//! 3. candidates, contacts and whether they are new are written down chunk by chunk, too, and no longer by one thread for all:
-//!    0.78 to 0.90 of a frame on two threads. On one thread it costs 3 to 10 % of frames that all but rest;
-//! 4. a list of points has nothing to drop: forgetting last frame's manifolds read each of them once more, a twenty-fifth;
-//! 5. a candidate knows the number of its contact, and last update's contacts are not walked beside the pairs: a twentieth;
+//! 3. candidates, contacts and whether they are new are written down chunk by chunk, too, and no longer by one thread
+//!    for all: 0.78 to 0.90 of a frame on two threads. On one thread it costs 3 to 10 % of frames that all but rest;
+//! 4. a list of points has nothing to drop: forgetting last frame's manifolds read each of them once more, a
+//!    twenty-fifth;
+//! 5. a candidate knows the number of its contact, and last update's contacts are not walked beside the pairs: a
+//!    twentieth;
 //! 6. points of 36 bytes in place of 40, by ids of two halves: heaps of boxes another twentieth, pyramids nothing;
-//! 7. where every body moves that may, no contact is carried on, and manifolds are written over last update's, which is less
-//!    memory in turn: 1.03 times as fast;
+//! 7. where every body moves that may, no contact is carried on, and manifolds are written over last update's, which is
+//!    less memory in turn: 1.03 times as fast;
 //! 8. what is kept to be moved along in 248 bytes in place of 304, points by one of their ends: 1.03 to 1.06 times;
 //! 9. chunks in which nothing moved are not looked at, and chunks go on for that: a heap of 8,000 boxes at rest, 93,560
 //!    pairs, in 0.3 ms in place of 8 (Intel Xeon, family 6 model 106, one thread, 2026-11-27; `frame/asleep` of the
@@ -33,8 +35,8 @@
 //! that is unsafe. Leaving out pairs that are still apart without a branch halved what a simulated processor predicted
 //! wrongly, and saved no time (heaps -2 to +2 %, pyramids 2 to 5 % slower, hulls 5 % faster).
 //!
-//! Kernels here and below shun `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the time
-//! of such a frame and half of a sweep's; by default they are not, and nothing is gained.
+//! Kernels here and below shun `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the
+//! time of such a frame and half of a sweep's; by default they are not, and nothing is gained.
 
 use super::ask::{Asker, Chunk};
 use super::both;
@@ -73,9 +75,9 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     }
 }
 
-/// Puts last update's lists aside, and begins with chunks: where most bodies are at rest, of those that were, as long as none
-/// grows too large and there are not far too many; else they are cut anew. Whether what the chunks handed over last is still of
-/// these chunks.
+/// Puts last update's lists aside, and begins with chunks: where most bodies are at rest, of those that were, as long
+/// as none grows too large and there are not far too many; else they are cut anew. Whether what the chunks handed over
+/// last is still of these chunks.
 fn begin_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) -> bool {
     let World { candidates, records, scratch, .. } = world;
     let Scratch { pairs, chunk_ends, settled, is_settled, last_candidates, last_records, .. } = scratch;
@@ -123,15 +125,15 @@ fn keep_quiet<S: Space>(world: &mut World<S>) {
     }
 }
 
-/// Whether a body may stay where it is that may meet another that does: else no contact is carried on, and last update's
-/// manifolds may be written over. Cost: linear in all bodies: where most are at rest, nobody asks.
+/// Whether a body may stay where it is that may meet another that does: else no contact is carried on, and last
+/// update's manifolds may be written over. Cost: linear in all bodies: where most are at rest, nobody asks.
 fn does_any_stay<K: Key>(keys: &[K], tags: &[Tag], is_moved: &[bool]) -> bool {
     let mut bodies = keys.iter().zip(tags).zip(is_moved);
     bodies.any(|((key, tag), is_moved)| !is_moved && !tag.is_fixed() && !key.is_null())
 }
 
-/// Makes the lists that were not needed as roomy as the others: so that a body that stays allocates nothing then, and memory
-/// stops growing as soon as if both lists took turns. Memory that nobody writes to costs no time.
+/// Makes the lists that were not needed as roomy as the others: so that a body that stays allocates nothing then, and
+/// memory stops growing as soon as if both lists took turns. Memory that nobody writes to costs no time.
 fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
     if others.len() < answered.len() {
         others.resize_with(answered.len(), Batch::default);

@@ -4,8 +4,8 @@
 //! of each candidate pair with a bullet, and a motion: when do they first touch?      in parallel
 //! sort by bullet, then by time; cut each bullet's list after the first that is solid
 //! ```
-//! What overlaps at the start is a contact already; of bodies of several parts, the others are asked, and what is flush with
-//! what the bullet touches is passed over (`next_impact_beside`).
+//! What overlaps at the start is a contact already; of bodies of several parts, the others are asked, and what is flush
+//! with what the bullet touches is passed over (`next_impact_beside`).
 
 use super::touches::Touches;
 use crate::motion::Hit;
@@ -40,7 +40,8 @@ pub(super) fn impacts<S: Space>(world: &mut World<S>) {
     world.forget_motions();
 }
 
-/// Asks about every pair with a bullet that was found while the narrow phase looked at both: nobody else reads all candidates.
+/// Asks about every pair with a bullet that was found while the narrow phase looked at both: nobody else reads all
+/// candidates.
 fn ask<S: Space>(world: &mut World<S>) {
     let Scratch { settled, of_bullets, .. } = &mut world.scratch;
     of_bullets.clear();

@@ -53,8 +53,8 @@ fn share_of(count: usize) -> usize {
     count
 }
 
-/// Makes the boxes of some slots, each in its place in a list that begins with a certain slot's: where they are more than one
-/// share, and then they ascend, in halves, each on a thread.
+/// Makes the boxes of some slots, each in its place in a list that begins with a certain slot's: where they are more
+/// than one share, and then they ascend, in halves, each on a thread.
 fn make<A: Send>(
     slots: &[u32],
     (first, boxes): (usize, &mut [A]),

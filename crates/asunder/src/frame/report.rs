@@ -8,8 +8,8 @@ use crate::space::Space;
 use crate::world::{Scratch, World};
 use slotmap::Key;
 
-/// Writes the events in pair order, then the index of records by their second body. Of records, only those of chunks with a
-/// new one are read; where no chunk was looked at, the index is what it was.
+/// Writes the events in pair order, then the index of records by their second body. Of records, only those of chunks
+/// with a new one are read; where no chunk was looked at, the index is what it was.
 pub(super) fn report<S: Space>(world: &mut World<S>) {
     let World { keys, candidates, records, events, by_second, stats, scratch, .. } = world;
     let Scratch { ended, settled, seconds, ends, chunk_ends, .. } = scratch;
@@ -46,8 +46,8 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
     }
 }
 
-/// The numbers of the records in order of their second bodies, which are listed chunk by chunk; then of the first, in which
-/// order they come.
+/// The numbers of the records in order of their second bodies, which are listed chunk by chunk; then of the first, in
+/// which order they come.
 ///
 /// By counting, which is twice as fast as sorting where most bodies touch; where few do, there are more slots than
 /// worth counting in.

@@ -1,7 +1,7 @@
 //! What came of the pairs of a chunk, as candidates and records, in their order.
 //!
-//! A candidate knows the number of its contact and whether that had begun, so that a contact that goes on is not looked up in
-//! last update's list.
+//! A candidate knows the number of its contact and whether that had begun, so that a contact that goes on is not looked
+//! up in last update's list.
 
 use super::ask::{Asker, Chunk, Way, manifolds_at};
 use crate::collider::Collider;
@@ -112,8 +112,8 @@ impl<S: Space> Settled<S> {
         }
     }
 
-    /// Whether the chunk is what it was: the same pairs, nobody of them moved, and no contact of it was new at the last update. A
-    /// body that came to the slot of another counts as moved.
+    /// Whether the chunk is what it was: the same pairs, nobody of them moved, and no contact of it was new at the last
+    /// update. A body that came to the slot of another counts as moved.
     pub(super) fn goes_on(&self, pairs: &[PairId], is_moved: &[bool]) -> bool {
         let is_still = |pair: &PairId| !is_moved[pair.a as usize] && !is_moved[pair.b as usize];
         self.tally.new == 0 && self.are_noted && pairs == self.pairs && pairs.iter().all(is_still)
@@ -124,7 +124,8 @@ impl<S: Space> Settled<S> {
         self.is_quiet = false;
     }
 
-    /// Nobody will look at it: all that it handed over last is handed over again, but for what has been done with already.
+    /// Nobody will look at it: all that it handed over last is handed over again, but for what has been done with
+    /// already.
     pub(super) fn keep_quiet(&mut self) {
         self.is_quiet = true;
         self.tally.asked = 0;
@@ -249,7 +250,8 @@ impl<S: Space> Asker<'_, S> {
             return None;
         }
         if S::is_ground(&a.shape) || S::is_ground(&b.shape) {
-            // Which memory is lent changes no output. If chunks kept their own, it would gather in those without ground.
+            // Which memory is lent changes no output. If chunks kept their own, it would gather in those without
+            // ground.
             if S::has_no_memory(&settled.spare) {
                 S::lend(&mut self.spare.lock().unwrap_or_else(PoisonError::into_inner), &mut settled.spare);
             }

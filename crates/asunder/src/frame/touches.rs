@@ -3,7 +3,8 @@
 use crate::space::Space;
 use crate::world::{World, slot_of};
 
-/// What each bullet touches that is solid, and what the contacts with it tell: those that this update shows, as a hook left them.
+/// What each bullet touches that is solid, and what the contacts with it tell: those that this update shows, as a hook
+/// left them.
 #[derive(Debug)]
 pub(crate) struct Touches<S: Space> {
     /// The slot of each touch's bullet, ascending.

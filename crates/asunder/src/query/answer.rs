@@ -121,9 +121,9 @@ pub struct NearAnswer<K, N, P> {
     /// The point of the body that is closest to it, in metres. Where a point is in the body, that point; where
     /// shapes overlap, both points are those of their deepest contact (of two half-spaces, the asked one's position).
     pub point: P,
-    /// Which part of the body that point is of: of a compound its part, of ground the triangle, of a chain the segment; else 0,
-    /// as where the body holds the point that was asked about. Where shapes overlap, as the manifold of their deepest contact
-    /// has it.
+    /// Which part of the body that point is of: of a compound its part, of ground the triangle, of a chain the segment;
+    /// else 0, as where the body holds the point that was asked about. Where shapes overlap, as the manifold of their
+    /// deepest contact has it.
     pub part: u32,
 }
 

@@ -133,9 +133,10 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out, whole, what a ray starts in and what a moved shape touches at the start: for shots out of a vehicle, and
-    /// cameras that start in somebody's head. Ground that it starts on is left out as well, so start a little off that. Of
-    /// queries without a way, of `cast_shape_onwards`, which passes over parts, and of characters it changes nothing.
+    /// Leaves out, whole, what a ray starts in and what a moved shape touches at the start: for shots out of a vehicle,
+    /// and cameras that start in somebody's head. Ground that it starts on is left out as well, so start a little off
+    /// that. Of queries without a way, of `cast_shape_onwards`, which passes over parts, and of characters it changes
+    /// nothing.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Pose3, Ray3, Sphere, World3, glam::{DVec3, Vec3}};

@@ -176,8 +176,8 @@ fn bodies_ahead<'q, S: Asked>(
     displacement: S::Vector,
     touches: &'q [S::Touch],
 ) -> Question<'q, S, impl Asks<S, Meet<S>>> {
-    // From one end of all that there is to the other and further, which is further than one motion leads: then each goes half
-    // of the way to meet the other.
+    // From one end of all that there is to the other and further, which is further than one motion leads: then each
+    // goes half of the way to meet the other.
     let share = (2.0 * tolerance::MAX_POSITION / S::longest(displacement)).min(1.0);
     let is_far = share * S::longest(displacement) > tolerance::MAX_POSITION;
     moved((world, filter), at, displacement, move |key, body| {

@@ -34,8 +34,8 @@ pub(crate) trait Asked: Space {
     /// A ray.
     type Ray: Copy;
 
-    /// Hands the slots of all bodies whose boxes are within reach, up to a limit, to a visitor, until it breaks off, each with
-    /// whether its box is in a tree. Not generic where it is defined, for the reason of [`Space::advance`].
+    /// Hands the slots of all bodies whose boxes are within reach, up to a limit, to a visitor, until it breaks off,
+    /// each with whether its box is in a tree. Not generic where it is defined, for the reason of [`Space::advance`].
     fn visit_slots(
         world: &World<Self>,
         within: (&Reach<Self::Aabb>, f64),

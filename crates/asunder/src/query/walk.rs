@@ -92,8 +92,8 @@ impl<B: Bounds> Reach<B> {
 /// Looks at the body in a slot; whether its box is in a tree.
 pub(crate) type Look<'l> = dyn FnMut(u32, bool) -> ControlFlow<()> + 'l;
 
-/// Hands the slots of all bodies whose boxes are within reach to a visitor, until it breaks off, each with whether its box is
-/// in a tree. What [`Asked::visit_slots`] is made of.
+/// Hands the slots of all bodies whose boxes are within reach to a visitor, until it breaks off, each with whether its
+/// box is in a tree. What [`Asked::visit_slots`] is made of.
 pub(super) fn visit_slots<S: Space>(
     world: &World<S>,
     (reach, limit): (&Reach<S::Aabb>, f64),
@@ -130,8 +130,8 @@ pub(crate) struct Question<'q, S: Space, F> {
 }
 
 impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, F> {
-    /// The answer of a body, if it is within a limit that may be nearer by now. Where a box from a tree was met already, a
-    /// box of the body itself is looked at after the narrow phase, which refuses more of them.
+    /// The answer of a body, if it is within a limit that may be nearer by now. Where a box from a tree was met
+    /// already, a box of the body itself is looked at after the narrow phase, which refuses more of them.
     fn answer(&self, slot: u32, limit: f64, is_from_tree: bool) -> Option<A> {
         let key = *self.world.keys.get(slot as usize)?;
         let body = self.world.bodies.get(key).filter(|body| self.filter.admits(key, body))?;

@@ -102,8 +102,8 @@ fn revived_odometers(list: &[(u32, f64, f64)], slots: usize) -> Result<Vec<Odome
     Ok(odometers)
 }
 
-/// Above this the version of a slot would soon begin again at 1, and keys of the past would look like keys to come. A slot
-/// gets there when it was filled two thousand million times.
+/// Above this the version of a slot would soon begin again at 1, and keys of the past would look like keys to come. A
+/// slot gets there when it was filled two thousand million times.
 const MOST_VERSION: u32 = u32::MAX - (1 << 16);
 
 /// Versions are odd, as in keys, and the list of empty slots names each of them once.

@@ -1,8 +1,8 @@
 //! The shapes of a world, those that several bodies share once.
 //!
-//! A hull, a polygon, a compound and ground keep their data behind a counted pointer, and clones share it. Bodies name such
-//! data by its place in a table; any other shape they keep themselves. A compound's parts may share data with other
-//! bodies too.
+//! A hull, a polygon, a compound and ground keep their data behind a counted pointer, and clones share it. Bodies name
+//! such data by its place in a table; any other shape they keep themselves. A compound's parts may share data with
+//! other bodies too.
 
 use super::Snapshot;
 use super::digest::digest;

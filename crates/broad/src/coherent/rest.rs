@@ -121,8 +121,8 @@ impl<B: Bounds> Rest<B> {
         core::mem::replace(&mut self.states[place], State::Moves) != State::Moves
     }
 
-    /// Hands over each pair of a mover and a box at rest that overlap, until there are too many. Returns false, and has handed
-    /// over none, if there is so much to look at that a sweep of all boxes costs less.
+    /// Hands over each pair of a mover and a box at rest that overlap, until there are too many. Returns false, and has
+    /// handed over none, if there is so much to look at that a sweep of all boxes costs less.
     pub(super) fn meet(
         &mut self,
         (grid, columns): (&Grid, &Columns),

@@ -92,8 +92,8 @@ impl Columns {
     /// Nothing here depends on where a box is but three lists and one addition: a branch on whether a box straddles
     /// would be guessed wrong for every fifth box (1.5 ns per box, Zen 4, 2026-11-21).
     ///
-    /// Once there are more than `most` entries, those that are left are not counted: giants that no sample has seen would
-    /// have one in every column.
+    /// Once there are more than `most` entries, those that are left are not counted: giants that no sample has seen
+    /// would have one in every column.
     #[inline(always)]
     pub(crate) fn count<B: Bounds>(
         &mut self,

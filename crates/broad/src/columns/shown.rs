@@ -16,8 +16,8 @@ pub struct Column {
     pub bounds: Aabb3,
     /// Boxes that reach into it.
     pub boxes: usize,
-    /// Pairs of them that a sweep compares: of those that are near each other along the axis that it sweeps. Not told of a
-    /// column that is so full that it may be swept in columns of its own.
+    /// Pairs of them that a sweep compares: of those that are near each other along the axis that it sweeps. Not told
+    /// of a column that is so full that it may be swept in columns of its own.
     pub candidates: Option<usize>,
 }
 

@@ -1,8 +1,8 @@
 //! A sweep's kernels for either dimension, compiled with this crate.
 //!
-//! What is generic is compiled wherever it is called, as what calls it is: a game's debug build swept without optimisation, a
-//! frame of 5,000 boxes in 15 ms for 0.2, and each crate that sweeps took ten seconds more to build (2026-11-26). What stands
-//! here is not, and knows no filters of a caller's types.
+//! What is generic is compiled wherever it is called, as what calls it is: a game's debug build swept without
+//! optimisation, a frame of 5,000 boxes in 15 ms for 0.2, and each crate that sweeps took ten seconds more to build
+//! (2026-11-26). What stands here is not, and knows no filters of a caller's types.
 
 use super::Sweep;
 use super::settle::Sink;

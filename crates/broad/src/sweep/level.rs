@@ -49,8 +49,8 @@ const LOOKS: usize = 128;
 const MISLED: usize = 20;
 
 /// Columns within columns at most, for clumps of clumps of clumps: each costs twice as much of this as boxes get
-/// entries in it on average, so that there are six where few straddle, two where all do, and some dozens of
-/// entries a box at most. What is a heap after them is for segments (24 in place of 12: up to 1.5 times as long where clumps
+/// entries in it on average, so that there are six where few straddle, two where all do, and some dozens of entries a
+/// box at most. What is a heap after them is for segments (24 in place of 12: up to 1.5 times as long where clumps
 /// shrink by halves; 8: 0.8 to 1.3 times there, and up to 1.4 where they shrink by thousandths; Zen 4, 2026-11-22).
 const DEEPEST: usize = 12;
 
@@ -77,8 +77,8 @@ pub(crate) fn overfull(column: &ColumnEntries<'_>, grid: &Grid, crowd: usize) ->
 
 /// Whether a column that is swept as it is takes longer than a walk by segments.
 ///
-/// Candidates that codes cannot part cost more, by far: clumps far smaller than a code take 3 ns per candidate in place of
-/// 0.17 (Zen 4, 2026-11-22). So some candidates are looked at.
+/// Candidates that codes cannot part cost more, by far: clumps far smaller than a code take 3 ns per candidate in place
+/// of 0.17 (Zen 4, 2026-11-22). So some candidates are looked at.
 #[inline(never)]
 fn is_hard(
     full: usize,

@@ -18,11 +18,11 @@
 //! in 100). The owner rule names one column for every pair, by codes as well, so that no pair comes twice and none
 //! is lost.
 //!
-//! Baraff's sweep and prune (1992) in the cells of a regular grid, after Terdiman, "Box pruning revisited" (2017),
-//! for the wide tests on integers; Tracy, Buss & Woods, "Efficient large-scale sweep and prune methods with AABB
-//! insertion and removal" (2009), for the segmentation. Cost: linear in boxes and pairs, for boxes of like size; a
-//! scene of all sizes costs more entries. No scene costs more than n log^3 n + pairs, by [`segments`], but for pairs that are
-//! found again in every column that both boxes share.
+//! Baraff's sweep and prune (1992) in the cells of a regular grid, after Terdiman, "Box pruning revisited" (2017), for
+//! the wide tests on integers; Tracy, Buss & Woods, "Efficient large-scale sweep and prune methods with AABB insertion
+//! and removal" (2009), for the segmentation. Cost: linear in boxes and pairs, for boxes of like size; a scene of all
+//! sizes costs more entries. No scene costs more than n log^3 n + pairs, by [`segments`], but for pairs that are found
+//! again in every column that both boxes share.
 //!
 //! # What each technique bought
 //! At 10,000 boxes of `gas` and `pile`, ns per box in all, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep
@@ -43,9 +43,9 @@
 //! ns per pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
 //! %); codes and bins of a box by hand in AVX2, half the instructions (6 % slower).
 //!
-//! 8. Segments, where the candidates that columns count cost more. The named scenes are as they were. ns per box, and in how many
-//!    budgets of 80 ns per box and 20 a pair, by `compare -- broad --hurt` (AMD EPYC, Zen 4, 2 virtual cores, one thread,
-//!    2026-11-22; quarters, and halves of 300,000, before: in a run of their own):
+//! 8. Segments, where the candidates that columns count cost more. The named scenes are as they were. ns per box, and
+//!    in how many budgets of 80 ns per box and 20 a pair, by `compare -- broad --hurt` (AMD EPYC, Zen 4, 2 virtual
+//!    cores, one thread, 2026-11-22; quarters, and halves of 300,000, before: in a run of their own):
 //!
 //! | boxes | 30,000 before | after | 100,000 before | after | 300,000 before | after |
 //! |---|---|---|---|---|---|---|
@@ -58,10 +58,11 @@
 //! | lines without end | 280 (3.5) | 191 (2.4) | 430 (5.3) | 413 (5.1) | 770 (9.6) | 430 (5.3) |
 //! | floors, 44 pairs a box | 1,085 (1.1) | 1,096 (1.1) | 1,377 (1.4) | 1,703 (1.8) | 1,737 (1.8) | 1,820 (1.9) |
 //!
-//! Tried: segments from the start, without columns (needles of 30,000 1.7 times as long as in columns, floors 2.5 times);
-//! segments at once in any column that is full (thousandths 1.6 times as long). Where clumps are a thousand times smaller
-//! than what is around them, columns of columns as deep as they go take 0.8 times as long up to 300,000. Needles stay
-//! beyond their budget: a logarithm an axis is what they cost. The machine was under load, both ways in turns.
+//! Tried: segments from the start, without columns (needles of 30,000 1.7 times as long as in columns, floors 2.5
+//! times); segments at once in any column that is full (thousandths 1.6 times as long). Where clumps are a thousand
+//! times smaller than what is around them, columns of columns as deep as they go take 0.8 times as long up to 300,000.
+//! Needles stay beyond their budget: a logarithm an axis is what they cost. The machine was under load, both ways in
+//! turns.
 
 mod compiled;
 mod crowd;
@@ -88,7 +89,8 @@ use level::{Level, Scratch};
 use segments::Slab;
 use settle::{Question, Sink};
 
-/// Who may pair, asked about many pairs at a time: moves those that are admitted to the front, and says how many there are.
+/// Who may pair, asked about many pairs at a time: moves those that are admitted to the front, and says how many there
+/// are.
 pub(crate) type Admit<'f> = dyn Fn(&mut [PairId]) -> usize + Sync + 'f;
 
 /// What asks about one pair at a time as one that asks about many.
@@ -267,8 +269,8 @@ impl Sweep {
     }
 
     /// The columns that the last sweep sorted boxes into, for debug views: those that hold any, in the order in which
-    /// they are swept. None before the first sweep. What an overfull column was cut into is not told. Cost: linear in all
-    /// columns and in the boxes in them.
+    /// they are swept. None before the first sweep. What an overfull column was cut into is not told. Cost: linear in
+    /// all columns and in the boxes in them.
     ///
     /// ```
     /// use asunder_broad::Sweep;

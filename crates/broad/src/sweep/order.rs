@@ -33,8 +33,8 @@ impl Order {
         self.sort_from(0, pairs, count);
     }
 
-    /// The same of pairs whose second numbers ascend: by the first alone, which leaves equals as they come, half the digits are
-    /// enough.
+    /// The same of pairs whose second numbers ascend: by the first alone, which leaves equals as they come, half the
+    /// digits are enough.
     pub(crate) fn sort_by_first(&mut self, pairs: &mut [PairId], count: usize) {
         self.sort_from(bits_below(count), pairs, count);
     }

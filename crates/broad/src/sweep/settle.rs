@@ -51,8 +51,8 @@ fn outside(mut one: u32, mut other: u32, names: Option<&Names<'_>>) -> (u32, u32
     (one, other, is_ours)
 }
 
-/// Where pairs go, many at a time, in memory that it may use: so who wants which of them costs kernels nothing, and none is
-/// compiled anew for whoever asks.
+/// Where pairs go, many at a time, in memory that it may use: so who wants which of them costs kernels nothing, and
+/// none is compiled anew for whoever asks.
 pub(super) type Sink<'s> = dyn FnMut(&mut [PairId]) -> ControlFlow<()> + 's;
 
 /// Which boxes are swept, and who is told.

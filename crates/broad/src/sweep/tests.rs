@@ -188,8 +188,8 @@ fn steps(scene: HurtScene, count: usize, way: Way) -> f64 {
     (steps + pairs) as f64 / count as f64
 }
 
-/// Whether the steps of a box are few, by the square of the logarithm of all boxes, and grow no faster from n to 4 n boxes
-/// where they are not very few (two fifths more are left for what falls to one side of a count or the other).
+/// Whether the steps of a box are few, by the square of the logarithm of all boxes, and grow no faster from n to 4 n
+/// boxes where they are not very few (two fifths more are left for what falls to one side of a count or the other).
 fn is_bounded(scene: HurtScene, count: usize, way: Way) -> bool {
     let share =
         [count, 4 * count].map(|count| steps(scene, count, way) / f64::from(count.ilog2() * count.ilog2()));

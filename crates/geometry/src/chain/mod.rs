@@ -36,11 +36,11 @@ use tree::Tree;
 /// (`Feature::Edge`), and corners by their vertex (`Feature::Vertex`), so that names stay as a body slides.
 ///
 /// # Sides
-/// A chain has two sides, and pushes what touches it to the side that the centre of its bounding circle
-/// is on. [`one_sided`](Self::one_sided) leaves one, on the *right* of the way from vertex to vertex: contacts, casts and
-/// rays see a segment only from there, and motions pass through from behind: what comes through is met, and pushed out to the
-/// front, as soon as its centre is there. So a closed chain that winds counter-clockwise
-/// is solid, as a polygon is; and ground drawn from right to left looks up.
+/// A chain has two sides, and pushes what touches it to the side that the centre of its bounding circle is on.
+/// [`one_sided`](Self::one_sided) leaves one, on the *right* of the way from vertex to vertex: contacts, casts and rays
+/// see a segment only from there, and motions pass through from behind: what comes through is met, and pushed out to
+/// the front, as soon as its centre is there. So a closed chain that winds counter-clockwise is solid, as a polygon is;
+/// and ground drawn from right to left looks up.
 ///
 /// # Costs and limits
 /// A body's pair costs what the segments near it cost, and the logarithm of their number. A collider with this shape is
@@ -194,8 +194,8 @@ impl Chain {
         self.visit_where(holds, visit).is_break()
     }
 
-    /// The box around the posed chain, grown by `margin` metres and rounded outwards. Cost: about four times the logarithm of
-    /// the number of vertices.
+    /// The box around the posed chain, grown by `margin` metres and rounded outwards. Cost: about four times the
+    /// logarithm of the number of vertices.
     pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
         let furthest = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y]
             .map(|axis| self.furthest(pose.turn_back(axis)).unwrap_or(self.data.center.as_dvec2()));
@@ -251,8 +251,8 @@ impl Chain {
     /// Visits segments where a bound on what a box holds is at most a limit, boxes of lesser bounds first. The visitor
     /// returns the limit for the rest. Cost: for a nearest point about the logarithm of the number of segments.
     ///
-    /// The bound of a box must hold for all that is in it: no greater than what the visitor would find there. Where it is
-    /// NaN, the box is visited.
+    /// The bound of a box must hold for all that is in it: no greater than what the visitor would find there. Where it
+    /// is NaN, the box is visited.
     ///
     /// ```
     /// use asunder_geometry::{Chain, glam::Vec2};

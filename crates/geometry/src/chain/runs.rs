@@ -6,9 +6,9 @@
 //! the run goes on while the next vertex lies in that, and further on than the last
 //! ```
 //! Zhao and Saalfeld, "Linear-time sleeve-fitting polyline simplification algorithms" (1997). A line that was cut into
-//! segments has vertices beside it by as much as f32 rounds their coordinates. Of a segment a thousandth of its coordinates
-//! long, that turns the normal by 0.005 degrees, and of shorter ones by more: contacts must not follow it. Angles can
-//! not tell such bends from others; the rounding can.
+//! segments has vertices beside it by as much as f32 rounds their coordinates. Of a segment a thousandth of its
+//! coordinates long, that turns the normal by 0.005 degrees, and of shorter ones by more: contacts must not follow it.
+//! Angles can not tell such bends from others; the rounding can.
 
 use super::Chain;
 use super::segment_count;
@@ -60,8 +60,8 @@ impl Run {
 }
 
 impl Chain {
-    /// The straight run that a segment belongs to. Nothing beyond the last segment. Cost: the logarithm of the number of
-    /// runs.
+    /// The straight run that a segment belongs to. Nothing beyond the last segment. Cost: the logarithm of the number
+    /// of runs.
     pub fn run_of(&self, segment: u32) -> Option<Run> {
         if segment as usize >= self.segment_count() {
             return None;
@@ -163,8 +163,8 @@ fn rounding([one, other]: [Vec2; 2]) -> DVec2 {
     one.abs().max(other.abs()).as_dvec2() * STRAIGHT
 }
 
-/// The rightmost and the leftmost direction to a box, by its middle and half extents; nothing from inside. A line passes the middle
-/// within its corridor, whichever way it leads, exactly where it meets the box.
+/// The rightmost and the leftmost direction to a box, by its middle and half extents; nothing from inside. A line
+/// passes the middle within its corridor, whichever way it leads, exactly where it meets the box.
 fn seen_around(middle: DVec2, half: DVec2) -> Option<[DVec2; 2]> {
     if middle.abs().cmple(half).all() {
         return None;

@@ -17,8 +17,8 @@ use std::sync::Arc;
 ///
 /// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its
 /// own; parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a
-/// bounding circle test for each pair of parts, and the cost of the parts that pass; of 16 parts and more, which are looked up
-/// in a tree, the logarithm of their number for each part of the other, and the cost of what is near.
+/// bounding circle test for each pair of parts, and the cost of the parts that pass; of 16 parts and more, which are
+/// looked up in a tree, the logarithm of their number for each part of the other, and the cost of what is near.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Compound2, Pose2, Rect, Shape2, glam::{DVec2, Vec2}};
@@ -143,9 +143,9 @@ impl Compound2 {
         &self.data.parts
     }
 
-    /// Hands every part whose own box overlaps this one, in the compound's axes, to `visitor`, each once, until it breaks
-    /// off. The order is a function of the compound and the box. Cost: logarithmic in the parts, and linear in those that
-    /// are handed over.
+    /// Hands every part whose own box overlaps this one, in the compound's axes, to `visitor`, each once, until it
+    /// breaks off. The order is a function of the compound and the box. Cost: logarithmic in the parts, and linear in
+    /// those that are handed over.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
@@ -169,11 +169,11 @@ impl Compound2 {
         self.data.tree.visit_overlapping(&flat(bounds), |part, _| visitor(part))
     }
 
-    /// Hands every part whose box a ray meets to `visitor`, each once and roughly in the order of meeting, up to a limit that
-    /// `visitor` may lower: it returns the new one.
+    /// Hands every part whose box a ray meets to `visitor`, each once and roughly in the order of meeting, up to a
+    /// limit that `visitor` may lower: it returns the new one.
     ///
-    /// The ray is given in the compound's axes, in metres, and the limit in lengths of its direction. Boxes are widened by
-    /// `grown` metres, and by more than rounding: none is lost. Nothing is met by what is not finite. Cost: as
+    /// The ray is given in the compound's axes, in metres, and the limit in lengths of its direction. Boxes are widened
+    /// by `grown` metres, and by more than rounding: none is lost. Nothing is met by what is not finite. Cost: as
     /// [`visit_near`](Self::visit_near).
     ///
     /// ```
@@ -201,8 +201,8 @@ impl Compound2 {
         }
     }
 
-    /// Hands every part whose box is within `limit` metres of this one, in the compound's axes, to `visitor`, each once and
-    /// roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. Cost: as
+    /// Hands every part whose box is within `limit` metres of this one, in the compound's axes, to `visitor`, each once
+    /// and roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. Cost: as
     /// [`visit_near`](Self::visit_near).
     ///
     /// ```
@@ -311,7 +311,8 @@ impl Compound2 {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn bounds_at_once(&self, pose: &Pose2) -> Aabb2 {
-        // A rotation's length is one up to the rounding of f32; and what places of parts lost to rounding shows, as in `bounds`.
+        // A rotation's length is one up to the rounding of f32; and what places of parts lost to rounding shows, as in
+        // `bounds`.
         let reach = self.center.as_dvec2().length() + f64::from(self.outer_radius);
         let lost = 4.0 * f64::from(f32::EPSILON) * reach;
         around2(core::iter::once(self.center.as_dvec2()), pose, f64::from(self.outer_radius) + lost)

@@ -3,7 +3,8 @@
 use crate::tolerance::{FLAT, SAME_NORMAL};
 use glam::DVec3;
 
-/// Seen from the front, then from the back: whether an edge between two triangles may give a contact a normal of its own.
+/// Seen from the front, then from the back: whether an edge between two triangles may give a contact a normal of its
+/// own.
 pub(crate) type Sight = [bool; 2];
 
 /// An edge where the ground ends, or where it is not a surface.
@@ -27,8 +28,8 @@ pub(crate) fn sight(normals: [DVec3; 2], along: DVec3) -> Sight {
 /// Sine below which a bend is the rounding of the normals beside it.
 const LEAST_BEND: f64 = 1e-14;
 
-/// Whether ground bends between two unit normals, to whichever side, so low that all directions between them count as one of
-/// them.
+/// Whether ground bends between two unit normals, to whichever side, so low that all directions between them count as
+/// one of them.
 pub(crate) fn is_low([one, other]: [DVec3; 2]) -> bool {
     let square = one.cross(other).length_squared();
     one.dot(other) > 0.0 && square > LEAST_BEND * LEAST_BEND && square <= 4.0 * SAME_NORMAL * SAME_NORMAL

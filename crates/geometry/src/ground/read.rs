@@ -1,8 +1,9 @@
 //! Triangles with what contacts read of them, several at a time.
 //!
-//! What is known of a triangle lies in several tables, and what a body stands on is all over the memory of a large mesh: in
-//! one of a million triangles nearly every read waits. Read one triangle after the other, with much work between, each waits
-//! for itself. Read together, they wait together. Corners come with the boxes of a mesh's tree, and cost no read of their own.
+//! What is known of a triangle lies in several tables, and what a body stands on is all over the memory of a large
+//! mesh: in one of a million triangles nearly every read waits. Read one triangle after the other, with much work
+//! between, each waits for itself. Read together, they wait together. Corners come with the boxes of a mesh's tree, and
+//! cost no read of their own.
 
 use super::{Ground, Prominent};
 use crate::aabb::Aabb3;
@@ -28,8 +29,8 @@ pub struct NearTriangle {
 const AT_ONCE: usize = 12;
 
 impl Ground<'_> {
-    /// What [`visit_near`](Self::visit_near) visits, in the same order, with what is read of each most often. Cost: as that,
-    /// with fewer waits for memory: a tenth to a half of the time on large meshes.
+    /// What [`visit_near`](Self::visit_near) visits, in the same order, with what is read of each most often. Cost: as
+    /// that, with fewer waits for memory: a tenth to a half of the time on large meshes.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
@@ -54,7 +55,8 @@ impl Ground<'_> {
         self.read_near_if(bounds, |_| true, visitor)
     }
 
-    /// The same of those triangles alone whose corners are wanted: of others nothing else is read. Cost: as that, for less.
+    /// The same of those triangles alone whose corners are wanted: of others nothing else is read. Cost: as that, for
+    /// less.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};

@@ -1,8 +1,8 @@
 //! What is worked out of a height field when it is made.
 //!
-//! A mark is two bytes per vertex. From the lowest bit, two each, seen from the front and from the back: the edge along x
-//! that starts at the vertex, the one along z, the diagonal of the cell that starts there, and the vertex itself. Then one
-//! each of the three edges, where it bends low.
+//! A mark is two bytes per vertex. From the lowest bit, two each, seen from the front and from the back: the edge along
+//! x that starts at the vertex, the one along z, the diagonal of the cell that starts there, and the vertex itself.
+//! Then one each of the three edges, where it bends low.
 
 use super::grid::{Cell, Grid};
 use super::walk::{BLOCK, cells_of};
@@ -133,8 +133,8 @@ impl<'a> Marks<'a> {
             .is_some_and(|(one, other)| is_low([one, other].map(|number| self.normals[number as usize])))
     }
 
-    /// How an edge is seen between a triangle, with the way along its half-edge there, and another; of an edge that is not
-    /// there, not at all.
+    /// How an edge is seen between a triangle, with the way along its half-edge there, and another; of an edge that is
+    /// not there, not at all.
     fn sight(&self, one: Option<(u32, DVec3)>, other: Option<u32>) -> Sight {
         match (one, other) {
             (None, None) => [false; 2],

@@ -132,8 +132,8 @@ impl HeightField {
         self.with_holes([(column, row)])
     }
 
-    /// The same with other heights, in metres, row by row: holes stay, and so do cells and the solid side. For craters, say: a
-    /// field made anew would be built once more for its holes. Cost: of a new field.
+    /// The same with other heights, in metres, row by row: holes stay, and so do cells and the solid side. For craters,
+    /// say: a field made anew would be built once more for its holes. Cost: of a new field.
     ///
     /// ```
     /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};

@@ -75,8 +75,9 @@ impl HeightField {
         })
     }
 
-    /// Hands triangles that a moving box comes over to `visitor`, as [`Ground::visit_along`](crate::Ground::visit_along) does,
-    /// block by block as `line` has them in order; where few cells are below its way, these at once.
+    /// Hands triangles that a moving box comes over to `visitor`, as
+    /// [`Ground::visit_along`](crate::Ground::visit_along) does, block by block as `line` has them in order; where few
+    /// cells are below its way, these at once.
     pub(crate) fn visit_along(
         &self,
         line: &impl Ask,
@@ -150,8 +151,8 @@ impl<V: FnMut(u32) -> f64> Way<'_, V> {
     /// Hands over the triangles of some cells, of no more than a block's columns and rows, in the order in which it
     /// comes to them.
     ///
-    /// When it is over each column and each row says when it is over each cell. Where every triangle's box was asked, rays on
-    /// 128 x 128 cells took 1.5 to 1.8 times as long (Intel Xeon, family 6 model 106, 2026-11-27).
+    /// When it is over each column and each row says when it is over each cell. Where every triangle's box was asked,
+    /// rays on 128 x 128 cells took 1.5 to 1.8 times as long (Intel Xeon, family 6 model 106, 2026-11-27).
     fn go_over(&mut self, [columns, rows]: [Range<u32>; 2]) {
         const SIDE: usize = BLOCK.side as usize;
         debug_assert!(columns.len() <= SIDE && rows.len() <= SIDE, "{columns:?}, {rows:?}");

@@ -8,9 +8,9 @@ use glam::{DVec3, Vec3};
 const TRIED: usize = 16;
 
 impl HullData {
-    /// Half of the longest segment about the centre, along an edge, on which a ball of [`ARM_SHARE`] of the inner radius
-    /// stays inside the hull; zero where the hull has no such ball. What is long and thin holds many balls that are all but
-    /// as large as the one in its middle.
+    /// Half of the longest segment about the centre, along an edge, on which a ball of [`ARM_SHARE`] of the inner
+    /// radius stays inside the hull; zero where the hull has no such ball. What is long and thin holds many balls that
+    /// are all but as large as the one in its middle.
     ///
     /// Cost: linear in the faces, and what sorting the edges takes.
     pub(super) fn longest_arm(&self) -> Vec3 {
@@ -37,8 +37,8 @@ impl HullData {
         if self.has_room_on(arm.as_dvec3()) { arm } else { Vec3::ZERO }
     }
 
-    /// Whether the ball stays inside on an arm as rounded. In a needle there is no room for rounding: an arm along an axis
-    /// may lie along its sides in every bit, and another one does so up to rounding only.
+    /// Whether the ball stays inside on an arm as rounded. In a needle there is no room for rounding: an arm along an
+    /// axis may lie along its sides in every bit, and another one does so up to rounding only.
     fn has_room_on(&self, arm: DVec3) -> bool {
         let center = self.center.as_dvec3();
         let lost = ARM_SHARE * f64::from(self.inner_radius) + f64::from(self.planarity_error);

@@ -130,8 +130,8 @@ pub(super) struct Examiner<'a> {
     hull: &'a Hull,
     topology: &'a Topology,
     vertices: Vec<DVec3>,
-    /// The loops, each from the corner that a cloud has first. From there the builder worked out their areas: of a needle
-    /// that is no wider than rounding, another start may give another one.
+    /// The loops, each from the corner that a cloud has first. From there the builder worked out their areas: of a
+    /// needle that is no wider than rounding, another start may give another one.
     faces: Vec<Vec<usize>>,
     /// What f64 may lose on a number of the hull's size, in metres.
     slack: f64,

@@ -25,7 +25,8 @@ impl Hull {
         }
         let radius = f64::from(self.radius);
         let beyond = self.data.beyond_faces(point);
-        // Of their roundings and the point's there are some ten, and a face's own corners lie off its plane by no more than this.
+        // Of their roundings and the point's there are some ten, and a face's own corners lie off its plane by no more
+        // than this.
         let rounding = 32.0 * f64::EPSILON * (point.abs().element_sum() + f64::from(self.extent()));
         if beyond > radius + rounding {
             return false;
@@ -139,8 +140,8 @@ impl Surface<'_> {
         })
     }
 
-    /// The radius of a ball about the centre inside, made negative where the centre lies outside, so that it holds with rounding
-    /// too.
+    /// The radius of a ball about the centre inside, made negative where the centre lies outside, so that it holds with
+    /// rounding too.
     pub(super) fn inner_radius(&self, center: Vec3, radius: f32) -> f32 {
         if radius > 0.0 {
             return radius;

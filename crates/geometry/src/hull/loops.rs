@@ -1,7 +1,7 @@
 //! Loops of vertices, in one list: facets and faces while a hull is made.
 //!
-//! A hull of 16 points has some thirty, and they are put in order, renumbered and compared: in a list of lists, a quarter of the
-//! instructions that making a hull takes went into asking for memory (Intel Xeon, Ice Lake, 2026-11-27).
+//! A hull of 16 points has some thirty, and they are put in order, renumbered and compared: in a list of lists, a
+//! quarter of the instructions that making a hull takes went into asking for memory (Intel Xeon, Ice Lake, 2026-11-27).
 
 use core::ops::Range;
 

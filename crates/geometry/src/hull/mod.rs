@@ -58,8 +58,8 @@ struct HullData {
     vertices: Box<[Vec3]>,
     topology: Topology,
     normals: Box<[DVec3]>,
-    /// The exact surface in triangles: of faces that were merged, the facets that they were merged of. There are no more than 256
-    /// vertices.
+    /// The exact surface in triangles: of faces that were merged, the facets that they were merged of. There are no
+    /// more than 256 vertices.
     facets: Box<[[u8; 3]]>,
     octets: Octets,
     center: Vec3,
@@ -215,7 +215,8 @@ impl Hull {
         self.data.error
     }
 
-    /// The same, of points that may lie so far, in metres, outside of those it was made from. For one that nobody shares.
+    /// The same, of points that may lie so far, in metres, outside of those it was made from. For one that nobody
+    /// shares.
     pub(crate) fn left_out(mut self, error: f64) -> Self {
         if let Some(data) = Arc::get_mut(&mut self.data)
             && error > 0.0
@@ -225,8 +226,8 @@ impl Hull {
         self
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards: wider than it need be by less than a
-    /// millionth of how far the vertices are from the origin. Cost: linear in the vertices, eight at a time.
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards: wider than it need be by less
+    /// than a millionth of how far the vertices are from the origin. Cost: linear in the vertices, eight at a time.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         let grow = f64::from(margin) + f64::from(self.radius);
         around_octets(self.vertex_octets(), self.extent(), pose, grow)

@@ -7,11 +7,12 @@ use core::ops::RangeInclusive;
 use glam::{DVec2, Vec3};
 
 impl Hull {
-    /// An upright prism over a regular polygon, about its own origin, along y as a capsule is: what stands in for a cylinder.
-    /// `radius`, in metres, is that of its corners, one of which lies on the side of x.
+    /// An upright prism over a regular polygon, about its own origin, along y as a capsule is: what stands in for a
+    /// cylinder. `radius`, in metres, is that of its corners, one of which lies on the side of x.
     ///
-    /// Of a cylinder of that radius it lies inside, by at most radius (1 - cos(pi / sides)): 2 % for 16 sides, 0.5 % for 32.
-    /// More sides cost more: contacts of such hulls grow with the corners of the faces that meet, the memory with the sides.
+    /// Of a cylinder of that radius it lies inside, by at most radius (1 - cos(pi / sides)): 2 % for 16 sides, 0.5 %
+    /// for 32. More sides cost more: contacts of such hulls grow with the corners of the faces that meet, the memory
+    /// with the sides.
     ///
     /// ```
     /// use asunder_geometry::{Hull, HullError, glam::DVec3};
@@ -32,8 +33,9 @@ impl Hull {
         Self::from_points(&points)
     }
 
-    /// An upright pyramid over a regular polygon: what stands in for a cone. Its base is at y = -`half_height`, its apex on
-    /// the y axis at `half_height`; `radius`, in metres, is that of the base's corners, one of which lies on the side of x.
+    /// An upright pyramid over a regular polygon: what stands in for a cone. Its base is at y = -`half_height`, its
+    /// apex on the y axis at `half_height`; `radius`, in metres, is that of the base's corners, one of which lies on
+    /// the side of x.
     ///
     /// ```
     /// use asunder_geometry::{Hull, HullError, glam::DVec3};
@@ -86,7 +88,8 @@ mod tests {
         0.5 * sides as f64 * libm::sin(core::f64::consts::TAU / sides as f64)
     }
 
-    /// Makes hulls of a radius of 1 with these numbers of sides, thin and thick; of so many corners and faces, none lost.
+    /// Makes hulls of a radius of 1 with these numbers of sides, thin and thick; of so many corners and faces, none
+    /// lost.
     fn made(
         sides: RangeInclusive<usize>,
         make: fn(f32, f32, usize) -> Result<Hull, HullError>,

@@ -15,7 +15,8 @@ impl Edges {
     /// Pairs half-edges, and drops triangles that have the same three vertices as an earlier one: those share three
     /// edges with it, and at each the vertex on the other side.
     ///
-    /// By sorting: half-edges go to the lesser of their vertices, by counting, and there stand in the order of the other.
+    /// By sorting: half-edges go to the lesser of their vertices, by counting, and there stand in the order of the
+    /// other.
     pub(super) fn of(triangles: &[[u32; 3]], vertices: usize, is_dropped: &mut [bool]) -> Self {
         let mut pairing =
             Pairing { triangles, twins: vec![NO_TWIN; 3 * triangles.len()], duplicate: 0, is_dropped };

@@ -33,8 +33,8 @@ use std::sync::Arc;
 /// At most [`MAX_TRIANGLES`](crate::tolerance::MAX_TRIANGLES) triangles and
 /// [`MAX_MESH_VERTICES`](crate::tolerance::MAX_MESH_VERTICES) vertices, within 1e6 m of the shape's origin. A triangle
 /// takes about 80 bytes, and less than 100 where no vertex is shared. What is near is found in a tree, which holds the
-/// triangles' corners, so that a ray looks nowhere else; it holds only their boxes where more than two vertices are given a
-/// triangle, and rays on a large mesh take longer then.
+/// triangles' corners, so that a ray looks nowhere else; it holds only their boxes where more than two vertices are
+/// given a triangle, and rays on a large mesh take longer then.
 ///
 /// ```
 /// use asunder_geometry::{TriMesh, glam::Vec3};

@@ -99,7 +99,8 @@ impl Polygon {
         Self::from_convex(hull_vertices(points)?, 0.0)
     }
 
-    /// A regular polygon about its own origin, with a corner on the side of x; `radius`, in metres, is that of its corners.
+    /// A regular polygon about its own origin, with a corner on the side of x; `radius`, in metres, is that of its
+    /// corners.
     ///
     /// Corners that an f32 cannot tell from the line between their neighbours are left out: of some thousands, a few.
     ///
@@ -113,8 +114,8 @@ impl Polygon {
     /// ```
     ///
     /// # Errors
-    /// Fewer than 3 sides, or more than 4096; a radius that is not positive and finite; what [`Polygon::hull_of`] refuses
-    /// about the corners.
+    /// Fewer than 3 sides, or more than 4096; a radius that is not positive and finite; what [`Polygon::hull_of`]
+    /// refuses about the corners.
     pub fn regular(radius: f32, sides: usize) -> Result<Self, PolygonError> {
         if !(3..=MAX_POLYGON_VERTICES).contains(&sides) {
             return Err(PolygonError::Sides { sides });
@@ -284,7 +285,8 @@ impl Polygon {
         self.data.error
     }
 
-    /// The same, of points that may lie further outside, in metres, than those it was made from. For one that nobody shares.
+    /// The same, of points that may lie further outside, in metres, than those it was made from. For one that nobody
+    /// shares.
     pub(crate) fn left_out(mut self, error: f64) -> Self {
         if let Some(data) = Arc::get_mut(&mut self.data) {
             data.error = data.error.max(round_up(error));

@@ -1,7 +1,7 @@
 //! Shapes made larger, smaller or flatter: what a scene's nodes, and assets in other units, ask for.
 //!
-//! A scaled shape is a new one, made from the old one's vertices times the factors, each rounded once to f32: powers of two
-//! are exact. What is derived (faces, normals, radii, which triangles share a plane) is derived anew.
+//! A scaled shape is a new one, made from the old one's vertices times the factors, each rounded once to f32: powers of
+//! two are exact. What is derived (faces, normals, radii, which triangles share a plane) is derived anew.
 
 mod plane;
 mod space;

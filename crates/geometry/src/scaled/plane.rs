@@ -13,13 +13,13 @@ use crate::shape::Shape2;
 use glam::Vec2;
 
 impl Shape2 {
-    /// The shape with every local point multiplied by the factors: `Vec2::splat(1.0 / 32.0)` takes pixels to metres where a
-    /// metre has 32 of them, and negative ones mirror. A new shape, which shares nothing with the old one.
+    /// The shape with every local point multiplied by the factors: `Vec2::splat(1.0 / 32.0)` takes pixels to metres
+    /// where a metre has 32 of them, and negative ones mirror. A new shape, which shares nothing with the old one.
     ///
-    /// Vertices and edges keep their numbers, except under a mirror: a mirrored polygon is still counter-clockwise, and a
-    /// mirrored chain still has its front in front, so both are numbered the other way around; corners of rectangles are
-    /// renumbered. Rectangles that are turned in a compound become polygons if the factors differ. Vertices of a chain that
-    /// come too close are dropped, as in [`Chain::open`]. Cost: that of making the shape.
+    /// Vertices and edges keep their numbers, except under a mirror: a mirrored polygon is still counter-clockwise, and
+    /// a mirrored chain still has its front in front, so both are numbered the other way around; corners of rectangles
+    /// are renumbered. Rectangles that are turned in a compound become polygons if the factors differ. Vertices of a
+    /// chain that come too close are dropped, as in [`Chain::open`]. Cost: that of making the shape.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Rect, Shape2, glam::Vec2};

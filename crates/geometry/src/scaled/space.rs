@@ -41,8 +41,8 @@ impl Shape3 {
     /// ```
     ///
     /// # Errors
-    /// A factor that is zero or not finite; a round shape or a rounding under factors that differ in size; a height field
-    /// under negative ones; a result that is out of range, or a hull that has lost a dimension.
+    /// A factor that is zero or not finite; a round shape or a rounding under factors that differ in size; a height
+    /// field under negative ones; a result that is out of range, or a hull that has lost a dimension.
     pub fn scaled(&self, factors: Vec3) -> Result<Self, ScaleError> {
         check(&factors.to_array())?;
         match self {

@@ -43,8 +43,8 @@ pub(super) fn with_touched<R>(
 }
 
 impl Touched<'_> {
-    /// Whether two parts that meet at a time of a stretch, along a unit axis from A to B, are no impact: they overlap at the
-    /// start, exactly, and have not parted since; or they are level with what is touched.
+    /// Whether two parts that meet at a time of a stretch, along a unit axis from A to B, are no impact: they overlap
+    /// at the start, exactly, and have not parted since; or they are level with what is touched.
     pub(super) fn passes_over(
         &self,
         pieces: [&Piece; 2],
@@ -55,7 +55,8 @@ impl Touched<'_> {
             || self.lies(pieces, (stretch.start + at * stretch.share, axis)) == Lies::Level
     }
 
-    /// How it lies what two parts meet with at a fraction, along a unit axis from A to B; at the start, what they touch with.
+    /// How it lies what two parts meet with at a fraction, along a unit axis from A to B; at the start, what they touch
+    /// with.
     fn lies(&self, pieces: [&Piece; 2], (fraction, normal): (f64, DVec2)) -> Lies {
         let stretches = self.travel.stretches();
         let [Some(first), Some(last)] = [stretches.first(), stretches.last()] else { return Lies::Level };

@@ -133,7 +133,8 @@ fn passes_by(stretch: &Stretch, pieces: [&Piece; 2]) -> bool {
     (offset - velocity * nearest).length_squared() > radii * radii
 }
 
-/// The longest step within `rest` that leaves something for certain, or one that leaves little of what there is, `over`.
+/// The longest step within `rest` that leaves something for certain, or one that leaves little of what there is,
+/// `over`.
 ///
 /// Regula falsi, in the manner of Illinois: the side that stays counts half.
 fn longest_step((over, rest): (f64, f64), left: impl Fn(f64) -> f64) -> f64 {
@@ -235,7 +236,8 @@ impl<'a> Course<'a> {
         None
     }
 
-    /// Whether the gap along an axis, which may be off by a share, gets no less from then on: however fast what turns does so.
+    /// Whether the gap along an axis, which may be off by a share, gets no less from then on: however fast what turns
+    /// does so.
     fn parts(&self, axis: DVec2, off: f64) -> bool {
         self.closing(axis) + self.pace + off * self.stretch.velocity.length() <= 0.0
     }
@@ -245,8 +247,8 @@ impl<'a> Course<'a> {
         self.stretch.is_turning()
     }
 
-    /// Whether A moves away from B along an axis, where they touch: as seen at the point of one of the two cores. A round
-    /// shape that turns about its middle moves as if it did not.
+    /// Whether A moves away from B along an axis, where they touch: as seen at the point of one of the two cores. A
+    /// round shape that turns about its middle moves as if it did not.
     pub(super) fn looks_back(&self, axis: DVec2, touching: &Touching, which: usize) -> bool {
         let radius = f64::from(self.pieces[which].shape.radius());
         let inwards = if which == 0 { -touching.axis } else { touching.axis };
@@ -305,8 +307,8 @@ impl<'a> Course<'a> {
         turning.map(step).fold(0.0, f64::max)
     }
 
-    /// What gap there is for certain from then on until some time later, along the axis of a look that turns along with a body.
-    /// Seen from there everything else turns about it, as seen from a line.
+    /// What gap there is for certain from then on until some time later, along the axis of a look that turns along with
+    /// a body. Seen from there everything else turns about it, as seen from a line.
     fn certain_along(&self, which: usize, look: &Look, now: f64, later: f64) -> f64 {
         let (then, spins) = ((now + later).min(self.times[1]), &self.stretch.spins);
         let axis =
@@ -377,8 +379,8 @@ impl<'a> Course<'a> {
         Touching { at: now, axis, apart: self.enough, points: self.on_surfaces(points, axis) }
     }
 
-    /// The straight run of a chain that a segment of it, one of the two, belongs to, as the other sees it at a time. Nothing
-    /// where it does not.
+    /// The straight run of a chain that a segment of it, one of the two, belongs to, as the other sees it at a time.
+    /// Nothing where it does not.
     pub(super) fn surface(&self, which: usize, chain: &Chain, run: &Run, now: f64) -> Option<Surface> {
         let (turn, origin) = self.place(which, now);
         let other = 1 - which;

@@ -1,7 +1,7 @@
 //! Casts against chains: segment by segment, those first that circles say are met first.
 //!
-//! Each segment is a shape like any other, so that a miss is as certain as of those. What the ground adds is which sides are
-//! seen, and which normals there are: see `ground2`.
+//! Each segment is a shape like any other, so that a miss is as certain as of those. What the ground adds is which
+//! sides are seen, and which normals there are: see `ground2`.
 
 use super::beyond::Touched;
 use super::course::{Course, Touching, meeting};
@@ -126,9 +126,9 @@ struct Met {
 
 /// How the ground is where it is met. Nothing where it does not see the other.
 ///
-/// The ground's own normal may look the way the other goes, where a corner of it is met. What comes so out of one-sided ground
-/// passes; of other ground it is met along the axis that they touch along. But what turns is led over ground by that normal: a
-/// box that slides over a hill, pressed into it, meets the far corners from inside as it leans.
+/// The ground's own normal may look the way the other goes, where a corner of it is met. What comes so out of one-sided
+/// ground passes; of other ground it is met along the axis that they touch along. But what turns is led over ground by
+/// that normal: a box that slides over a hill, pressed into it, meets the far corners from inside as it leans.
 fn surface_met(
     (chain, segment): (&Chain, u32),
     course: &Course,

@@ -66,8 +66,8 @@ pub(super) fn for_pieces<'a>(shape: &'a Shape2, mut visit: impl FnMut(&Piece<'a>
     }
 }
 
-/// As [`for_pieces`], in the same order, but for those of a compound of many that certainly do not meet a piece of the other body
-/// within a stretch: pieces of A (0), or of B (1).
+/// As [`for_pieces`], in the same order, but for those of a compound of many that certainly do not meet a piece of the
+/// other body within a stretch: pieces of A (0), or of B (1).
 pub(super) fn for_pieces_along<'a>(
     (shape, which): (&'a Shape2, usize),
     stretch: &Stretch,
@@ -91,7 +91,8 @@ pub(super) fn for_pieces_along<'a>(
     });
 }
 
-/// Where the pieces of a body are when a stretch begins, in its own axes, that may meet a piece of the other, and how that moves.
+/// Where the pieces of a body are when a stretch begins, in its own axes, that may meet a piece of the other, and how
+/// that moves.
 fn region(stretch: &Stretch, which: usize, body: &Piece, other: &Piece) -> (Region2, DVec2) {
     let (own, others) = (&stretch.spins[which], &stretch.spins[1 - which]);
     let center = others.turn_at(0.0).turn(other.center);

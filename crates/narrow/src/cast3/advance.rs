@@ -27,9 +27,9 @@
 //! Near the contact K h^2 vanishes beside the gap, and the iteration is Newton's again.
 //!
 //! A half-space that turns has an axis that turns with it: the same, with the vertices of the other seen from the
-//! plane. So has any body beside whose face another passes: along a fixed axis, what turns on comes into the way of what is
-//! seen no further than its far corner lets. Where steps are many, an axis that turns along with either body is tried as well.
-//! Cost: a distance and a few support searches a step.
+//! plane. So has any body beside whose face another passes: along a fixed axis, what turns on comes into the way of
+//! what is seen no further than its far corner lets. Where steps are many, an axis that turns along with either body is
+//! tried as well. Cost: a distance and a few support searches a step.
 
 use super::passage::{Course, Moment, length};
 use crate::pair3::Part;
@@ -52,8 +52,8 @@ pub(super) enum End {
     Apart,
     /// They touch, or are all but there.
     Met(Met),
-    /// Whether they touch at the start is below rounding, or they overlap there; and whether, if they do not, they come no nearer
-    /// than they are.
+    /// Whether they touch at the start is below rounding, or they overlap there; and whether, if they do not, they come
+    /// no nearer than they are.
     Unclear(Met, bool),
 }
 
@@ -184,8 +184,8 @@ impl Course<'_> {
         axis.dot(self.passage.drift) + 16.0 * f64::EPSILON * length(self.passage.drift)
     }
 
-    /// The longest step by the axis that was found, whichever of these it turns along with; nothing where one parts them for
-    /// good.
+    /// The longest step by the axis that was found, whichever of these it turns along with; nothing where one parts
+    /// them for good.
     fn longest_step(
         &self,
         moment: &Moment,

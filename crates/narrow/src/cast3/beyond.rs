@@ -14,7 +14,8 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Motion3, Shape3};
 
-/// Moments of a motion with a turn that are looked at: 6 degrees of a half turn apart, by which an arm comes 0.14 % further.
+/// Moments of a motion with a turn that are looked at: 6 degrees of a half turn apart, by which an arm comes 0.14 %
+/// further.
 const MOMENTS: u32 = 32;
 
 /// What is touched at the start.
@@ -41,7 +42,8 @@ pub(super) fn with_touched<R>(
 }
 
 impl Touched<'_> {
-    /// How it lies what two parts meet with at a fraction, along a unit axis from A to B; at the start, what they touch with.
+    /// How it lies what two parts meet with at a fraction, along a unit axis from A to B; at the start, what they touch
+    /// with.
     pub(super) fn lies(&self, passage: &Passage, parts: [Part; 2], (fraction, normal): (f64, DVec3)) -> Lies {
         let (core_a, core_b) = (parts[0].shape.core(), parts[1].shape.core());
         let course = Course::new(passage, parts, [&core_a, &core_b]);
@@ -91,8 +93,8 @@ impl Touched<'_> {
 }
 
 impl Pair3<'_> {
-    /// What ground is touched, not told, and gone into: seen from where half a thickness of the way is done, unless something
-    /// else is met before.
+    /// What ground is touched, not told, and gone into: seen from where half a thickness of the way is done, unless
+    /// something else is met before.
     pub(super) fn across(
         &self,
         (on, passage): (&OnGround, &Passage),

@@ -143,8 +143,8 @@ impl March<'_> {
 }
 
 impl Simplex {
-    /// Takes one corner more, and leaves out those that do not carry the point nearest to where the origin has
-    /// moved to. How far that is; nothing where it is among them. All faces are compared where the first that fits is not
+    /// Takes one corner more, and leaves out those that do not carry the point nearest to where the origin has moved
+    /// to. How far that is; nothing where it is among them. All faces are compared where the first that fits is not
     /// `nearer_than` so many metres, or where no corner came: then the last need not be part of what is nearest.
     fn grow(&mut self, corner: Option<Corner>, origin: DVec3, nearer_than: f64) -> Option<f64> {
         if let Some(corner) = corner {

@@ -197,7 +197,8 @@ impl Passage {
         true
     }
 
-    /// That of a ball about where a part's bounding sphere is at the start, which holds it at any time while its body turns.
+    /// That of a ball about where a part's bounding sphere is at the start, which holds it at any time while its body
+    /// turns.
     fn swept_radius(&self, i: usize, part: &Part) -> f64 {
         f64::from(part.shape.outer_radius()) + self.chord(i) * part.center.length()
     }

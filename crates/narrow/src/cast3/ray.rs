@@ -75,19 +75,19 @@ enum Meeting {
 /// Where a ray first meets a posed shape, within `limit` lengths of its direction, which may be infinite.
 ///
 /// An origin inside the shape, or on its surface exactly, is a hit at distance 0. Else the distance is right up to
-/// `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance from the shape and of its size,
-/// over the cosine to the normal; of a hull also four times what its faces are off from its vertices
-/// ([`planarity_error`](asunder_geometry::Hull::planarity_error)), and of one whose outer radius is more than four times
-/// its inner radius all that as many times more. By as much, before it is divided by the cosine,
-/// may a ray have gone into a shape that it is said to miss, and what it is said to hit lie beside it. A thin shape (segment,
+/// `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance from the shape and of its size, over
+/// the cosine to the normal; of a hull also four times what its faces are off from its vertices
+/// ([`planarity_error`](asunder_geometry::Hull::planarity_error)), and of one whose outer radius is more than four
+/// times its inner radius all that as many times more. By as much, before it is divided by the cosine, may a ray have
+/// gone into a shape that it is said to miss, and what it is said to hit lie beside it. A thin shape (segment,
 /// triangle, flat hull) is hit by what passes within rounding. A NaN limit counts as none, and a negative one as zero.
-/// Of compounds, the nearest part; one that it starts inside of before any other.
-/// Of ground, the nearest triangle; one that it starts on before any other, and of equals the lowest number. No ray slips
-/// through between two that share an edge or a vertex. One-sided triangles are passed through from behind.
+/// Of compounds, the nearest part; one that it starts inside of before any other. Of ground, the nearest triangle; one
+/// that it starts on before any other, and of equals the lowest number. No ray slips through between two that share an
+/// edge or a vertex. One-sided triangles are passed through from behind.
 ///
-/// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for
-/// hulls; a few distances, about a microsecond, for what is rounded, for segments and flat hulls, and beside the faces of
-/// hulls so thin that their faces' roundings matter.
+/// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for hulls; a
+/// few distances, about a microsecond, for what is rounded, for segments and flat hulls, and beside the faces of hulls
+/// so thin that their faces' roundings matter.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Ray3, Shape3, glam::{DVec3, Vec3}};
@@ -144,7 +144,8 @@ impl<'a> Cast<'a> {
         Line { origin: self.from - shift, way: self.way, squared: self.squared, doubt }
     }
 
-    /// The nearest of a compound's parts: of few one after the other, of many in the order in which it meets their boxes.
+    /// The nearest of a compound's parts: of few one after the other, of many in the order in which it meets their
+    /// boxes.
     fn over_parts(&self, basis: &Basis3, limit: f64) -> Option<RayHit3> {
         let mut first: Option<RayHit3> = None;
         let mut offer = |part: Part<'a>| {

@@ -10,10 +10,10 @@
 //!                                             this run adds nothing
 //!                  a blunt one, a hollow:     the run's own normal takes the place of d
 //! ```
-//! So inner vertices of a straight line, and hollows, never give a sideways normal. That the neighbour alone has a sharp
-//! corner's contact matters: what lies below the one face of a step lies deep behind the other, and a body that stands
-//! on it, tilted by nothing, would be pushed off. Where faces meet bluntly neither is deep where the other is shallow,
-//! and segments that are tiny beside a depth need a normal that is not their end's.
+//! So inner vertices of a straight line, and hollows, never give a sideways normal. That the neighbour alone has a
+//! sharp corner's contact matters: what lies below the one face of a step lies deep behind the other, and a body that
+//! stands on it, tilted by nothing, would be pushed off. Where faces meet bluntly neither is deep where the other is
+//! shallow, and segments that are tiny beside a depth need a normal that is not their end's.
 
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::{ALONG_GROUND, BEHIND_END, SHARP_CORNER};
@@ -50,8 +50,8 @@ pub(crate) enum Told {
 }
 
 impl Surface {
-    /// A run of a chain that is turned, with its origin at `origin`, seen by a body whose centre is given in the same frame.
-    /// Nothing where a one-sided chain is not seen from there. What has no centre sees all.
+    /// A run of a chain that is turned, with its origin at `origin`, seen by a body whose centre is given in the same
+    /// frame. Nothing where a one-sided chain is not seen from there. What has no centre sees all.
     pub(crate) fn new(
         chain: &Chain,
         run: &Run,

@@ -15,8 +15,8 @@
 //!                else as any pair
 //! ```
 //! Kernels are dear, and most of the triangles around the nearest share the corner or the edge that is. What the bounds
-//! save: kernels asked, of hulls of 32 over hills, 9.4 to 1.8 a question; of boxes 5.1 to 2.2. Times from 11.0 us to 6.4, 7.3
-//! to 5.6 (AMD EPYC, Zen 4, 2026-11-22).
+//! save: kernels asked, of hulls of 32 over hills, 9.4 to 1.8 a question; of boxes 5.1 to 2.2. Times from 11.0 us to
+//! 6.4, 7.3 to 5.6 (AMD EPYC, Zen 4, 2026-11-22).
 //!
 //! Two grounds are asked about each triangle of one against those of the other that are near it.
 
@@ -219,13 +219,14 @@ struct Asker<'s> {
     part: &'s Part<'s>,
     wanted: Wanted,
     placed: &'s Corners,
-    /// The axis that was told last, from the part to the ground in the ground's axes, and how far the part reaches there.
+    /// The axis that was told last, from the part to the ground in the ground's axes, and how far the part reaches
+    /// there.
     shown: Option<(DVec3, f64)>,
 }
 
 impl Asker<'_> {
-    /// Asks of one triangle, unless the last axis shows that it is no nearer than the nearest so far: most often they share
-    /// the corner or the edge that is.
+    /// Asks of one triangle, unless the last axis shows that it is no nearer than the nearest so far: most often they
+    /// share the corner or the edge that is.
     fn ask(&mut self, number: u32, least: &mut Least<Told>) {
         let Self { pair, on, bases, part, wanted, placed, .. } = *self;
         let beside = &placed.beside(on.ground.corners(number));

@@ -253,8 +253,8 @@ impl Corners {
         self.lengths + span_of(corners).element_sum()
     }
 
-    /// How far the part reaches along a unit axis, in metres from the ground's origin; without end for a half-space. Cost:
-    /// linear in the vertices.
+    /// How far the part reaches along a unit axis, in metres from the ground's origin; without end for a half-space.
+    /// Cost: linear in the vertices.
     pub(crate) fn top(&self, part: &Part, axis: DVec3) -> f64 {
         let highest = match &self.extent {
             Extent::Cuboid(half) => axis.dot(self.origin) + self.own(axis).abs().dot(*half),
@@ -271,8 +271,8 @@ impl Corners {
         highest + f64::from(part.shape.radius())
     }
 
-    /// The axis from the centre to a triangle's nearest point, and how far the part reaches there, where [`Corners::gap`] has not
-    /// looked along it at the part's own points.
+    /// The axis from the centre to a triangle's nearest point, and how far the part reaches there, where
+    /// [`Corners::gap`] has not looked along it at the part's own points.
     pub(crate) fn towards(&self, part: &Part, beside: &Beside) -> Option<(DVec3, f64)> {
         if self.has_all {
             return None;

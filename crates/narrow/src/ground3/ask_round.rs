@@ -7,8 +7,8 @@
 //! apart from all of them for certain: the nearest is the answer, and what is between both bounds of any its error
 //! else: as any part, which knows about overlap
 //! ```
-//! So it is told how far a point is from a level, too. No kernel is asked, and nothing waits: a sphere over hills takes 0.4 of
-//! the time that it took by the general way (AMD EPYC, Zen 5, 2026-11-25).
+//! So it is told how far a point is from a level, too. No kernel is asked, and nothing waits: a sphere over hills takes
+//! 0.4 of the time that it took by the general way (AMD EPYC, Zen 5, 2026-11-25).
 
 use super::ask::Told;
 use super::ask_box::way_from;

@@ -27,10 +27,10 @@
 //! around it: an edge gives a direction that leans towards neither face, a corner one that leans along none of its
 //! edges. What flat and concave edges would give is refused, and the triangle's own normal stands in.
 //!
-//! That normal may be a bad one: of a box that leans over a cliff, a triangle of the cliff's top whose corner alone lies
-//! in the box is left by the box sideways along the cliff, which its neighbours refuse; straight up would throw the box
-//! onto the cliff. So triangles whose axis was refused wait until all others have been heard: where a move along
-//! one of their normals by its depth leaves such a triangle too, it has nothing to add (see `refused`). Nor has
+//! That normal may be a bad one: of a box that leans over a cliff, a triangle of the cliff's top whose corner alone
+//! lies in the box is left by the box sideways along the cliff, which its neighbours refuse; straight up would throw
+//! the box onto the cliff. So triangles whose axis was refused wait until all others have been heard: where a move
+//! along one of their normals by its depth leaves such a triangle too, it has nothing to add (see `refused`). Nor has
 //! two-sided ground that is seen from behind across a gap, where it lies below what the part stands on (`behind`).
 //!
 //! **The short way.** Where the lowest vertex of the part is over the triangle, in a gap of the cores it is the closest
@@ -38,8 +38,8 @@
 //! at least r sin a + h cos a deep, and so no better than the normal's h as long as r >= h tan(a / 2); up to a right
 //! angle, as long as r >= h. Only beyond that the kernels are asked.
 //!
-//! **What else saves time.** AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22; first a box of a metre on triangles of half a
-//! metre, on a busy machine, then whole frames of a thousand bodies that roll over hills of 20,000 triangles, in
+//! **What else saves time.** AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22; first a box of a metre on triangles of half
+//! a metre, on a busy machine, then whole frames of a thousand bodies that roll over hills of 20,000 triangles, in
 //! instructions per body:
 //! 1. triangles of one flat patch share plane, heights and incident face: 6.2 us to 4.0 on a plane, with 3;
 //! 2. before the kernels, axes that cost little: the part's own, across two edges, and from the nearest point to the
@@ -56,16 +56,19 @@
 //!    36.3 k for hulls of 32;
 //! 9. triangles near a body read together: on a million of them spheres are 10 to 25 % faster where other work uses the
 //!    caches, and 7 % slower on an idle machine;
-//! 10. triangles read without blanks, nothing counted around a furthest vertex that is alone: 2 to 4 % fewer instructions;
-//! 11. a cuboid's gap in closed form; what ground refuses asked for closest points alone; a plane, axes and groups that stay
-//!     where they are, a face's sides made once a triangle, sides of ground told without roots where all agree: 62.0 k
-//!     to 51.6 k for cuboids, which are asked more by now than at 10, 41.6 k to 39.7 k for hulls (2026-11-23);
-//! 12. with the mesh it is known which triangles bend low; planes out of reach by the box around the part, sides told by edges
-//!     that bend away, what was refused kept as it was: 33.0 k to 28.4 k for cuboids, 38.3 k to 35.3 k for hulls, in the first
-//!     seven frames (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-24). A ball pays 1 % for what it does not use.
+//! 10. triangles read without blanks, nothing counted around a furthest vertex that is alone: 2 to 4 % fewer
+//!     instructions;
+//! 11. a cuboid's gap in closed form; what ground refuses asked for closest points alone; a plane, axes and groups that
+//!     stay where they are, a face's sides made once a triangle, sides of ground told without roots where all agree:
+//!     62.0 k to 51.6 k for cuboids, which are asked more by now than at 10, 41.6 k to 39.7 k for hulls (2026-11-23);
+//! 12. with the mesh it is known which triangles bend low; planes out of reach by the box around the part, sides told
+//!     by edges that bend away, what was refused kept as it was: 33.0 k to 28.4 k for cuboids, 38.3 k to 35.3 k for
+//!     hulls, in the first seven frames (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-24). A ball pays 1 % for what it
+//!     does not use.
 //!
-//! The kernels take some 20 k instructions still each time that they make points, 12 k where ground refuses the closest: for
-//! three rolling cuboids in eight, and five hulls in nine. A world asks only about bodies that cannot be moved along.
+//! The kernels take some 20 k instructions still each time that they make points, 12 k where ground refuses the
+//! closest: for three rolling cuboids in eight, and five hulls in nine. A world asks only about bodies that cannot be
+//! moved along.
 //!
 //! **Yes or no** is exact, as everywhere: of all triangles that see the part. What is not settled by rounding bounds is
 //! asked last, the likeliest first, and no further than the first yes.
@@ -203,8 +206,8 @@ struct Seen<'s> {
 }
 
 impl<'a> Asking<'a> {
-    /// Whether a part overlaps, if it is within the margin. Once it is known that another part does, its own yes or no is of
-    /// no interest.
+    /// Whether a part overlaps, if it is within the margin. Once it is known that another part does, its own yes or no
+    /// is of no interest.
     fn contact_of(&self, part: Part<'a>, is_overlap_known: bool, manifolds: &mut impl Room) -> Option<bool> {
         if let (Shape3::Sphere(sphere), false) = (part.shape, self.is_plain) {
             let round = Round::new(self.on, &part, sphere.radius().into(), self.reach);

@@ -82,7 +82,8 @@ impl<'a> OnGround<'a> {
         grown_around([low, high], f64::from(part.shape.radius()) + reach, lengths)
     }
 
-    /// Where a part's own origin is in the ground's axes, and how long the vectors are that this is a sum of, in metres.
+    /// Where a part's own origin is in the ground's axes, and how long the vectors are that this is a sum of, in
+    /// metres.
     #[inline]
     pub(crate) fn origin_of(&self, part: &Part) -> (DVec3, f64) {
         let (_, shift) = part.placed(&self.body_basis);
@@ -106,7 +107,8 @@ pub(crate) fn box_around([low, high]: [DVec3; 2]) -> Aabb3 {
 }
 
 impl OnGround<'_> {
-    /// What belongs to the body and to the ground, as A's and B's; or what is A's and B's, as the body's and the ground's.
+    /// What belongs to the body and to the ground, as A's and B's; or what is A's and B's, as the body's and the
+    /// ground's.
     #[inline]
     pub(crate) fn in_order<T>(&self, [one, other]: [T; 2]) -> [T; 2] {
         if self.is_b { [one, other] } else { [other, one] }
@@ -118,8 +120,8 @@ impl OnGround<'_> {
         if self.is_b { -normal } else { normal }
     }
 
-    /// Where a point of a manifold is on the body, from its position, and on ground, from the ground's; in world axes. The
-    /// latter better than by its anchor, which is as coarse as ground is large.
+    /// Where a point of a manifold is on the body, from its position, and on ground, from the ground's; in world axes.
+    /// The latter better than by its anchor, which is as coarse as ground is large.
     pub(crate) fn ends(&self, manifold: &Manifold3, point: &ContactPoint3) -> [DVec3; 2] {
         let [on_body, _] = self.in_order([point.anchor_a, point.anchor_b]);
         let on_body = on_body.as_dvec3();

@@ -69,7 +69,8 @@ impl Place {
 }
 
 impl Parts<'_> {
-    /// The closest points within a limit, if they have any: those that overlap do not; else by how much they are beyond it.
+    /// The closest points within a limit, if they have any: those that overlap do not; else by how much they are beyond
+    /// it.
     fn closest(&self, limit: f64) -> Result<Option<Closest2>, f32> {
         match self.convex.apart(limit) {
             Some(found) => found.map(|apart| Some(self.place.closest(&apart))),

@@ -11,8 +11,8 @@ use crate::precision::round_down;
 impl<'a> Pair2<'a> {
     /// Asks about pairs of parts until it is enough: all that may be as near as the nearest so far.
     ///
-    /// Of a compound of many parts, those that are nearest to the other come first. Of two such, nobody is further than two that
-    /// are near each other. Of compounds of few, all in order.
+    /// Of a compound of many parts, those that are nearest to the other come first. Of two such, nobody is further than
+    /// two that are near each other. Of compounds of few, all in order.
     pub(super) fn ask_nearest<P>(
         &self,
         least: &mut Least<P>,
@@ -51,7 +51,8 @@ impl<'a> Pair2<'a> {
         });
     }
 
-    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look further.
+    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look
+    /// further.
     fn no_further_than(&self) -> f64 {
         let middle_a = self.turn_a.turn(self.shape_a.center().as_dvec2());
         let b = Part::nearest(self.shape_b, &self.turn_b, middle_a - self.between);

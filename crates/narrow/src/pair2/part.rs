@@ -64,8 +64,8 @@ pub(super) fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMu
     (0..compound.parts().len() as u32).any(|index| visit(Part::of(compound, index, turn)))
 }
 
-/// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the body's
-/// position sees it in world axes.
+/// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the
+/// body's position sees it in world axes.
 pub(super) fn for_parts_in<'a>(
     shape: &'a Shape2,
     turn: &Turn,

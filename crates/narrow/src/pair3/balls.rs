@@ -36,7 +36,8 @@ struct Balls<'p> {
 /// What is told at once of two spheres, of a sphere and a cuboid, a capsule, a triangle or a hull, of two capsules, and
 /// of what is over a half-space; nothing of all other pairs.
 impl Pair3<'_> {
-    /// Itself, where there may be a closed form: asked first, since most pairs have none, and are told apart in some ns.
+    /// Itself, where there may be a closed form: asked first, since most pairs have none, and are told apart in some
+    /// ns.
     #[inline(always)]
     fn with_closed_form(&self) -> Option<&Self> {
         let may_have = |shape: &Shape3| matches!(shape, Shape3::Sphere(_) | Shape3::HalfSpace(_));

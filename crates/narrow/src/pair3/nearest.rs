@@ -53,7 +53,8 @@ impl<'a> Pair3<'a> {
         });
     }
 
-    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look further.
+    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look
+    /// further.
     fn no_further_than(&self, bases: &[Basis3; 2]) -> f64 {
         let middle_a = bases[0].turn(self.shape_a.center().as_dvec3());
         let b = Part::nearest(self.shape_b, &bases[1], middle_a - self.between);

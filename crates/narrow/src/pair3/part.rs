@@ -74,8 +74,8 @@ pub(crate) fn for_parts<'a>(
     (0..compound.parts().len() as u32).any(|index| visit(Part::of(compound, index, basis)))
 }
 
-/// As [`for_parts`], in the same order; of a compound of many without those that are certainly outside a region, as the body's
-/// position sees it in world axes.
+/// As [`for_parts`], in the same order; of a compound of many without those that are certainly outside a region, as the
+/// body's position sees it in world axes.
 pub(super) fn for_parts_in<'a>(
     shape: &'a Shape3,
     basis: &Basis3,

@@ -82,7 +82,8 @@ impl<'a> Pair3<'a> {
 }
 
 impl Parts<'_> {
-    /// The hint for the next frame, and how they touch if they are within the margin; else by how much they are beyond it.
+    /// The hint for the next frame, and how they touch if they are within the margin; else by how much they are beyond
+    /// it.
     #[inline(always)]
     pub(super) fn contact(
         &self,
@@ -122,7 +123,8 @@ impl Parts<'_> {
         touch.of.map_or(near.hint, |of| hint_with(near.hint, of))
     }
 
-    /// The closest points within a limit, if they have any: those that overlap do not; else by how much they are beyond it.
+    /// The closest points within a limit, if they have any: those that overlap do not; else by how much they are beyond
+    /// it.
     pub(super) fn closest(&self, limit: f64) -> Result<Option<Closest3>, f32> {
         match self.convex.gap(limit) {
             Gap::Beyond(at_least) => Err(at_least),

@@ -12,8 +12,8 @@ use core::ops::ControlFlow;
 /// Most triangles that are looked at: bodies with more around them are not kept for long.
 const MOST: usize = 48;
 
-/// Sine of the greatest angle to a manifold's normal at which triangles may be part of what it stands for: beyond, they have
-/// one of their own.
+/// Sine of the greatest angle to a manifold's normal at which triangles may be part of what it stands for: beyond, they
+/// have one of their own.
 const MOST_BETWEEN: f64 = 8.0 * SAME_NORMAL;
 
 /// Triangles near some points, in the ground's axes.
@@ -95,8 +95,8 @@ impl<'a> NearPoints<'a> {
         if is_on && !self.is_cut { seam } else { unknown }
     }
 
-    /// How far ground may bend between points of one manifold: the sine of the greatest angle to its unit normal of triangles
-    /// that have a bend too low to give a normal of its own. Zero where ground is a plane to the last bit.
+    /// How far ground may bend between points of one manifold: the sine of the greatest angle to its unit normal of
+    /// triangles that have a bend too low to give a normal of its own. Zero where ground is a plane to the last bit.
     pub(super) fn bend_between(&self, normal: DVec3) -> f64 {
         if self.is_cut {
             return MOST_BETWEEN;

@@ -20,8 +20,8 @@ pub(super) struct Grip {
     is_of_ground: bool,
 }
 
-/// Where a point may leave what holds it: how far the body may go before, in metres, and what it costs beyond, as a share of the
-/// whole way.
+/// Where a point may leave what holds it: how far the body may go before, in metres, and what it costs beyond, as a
+/// share of the whole way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seam {
     pub(super) free: f64,
@@ -38,8 +38,8 @@ impl Seam {
     }
 }
 
-/// What it costs where nobody knows what comes next: by the way, the truth may have gone, and by as much what is told, the other
-/// way.
+/// What it costs where nobody knows what comes next: by the way, the truth may have gone, and by as much what is told,
+/// the other way.
 pub(super) const UNKNOWN: f64 = 2.0;
 
 /// Cosine of the angle between a normal and what a point is measured from, above which it is.
@@ -140,9 +140,9 @@ impl Grip {
     }
 }
 
-/// What it costs, as a share of the way, where an edge of ground stops to cross one side of a cuboid's face, at an angle of
-/// this sine, and crosses the next: both places are on the face, and so far from the corner; how steep it is by a direction
-/// in the cuboid's axes. Nothing where it is all but along either.
+/// What it costs, as a share of the way, where an edge of ground stops to cross one side of a cuboid's face, at an
+/// angle of this sine, and crosses the next: both places are on the face, and so far from the corner; how steep it is
+/// by a direction in the cuboid's axes. Nothing where it is all but along either.
 fn around_corner(normal: DVec3, sine: f64) -> Option<f64> {
     let cosine = (1.0 - sine * sine).max(0.0).sqrt();
     let level = normal.abs().max_element();

@@ -1,8 +1,8 @@
 //! The manifolds of a body on ground, moved along.
 //!
-//! A body that rests on a level is answered anew at several times the cost of one that rests on a box: triangles are found,
-//! read, and each is asked about. But ground does not move, and its normals do not: while the body slides a little, each
-//! point goes on being where the same two features meet, and rises as they do.
+//! A body that rests on a level is answered anew at several times the cost of one that rests on a box: triangles are
+//! found, read, and each is asked about. But ground does not move, and its normals do not: while the body slides a
+//! little, each point goes on being where the same two features meet, and rises as they do.
 //!
 //! ```text
 //! t   how far the body's position moved; R how it turned; u = t + (R - 1) a, how its matter at a point moved
@@ -57,7 +57,8 @@ pub(super) struct Grounded {
     is_ground_b: bool,
     /// Nothing of it depends on how it is turned.
     is_ball: bool,
-    /// What it costs where points leave their features, as a share of the way: zero where none does, which bounds no reach.
+    /// What it costs where points leave their features, as a share of the way: zero where none does, which bounds no
+    /// reach.
     cost: f32,
     margin: f32,
     /// Up to which drift they hold, in metres.
@@ -283,8 +284,9 @@ impl Grounded {
         for grip in grips.iter().take(of.points.len()) {
             (lean, steep) = (lean.max(grip.lean().into()), steep.max(grip.steep().into()));
         }
-        // Of more points than four, and of those that lay on the line between two others, the ones that are not told may rise
-        // by less; and by more: then those that are told may be the nearest, and it is no deeper than they are.
+        // Of more points than four, and of those that lay on the line between two others, the ones that are not told
+        // may rise by less; and by more: then those that are told may be the nearest, and it is no deeper than they
+        // are.
         let least = of.points.iter().fold(f32::INFINITY, |least, point| least.min(point.separation));
         let beside = f64::from(least) - f64::from(of.separation);
         let untold = if of.points.is_full() || beside > 0.0 { lean * drift + beside.max(0.0) } else { 0.0 };
@@ -321,8 +323,8 @@ impl Grounded {
     }
 }
 
-/// By how much more than in a line the distance to a point so far away changes on the way: too much, where that is not far
-/// beyond the way.
+/// By how much more than in a line the distance to a point so far away changes on the way: too much, where that is not
+/// far beyond the way.
 fn around(distance: f64, way: f64) -> f64 {
     if distance > 2.0 * way { way * way / distance } else { f64::INFINITY }
 }

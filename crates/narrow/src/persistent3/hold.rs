@@ -1,11 +1,11 @@
 //! What holds a manifold to its bodies in space, and how wide: a face, two edges, or what is nearest across a gap.
 //!
 //! The last is what bricks of a wall have with those beside the ones below: two edges side by side, some millimetres
-//! apart, which nothing but the general path tells, in 11 k instructions. Kept, they cost 400: 17 % of a frame of a heap of
-//! 8,000 boxes (AMD EPYC, Zen 4, 2026-11-22, by instructions).
+//! apart, which nothing but the general path tells, in 11 k instructions. Kept, they cost 400: 17 % of a frame of a
+//! heap of 8,000 boxes (AMD EPYC, Zen 4, 2026-11-22, by instructions).
 //!
-//! Tried and dropped: a normal made anew, by the points across the gap or by the edges that cross. It leans by drift / gap,
-//! or drift / sine, and the far ends of the bodies then overlap along it by as much of their size.
+//! Tried and dropped: a normal made anew, by the points across the gap or by the edges that cross. It leans by drift /
+//! gap, or drift / sine, and the far ends of the bodies then overlap along it by as much of their size.
 
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, Hint, OnFace};
@@ -57,8 +57,8 @@ const fn is_one(shape: &Shape3) -> bool {
     !matches!(shape, Shape3::Compound(_) | Shape3::TriMesh(_) | Shape3::HeightField(_))
 }
 
-/// Whether a manifold's normal is that of a face. Corners across a gap are hinted to by the face that all but parts them, and
-/// have a normal of their own.
+/// Whether a manifold's normal is that of a face. Corners across a gap are hinted to by the face that all but parts
+/// them, and have a normal of their own.
 fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
     let (shape, pose, face, out) = match face {
         OnFace::OfA(face) => (job.shape_a, job.pose_a, face as usize, 1.0),
@@ -77,8 +77,8 @@ pub(super) fn face_normal(shape: &Shape3, face: usize) -> Option<DVec3> {
     }
 }
 
-/// By how much two edges reach out to every side of where they cross: nothing unless they do at more than half a degree,
-/// and the normal of a manifold is theirs.
+/// By how much two edges reach out to every side of where they cross: nothing unless they do at more than half a
+/// degree, and the normal of a manifold is theirs.
 fn crossing(job: &Job3<'_>, edges: [u32; 2], manifold: &Manifold3) -> Option<f64> {
     let point = manifold.points.first()?;
     let along = |(shape, pose): (&Shape3, &Pose3), edge: u32, anchor: Vec3| {

@@ -13,9 +13,9 @@ use asunder_geometry::{Basis3, Pose3};
 
 /// A manifold of two solids, and how they stood to each other when it was made.
 ///
-/// A frame of bodies that rest reads every one of them, and waits for memory: 64 bytes more made heaps of boxes 11 % slower, and
-/// pyramids 7 % (AMD EPYC, Zen 4, 2026-11-23). So of a point only one end is kept: the other is its
-/// foot, along the normal (`plumb`).
+/// A frame of bodies that rest reads every one of them, and waits for memory: 64 bytes more made heaps of boxes 11 %
+/// slower, and pyramids 7 % (AMD EPYC, Zen 4, 2026-11-23). So of a point only one end is kept: the other is its foot,
+/// along the normal (`plumb`).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Solids {
@@ -56,9 +56,9 @@ impl Held {
 impl Solids {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
-    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where they
-    /// touch in several parts; and where points are neither on a face, nor where two edges cross, nor, of single solids, across a
-    /// gap from each other. Cost: some square roots, and linear in the vertices of a face.
+    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where
+    /// they touch in several parts; and where points are neither on a face, nor where two edges cross, nor, of single
+    /// solids, across a gap from each other. Cost: some square roots, and linear in the vertices of a face.
     pub(super) fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;
@@ -164,11 +164,12 @@ impl Solids {
         false
     }
 
-    /// The same where neither body turned: all points rise alike, and stay where they are on one body. That is known before
-    /// anything is written: a quarter fewer instructions than by the general way, which moves each point by itself.
+    /// The same where neither body turned: all points rise alike, and stay where they are on one body. That is known
+    /// before anything is written: a quarter fewer instructions than by the general way, which moves each point by
+    /// itself.
     ///
-    /// Tried: a point in four lanes, with its separation beside its anchor as they lie in memory: a twelfth more instructions
-    /// (2026-11-24).
+    /// Tried: a point in four lanes, with its separation beside its anchor as they lie in memory: a twelfth more
+    /// instructions (2026-11-24).
     #[inline(always)]
     fn shift(&self, offset: DVec3, to: &mut Vec<Manifold3>) -> bool {
         let step = offset - between(self.poses.each_ref());
@@ -217,7 +218,8 @@ impl Solids {
         };
         let [arm_a, arm_b] = self.terms.arms;
         let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
-        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as wholes.
+        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as
+        // wholes.
         let (drift, arm, seen_from) =
             if from_a <= from_b { (from_a, arm_b, of_a) } else { (from_b, arm_a, of_b) };
         let (spun, normal) = (spin * f64::from(arm), seen_from.turn(normal_then));
@@ -267,8 +269,8 @@ struct Moved {
 impl Moved {
     /// Where the point is now that is held by the body whose face it is not, and by how much it rose over the other's.
     ///
-    /// What rose is the way from A's point to B's, along the normal: short vectors, whose rounding is nothing beside the
-    /// drift.
+    /// What rose is the way from A's point to B's, along the normal: short vectors, whose rounding is nothing beside
+    /// the drift.
     #[inline(always)]
     fn held(&self, [on_a, on_b]: [DVec3; 2], is_from_b: bool) -> (DVec3, f64) {
         let (a, b) = (self.of_a.turn(on_a), self.of_b.turn(on_b));

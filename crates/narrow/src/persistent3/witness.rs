@@ -14,8 +14,8 @@ use core::ops::Range;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Witness {
-    /// A segment of the body, in world axes from its position, that crosses a triangle, in world axes from the ground's;
-    /// counter-clockwise as seen from the segment's end.
+    /// A segment of the body, in world axes from its position, that crosses a triangle, in world axes from the
+    /// ground's; counter-clockwise as seen from the segment's end.
     Crossing { from: DVec3, to: DVec3, corners: [DVec3; 3] },
     /// A point of ground, in world axes from its position, in a cuboid with these half extents.
     InCuboid { point: DVec3, half: DVec3 },

@@ -197,7 +197,8 @@ impl Simplex {
         (0..3).any(|i| self.vertices[i] == vertices && i < self.count)
     }
 
-    /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than `length`.
+    /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than
+    /// `length`.
     ///
     /// That is on a side which ends in the new corner, or the step brought nothing.
     #[inline(always)]
@@ -249,8 +250,8 @@ impl Simplex {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// The point of A or B that the shares make. A weighted difference from the first corner, and not weighted corners: what the
-    /// weights' sum lost shrinks with it.
+    /// The point of A or B that the shares make. A weighted difference from the first corner, and not weighted corners:
+    /// what the weights' sum lost shrinks with it.
     #[inline(always)]
     fn weighted(&self, outline: &Outline, which: usize) -> DVec2 {
         let first = outline.point(self.vertices[0][which]);

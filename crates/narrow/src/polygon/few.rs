@@ -52,7 +52,8 @@ impl<const N: usize> Few<N> {
         let (vertices, edges) = (core.0.len().min(N), core.1.len().min(N));
         let blank = [0.0; N];
         let mut few = Self { x: blank, y: blank, normal_x: blank, normal_y: blank, vertices, edges, radius };
-        // By loops: without link-time optimisation `map` and `from_fn` are calls, half of all instructions for octagons.
+        // By loops: without link-time optimisation `map` and `from_fn` are calls, half of all instructions for
+        // octagons.
         for i in 0..N {
             let v = core.0.get(i.min(last)).map_or(DVec2::ZERO, |v| v.as_dvec2());
             (few.x[i], few.y[i]) = (position.x + (c * v.x - s * v.y), position.y + (s * v.x + c * v.y));

@@ -199,8 +199,8 @@ impl Reference {
 
     /// The same of a point at which an edge of the core is cut off. `out` leads from the edge to the surface.
     ///
-    /// What is deepest of a whole shape is a radius below its core. Below a cut, there is the surface of a tilted edge, or
-    /// of the arc around its deeper end.
+    /// What is deepest of a whole shape is a radius below its core. Below a cut, there is the surface of a tilted edge,
+    /// or of the arc around its deeper end.
     #[cold]
     fn over_cut(
         &self,
@@ -289,8 +289,8 @@ fn on_edge(
     Some((corners, if is_b { [point, foot] } else { [foot, point] }))
 }
 
-/// What lies over an edge of `outline`, along this outward normal of it and whatever the best axis is, and no further than
-/// `within` metres from it: points of the incident shape's lowest edge.
+/// What lies over an edge of `outline`, along this outward normal of it and whatever the best axis is, and no further
+/// than `within` metres from it: points of the incident shape's lowest edge.
 pub(crate) fn over_edge(
     [outline, incident]: [&impl Placed; 2],
     (edge, normal): (usize, DVec2),

@@ -243,8 +243,8 @@ impl Simplex {
         }
     }
 
-    /// Goes on to the nearest point of the faces of four corners, which hold the origin but for rounding: so much closer than
-    /// the last point was, that what is not proved is told by it. That was `length` away.
+    /// Goes on to the nearest point of the faces of four corners, which hold the origin but for rounding: so much
+    /// closer than the last point was, that what is not proved is told by it. That was `length` away.
     fn go_to_nearest_face(&mut self, length: f64) {
         let around = (self.vertices, self.corners.places);
         // Until a face is nearer: the point was on that of the first three.

@@ -43,8 +43,8 @@ impl Plane {
         (vertex, self.height(core.point(vertex)))
     }
 
-    /// The same of a shape that has its axes and its origin there: where the vertex is. To make a [`Solid`] of a cuboid or a
-    /// capsule takes longer.
+    /// The same of a shape that has its axes and its origin there: where the vertex is. To make a [`Solid`] of a cuboid
+    /// or a capsule takes longer.
     #[inline]
     pub(crate) fn lowest_of(&self, shape: &Shape3, (basis, origin): (&Basis3, DVec3)) -> DVec3 {
         if let Shape3::Cuboid(cuboid) = shape {
@@ -78,8 +78,8 @@ impl Plane {
         [self, other].map(|plane| middle - plane.normal * plane.height(middle))
     }
 
-    /// The corners, at most four, of the face that looks at the plane, and no more than `margin` above it. Corners
-    /// that are no higher than the lowest, up to `preference`, are as deep as any; up to `even`, for the choice of four.
+    /// The corners, at most four, of the face that looks at the plane, and no more than `margin` above it. Corners that
+    /// are no higher than the lowest, up to `preference`, are as deep as any; up to `even`, for the choice of four.
     pub(crate) fn touch(&self, core: &Solid, margin: f64, slacks: [f64; 2]) -> Touch {
         let opposed = opposed_face(core, self.normal, slacks[0]);
         let corners = core.topology.face_vertices(opposed.face).map(|vertex| (vertex, core.point(vertex)));
@@ -200,7 +200,8 @@ mod tests {
     use asunder_geometry::glam::{Quat, Vec3};
     use asunder_geometry::{Capsule3, Pose3, Segment3};
 
-    /// Upright and all but upright, where several corners are as low as the lowest, and in any pose; plates and rods, too.
+    /// Upright and all but upright, where several corners are as low as the lowest, and in any pose; plates and rods,
+    /// too.
     #[test]
     fn a_shape_touches_as_its_solid_does() {
         let mut numbers = Numbers::new(31);

@@ -1,7 +1,7 @@
 //! Convex polyhedra: yes or no, separation, distance and contact manifolds.
 //!
-//! What decides is in f64, or shown by f32 with a bound on its rounding; lanes of f32 leave out what bounds prove to be of
-//! no use. [`cuboids`] has faster kernels for two of them, which must agree with what is here.
+//! What decides is in f64, or shown by f32 with a bound on its rounding; lanes of f32 leave out what bounds prove to be
+//! of no use. [`cuboids`] has faster kernels for two of them, which must agree with what is here.
 
 pub(crate) mod closest;
 pub(crate) mod convex;

@@ -57,7 +57,8 @@ impl Along {
         greatest(top)
     }
 
-    /// The greatest projection, and the vertex that it is of, or a place behind the last; of equals that of the lowest lane.
+    /// The greatest projection, and the vertex that it is of, or a place behind the last; of equals that of the lowest
+    /// lane.
     #[inline(always)]
     pub(super) fn furthest(&self, octets: &[VertexOctet]) -> (f32, usize) {
         if let [octet] = octets {
@@ -120,7 +121,8 @@ impl Along {
 }
 
 /// No less than how far vertices reach along a direction of any length, all in their own axes: as
-/// [`Solid::rough_support`](super::solid::Solid::rough_support), without the vertex. No coordinate is greater than `extent`.
+/// [`Solid::rough_support`](super::solid::Solid::rough_support), without the vertex. No coordinate is greater than
+/// `extent`.
 #[inline]
 pub(super) fn bound_of_reach(octets: &[VertexOctet], extent: f32, direction: DVec3) -> f64 {
     let along = Along::new(direction);

@@ -118,9 +118,9 @@ impl<'a, 'b> Look<'a, 'b> {
         (self.separation <= self.doubt).then(|| self.a.point(in_a.vertex) - self.b.point(in_b.vertex))
     }
 
-    /// Follows the ray from a point inside, to corners that are around the origin up to rounding. Nothing where a look led
-    /// no further: its direction parts the solids, or there were too many. No corners where the ray leaves the difference
-    /// short of the origin, by no more than rounding.
+    /// Follows the ray from a point inside, to corners that are around the origin up to rounding. Nothing where a look
+    /// led no further: its direction parts the solids, or there were too many. No corners where the ray leaves the
+    /// difference short of the origin, by no more than rounding.
     fn through(&mut self, inside: DVec3) -> Option<Option<[DVec3; 4]>> {
         let mut one = self.along(self.direction)?;
         let mut two = self.along(one.cross(inside))?;

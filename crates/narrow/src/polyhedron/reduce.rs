@@ -9,8 +9,8 @@
 //! ```
 //! For a fixed root and a diagonal that turns on, the corners furthest from it turn on as well: one pass around the
 //! patch finds the best four that hold the root. That the best of all lie between those is proved by Boyce, Dobkin,
-//! Drysdale and Guibas, "Finding extremal polygons" (SIAM Journal on Computing 1985). Of five to eight corners all fours
-//! are tried.
+//! Drysdale and Guibas, "Finding extremal polygons" (SIAM Journal on Computing 1985). Of five to eight corners all
+//! fours are tried.
 //!
 //! What is promised, of corners in convex position, up to a few [`EVEN_AREA`]:
 //! - one of the four is as deep as any, up to what counts as even;
@@ -259,7 +259,8 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
         Four { corners: first.map(index), furthest: best.map(index), area: most }
     }
 
-    /// Of corners on either side of a diagonal that are worth as much, those nearer to the root, but no nearer than some.
+    /// Of corners on either side of a diagonal that are worth as much, those nearer to the root, but no nearer than
+    /// some.
     fn nearer(&self, root: usize, [_, mut b, c, mut d]: [usize; 4], least: [usize; 2]) -> [usize; 4] {
         let place = self.seen_from(root);
         let at_c = place(c);

@@ -14,7 +14,8 @@ use asunder_geometry::tolerance::{ALIGNED_FACES, MAX_HULL_VERTICES};
 /// Half-edges of a hull with the most vertices: so many edges, each seen from both of its ends.
 const MAX_HALF_EDGES: usize = 2 * (3 * MAX_HULL_VERTICES - 6);
 
-/// Share of a rod's length by which a place on it may be past its end, and count as the end; and of a stretch that is none.
+/// Share of a rod's length by which a place on it may be past its end, and count as the end; and of a stretch that is
+/// none.
 const SHARE: f64 = 1e-9;
 
 /// An edge of a core, or all of a segment.

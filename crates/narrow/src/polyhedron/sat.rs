@@ -24,18 +24,20 @@
 //! test took 52 us on mixed pairs and 85 on deep ones, and takes 1.6 and 6.5):
 //!
 //! 1. *arcs eight at a time*, in f32, over data built with the hull: deep 85 -> 19 us;
-//! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 -> 7.8 us;
-//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound will do, f32
-//!    alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
-//! 4. *the edges themselves, and vertices seen so far*, bound an edge pair's axis before it is projected, without a quotient:
-//!    prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they do: 3.3 -> 3.1;
-//! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold, sliding 4.2 ->
-//!    1.0, tumbling 3.2 -> 1.7. In a gap the same (`across`). Where it is not proved, it is the bound to beat from the start: a
-//!    frame of a pile of hulls 5 % less (2026-11-22);
-//! 6. *a walk to it* from last frame's axis, or from the best of two promising faces, over the facets between (`walk`), and
-//!    single vertices where no ball proves the end (`cover`): of hulls that fall on each other 4 pairs a frame come to the rest
-//!    of this test, where it was 670. Frames 7 to 20 % less (2026-11-24). Before the search for a direction, for those that meet
-//!    for the first time: face on face 2.2 -> 1.6 (2026-11-26).
+//! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 -> 7.8
+//!    us;
+//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound will
+//!    do, f32 alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
+//! 4. *the edges themselves, and vertices seen so far*, bound an edge pair's axis before it is projected, without a
+//!    quotient: prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they do: 3.3 ->
+//!    3.1;
+//! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold,
+//!    sliding 4.2 -> 1.0, tumbling 3.2 -> 1.7. In a gap the same (`across`). Where it is not proved, it is the bound to
+//!    beat from the start: a frame of a pile of hulls 5 % less (2026-11-22);
+//! 6. *a walk to it* from last frame's axis, or from the best of two promising faces, over the facets between (`walk`),
+//!    and single vertices where no ball proves the end (`cover`): of hulls that fall on each other 4 pairs a frame come
+//!    to the rest of this test, where it was 670. Frames 7 to 20 % less (2026-11-24). Before the search for a
+//!    direction, for those that meet for the first time: face on face 2.2 -> 1.6 (2026-11-26).
 //!
 //! And on two of 256 that are symmetric enough for nothing to be culled, as equal double cones in one place (1.9 ms):
 //!
@@ -45,16 +47,18 @@
 //!
 //! And on prisms, whose rims look everywhere between a cap and a side:
 //!
-//! 10. *a polytope that grows*, in place of pairs of edges: of 128 sides, deep, 200 us -> 18; of 24, 24 -> 8 (2026-11-26).
+//! 10. *a polytope that grows*, in place of pairs of edges: of 128 sides, deep, 200 us -> 18; of 24, 24 -> 8
+//!     (2026-11-26).
 //!
-//! Tried, and dropped: AVX2 for the whole test behind run-time detection (0 to 15 % slower, though the whole program compiled for
-//! it is 8 to 15 % faster: calls that are not inlined pay for the border); AVX2 for the support alone (no gain); one lane in
-//! place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow for 8 vertices); masks in place
-//! of eight numbers (slower in portable Rust); the best direction of the search before as a first bound (no gain); the furthest
-//! vertex as a sum of indices without branches (20 % slower: branches are guessed, sums are waited for); arcs' eights given up
-//! between the two great circles and the meeting point (cones 15 % faster, all else 3 to 6 % slower); a support search that keeps
-//! its projections for the second look (a fifth fewer instructions, no time), or takes f32's winner where none is near (none);
-//! the corners of last frame's axis shown to either solid first, where that was not proved (crowds 2 % slower, else nothing).
+//! Tried, and dropped: AVX2 for the whole test behind run-time detection (0 to 15 % slower, though the whole program
+//! compiled for it is 8 to 15 % faster: calls that are not inlined pay for the border); AVX2 for the support alone (no
+//! gain); one lane in place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow for
+//! 8 vertices); masks in place of eight numbers (slower in portable Rust); the best direction of the search before as a
+//! first bound (no gain); the furthest vertex as a sum of indices without branches (20 % slower: branches are guessed,
+//! sums are waited for); arcs' eights given up between the two great circles and the meeting point (cones 15 % faster,
+//! all else 3 to 6 % slower); a support search that keeps its projections for the second look (a fifth fewer
+//! instructions, no time), or takes f32's winner where none is near (none); the corners of last frame's axis shown to
+//! either solid first, where that was not proved (crowds 2 % slower, else nothing).
 //!
 //! Cost: linear in faces, edges and vertices; what the spheres leave, faces times vertices and edges times edges.
 

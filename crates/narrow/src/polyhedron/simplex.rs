@@ -67,8 +67,8 @@ impl Corners {
         }
     }
 
-    /// How much of the edge to another corner leads to its point nearest to the origin, if that lies within it, and by how much
-    /// less far that is than the last corner, squared.
+    /// How much of the edge to another corner leads to its point nearest to the origin, if that lies within it, and by
+    /// how much less far that is than the last corner, squared.
     #[inline(always)]
     fn edge(&self, corner: usize) -> Option<(f64, f64)> {
         let along = self.along(corner);

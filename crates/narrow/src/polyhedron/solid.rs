@@ -213,7 +213,8 @@ impl<'a> Solid<'a> {
         best
     }
 
-    /// The vertex of [`Solid::local_support`] without what it reaches: where no other is as far in f32, no f64 is needed.
+    /// The vertex of [`Solid::local_support`] without what it reaches: where no other is as far in f32, no f64 is
+    /// needed.
     #[inline]
     fn local_furthest(&self, direction: DVec3) -> usize {
         if self.is_cuboid {
@@ -278,8 +279,8 @@ impl<'a> Solid<'a> {
         along.highest(self.vertex_octets) - along.doubt(self.extent)
     }
 
-    /// Whether a face may look along a unit direction up to [`ALIGNED_FACES`]; errs towards yes, never towards no. Cost:
-    /// linear in the faces, eight at a time.
+    /// Whether a face may look along a unit direction up to [`ALIGNED_FACES`]; errs towards yes, never towards no.
+    /// Cost: linear in the faces, eight at a time.
     #[inline]
     pub(super) fn may_look_along(&self, direction: DVec3) -> bool {
         // Less by more than lanes may be off by, and normals.
@@ -328,8 +329,8 @@ impl<'a> Solid<'a> {
         self.inner_radius
     }
 
-    /// Half of a segment about the centre on which a ball of [`ARM_SHARE`](asunder_geometry::tolerance::ARM_SHARE) of the inner
-    /// radius stays inside, in the frame of the pair.
+    /// Half of a segment about the centre on which a ball of [`ARM_SHARE`](asunder_geometry::tolerance::ARM_SHARE) of
+    /// the inner radius stays inside, in the frame of the pair.
     #[inline]
     pub(super) fn inner_arm(&self) -> DVec3 {
         self.forth(self.inner_arm.as_dvec3())

@@ -2,8 +2,8 @@
 //!
 //! In a [`WorldScene`] no solver ran: a body sways about its place, or flies straight on and turns back at a wall, as a
 //! function of the frame's number alone. A heap at rest therefore looks to an engine as a heap does that a solver
-//! holds: nearly the same pairs each frame, every pose a little different. A heap that falls in takes a solver: somebody
-//! steps [`Falling`](crate::stages::Falling), and [`Replay3::recorded`] plays the poses again.
+//! holds: nearly the same pairs each frame, every pose a little different. A heap that falls in takes a solver:
+//! somebody steps [`Falling`](crate::stages::Falling), and [`Replay3::recorded`] plays the poses again.
 //!
 //! ```
 //! use asunder_scenes::worlds::{Replay2, Replay3, WorldScene};

@@ -18,11 +18,12 @@
 //! stored: Zomorodian & Edelsbrunner, "Fast software for box intersections" (2000).
 //!
 //! 1. Lower ends that are equal are told apart by the place of the box. So there are no ties: of two boxes exactly one
-//!    begins first, halves are halves where all boxes are the same, and touching or unbounded boxes are nothing special.
+//!    begins first, halves are halves where all boxes are the same, and touching or unbounded boxes are nothing
+//!    special.
 //! 2. Sets are moved to the front of their slice, never copied: the whole works in two copies of the boxes (64 bytes a
 //!    box), with no other memory.
-//! 3. A cut that leaves less than a quarter on a side is made again, exactly: a path is at most 2.5 log2 n deep an axis,
-//!    and so is the stack.
+//! 3. A cut that leaves less than a quarter on a side is made again, exactly: a path is at most 2.5 log2 n deep an
+//!    axis, and so is the stack.
 //! 4. On the last axis a sort and a sweep in place of both roles: a third less in all (needles, 100,000).
 //!
 //! Tried (AMD EPYC, Zen 4, 2026-11-22): 32 boxes that are compared in place of 64, 1.1 to 1.4 times as long; spans and
@@ -84,8 +85,8 @@ pub(super) fn in_order(one: &Key, other: &Key) -> Ordering {
     one.0.total_cmp(&other.0).then(one.1.cmp(&other.1))
 }
 
-/// The axes in the order in which a walk takes them: that along which columns are swept is one on which boxes are short.
-/// The plane has two.
+/// The axes in the order in which a walk takes them: that along which columns are swept is one on which boxes are
+/// short. The plane has two.
 pub(super) fn axes_from<B: Bounds>(sweep: usize) -> ([usize; 3], usize) {
     let axes = [0, 1, 2].map(|offset| (sweep + offset) % B::AXES.max(1));
     (axes, B::AXES.min(3))

@@ -74,7 +74,8 @@ impl<'a> Plain<'a> {
         [sine > least, -sine > least]
     }
 
-    /// The sine of the bend along an edge, and whether it is folded back: by the way from the edge to the corner beyond it.
+    /// The sine of the bend along an edge, and whether it is folded back: by the way from the edge to the corner beyond
+    /// it.
     fn bend(&self, number: u32, edge: usize) -> Option<(f64, bool)> {
         let (other, twin) = self.neighbor(number, edge)?;
         let corners = self.corners(number).map(|corner| corner.as_dvec3());

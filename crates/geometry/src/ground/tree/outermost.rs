@@ -4,8 +4,8 @@
 //! to each of six sides: from node to node what reaches furthest there, down to a box, which is handed over
 //! then all boxes, but for those, and nodes, that reach no further than what was handed over
 //! ```
-//! The first is not sure to find what is furthest, since the box of a node that is turned reaches further than what is in it. It
-//! finds what lets the second pass over nearly all.
+//! The first is not sure to find what is furthest, since the box of a node that is turned reaches further than what is
+//! in it. It finds what lets the second pass over nearly all.
 
 use super::walk::STACK;
 use super::{EMPTY, IS_BOX, Node, Sides, Tree};

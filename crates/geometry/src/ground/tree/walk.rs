@@ -19,8 +19,8 @@ type Stack = ArrayVec<(f32, u32), STACK>;
 /// of at most 2^-24 each.
 const LOST: f64 = 1.0 / 4_194_304.0;
 
-/// A question about an order: one rule for nodes and boxes, monotone under rounding, so that no box comes before the node
-/// around it.
+/// A question about an order: one rule for nodes and boxes, monotone under rounding, so that no box comes before the
+/// node around it.
 pub(crate) trait Ask {
     /// Where each of eight boxes comes in the order, and which of them are within a limit. Of others and of empty
     /// places, anything.
@@ -39,8 +39,8 @@ pub(crate) struct Found {
 }
 
 impl Tree {
-    /// Hands the number of every box that overlaps this one to `visitor`, each once, until it breaks off; and where it is known,
-    /// its triangle.
+    /// Hands the number of every box that overlaps this one to `visitor`, each once, until it breaks off; and where it
+    /// is known, its triangle.
     #[inline]
     pub(crate) fn visit_overlapping(
         &self,
@@ -80,11 +80,11 @@ impl Tree {
         ControlFlow::Continue(())
     }
 
-    /// Hands boxes to `visitor` that are within a limit, of each node the first in the order before all others, and where
-    /// it is known, their triangle. What it returns is the limit from then on, unless it was lower before.
+    /// Hands boxes to `visitor` that are within a limit, of each node the first in the order before all others, and
+    /// where it is known, their triangle. What it returns is the limit from then on, unless it was lower before.
     ///
-    /// Longer than sixty lines: taking from the stack and adding to it share six variables, which a function between them
-    /// would hand to and fro.
+    /// Longer than sixty lines: taking from the stack and adding to it share six variables, which a function between
+    /// them would hand to and fro.
     #[inline]
     pub(crate) fn visit_in_order(
         &self,
@@ -149,7 +149,8 @@ impl Tree {
     }
 }
 
-/// Puts a box among those between two heights of a stack. The nearest goes on top; of equals, the one in the earlier place.
+/// Puts a box among those between two heights of a stack. The nearest goes on top; of equals, the one in the earlier
+/// place.
 #[inline(always)]
 fn insert(stack: &mut Stack, bottom: usize, one: (f32, u32)) {
     let mut at = stack.len();
@@ -245,8 +246,8 @@ impl Line {
 impl Ask for Line {
     /// A NaN comes from a side that is touched all the way, and bounds nothing: comparisons drop it.
     ///
-    /// A call of its own, with all it finds in memory: compiled into the walk, lanes were taken apart (250 instructions a
-    /// node, and 95 as it is; AMD EPYC, Zen 4, 2026-11-22).
+    /// A call of its own, with all it finds in memory: compiled into the walk, lanes were taken apart (250 instructions
+    /// a node, and 95 as it is; AMD EPYC, Zen 4, 2026-11-22).
     #[inline(never)]
     fn find(&self, sides: &Rows, slots: &[u32; WIDTH], limit: f32, found: &mut Found) {
         let (mut enter, mut leave) = ([0.0; WIDTH], [limit; WIDTH]);
@@ -299,7 +300,8 @@ impl Ask for Near {
             }
         }
         for square in &mut squares {
-            // Denormal squares have lost too much to say who is nearer; infinite ones are the limit of what can be told.
+            // Denormal squares have lost too much to say who is nearer; infinite ones are the limit of what can be
+            // told.
             *square = if *square >= f32::MIN_POSITIVE { *square } else { 0.0 };
             *square = if *square < f32::MAX { *square } else { f32::MAX };
         }

@@ -1,5 +1,5 @@
-//! What turns as the circle that it turns in: what tells, where steps lead no further, that a wheel of many sides rolls on beside
-//! another for good.
+//! What turns as the circle that it turns in: what tells, where steps lead no further, that a wheel of many sides rolls
+//! on beside another for good.
 
 use super::{Course, Look};
 use asunder_geometry::glam::DVec2;

@@ -10,16 +10,17 @@
 //! Watertight: a triangle is hit by what passes within rounding of it, and is not passed over here unless the ray is
 //! twice as far beside it; so a ray through an edge that two triangles share, or a vertex, hits at least one of them.
 //!
-//! What makes it fast, in instructions of a ray on 20,000 triangles of rolling land that took 3970 before and takes 2530:
+//! What makes it fast, in instructions of a ray on 20,000 triangles of rolling land that took 3970 before and takes
+//! 2530:
 //!
-//! 1. the ray is turned into the ground's axes, once, and not the triangles out of them; a triangle that is missed costs
-//!    no root and no quotient;
-//! 2. corners come out of the tree's leaves, not by numbers out of tables: on a million triangles that wait for memory was a
-//!    third of the time;
+//! 1. the ray is turned into the ground's axes, once, and not the triangles out of them; a triangle that is missed
+//!    costs no root and no quotient;
+//! 2. corners come out of the tree's leaves, not by numbers out of tables: on a million triangles that wait for memory
+//!    was a third of the time;
 //! 3. a triangle that is crossed for certain is asked neither for the sphere around it nor for its edges again (350);
 //! 4. what is written by parts and read whole at once waits a dozen cycles: the projection and the ray are made in
-//!    registers, and the visitor is called in one place, so that it is compiled into the walk (a quarter of the time, and
-//!    few instructions).
+//!    registers, and the visitor is called in one place, so that it is compiled into the walk (a quarter of the time,
+//!    and few instructions).
 
 use super::planes::{self, EDGE_ON};
 use super::projection::{Projection, Side};

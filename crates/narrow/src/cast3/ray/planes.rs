@@ -35,11 +35,12 @@ pub(super) fn cuboid(line: &Line, basis: &Basis3, cuboid: &Cuboid) -> Meeting {
     Meeting::At(enter, axis * -1.0_f64.copysign(closing), line.error(enter, closing.abs(), 0.0))
 }
 
-/// Up to which share of its outer radius a hull's planes may reach beyond its rims without the face being looked at: 2^-18, far
-/// above what rounding makes of what is not thin.
+/// Up to which share of its outer radius a hull's planes may reach beyond its rims without the face being looked at:
+/// 2^-18, far above what rounding makes of what is not thin.
 const BEYOND_RIMS: f64 = 1.0 / 262_144.0;
 
-/// How many times the inner radius the outer one may be for the error to hold as it is: it is four times what faces are off.
+/// How many times the inner radius the outer one may be for the error to hold as it is: it is four times what faces are
+/// off.
 const COMPACT: f64 = 4.0;
 
 /// Inside of all planes: the ray enters some and leaves others.
@@ -91,8 +92,8 @@ pub(super) fn hull(line: &Line, basis: &Basis3, hull: &Hull, core: &Core3) -> Me
     Meeting::At(enter, basis.turn(face), error.min(2.0 * outer))
 }
 
-/// Whether the ray is on the plane of a face up to rounding at that distance, over the face, and no nearer to its sides than
-/// that.
+/// Whether the ray is on the plane of a face up to rounding at that distance, over the face, and no nearer to its sides
+/// than that.
 #[inline(never)]
 fn is_over_face(line: &Line, basis: &Basis3, core: &Core3, distance: f64) -> bool {
     let (at, doubt) = (basis.turn_back(line.at(distance)), line.doubt_at(distance).0);

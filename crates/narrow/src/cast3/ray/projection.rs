@@ -1,9 +1,9 @@
 //! Triangles as a ray sees them.
 //!
-//! Projected along the ray into the coordinate plane that it is steepest to, a triangle is crossed by the ray's line where
-//! its projection holds zero: where zero is on the same side of all three edges (Woop, Benthin and Wald, "Watertight
-//! ray/triangle intersection", 2013). In f64, of corners in f32, with a slack that is far above rounding: what is within it
-//! is [`Side::Unclear`].
+//! Projected along the ray into the coordinate plane that it is steepest to, a triangle is crossed by the ray's line
+//! where its projection holds zero: where zero is on the same side of all three edges (Woop, Benthin and Wald,
+//! "Watertight ray/triangle intersection", 2013). In f64, of corners in f32, with a slack that is far above rounding:
+//! what is within it is [`Side::Unclear`].
 
 use asunder_geometry::glam::{DVec3, Vec3};
 
@@ -32,7 +32,8 @@ pub(super) struct Projection {
     along: [[f64; 2]; 3],
     /// Where the ray's origin would be.
     origin: [f64; 2],
-    /// Twice an area: more than rounding makes of that between zero and an edge, and what an edge within rounding spans.
+    /// Twice an area: more than rounding makes of that between zero and an edge, and what an edge within rounding
+    /// spans.
     slack: f64,
 }
 
@@ -98,8 +99,8 @@ mod tests {
         v.iter().map(|&part| (part as f64) * (part as f64)).sum::<f64>().sqrt()
     }
 
-    /// Against integers: rays through edges and vertices and past them by as little as a rounding, triangles down to needles,
-    /// seen at a slant down to edge on, near and far, of any size.
+    /// Against integers: rays through edges and vertices and past them by as little as a rounding, triangles down to
+    /// needles, seen at a slant down to edge on, near and far, of any size.
     #[test]
     fn what_is_clear_is_so_by_integers() {
         let mut random = Rand64::new(4711);

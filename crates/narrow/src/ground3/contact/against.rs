@@ -7,9 +7,9 @@
 //!     unless in a gap a side of the face cuts off the upper end of an edge that is not quite level
 //! else the kernels are asked
 //! ```
-//! In a gap of the cores that is the closest point. In overlap no axis that leans by less than a right angle over a side
-//! of the face is better, as above for the triangle. Most of what stands out of ground under a box lies under the middle
-//! of its face.
+//! In a gap of the cores that is the closest point. In overlap no axis that leans by less than a right angle over a
+//! side of the face is better, as above for the triangle. Most of what stands out of ground under a box lies under the
+//! middle of its face.
 
 use super::facet::Furthest;
 use super::groups::{Base, Groups, Pin};
@@ -112,8 +112,8 @@ impl Prism<'_> {
             || standing.is_in_box(point, self.doubt)
     }
 
-    /// How much further than a face's plane the round of one of its edges reaches to what passes from under it there: a line that
-    /// counts as level may lean against the face. In metres; never more than all that it rises by.
+    /// How much further than a face's plane the round of one of its edges reaches to what passes from under it there: a
+    /// line that counts as level may lean against the face. In metres; never more than all that it rises by.
     fn under_round(&self, half_edge: usize, outwards: DVec3, along: DVec3) -> f64 {
         let standing = self.standing;
         let (start, stop) = standing.solid.topology.ends(half_edge);

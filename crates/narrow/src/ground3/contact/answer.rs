@@ -20,7 +20,8 @@ impl Asking<'_> {
     ) -> Option<bool> {
         let (overlapping, least) = (known.overlapping, known.groups.least());
         let how = (overlapping, is_overlap_known, least);
-        // What is told decides, as between solids: whatever a slack let in that is not touched may be told to be beyond the margin.
+        // What is told decides, as between solids: whatever a slack let in that is not touched may be told to be beyond
+        // the margin.
         if !overlapping && (least == f64::INFINITY || told(least, how) > self.margin) {
             return None;
         }

@@ -33,8 +33,8 @@ pub(super) struct Axes {
 /// A direction from the triangle to the cuboid, in the cuboid's axes, and how far they are apart along it, in metres.
 type Axis = (f64, DVec3);
 
-/// Sine of an angle between edges up to which what is across them is left out: a turn by as much makes them parallel, and
-/// then it is across faces, too.
+/// Sine of an angle between edges up to which what is across them is left out: a turn by as much makes them parallel,
+/// and then it is across faces, too.
 const PARALLEL: f64 = 1e-10;
 
 /// Sine of the angle between edges above which what is across them is right to a millionth of the slack.
@@ -42,8 +42,8 @@ const CROSSED: f64 = 1e-3;
 
 impl Prism<'_> {
     /// Fills in the axes, where the part is a cuboid and no two edges are so nearly parallel that they are not to be
-    /// trusted; whether it did. All of them, unless one says at once that they are further apart than so many metres. Filled
-    /// where they stay: they are large.
+    /// trusted; whether it did. All of them, unless one says at once that they are further apart than so many metres.
+    /// Filled where they stay: they are large.
     pub(super) fn fill(&self, axes: &mut Axes, beyond: f64) -> bool {
         let Shape3::Cuboid(cuboid) = self.standing.part.shape else { return false };
         let normal = self.standing.own(self.facet, DVec3::ZERO, axes);
@@ -66,8 +66,8 @@ impl Prism<'_> {
         best.any(|axis| self.facet.is_nearly_own(standing.place.axes.turn(axis.1)))
     }
 
-    /// How deep a cuboid is in a triangle to which the axis along which it is the least deep is level, and how far that may be
-    /// off, in metres.
+    /// How deep a cuboid is in a triangle to which the axis along which it is the least deep is level, and how far that
+    /// may be off, in metres.
     pub(super) fn told_by(&self, axes: &Axes) -> Option<[f64; 2]> {
         let (standing, facet) = (self.standing, self.facet);
         let mut all = axes.all[..axes.count].iter().filter(|axis| axis.0 == axes.best);

@@ -135,8 +135,8 @@ impl Seen<'_> {
     }
 }
 
-/// What of a triangle is nearest to a point, and where: over the triangle's face that is the point as it is given, and its foot
-/// is the caller's to take.
+/// What of a triangle is nearest to a point, and where: over the triangle's face that is the point as it is given, and
+/// its foot is the caller's to take.
 pub(super) fn nearest_to(facet: &Facet, point: DVec3) -> (Furthest, DVec3) {
     match nearest_on_edges(|edge| facet.edge(edge), |along| facet.inwards(along), point) {
         None => (Furthest::Face, point),

@@ -1,5 +1,5 @@
-//! Triangles of two-sided ground that are seen from behind, across a gap: they are looked at after all others but before
-//! those whose axis was refused (`refused`), whose normals only stand in, and would seem to explain them.
+//! Triangles of two-sided ground that are seen from behind, across a gap: they are looked at after all others but
+//! before those whose axis was refused (`refused`), whose normals only stand in, and would seem to explain them.
 //!
 //! ```text
 //! a normal that was heard, of ground around one of the triangle's corners, and the triangle's own no nearer to it than a little less

@@ -132,8 +132,8 @@ impl Facet {
         (self.normal, self.is_front) = (-self.normal, !self.is_front);
     }
 
-    /// Becomes another triangle of the same flat patch, if that lies in this one's plane up to so many metres and has a point
-    /// on the same side; whether it did.
+    /// Becomes another triangle of the same flat patch, if that lies in this one's plane up to so many metres and has a
+    /// point on the same side; whether it did.
     pub(super) fn move_on(&mut self, ground: Ground, number: u32, slack: f64, center: DVec3) -> bool {
         let corners = widened(ground.corners(number));
         if corners.iter().any(|&corner| self.height(corner).abs() > slack) {
@@ -152,8 +152,9 @@ impl Facet {
     /// around the nearest point of the triangle, so that a plank over a ridge is above the slope behind it, whose
     /// plane it is under.
     ///
-    /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005). With sines for angles,
-    /// which need no arc tangent, one point in seventy beside edges and corners of thin hulls was taken from the wrong side.
+    /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005). With sines
+    /// for angles, which need no arc tangent, one point in seventy beside edges and corners of thin hulls was taken
+    /// from the wrong side.
     pub(super) fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
         let is_above = self.height(point) >= 0.0;
         if ground.is_one_sided() {
@@ -239,8 +240,8 @@ impl Facet {
         Around::Rim
     }
 
-    /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner in it; of
-    /// very many, of those that are looked at.
+    /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner
+    /// in it; of very many, of those that are looked at.
     pub(super) fn do_all_around(
         &self,
         ground: Ground,
@@ -260,8 +261,8 @@ impl Facet {
         sum
     }
 
-    /// Whether the rim of ground may give a direction. That of two-sided ground gives any; that of one-sided ground those within
-    /// 135 degrees of the front's normal.
+    /// Whether the rim of ground may give a direction. That of two-sided ground gives any; that of one-sided ground
+    /// those within 135 degrees of the front's normal.
     fn may_rim_give(&self, ground: Ground, towards: DVec3) -> bool {
         !ground.is_one_sided() || towards.dot(self.normal) >= -core::f64::consts::FRAC_1_SQRT_2
     }
@@ -284,8 +285,8 @@ impl Facet {
         self.origin
     }
 
-    /// What a height over it, or a distance from its edges, may be off by for a part within a radius of a centre, into which such
-    /// lengths went; in metres. As much as the furthest corner is rounded, however near the rest.
+    /// What a height over it, or a distance from its edges, may be off by for a part within a radius of a centre, into
+    /// which such lengths went; in metres. As much as the furthest corner is rounded, however near the rest.
     #[inline]
     pub(super) fn doubt(&self, (center, radius): (DVec3, f64), lengths: f64) -> f64 {
         let lever = (center - self.origin).abs().element_sum() + radius;
@@ -372,13 +373,14 @@ impl Facet {
             && self.may_give(ground, furthest, towards)
     }
 
-    /// Whether all of a triangle counts as level in a unit direction that is not its own normal: a needle's sides do, as seen
-    /// across it, and no feature of it has that direction to give.
+    /// Whether all of a triangle counts as level in a unit direction that is not its own normal: a needle's sides do,
+    /// as seen across it, and no feature of it has that direction to give.
     pub(super) fn is_level_to(&self, towards: DVec3) -> bool {
         self.furthest(towards) == Furthest::Face && !is_same(self.normal, towards)
     }
 
-    /// Whether the triangle's own normal may stand for a unit direction that ground refuses: it leads as good as the same way.
+    /// Whether the triangle's own normal may stand for a unit direction that ground refuses: it leads as good as the
+    /// same way.
     pub(super) fn is_nearly_own(&self, towards: DVec3) -> bool {
         self.normal.dot(towards) >= NEARLY
     }

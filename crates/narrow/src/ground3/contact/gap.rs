@@ -1,5 +1,5 @@
-//! A cuboid and a triangle that a gap parts: their nearest points in closed form, where ground lets nothing be said along
-//! them.
+//! A cuboid and a triangle that a gap parts: their nearest points in closed form, where ground lets nothing be said
+//! along them.
 //!
 //! ```text
 //! in the cuboid's axes, of each edge of the triangle: the point nearest to the cuboid                     (nearest_on)
@@ -22,8 +22,8 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::DISTANCE_GAP;
 
 impl Prism<'_> {
-    /// Where a cuboid is nearest to the triangle across a gap, if ground refuses to be touched there and it is known for
-    /// certain that they share no point. Nothing where the kernels must be asked.
+    /// Where a cuboid is nearest to the triangle across a gap, if ground refuses to be touched there and it is known
+    /// for certain that they share no point. Nothing where the kernels must be asked.
     pub(super) fn refused_gap(&self, axes: &Axes) -> Option<Unsaid> {
         let (standing, facet) = (self.standing, self.facet);
         let Shape3::Cuboid(cuboid) = standing.part.shape else { return None };
@@ -90,8 +90,8 @@ fn nearest(corners: &[DVec3; 3], normal: DVec3, half: DVec3) -> Option<[DVec3; 2
 
 /// The share of a stretch at which it is nearest to a cuboid with these half extents.
 ///
-/// The square of the distance is convex, and its slope is made of straight pieces that meet where the stretch crosses the
-/// planes of the cuboid's faces: what holds the least between two such places is a line.
+/// The square of the distance is convex, and its slope is made of straight pieces that meet where the stretch crosses
+/// the planes of the cuboid's faces: what holds the least between two such places is a line.
 fn nearest_on(from: DVec3, along: DVec3, half: DVec3) -> f64 {
     let slope = |share: f64| {
         let at = from + along * share;

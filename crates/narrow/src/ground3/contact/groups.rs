@@ -8,8 +8,8 @@
 //! normals that moved near each other: one group
 //! at last:                 the corners around the patch, four of them at most, and always one as deep as any
 //! ```
-//! The largest triangle's normal, and not the deepest's or the first's: of triangles that were meant to lie in one plane
-//! it is rounded least, and it is another one the least often while a body slides.
+//! The largest triangle's normal, and not the deepest's or the first's: of triangles that were meant to lie in one
+//! plane it is rounded least, and it is another one the least often while a body slides.
 
 use super::facet::is_same;
 use crate::feature::{Feature, FeatureId};
@@ -112,8 +112,8 @@ impl Groups {
         Some((nearest.base.normal, nearest.pins[deepest].on_body))
     }
 
-    /// Notes that ground with this normal may be as near as a bound says, for the groups of the same normal: `most` of their own
-    /// normal and of how much nearer that is.
+    /// Notes that ground with this normal may be as near as a bound says, for the groups of the same normal: `most` of
+    /// their own normal and of how much nearer that is.
     pub(super) fn hide(&mut self, normal: DVec3, bound: f64, most: impl Fn(DVec3, f64) -> f64) {
         for group in self.groups.iter_mut().filter(|group| is_same(group.base.normal, normal)) {
             group.hidden = group.hidden.max(most(group.base.normal, group.found() - bound));
@@ -187,8 +187,8 @@ impl Groups {
         self.groups.retain(|group| !group.pins.is_empty());
     }
 
-    /// Reduces each group to what a manifold holds, and tells their places in the order of their patches: they are large, and
-    /// stay where they are.
+    /// Reduces each group to what a manifold holds, and tells their places in the order of their patches: they are
+    /// large, and stay where they are.
     pub(super) fn finish(&mut self) -> ArrayVec<u8, MOST_GROUPS> {
         let sizes = [self.slack, self.even];
         self.join(sizes);
@@ -200,7 +200,8 @@ impl Groups {
         order
     }
 
-    /// Joins normals that have come to be the same: that of a larger triangle moves a group's, and may move it near another's.
+    /// Joins normals that have come to be the same: that of a larger triangle moves a group's, and may move it near
+    /// another's.
     fn join(&mut self, sizes: [f64; 2]) {
         let mut place = 0;
         while place < self.groups.len() {

@@ -97,8 +97,8 @@ impl<'a> Meeting<'a> {
         unsaid_of(of, place, &near)
     }
 
-    /// Where the part is nearest to a triangle, if it is within the margin; where they overlap, where it is deepest. And the
-    /// direction from there to the part, as the kernels have it.
+    /// Where the part is nearest to a triangle, if it is within the margin; where they overlap, where it is deepest.
+    /// And the direction from there to the part, as the kernels have it.
     pub(super) fn nearest(
         &self,
         of: (Ground, &Facet),
@@ -117,8 +117,9 @@ impl<'a> Meeting<'a> {
 
     /// What the kernels say, if the two are within the margin; with points, where they are wanted.
     ///
-    /// Of what a gap parts the closest points are asked first, since most often ground refuses them: axes, and what to begin
-    /// with in a next frame, are asked only where points are made. Of cuboids `refused_gap` has said as much before.
+    /// Of what a gap parts the closest points are asked first, since most often ground refuses them: axes, and what to
+    /// begin with in a next frame, are asked only where points are made. Of cuboids `refused_gap` has said as much
+    /// before.
     fn near(
         &self,
         (ground, facet): (Ground, &Facet),
@@ -162,7 +163,8 @@ impl<'a> Meeting<'a> {
             let pin = Pin {
                 on_body: place.point(point.on_a),
                 on_ground: place.point(point.on_b),
-                // Where faces cross beside a corner a point may be lower than the corner is: by what faces are preferred by.
+                // Where faces cross beside a corner a point may be lower than the corner is: by what faces are
+                // preferred by.
                 separation: point.separation.max(told[0]),
                 doubt: told[1],
                 of_body: point.feature.a(),

@@ -43,8 +43,8 @@ impl Seen<'_> {
         !(is_inside && (depth <= 0.0 || facet.inside(lowest, |edge| counts[edge]) >= depth))
     }
 
-    /// How near a triangle is at least, if all that it has to say was said by another around the same corner, or beside the
-    /// same edge: along the normal that it gave, nothing else of this one is within reach.
+    /// How near a triangle is at least, if all that it has to say was said by another around the same corner, or beside
+    /// the same edge: along the normal that it gave, nothing else of this one is within reach.
     pub(super) fn explained(&self, facet: &Facet, known: &Known) -> Option<f64> {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let numbers = ground.vertex_numbers(facet.number);

@@ -16,8 +16,8 @@ pub(super) struct Plane {
 }
 
 impl Seen<'_> {
-    /// Makes the plane that of a triangle, and of how the part stands over it, which most often is that of the one before;
-    /// whether not all of the part is further from it than is wanted, on whichever side. In place: it is large.
+    /// Makes the plane that of a triangle, and of how the part stands over it, which most often is that of the one
+    /// before; whether not all of the part is further from it than is wanted, on whichever side. In place: it is large.
     pub(super) fn is_within(&self, near: &NearTriangle, plane: &mut Option<Plane>) -> bool {
         let (ground, standing, patch) = (self.asking.on.ground, self.standing, near.patch);
         if let Some(plane) = plane.as_mut().filter(|plane| plane.patch == patch)

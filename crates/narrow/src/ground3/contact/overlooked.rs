@@ -26,16 +26,16 @@ use asunder_geometry::NearTriangle;
 use asunder_geometry::glam::DVec3;
 use core::ops::ControlFlow;
 
-/// Triangles about which kernels are asked between two looks at all of them. In a gap the first is most often the nearest, and
-/// the direction in which it is shows that others are not.
+/// Triangles about which kernels are asked between two looks at all of them. In a gap the first is most often the
+/// nearest, and the direction in which it is shows that others are not.
 const MOST_ASKED: usize = 8;
 
 /// Looks at all of them.
 const MOST_LOOKS: usize = 4;
 
-/// How much may be left to the error, in slacks. With a half, capsules on a floor that was turned as a whole, whose bends are the
-/// rounding of f32, took up to twice the time; with four, one error in ten on hills was above a millionth of the body (AMD EPYC,
-/// Zen 5, 2 virtual cores, 2026-11-24).
+/// How much may be left to the error, in slacks. With a half, capsules on a floor that was turned as a whole, whose
+/// bends are the rounding of f32, took up to twice the time; with four, one error in ten on hills was above a millionth
+/// of the body (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-24).
 const LEEWAY: f64 = 0.875;
 
 /// Share of the radius by which ground that is overlapped may be deeper than what is told of it, and be hidden by low
@@ -53,8 +53,8 @@ struct Open {
 /// What is known by now.
 struct Asked {
     numbers: ArrayVec<u32, { MOST_ASKED * MOST_LOOKS }>,
-    /// Unit directions to the part, along which something is as near as is told, and how low the part reaches along each, in
-    /// metres from its centre; and the point of the core that is there.
+    /// Unit directions to the part, along which something is as near as is told, and how low the part reaches along
+    /// each, in metres from its centre; and the point of the core that is there.
     axes: ArrayVec<(DVec3, f64, DVec3), MOST_ASKED>,
     /// A bound on all of them.
     lowest: f64,
@@ -92,8 +92,8 @@ impl Seen<'_> {
         known.groups.least().min(self.asking.margin.into()) - LEEWAY * self.standing.slack
     }
 
-    /// A bound below which triangles are other ground. What is nearest along a triangle's own normal, but for a few low bends,
-    /// is no further than its plane and those.
+    /// A bound below which triangles are other ground. What is nearest along a triangle's own normal, but for a few low
+    /// bends, is no further than its plane and those.
     fn floor(&self, known: &Known) -> f64 {
         let radius = self.standing.outer_radius;
         if known.overlapping { known.groups.least() - DEEPER * radius } else { -2.0 * window(radius) }
@@ -142,7 +142,8 @@ impl Seen<'_> {
         asked.axes.iter().map(bound).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Asks the kernels about a triangle, and tells what they say where it is nearer than all that is told; whether it is.
+    /// Asks the kernels about a triangle, and tells what they say where it is nearer than all that is told; whether it
+    /// is.
     fn ask(&self, number: u32, bound: f64, asked: &mut Asked, known: &mut Known) -> bool {
         let (ground, standing, enough) = (self.asking.on.ground, self.standing, self.enough(known));
         let _ = asked.numbers.try_push(number);
@@ -168,8 +169,8 @@ impl Seen<'_> {
         is_nearer
     }
 
-    /// Goes through all triangles with low bends that were not asked about. What they hide of other manifolds than the nearest is
-    /// noted where not all levels were kept.
+    /// Goes through all triangles with low bends that were not asked about. What they hide of other manifolds than the
+    /// nearest is noted where not all levels were kept.
     fn nearest_of_low(&self, asked: &Asked, known: &mut Known) -> Open {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let (floor, enough) = (self.floor(known), self.enough(known));

@@ -9,8 +9,8 @@ use asunder_geometry::glam::DVec3;
 use core::ops::ControlFlow;
 
 impl Seen<'_> {
-    /// Looks at all triangles, for a half-space whose unit normal this is in the ground's axes; at no more than the first that
-    /// it overlaps, if only yes or no is wanted.
+    /// Looks at all triangles, for a half-space whose unit normal this is in the ground's axes; at no more than the
+    /// first that it overlaps, if only yes or no is wanted.
     pub(super) fn look_at_all(&self, normal: DVec3, is_yes_enough: bool, known: &mut Known) {
         let ground = self.asking.on.ground;
         let seen_at = SeenAt::Far(-normal);

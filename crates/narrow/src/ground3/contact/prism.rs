@@ -134,7 +134,8 @@ impl Prism<'_> {
         }
         let aside = outwards - facet.normal * facing;
         let is_tilted = standing.radius > 0.0 && aside.length() * standing.radius > standing.slack;
-        // What the round of an edge reaches further than the face's plane where a side passes from under it; more is told.
+        // What the round of an edge reaches further than the face's plane where a side passes from under it; more is
+        // told.
         let rounded = if is_tilted { 0.0 } else { standing.radius * (1.0 / -facing - 1.0) };
         let mut is_any = false;
         for edge in (0..3).filter(|&edge| ends[edge]) {
@@ -164,9 +165,9 @@ impl Prism<'_> {
         })
     }
 
-    /// Adds points where a side of the triangle passes under the round of an edge of a face that is tilted: there the surface
-    /// is the round, and the face's plane lies beside it. So a rounded crate stands on a strip of ground that its edge leads
-    /// over from side to side.
+    /// Adds points where a side of the triangle passes under the round of an edge of a face that is tilted: there the
+    /// surface is the round, and the face's plane lies beside it. So a rounded crate stands on a strip of ground that
+    /// its edge leads over from side to side.
     fn add_under_rounds(&self, (face, edge): (usize, usize), base: &Base, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let (from, along) = facet.edge(edge);
@@ -202,8 +203,8 @@ impl Prism<'_> {
         is_any
     }
 
-    /// Where the round of an edge reaches furthest against the normal: a unit direction across the edge, if it lies between
-    /// the faces beside it.
+    /// Where the round of an edge reaches furthest against the normal: a unit direction across the edge, if it lies
+    /// between the faces beside it.
     fn out_of_round(&self, half_edge: usize, run: DVec3) -> Option<DVec3> {
         let (solid, normal) = (self.standing.solid, self.facet.normal);
         let out = (run * (normal.dot(run) / run.length_squared()) - normal).try_normalize()?;
@@ -277,8 +278,8 @@ impl Prism<'_> {
         groups: &mut Groups,
     ) -> bool {
         let Some((at, separation, up)) = self.moved_out(vertex, incident) else { return false };
-        // Above a bend that is too low to give a normal what is nearest may be beside both its triangles, the further the higher
-        // it is.
+        // Above a bend that is too low to give a normal what is nearest may be beside both its triangles, the further
+        // the higher it is.
         let up = up.max(0.0);
         let is_over = |edge: usize| {
             let rim: &Rim = &rims[edge];
@@ -318,8 +319,8 @@ impl Prism<'_> {
         (up * up + aside * aside).sqrt() - up
     }
 
-    /// Adds the ends of the span that the part's face covers of a side of the triangle, as seen along the normal; `over` is a
-    /// point of the surface beyond the face, and rounds reach so many metres further.
+    /// Adds the ends of the span that the part's face covers of a side of the triangle, as seen along the normal;
+    /// `over` is a point of the surface beyond the face, and rounds reach so many metres further.
     fn add_side(
         &self,
         (face, edge): (usize, usize),

@@ -9,9 +9,9 @@
 //!     the part is no nearer to a triangle than its lowest vertex is over its plane, nor than the triangle's highest corner is
 //!         below a face of the part
 //! ```
-//! The lesser of both goes into the error. On a plane it is nothing, on one that was turned as a whole, so that its corners are
-//! rounded, some 1e-8 of a body, and never more than the tolerance for normals makes of it. What lies further off along the same
-//! normal is other ground, as a stair beside the one that a crate stands on.
+//! The lesser of both goes into the error. On a plane it is nothing, on one that was turned as a whole, so that its
+//! corners are rounded, some 1e-8 of a body, and never more than the tolerance for normals makes of it. What lies
+//! further off along the same normal is other ground, as a stair beside the one that a crate stands on.
 //!
 //! Many low bends in a row may add up to more than that tolerance under one body. So what is told as the least of all
 //! is held against these bounds whatever their normals; where they leave open as much as the slack, ground is gone
@@ -106,8 +106,8 @@ impl Known {
         }
     }
 
-    /// By how much a separation that is told of a group may exceed the truth, of a part of this bounding radius. What is as
-    /// near as the least of all, which is given, exceeds nothing but the bound on that.
+    /// By how much a separation that is told of a group may exceed the truth, of a part of this bounding radius. What
+    /// is as near as the least of all, which is given, exceeds nothing but the bound on that.
     pub(super) fn hidden(&self, (group, least): (&Group, f64), radius: f64) -> f64 {
         let (normal, told) = (group.base.normal, group.told[0]);
         if told as f32 <= least as f32 {
@@ -124,14 +124,15 @@ impl Known {
     }
 }
 
-/// By how much what is told may exceed the truth, by a bound that is so much lower, and a normal that leans against the one that
-/// was told by an angle of that sine; nothing where it is of other ground.
+/// By how much what is told may exceed the truth, by a bound that is so much lower, and a normal that leans against the
+/// one that was told by an angle of that sine; nothing where it is of other ground.
 pub(super) fn hidden_by(sine: f64, lower: f64, radius: f64) -> f64 {
     if lower > window(radius) { 0.0 } else { lower.min(2.0 * sine * radius).max(0.0) }
 }
 
 impl Prism<'_> {
-    /// A bound on how near the part can be to the triangle, by the triangle's plane and by the face that the part turns to it.
+    /// A bound on how near the part can be to the triangle, by the triangle's plane and by the face that the part turns
+    /// to it.
     pub(super) fn least_of_low(&self, incident: Option<&Incident>) -> f64 {
         let standing = self.standing;
         let least = self.extent.low - standing.radius;

@@ -28,8 +28,8 @@ use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Aabb3, Ground, NearTriangle, Prominent};
 use core::ops::ControlFlow;
 
-/// More than what products lose here, as a share of lengths. A needle's normal may be off by more; the plane asked about is not
-/// made of it, and what that passes over is apart, whatever the normal says.
+/// More than what products lose here, as a share of lengths. A needle's normal may be off by more; the plane asked
+/// about is not made of it, and what that passes over is apart, whatever the normal says.
 const LOST: f64 = 1e-6;
 
 /// A sphere, in the ground's axes.
@@ -57,8 +57,8 @@ impl Round {
         grown_around([self.center; 2], self.radius + self.reach, self.lengths)
     }
 
-    /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; nothing where the general way has to be
-    /// gone.
+    /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; nothing where the general way has to
+    /// be gone.
     pub(super) fn contact(
         &self,
         asking: &Asking,
@@ -86,8 +86,8 @@ impl Round {
         (2.0 * FACE_PREFERENCE * self.radius).max(doubt_of(self.lengths, self.center))
     }
 
-    /// Looks at the triangles near it, until the first overlap if only yes or no is wanted. Whether that settles everything;
-    /// else it is to be asked in the general way, from the start.
+    /// Looks at the triangles near it, until the first overlap if only yes or no is wanted. Whether that settles
+    /// everything; else it is to be asked in the general way, from the start.
     fn look(&self, ground: Ground, is_yes_enough: bool, known: &mut Known) -> bool {
         let mut is_settled = true;
         let _ = ground.read_near_if(
@@ -105,7 +105,8 @@ impl Round {
         is_settled
     }
 
-    /// Whether a triangle may be within reach: not where a plane has it and the ball on either side, further apart than that.
+    /// Whether a triangle may be within reach: not where a plane has it and the ball on either side, further apart than
+    /// that.
     ///
     /// The plane is square to the way from the triangle's nearest point to the centre, or from where rounding has that;
     /// corners decide, whatever it is worth, and no root is taken. Six triangles of ten near a ball on hills end here:

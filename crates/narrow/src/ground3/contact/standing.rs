@@ -155,8 +155,8 @@ impl<'s> Standing<'s> {
         doubt_of(self.lengths, ground)
     }
 
-    /// Whether an axis that costs little shows that a triangle is further away than so many metres: one of a cuboid's or
-    /// across it, one of the box around another part, or the one from the triangle's nearest point to the part's
+    /// Whether an axis that costs little shows that a triangle is further away than so many metres: one of a cuboid's
+    /// or across it, one of the box around another part, or the one from the triangle's nearest point to the part's
     /// centre.
     pub(super) fn is_apart(&self, (facet, axes): (&Facet, Option<&Axes>), beyond: f64) -> bool {
         let beyond_core = beyond + self.radius;
@@ -178,8 +178,8 @@ impl<'s> Standing<'s> {
                 return true;
             }
         }
-        // Tried: two more steps, each from the vertex furthest against the last direction. No call of the kernels less for
-        // cuboids or hulls of 32, and 5 % more instructions per frame of hulls (2026-11-22).
+        // Tried: two more steps, each from the vertex furthest against the last direction. No call of the kernels less
+        // for cuboids or hulls of 32, and 5 % more instructions per frame of hulls (2026-11-22).
         self.is_apart_towards(self.center, facet, beyond)
     }
 
@@ -266,7 +266,8 @@ fn fold<T: Copy>(of: &[T; 8], is_before: impl Fn(T, T) -> bool) -> T {
     pick(pick(four[0], four[2]), pick(four[1], four[3]))
 }
 
-/// The first place of a number among eight; what fills up the last eight is the first of them, and never comes before it.
+/// The first place of a number among eight; what fills up the last eight is the first of them, and never comes before
+/// it.
 #[inline(always)]
 fn first(of: &[f64; 8], number: f64) -> usize {
     (0..8).fold(0, |bits, i| bits | usize::from(of[i] == number) << i).trailing_zeros() as usize % 8

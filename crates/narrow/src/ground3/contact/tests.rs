@@ -81,8 +81,8 @@ fn short_ways_say_what_the_general_way_says() {
     assert!(touching > 1500 && apart > 1000 && points > 5000, "{touching} {apart} {points}");
 }
 
-/// A rod's end beside an edge, less than a picometre away: along the triangle's normal it is as much below the plane, so that a
-/// point is made, and what is told of it is that they are apart.
+/// A rod's end beside an edge, less than a picometre away: along the triangle's normal it is as much below the plane,
+/// so that a point is made, and what is told of it is that they are apart.
 #[test]
 fn what_is_a_hair_apart_is_beyond_a_margin_of_zero() {
     let ends = [[-0.19427104, 0.12651876, -0.54291815], [-0.24687144, 0.772727, 0.110613234]].map(Vec3::from);
@@ -114,8 +114,8 @@ fn surface(hull: &Hull) -> TriMesh {
     TriMesh::new(hull.vertices().to_vec(), fans.collect::<Vec<_>>()).unwrap()
 }
 
-/// Of the triangle that is nearest to a point, whatever of it is: Baerentzen and Aanaes prove that the normals around that tell
-/// the side.
+/// Of the triangle that is nearest to a point, whatever of it is: Baerentzen and Aanaes prove that the normals around
+/// that tell the side.
 #[test]
 fn a_point_is_in_front_of_the_nearest_triangle_of_a_hull_exactly_if_it_is_outside() {
     let mut numbers = Numbers::new(31);

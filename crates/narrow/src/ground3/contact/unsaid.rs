@@ -2,17 +2,18 @@
 //!
 //! What is nearest of all ground lies in its own Voronoi region, and ground lets it through. Not so
 //!
-//! - where that direction is the triangle's own normal up to the tolerance, and along the normal all of the part's face is cut
-//!   away, or the nearest of it: the part's nearest point stands a hair outside the triangle; or the part is rounded, and what
-//!   is nearest is the round of an edge that leads over the triangle from side to side;
+//! - where that direction is the triangle's own normal up to the tolerance, and along the normal all of the part's face
+//!   is cut away, or the nearest of it: the part's nearest point stands a hair outside the triangle; or the part is
+//!   rounded, and what is nearest is the round of an edge that leads over the triangle from side to side;
 //! - where a face of the part that is all but as good was preferred to it, and ground refuses that one;
-//! - of two-sided ground, where the part reaches around a rim or a fold: its centre is on one side, and what is nearest on the
-//!   other, from where the triangle is not looked at, or taken for deep; and at corners so crumpled that they have no sides.
+//! - of two-sided ground, where the part reaches around a rim or a fold: its centre is on one side, and what is nearest
+//!   on the other, from where the triangle is not looked at, or taken for deep; and at corners so crumpled that they
+//!   have no sides.
 //!
-//! Then nothing was told of a part within the margin, 58 times in 2.8 M random poses beside rims, folds and fans of triangles,
-//! half of them capsules; or, of rounded boxes in a groove, by millimetres too much. So the kernels' own answers are kept,
-//! one a direction, and told at last: along a triangle's own normal where nothing there is as near, along others where nothing
-//! at all is.
+//! Then nothing was told of a part within the margin, 58 times in 2.8 M random poses beside rims, folds and fans of
+//! triangles, half of them capsules; or, of rounded boxes in a groove, by millimetres too much. So the kernels' own
+//! answers are kept, one a direction, and told at last: along a triangle's own normal where nothing there is as near,
+//! along others where nothing at all is.
 
 use super::facet::{Facet, Furthest, edge_number, is_same};
 use super::groups::{Base, Pin};
@@ -34,7 +35,8 @@ pub(super) struct Unsaid {
     /// Unit direction from the ground to the part: the triangle's own normal where it is the same, and whether it is.
     pub(super) normal: DVec3,
     pub(super) is_own: bool,
-    /// Whether ground means to be touched along it: one-sided ground has no backs, and no more of its rims than it gives.
+    /// Whether ground means to be touched along it: one-sided ground has no backs, and no more of its rims than it
+    /// gives.
     pub(super) is_meant: bool,
 }
 
@@ -42,8 +44,8 @@ pub(super) struct Unsaid {
 pub(super) type AllUnsaid = ArrayVec<Unsaid, 8>;
 
 impl Unsaid {
-    /// Of a triangle, along a unit direction from it to the part: how far they are apart and by how much that may be off, and
-    /// their nearest points.
+    /// Of a triangle, along a unit direction from it to the part: how far they are apart and by how much that may be
+    /// off, and their nearest points.
     pub(super) fn along(
         (ground, facet): (Ground, &Facet),
         towards: DVec3,
@@ -88,7 +90,8 @@ impl Known {
         let _ = all.try_insert(place, unsaid);
     }
 
-    /// Whether something is nearer than all that was told of a part that overlaps no triangle: by more than `slack` metres.
+    /// Whether something is nearer than all that was told of a part that overlaps no triangle: by more than `slack`
+    /// metres.
     pub(super) fn is_unsaid(&self, slack: f64) -> bool {
         let least = self.groups.least() - slack;
         !self.overlapping && self.unsaid.first().is_some_and(|nearest| nearest.separation < least)
@@ -107,7 +110,8 @@ impl Known {
 }
 
 impl Seen<'_> {
-    /// Tells what was left unsaid. Cost: some kernels for a part that is near two-sided ground from behind, and touches nothing.
+    /// Tells what was left unsaid. Cost: some kernels for a part that is near two-sided ground from behind, and touches
+    /// nothing.
     pub(super) fn say(&self, known: &mut Known) {
         if !known.overlapping {
             self.look_behind(known);
@@ -139,8 +143,8 @@ impl Seen<'_> {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let Unsaid { number, separation, doubt, ends: [on_body, on_ground], normal, .. } = *unsaid;
         let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
-        // Named after a side of the triangle, wherever it is: what is held by a corner and a side is never moved along, and
-        // whoever was refused once may come nearer on the way.
+        // Named after a side of the triangle, wherever it is: what is held by a corner and a side is never moved along,
+        // and whoever was refused once may come nearer on the way.
         let away = |edge: usize| facet.inside(on_ground, |other| other == edge).abs();
         let edge = (1..3).fold(0, |best, edge| if away(edge) < away(best) { edge } else { best });
         let of_body = Feature::Vertex(standing.extent(normal, on_ground).lowest as u32);

@@ -8,8 +8,8 @@
 //!     it is a normal that the surface does not have: what of the part lies over the run       (over_edge)
 //!   one manifold for each normal                                                               (patches)
 //! ```
-//! A run in place of its segments is what keeps points and their names as a body slides; the segments themselves are asked
-//! only whether they overlap, exactly, and only where the run, which they lie within rounding of, leaves it open.
+//! A run in place of its segments is what keeps points and their names as a body slides; the segments themselves are
+//! asked only whether they overlap, exactly, and only where the run, which they lie within rounding of, leaves it open.
 
 use super::super::{Pair2, Part, Parts, for_parts};
 use super::patches::{Patch, Patches};
@@ -47,8 +47,8 @@ enum Overlap {
 }
 
 impl Pair2<'_> {
-    /// Whether a body and ground that sees it overlap, if they are within the margin of each other. Manifolds are added to
-    /// a list.
+    /// Whether a body and ground that sees it overlap, if they are within the margin of each other. Manifolds are added
+    /// to a list.
     pub(crate) fn contact_on_ground(&self, margin: f32, manifolds: &mut Vec<Manifold2>) -> Option<bool> {
         let (side, chain, shape, turn) = match (self.shape_a, self.shape_b) {
             // Ground does not stand on ground.
@@ -124,8 +124,8 @@ impl Standing<'_> {
         }
     }
 
-    /// Whether a segment of a run overlaps the part, where that is what remains to tell who is deep in its face from who is
-    /// behind that, past its end.
+    /// Whether a segment of a run overlaps the part, where that is what remains to tell who is deep in its face from
+    /// who is behind that, past its end.
     fn is_overlapped(&self, run: &Run, overlap: &mut Overlap) -> bool {
         if let Overlap::Told(overlapping) = *overlap {
             return overlapping;
@@ -198,8 +198,8 @@ impl Standing<'_> {
 
 /// Whether there is a gap beyond rounding.
 ///
-/// What is over a run then is in front of it, or else behind it, having come past its end: of that the run has nothing to
-/// tell.
+/// What is over a run then is in front of it, or else behind it, having come past its end: of that the run has nothing
+/// to tell.
 fn is_apart(near: &Near, run: &Run) -> bool {
     f64::from(near.separation) > f64::from(near.error) + run.unevenness()
 }

@@ -16,8 +16,8 @@ use asunder_geometry::tolerance::ONE_NORMAL;
 pub(super) struct Patch(Manifold2);
 
 impl Patch {
-    /// Points that a kernel made on the segment from a run's first vertex to its last, by the names of the chain. `normal`
-    /// leads from A to B; `side` is 0 where the chain is A. Nothing without points.
+    /// Points that a kernel made on the segment from a run's first vertex to its last, by the names of the chain.
+    /// `normal` leads from A to B; `side` is 0 where the chain is A. Nothing without points.
     pub(super) fn new(
         (normal, points): (DVec2, &[Point]),
         (place, side): (&Place, usize),

@@ -7,8 +7,8 @@ use crate::polyhedron::portal::{self, Found};
 use crate::precision::at_least;
 
 impl Convex<'_> {
-    /// What [`Convex::probe`] would say of the closest points of two solids, by the shortest way; unclear for pairs that are not
-    /// both solids, and for those that all but touch.
+    /// What [`Convex::probe`] would say of the closest points of two solids, by the shortest way; unclear for pairs
+    /// that are not both solids, and for those that all but touch.
     pub(crate) fn gap(&self, limit: f64) -> Gap {
         let radii = [self.shape_a.radius(), self.shape_b.radius()];
         if let Some(cuboids) = self.cuboids() {

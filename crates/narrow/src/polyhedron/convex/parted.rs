@@ -11,8 +11,8 @@ use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
 impl Convex<'_> {
-    /// What [`Convex::probe`] says of hulls and cuboids that the hinted direction parts by more than the limit; nothing of
-    /// others. Cost: linear in the vertices.
+    /// What [`Convex::probe`] says of hulls and cuboids that the hinted direction parts by more than the limit; nothing
+    /// of others. Cost: linear in the vertices.
     #[inline]
     pub(super) fn parted_as_before(&self, asked: Asked) -> Option<Probe> {
         let direction = asked.hint.direction()?;

@@ -133,8 +133,8 @@ impl Convex<'_> {
         first_axis(a, b, &self.search(f64::NEG_INFINITY))
     }
 
-    /// Solids that overlap for certain, of which the axis that was begun with, last frame's or a face's, was not proved to be
-    /// the best. Most often it nearly is, and what shows less is culled.
+    /// Solids that overlap for certain, of which the axis that was begun with, last frame's or a face's, was not proved
+    /// to be the best. Most often it nearly is, and what shows less is culled.
     fn overlap_by_axes(&self, (a, b): (&Solid, &Solid), hinted: Option<Hinted>) -> Probe {
         let doubt = 8.0 * self.precision.projection();
         let unproved = hinted.map_or(f64::NEG_INFINITY, |hinted| hinted.axis.separation);
@@ -187,8 +187,8 @@ impl Convex<'_> {
         wanted: Wanted,
     ) -> Probe {
         match closer {
-            // A search that proved no gap, where all axes show an overlap. Not where there is one that the radii close: then the
-            // axes are those of faces alone.
+            // A search that proved no gap, where all axes show an overlap. Not where there is one that the radii close:
+            // then the axes are those of faces alone.
             (verdict, Cores::Between(witness))
                 if verdict.overlapping
                     && witness.at_least <= self.precision.projection()
@@ -383,8 +383,8 @@ impl Convex<'_> {
         }
     }
 
-    /// The same of bounds on a distance, and whether there is a gap between the cores for all that is known. By reference:
-    /// witnesses are large, and most are handed on.
+    /// The same of bounds on a distance, and whether there is a gap between the cores for all that is known. By
+    /// reference: witnesses are large, and most are handed on.
     fn conclude_gap(&self, witness: &Witness) -> (Verdict, bool) {
         let doubt = self.precision.projection();
         if witness.at_least - self.radii > doubt {

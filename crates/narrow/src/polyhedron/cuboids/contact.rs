@@ -136,8 +136,9 @@ impl Touching<'_> {
 
     /// What the faces that an axis from A to B nearly is normal to share as seen along it.
     ///
-    /// So most cuboids touch that tremble on each other: of 64 pairs that lean by some 1e-4 rad, 4.6 thousand instructions
-    /// a pair in all, and 10.0 where the general path was asked for these (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
+    /// So most cuboids touch that tremble on each other: of 64 pairs that lean by some 1e-4 rad, 4.6 thousand
+    /// instructions a pair in all, and 10.0 where the general path was asked for these (AMD EPYC, Zen 4, 2 virtual
+    /// cores, 2026-11-22).
     #[inline(never)]
     pub(super) fn over_leaning(&self, normal: DVec3, manifold: &mut Manifold3) -> Option<()> {
         let (slack, near, deep) = (self.placed.preference, self.placed.near, self.deep());

@@ -18,12 +18,12 @@
 //! | 2. the same with AVX2 | 27 | 73 | 152 |
 //! | 3. axes graded side by side (`super::graded`) | 39 | 57 | 160 |
 //!
-//! 1 and 2 are used, and 3 where a separation is all that is asked for; and AVX-512 where there is one, whose registers hold
-//! all eight. On AMD EPYC, Zen 4, which takes two steps for one of those, that is nothing on yes or no and 5 to 13 % on
-//! separations; on Zen 5, which takes one, yes or no takes 0.88 of the time of AVX2, separations 0.89, contact points 0.99
-//! (2026-11-25). Tried, and left out: 3 for contact points with AVX-512 (a frame of boxes that fall 1.02 times as long);
-//! inscribed spheres before the lanes (nothing on such pairs; one pair by itself gains 10 %). Last frame's axis is not tried
-//! before the others here: all fifteen cost 12 ns.
+//! 1 and 2 are used, and 3 where a separation is all that is asked for; and AVX-512 where there is one, whose registers
+//! hold all eight. On AMD EPYC, Zen 4, which takes two steps for one of those, that is nothing on yes or no and 5 to 13
+//! % on separations; on Zen 5, which takes one, yes or no takes 0.88 of the time of AVX2, separations 0.89, contact
+//! points 0.99 (2026-11-25). Tried, and left out: 3 for contact points with AVX-512 (a frame of boxes that fall 1.02
+//! times as long); inscribed spheres before the lanes (nothing on such pairs; one pair by itself gains 10 %). Last
+//! frame's axis is not tried before the others here: all fifteen cost 12 ns.
 
 use super::super::sat::AxisOf;
 use super::asked::measured;

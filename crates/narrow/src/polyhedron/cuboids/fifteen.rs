@@ -71,8 +71,8 @@ impl Fifteen {
         (self.edges[i].0[j], self.squared[i].0[j])
     }
 
-    /// The edge pair that parts the cores the furthest, of those that part them and are not parallel up to rounding; or less
-    /// than the furthest where two are all but alike. Nothing where none parts them.
+    /// The edge pair that parts the cores the furthest, of those that part them and are not parallel up to rounding; or
+    /// less than the furthest where two are all but alike. Nothing where none parts them.
     #[inline]
     pub(super) fn best_edges(&self) -> Option<usize> {
         let (mut best, mut most) = (None, 0.0);
@@ -110,8 +110,8 @@ impl Fifteen {
         greater(faces, edges)
     }
 
-    /// Whether cuboids overlap that are rounded by so many metres together; nothing where rounding might have told, or only their
-    /// radii close the gap.
+    /// Whether cuboids overlap that are rounded by so many metres together; nothing where rounding might have told, or
+    /// only their radii close the gap.
     #[inline(always)]
     pub(super) fn overlap(&self, radii: f64, precision: &Precision) -> Option<bool> {
         let (top, doubt) = (self.top(), closed_form(precision));

@@ -7,14 +7,14 @@
 //! h = s up to rounding: that is the distance, and neither edges nor an iteration need be asked
 //! else the same of the best edges: s along the axis that is normal to both, h between their nearest points
 //! ```
-//! The contact points are corners of a patch as in overlap, mostly of the very same one; or the point where edges cross.
-//! Anything else that is nearest, a corner to an edge or a corner to a corner, is left to the general path, and so are edges
-//! that may lie side by side.
+//! The contact points are corners of a patch as in overlap, mostly of the very same one; or the point where edges
+//! cross. Anything else that is nearest, a corner to an edge or a corner to a corner, is left to the general path, and
+//! so are edges that may lie side by side.
 //!
-//! Of a pile of boxes of which a third of the pairs is parted by less than the margin, nine tenths of those are
-//! told here, in 0.35 us where the general path took 2.5 (AMD EPYC, Zen 4, 2026-11-21). Of a heap of boxes that falls, five
-//! of six pairs that took the general path are told by edges, in 0.4 k instructions where that took 3.5 k: 0.79 of a frame's
-//! time (2026-11-23).
+//! Of a pile of boxes of which a third of the pairs is parted by less than the margin, nine tenths of those are told
+//! here, in 0.35 us where the general path took 2.5 (AMD EPYC, Zen 4, 2026-11-21). Of a heap of boxes that falls, five
+//! of six pairs that took the general path are told by edges, in 0.4 k instructions where that took 3.5 k: 0.79 of a
+//! frame's time (2026-11-23).
 
 use super::super::sat::{AxisOf, hint_to, hint_with};
 use super::asked::Contact;
@@ -53,8 +53,8 @@ impl Touching<'_> {
         contact.unwrap_or_else(|| self.across_edges(manifold).unwrap_or(Contact::Unclear(hint)))
     }
 
-    /// Whether two edges part them by more than the best face for certain: then no corner of a patch is as low as that says, and
-    /// none need be looked at.
+    /// Whether two edges part them by more than the best face for certain: then no corner of a patch is as low as that
+    /// says, and none need be looked at.
     ///
     /// Heights at a patch's corners are no less than the distance but for two projections, and the distance no less
     /// than what edges show but for one more. Of a heap of boxes that falls, a fifth of all pairs across a gap went

@@ -8,9 +8,10 @@
 //! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). A projection radius in closed form takes the place of the
 //! eight vertices; everything else is as in the general test, the axis of nearly parallel edges included.
 //!
-//! This is the definition, one axis after the other: [`Cuboids`], which asks parts of compounds, and what is left open below. Two
-//! bodies that are cuboids go a faster way to the same answers ([`placed::Posed`]): `fifteen` has all axes at once; `settled`
-//! makes the best of them of it for one pair, `graded` for eight side by side (`eight`), without a branch.
+//! This is the definition, one axis after the other: [`Cuboids`], which asks parts of compounds, and what is left open
+//! below. Two bodies that are cuboids go a faster way to the same answers ([`placed::Posed`]): `fifteen` has all axes
+//! at once; `settled` makes the best of them of it for one pair, `graded` for eight side by side (`eight`), without a
+//! branch.
 
 pub(crate) mod asked;
 pub(crate) mod ball;

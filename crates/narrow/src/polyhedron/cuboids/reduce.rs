@@ -5,10 +5,10 @@
 //! 70 quadrilaterals: ten shapes (steps from corner to corner) times eight beginnings name each of them once or twice
 //! twice the area of each = the cross product of its diagonals
 //! ```
-//! All of them are looked at, since that takes no branch: the walk around the patch, which finds the same, takes
-//! six times as long (AMD EPYC, Zen 4, 2026-11-21). Areas are only compared, and f32 does. Where the largest holds
-//! no corner as deep as any, and where another four is as large but for [`EVEN_AREA`], the walk decides: it tells such fours
-//! apart by the features of their corners, which stay while a body trembles.
+//! All of them are looked at, since that takes no branch: the walk around the patch, which finds the same, takes six
+//! times as long (AMD EPYC, Zen 4, 2026-11-21). Areas are only compared, and f32 does. Where the largest holds no
+//! corner as deep as any, and where another four is as large but for [`EVEN_AREA`], the walk decides: it tells such
+//! fours apart by the features of their corners, which stay while a body trembles.
 
 use super::super::reduce::{Spot, pick_four};
 use super::patch::{Patch, SLOTS};
@@ -34,8 +34,8 @@ const SHAPES: [[usize; 3]; 10] = [
 /// Bits of an area that number it.
 const NUMBER: u32 = 127;
 
-/// What the area of each is multiplied by, for five to eight corners: 1 for every four of them once, else 0, so that two as
-/// large are two fours.
+/// What the area of each is multiplied by, for five to eight corners: 1 for every four of them once, else 0, so that
+/// two as large are two fours.
 const ANY: [Weights; 4] = [weights(5, false), weights(6, false), weights(7, false), weights(8, false)];
 
 /// The same where the first corner must be kept.
@@ -67,8 +67,8 @@ const fn corners(shape: usize, begin: usize) -> [usize; 4] {
     [begin % 8, (begin + second) % 8, (begin + third) % 8, (begin + second + fourth) % 8]
 }
 
-/// Slots of four of some corners of a patch, which are listed clockwise: more than four, and no more than eight. Those no
-/// higher than `even` are as deep as any.
+/// Slots of four of some corners of a patch, which are listed clockwise: more than four, and no more than eight. Those
+/// no higher than `even` are as deep as any.
 #[inline(always)]
 pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, even: f64) -> [usize; 4] {
     let is_deep = |slot: usize| patch.height[slot % SLOTS] <= even;

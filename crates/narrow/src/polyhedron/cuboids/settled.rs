@@ -29,8 +29,8 @@ pub(super) enum Settled {
     Beyond(Axis),
     /// They overlap for certain.
     Overlapping(Best),
-    /// A face parts the cores of sharp cuboids for certain, but not by more than the limit, and edges were not looked at; or no
-    /// face does, and edges do.
+    /// A face parts the cores of sharp cuboids for certain, but not by more than the limit, and edges were not looked
+    /// at; or no face does, and edges do.
     Parted(Best),
     /// Neither is certain.
     Unclear,

@@ -45,8 +45,8 @@ fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     (shapes, poses, if round.is_multiple_of(2) { 0.0 } else { 0.03 })
 }
 
-/// Two cuboids, turned a little or much against each other, with two edges that cross over a gap, of which the margin closes
-/// most.
+/// Two cuboids, turned a little or much against each other, with two edges that cross over a gap, of which the margin
+/// closes most.
 fn crossed(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
     let tilt = [0.03, 0.09, 0.3, 1.0][round % 4];
@@ -61,7 +61,8 @@ fn crossed(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) 
     (shapes, poses, 0.03)
 }
 
-/// Two cuboids by their rotations, so many metres apart along a normal where an edge of each is, at these places along its axis.
+/// Two cuboids by their rotations, so many metres apart along a normal where an edge of each is, at these places along
+/// its axis.
 fn over_each_other(
     halves: [Vec3; 2],
     turns: [Quat; 2],
@@ -182,8 +183,8 @@ fn lying(axis: usize, roll: f32) -> Quat {
     about(Vec3::X, roll) * Quat::from_rotation_arc(Vec3::AXES[axis], Vec3::X)
 }
 
-/// What cuboids say by themselves of their contact across a gap, if they do, has the normal and the points of the general
-/// path; whether they do, and how many points there are.
+/// What cuboids say by themselves of their contact across a gap, if they do, has the normal and the points of the
+/// general path; whether they do, and how many points there are.
 fn told_alike(name: &str, (shapes, poses): &([Shape3; 2], [Pose3; 2]), hint: Hint) -> Option<(bool, usize)> {
     const MARGIN: f32 = 0.03;
     let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
@@ -199,8 +200,8 @@ fn told_alike(name: &str, (shapes, poses): &([Shape3; 2], [Pose3; 2]), hint: Hin
     Some((is_told, plain.points.len()))
 }
 
-/// Edges that all but run along each other, or with their ends over each other alone, touch on both ends of what they share.
-/// The point where they cross would be one, and anywhere between those.
+/// Edges that all but run along each other, or with their ends over each other alone, touch on both ends of what they
+/// share. The point where they cross would be one, and anywhere between those.
 #[test]
 fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
     let mut random = Random(0x2B1D_7C45_E09A_6F33);
@@ -208,8 +209,8 @@ fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
     for round in 0..4000 {
         let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
         let turn = random.turn(0).normalize();
-        // From parallel but for rounding to a third of a radian, with so much to share that the ends of it are a preference
-        // or so beside each other.
+        // From parallel but for rounding to a third of a radian, with so much to share that the ends of it are a
+        // preference or so beside each other.
         let angle = libm::powf(10.0, -3.5 + 3.0 * random.number());
         let shared = (3e-6 / angle).min(0.2);
         let edges = [round % 3, round / 3 % 3];
@@ -230,8 +231,8 @@ fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
     assert!(crossing > 300 && beside > 500, "{crossing} cross, {beside} lie side by side");
 }
 
-/// A face that parts cuboids by less than their edges do, but by no more than counts, is what they touch on; by twice as much
-/// where it was in the last frame.
+/// A face that parts cuboids by less than their edges do, but by no more than counts, is what they touch on; by twice
+/// as much where it was in the last frame.
 #[test]
 fn edges_that_cross_hardly_nearer_than_a_face_parts_are_left_to_the_general_path() {
     let mut random = Random(0x7D20_98F1_3C5B_A64E);

@@ -1,9 +1,9 @@
 //! Boxes with registers as wide as the processor has.
 //!
 //! The one place of this crate where functions are compiled for more than the target promises. They are the same
-//! functions, of plain arithmetic without fused operations, so that their bits are the same. What it buys eight pairs stands in
-//! `super::eight`. The patch of two faces, and the points that are made of it, make a frame of boxes that fall 1.04 times as fast
-//! (AMD EPYC, Zen 5, 2026-11-24).
+//! functions, of plain arithmetic without fused operations, so that their bits are the same. What it buys eight pairs
+//! stands in `super::eight`. The patch of two faces, and the points that are made of it, make a frame of boxes that
+//! fall 1.04 times as fast (AMD EPYC, Zen 5, 2026-11-24).
 #![allow(unsafe_code, reason = "the compiler cannot know what a processor was asked at run time")]
 
 use super::contact::Touching;
@@ -30,8 +30,8 @@ fn widest<K: Kernel>(kernel: K) -> K::Output {
     anywhere(kernel)
 }
 
-/// The same of a kernel whose rows are as long as the widest registers that there are: others gain nothing by those, and
-/// contact points lose 3 %.
+/// The same of a kernel whose rows are as long as the widest registers that there are: others gain nothing by those,
+/// and contact points lose 3 %.
 #[inline(always)]
 fn widest_of_rows<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]

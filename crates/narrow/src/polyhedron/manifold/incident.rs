@@ -4,8 +4,9 @@
 //! the deepest vertex, and all that are as deep up to a slack
 //! of the faces around those vertices: the one with the most of them, of equals the most opposed
 //! ```
-//! Only the neighbourhood of what touches is looked at, however large the hull. Tried: no branches where the deepest vertex is
-//! alone, a tenth of the instructions here, a fifth of the branches taken wrongly, and no time (AMD EPYC, Zen 4, 2026-11-23).
+//! Only the neighbourhood of what touches is looked at, however large the hull. Tried: no branches where the deepest
+//! vertex is alone, a tenth of the instructions here, a fifth of the branches taken wrongly, and no time (AMD EPYC, Zen
+//! 4, 2026-11-23).
 
 use super::super::solid::Solid;
 use crate::polyhedron::octets::Along;

@@ -25,7 +25,8 @@
 //! 4. the axis has told how deep the deepest vertex is, so that the reference plane needs no support search;
 //! 5. of five to eight corners the best four are found by trying all.
 //!
-//! Every corner of the clipped polygon carries the features it comes from. Its id is made of those, and of what is near   (near)
+//! Every corner of the clipped polygon carries the features it comes from. Its id is made of those, and of what is near
+//! (near)
 
 mod clip;
 mod frame;

@@ -6,9 +6,10 @@
 //! else the nearest vertex of the face, if one is near; else the nearest edge, if one is; else the face
 //! corners of one patch that would be named alike keep the names of what they lie on
 //! ```
-//! Of crates that stand squarely on each other, corners are now a hair within each other's sides and now beside them; a corner
-//! of their patch is now a vertex of one, now of the other, and now lies where edges cross. Names that changed with it would cost
-//! a solver what it knew of the point: stacks of six cubes that were told so still trembled after 20 seconds.
+//! Of crates that stand squarely on each other, corners are now a hair within each other's sides and now beside them; a
+//! corner of their patch is now a vertex of one, now of the other, and now lies where edges cross. Names that changed
+//! with it would cost a solver what it knew of the point: stacks of six cubes that were told so still trembled after 20
+//! seconds.
 //!
 //! Cuboids, whose patches are made otherwise (`super::super::cuboids::patch`), ask here where any corner is near; most
 //! often none is.

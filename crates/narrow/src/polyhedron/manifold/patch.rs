@@ -20,8 +20,8 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
-/// The most corners that are made: those of the incident face, two for each side of the reference face, and eight where a box
-/// cuts what is left.
+/// The most corners that are made: those of the incident face, two for each side of the reference face, and eight where
+/// a box cuts what is left.
 const MAX_CORNERS: usize = 3 * MAX_HULL_VERTICES + BY_BOX;
 
 /// Corners that a box makes: two for each of its sides.
@@ -125,7 +125,8 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// The incident face cut by the sides of the reference face, both moved first; and where the vertices of the latter are seen.
+    /// The incident face cut by the sides of the reference face, both moved first; and where the vertices of the latter
+    /// are seen.
     fn clip<const N: usize>(
         &self,
         frame: &Frame,

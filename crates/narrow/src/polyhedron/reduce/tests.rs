@@ -4,8 +4,8 @@ use oorandom::Rand64;
 
 type Corner = ([f64; 2], f64);
 
-/// Share of the best area that counts as all of it: on either side of the diagonal, along it, and from root to root, the
-/// first of what is even is taken.
+/// Share of the best area that counts as all of it: on either side of the diagonal, along it, and from root to root,
+/// the first of what is even is taken.
 const ALL: f64 = 1.0 - 3.0 * EVEN_AREA;
 
 fn id(i: usize) -> FeatureId {

@@ -5,9 +5,10 @@
 //! an axis                   their distance is no less than their separation along it, all vertices projected
 //! both the same             that is the distance, whatever the points and the axis were guessed from
 //! ```
-//! Guessed are a vertex straight over a face, the middle of an edge or of a face that lies level over one, two edges over
-//! each other, edges side by side, and corners. Of bodies at rest nearly all guesses are right. Two cuboids or hulls of 32
-//! vertices in a gap took 2.4 to 9 us, and take 0.7 to 1.6 with their contact points (AMD EPYC, Zen 4, 2026-11-21).
+//! Guessed are a vertex straight over a face, the middle of an edge or of a face that lies level over one, two edges
+//! over each other, edges side by side, and corners. Of bodies at rest nearly all guesses are right. Two cuboids or
+//! hulls of 32 vertices in a gap took 2.4 to 9 us, and take 0.7 to 1.6 with their contact points (AMD EPYC, Zen 4,
+//! 2026-11-21).
 
 use super::super::distance::{TELLING, Witness};
 use super::super::manifold::are_side_by_side;

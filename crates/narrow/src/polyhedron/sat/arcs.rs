@@ -148,8 +148,8 @@ pub(super) fn for_many_edge_pairs(
     }
 }
 
-/// Up to so many edges of either are looked at one by one: most solids that overlap leave two of each, for which an eight took
-/// four times as long to lay out as to look at.
+/// Up to so many edges of either are looked at one by one: most solids that overlap leave two of each, for which an
+/// eight took four times as long to lay out as to look at.
 const FEW: usize = 4;
 
 /// B's axes as A sees them.

@@ -1,8 +1,8 @@
-//! A proof that no direction is better than an axis, by single vertices of the difference: for pairs of which the ball in the
-//! middle does not tell.
+//! A proof that no direction is better than an axis, by single vertices of the difference: for pairs of which the ball
+//! in the middle does not tell.
 //!
-//! The facet T, at depth d along the axis n, belongs to M = A - B, and so does each vertex of A less each of B. The axis is
-//! the best one if M reaches d or more in every direction.
+//! The facet T, at depth d along the axis n, belongs to M = A - B, and so does each vertex of A less each of B. The
+//! axis is the best one if M reaches d or more in every direction.
 //!
 //! ```text
 //! plane    the sphere of directions, seen from n: one at angle t to n is the point x at 1 / tan (t / 2), n itself is at infinity
@@ -12,9 +12,9 @@
 //!          there: either its disc has that corner, and the piece is cut in two where either disc does better, or M
 //!          does not reach d there, and the direction beats the axis
 //! ```
-//! A disc that has all corners of a convex piece has the piece. All of it is products. Of pairs in the air whose ball does not
-//! tell, a sixth need no vertex, three quarters one or two. It takes 1,500 instructions, a seventh of what the test of all axes
-//! takes (hulls of 8 to 32 vertices, counted by callgrind, 2026-11-24).
+//! A disc that has all corners of a convex piece has the piece. All of it is products. Of pairs in the air whose ball
+//! does not tell, a sixth need no vertex, three quarters one or two. It takes 1,500 instructions, a seventh of what the
+//! test of all axes takes (hulls of 8 to 32 vertices, counted by callgrind, 2026-11-24).
 //!
 //! The polygon is what an expanding polytope has to cover still, laid out flat (van den Bergen, "Proximity queries and
 //! penetration depth computation on 3D game objects", GDC 2001); the stereographic
@@ -54,7 +54,8 @@ pub(super) enum Cover {
 
 type Corners = ArrayVec<DVec2, MOST_CORNERS>;
 
-/// What of both solids the facet is the difference of, by their vertices: a face with a vertex, an edge or a face, or two edges.
+/// What of both solids the facet is the difference of, by their vertices: a face with a vertex, an edge or a face, or
+/// two edges.
 pub(super) struct Facet {
     of_a: ArrayVec<usize, MOST_CORNERS>,
     of_b: ArrayVec<usize, MOST_CORNERS>,
@@ -111,7 +112,8 @@ struct Piece {
     disc: Disc,
 }
 
-/// Whether the difference reaches a depth along every unit direction, of which a facet at that depth lies across `normal`.
+/// Whether the difference reaches a depth along every unit direction, of which a facet at that depth lies across
+/// `normal`.
 pub(super) fn cover(
     (a, b): (&Solid, &Solid),
     (normal, facet): (DVec3, &Facet),
@@ -165,15 +167,16 @@ impl Plane {
         is_short.then(|| Disc { center: self.flat(center) * scale, constant: (short + up) * scale })
     }
 
-    /// A vertex of the difference that is the furthest in a direction up to a rounding of f32: where it does not reach far
-    /// enough by that, nothing is lost but the proof.
+    /// A vertex of the difference that is the furthest in a direction up to a rounding of f32: where it does not reach
+    /// far enough by that, nothing is lost but the proof.
     fn furthest(&self, (a, b): (&Solid, &Solid), at: DVec2) -> DVec3 {
         let direction = self.direction(at);
         let (of_a, of_b) = (a.rough_support(direction).0, b.rough_support(-direction).0);
         a.point(of_a.vertex) - b.point(of_b.vertex)
     }
 
-    /// The directions in which no corner of the facet reaches its depth, widened by what rounding may have moved the corners.
+    /// The directions in which no corner of the facet reaches its depth, widened by what rounding may have moved the
+    /// corners.
     fn outline(
         &self,
         (a, b): (&Solid, &Solid),
@@ -204,7 +207,8 @@ impl Plane {
         is_small.then_some(outline)
     }
 
-    /// The facet's corners as seen against the normal, counter-clockwise: the sides of both features, by the way they lead.
+    /// The facet's corners as seen against the normal, counter-clockwise: the sides of both features, by the way they
+    /// lead.
     fn difference(&self, (a, b): (&Solid, &Solid), facet: &Facet) -> Option<Corners> {
         let (mut of_a, mut of_b) = (Corners::new_const(), Corners::new_const());
         of_a.extend(facet.of_a.iter().map(|&vertex| self.flat(a.point(vertex))));
@@ -286,7 +290,8 @@ fn cut_last(pieces: &mut ArrayVec<Piece, MOST_PIECES>, disc: Disc) -> Option<()>
     let piece = pieces.last_mut()?;
     let (own, whole) = (piece.disc, core::mem::take(&mut piece.corners));
     let mut better = Corners::new();
-    // Where both have the same power: a line. Of numbers that are none, all is left to its own disc, which does not hold it.
+    // Where both have the same power: a line. Of numbers that are none, all is left to its own disc, which does not
+    // hold it.
     let side = |at: DVec2| 2.0 * (disc.center - own.center).dot(at) + (own.constant - disc.constant);
     let mut before = *whole.last()?;
     let mut was = side(before);

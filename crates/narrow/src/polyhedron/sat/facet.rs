@@ -18,9 +18,9 @@
 //! den Bergen, "Proximity queries and penetration depth computation on 3D game objects", GDC 2001), with a polytope
 //! that needs no expanding. Where the ball does not tell, single vertices of M do (`cover`).
 //!
-//! Of what is long and thin the ball in the middle covers little, but there are others along it; and of what stands upright
-//! beside it, whole edges are furthest. A frame of a crowd, 970 pairs of limbs and trunks: 430 came to all axes, now 116; 290
-//! to the iteration of distance, now 110; 1.34 to 1.46 times as fast (AMD EPYC, Zen 4, 2026-11-23).
+//! Of what is long and thin the ball in the middle covers little, but there are others along it; and of what stands
+//! upright beside it, whole edges are furthest. A frame of a crowd, 970 pairs of limbs and trunks: 430 came to all
+//! axes, now 116; 290 to the iteration of distance, now 110; 1.34 to 1.46 times as fast (AMD EPYC, Zen 4, 2026-11-23).
 
 use super::super::solid::Solid;
 use super::cover::{Cover, Facet, cover};
@@ -127,8 +127,8 @@ fn in_parallelogram([(from_a, to_a), (from_b, to_b)]: [(DVec3, DVec3); 2], norma
     if one < other { one } else { other }
 }
 
-/// Whether a ball inside both solids' difference reaches `depth` in every direction in which a disc of radius `disc` does
-/// not: the one about the difference of their centres, or one from where the arms lead straight behind the disc.
+/// Whether a ball inside both solids' difference reaches `depth` in every direction in which a disc of radius `disc`
+/// does not: the one about the difference of their centres, or one from where the arms lead straight behind the disc.
 fn does_ball_cover(a: &Solid, b: &Solid, normal: DVec3, (depth, disc): (f64, f64)) -> bool {
     let mut center = a.center() - b.center();
     if does_cover((center, a.inner_radius + b.inner_radius), normal, (depth, disc)) {

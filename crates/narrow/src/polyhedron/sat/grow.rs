@@ -1,5 +1,5 @@
-//! The nearest facet of the difference by a polytope inside it, which grows where it is nearest: for solids with so many edges
-//! that their pairs take longer.
+//! The nearest facet of the difference by a polytope inside it, which grows where it is nearest: for solids with so
+//! many edges that their pairs take longer.
 //!
 //! ```text
 //! start    four points of M = A - B around the origin                                               (portal)
@@ -7,8 +7,8 @@
 //!          nearest enough, or no vertex beyond it: done
 //!          take away every facet that the vertex is beyond, and join what was around them to it
 //! ```
-//! van den Bergen, "Proximity queries and penetration depth computation on 3D game objects" (GDC 2001). There the facets'
-//! planes are believed. Here nothing is that rounding could spoil:
+//! van den Bergen, "Proximity queries and penetration depth computation on 3D game objects" (GDC 2001). There the
+//! facets' planes are believed. Here nothing is that rounding could spoil:
 //!
 //! ```text
 //! bound    of corners p, q, r and *any* unit vector m, every point of the triangle is at least min(m.p, m.q, m.r) away:
@@ -19,12 +19,13 @@
 //! ```
 //! Neither asks for a convex polytope, nor for one without folds.
 //!
-//! Prisms take 22 to 34 vertices, however many sides they have: two of 24 sides, deep in each other, 24 us to 8, two of 128
-//! 200 to 18 (AMD EPYC, Zen 4, 2026-11-26). Tried: hulls of random vertices, of whose edges spheres leave one in seven to
-//! one in seventy (32 vertices 8.4 us to 16, 256 36 to 72); cells and footballs, which have as many edges for their faces but
-//! no large one, and half of which run out of vertices (1.2 to 3.4 times as long); globes of 256, all of whose directions are
-//! nearly as good (31 to 135); in place of a rule for shapes, one for how many edges spheres leave, asked on the way (prisms
-//! of 128 sides 28 us, since it is the asking that takes long; cones a little less than by all pairs).
+//! Prisms take 22 to 34 vertices, however many sides they have: two of 24 sides, deep in each other, 24 us to 8, two of
+//! 128 200 to 18 (AMD EPYC, Zen 4, 2026-11-26). Tried: hulls of random vertices, of whose edges spheres leave one in
+//! seven to one in seventy (32 vertices 8.4 us to 16, 256 36 to 72); cells and footballs, which have as many edges for
+//! their faces but no large one, and half of which run out of vertices (1.2 to 3.4 times as long); globes of 256, all
+//! of whose directions are nearly as good (31 to 135); in place of a rule for shapes, one for how many edges spheres
+//! leave, asked on the way (prisms of 128 sides 28 us, since it is the asking that takes long; cones a little less than
+//! by all pairs).
 
 use super::super::portal;
 use super::super::solid::Solid;
@@ -74,8 +75,8 @@ struct Surface {
     doubt: f64,
 }
 
-/// How deep solids overlap of which a direction shows `known_depth` (infinite where none is known), up to a slack; nothing
-/// where rounding is in the way, or too many vertices would be needed.
+/// How deep solids overlap of which a direction shows `known_depth` (infinite where none is known), up to a slack;
+/// nothing where rounding is in the way, or too many vertices would be needed.
 ///
 /// The slack is finite, and more than the rounding of a projection: each vertex takes a facet away.
 #[inline(never)]

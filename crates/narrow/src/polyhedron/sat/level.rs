@@ -1,8 +1,8 @@
-//! What of a solid reaches furthest in a direction, where that is more than a vertex: of what stands upright beside what
-//! stands upright, whole edges; of what lies on something, whole faces.
+//! What of a solid reaches furthest in a direction, where that is more than a vertex: of what stands upright beside
+//! what stands upright, whole edges; of what lies on something, whole faces.
 //!
-//! Which of its vertices is told to be the furthest is rounding's choice there, and that one may lie beyond the end of the
-//! face that it is held against, though most of the edge is over the face.
+//! Which of its vertices is told to be the furthest is rounding's choice there, and that one may lie beyond the end of
+//! the face that it is held against, though most of the edge is over the face.
 
 use super::super::solid::Solid;
 use arrayvec::ArrayVec;
@@ -15,8 +15,8 @@ const MOST: usize = 8;
 /// Corners of both faces at most where one is cut by the other.
 const MOST_CUT: usize = 24;
 
-/// The furthest edge (two vertices) or face (its vertices, in order) of a solid against a direction; empty where a vertex
-/// is alone.
+/// The furthest edge (two vertices) or face (its vertices, in order) of a solid against a direction; empty where a
+/// vertex is alone.
 pub(super) struct Level {
     vertices: ArrayVec<usize, MOST>,
 }
@@ -24,7 +24,8 @@ pub(super) struct Level {
 impl Level {
     pub(super) const NONE: Self = Self { vertices: ArrayVec::new_const() };
 
-    /// Around the furthest vertex against an outward direction, vertices that are further by no more than `slack` metres.
+    /// Around the furthest vertex against an outward direction, vertices that are further by no more than `slack`
+    /// metres.
     #[inline]
     pub(super) fn around(solid: &Solid, deepest: usize, outward: DVec3, slack: f64) -> Self {
         let mut vertices = ArrayVec::new_const();
@@ -72,11 +73,11 @@ impl Level {
         self.vertices.iter().map(|&vertex| solid.point(vertex))
     }
 
-    /// How far inside a face less this feature the origin is, as seen along the face's outward normal; below zero where it
-    /// is not.
+    /// How far inside a face less this feature the origin is, as seen along the face's outward normal; below zero where
+    /// it is not.
     ///
-    /// The sides of the difference of two polygons are those of the one and of the other, each with the other's vertex that
-    /// is furthest out there.
+    /// The sides of the difference of two polygons are those of the one and of the other, each with the other's vertex
+    /// that is furthest out there.
     pub(super) fn in_difference(&self, (solid, face): (&Solid, usize), outward: DVec3, other: &Solid) -> f64 {
         // Each is turned once, and asked for once a side of the other.
         // Filled where they stay: collected, all the room that there is would be copied.

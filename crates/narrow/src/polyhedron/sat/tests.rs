@@ -65,8 +65,8 @@ impl Random {
     }
 }
 
-/// Upright prisms and planks, three to ten times as high as wide, turned about the vertical alone; B beside A in a random
-/// direction, somewhere between level with it and just reaching its end.
+/// Upright prisms and planks, three to ten times as high as wide, turned about the vertical alone; B beside A in a
+/// random direction, somewhere between level with it and just reaching its end.
 pub(super) fn upright(
     random: &mut Random,
     case: u64,

@@ -1,8 +1,8 @@
 //! From the axis of one facet of the difference to that of the nearest one, over the edges between them.
 //!
-//! Two solids overlap by the distance of the origin from the surface of M = A - B. Last frame's axis belongs to a facet that is
-//! seldom the nearest still, but most often beside it. As long as the foot of the origin lies beside the facet, the facets
-//! over there are nearer:
+//! Two solids overlap by the distance of the origin from the surface of M = A - B. Last frame's axis belongs to a facet
+//! that is seldom the nearest still, but most often beside it. As long as the foot of the origin lies beside the facet,
+//! the facets over there are nearer:
 //!
 //! ```text
 //! beside    the side of the facet that the foot lies furthest beyond: an edge of one solid with a vertex of the other
@@ -12,12 +12,13 @@
 //!           if a direction beats it, go on from the face there that looks most nearly along it
 //! ```
 //! Each axis is believed for what all vertices show along it, and each step must show more than the one before, so that
-//! neither hints nor rounding can lead astray or around. Pairs a frame that come to all axes of the test: of hulls that fall on
-//! each other 4, where it was 670; of hulls at rest 5 for 370; of 10,000 boxes and hulls in the air 15 for 450; of a crowd 16 for
+//! neither hints nor rounding can lead astray or around. Pairs a frame that come to all axes of the test: of hulls that
+//! fall on each other 4, where it was 670; of hulls at rest 5 for 370; of 10,000 boxes and hulls in the air 15 for 450;
+//! of a crowd 16 for
 //! 100. The frames take 0.93, 0.8, 0.9 and 0.98 of the time (AMD EPYC, Zen 4, 2026-11-24).
 //!
-//! Lin and Canny walk so over the features of both solids in a gap ("A fast algorithm for incremental distance calculation",
-//! ICRA 1991); here it goes over those of their difference, in overlap.
+//! Lin and Canny walk so over the features of both solids in a gap ("A fast algorithm for incremental distance
+//! calculation", ICRA 1991); here it goes over those of their difference, in overlap.
 
 use super::super::solid::Solid;
 use super::grow::Met;
@@ -87,7 +88,8 @@ impl Hinted {
         Ended::Open(most)
     }
 
-    /// The end of one walk, where the foot of the origin is inside, or nothing overlaps; nothing where it leads nowhere.
+    /// The end of one walk, where the foot of the origin is inside, or nothing overlaps; nothing where it leads
+    /// nowhere.
     fn walked(mut self, (a, b): (&Solid, &Solid), precision: &Precision) -> Option<Self> {
         for step in 0..MOST_STEPS {
             let next = match self.foot((a, b), precision) {
@@ -123,8 +125,8 @@ impl Hinted {
     }
 }
 
-/// The facet of the difference that a piece of it belongs to, by what it shows: two edges, by its corners, or what a walk
-/// comes to from the face that looks most nearly as it does.
+/// The facet of the difference that a piece of it belongs to, by what it shows: two edges, by its corners, or what a
+/// walk comes to from the face that looks most nearly as it does.
 pub(super) fn facet_of(
     solids: (&Solid, &Solid),
     piece: &Met,
