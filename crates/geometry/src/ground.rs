@@ -16,7 +16,7 @@ use crate::shape::Shape3;
 use crate::triangle::Triangle3;
 use core::ops::ControlFlow;
 use glam::{DVec3, Vec3};
-use slab::{Slab, gap};
+use slab::Slab;
 use tree::{Line, Near};
 
 /// Ground made of numbered triangles: a mesh or a height field.
@@ -376,7 +376,7 @@ impl<'a> Ground<'a> {
             Self::Mesh(mesh) => mesh.tree().visit_in_order(&near, limit, visitor),
             Self::Field(field) => {
                 let visitor = |number| visitor(number, None);
-                field.visit_in_order(&near, |low, high| Some(gap(bounds, low, high)), limit, visitor);
+                field.visit_nearest((&near, bounds), limit, visitor);
             }
         }
     }

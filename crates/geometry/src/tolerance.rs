@@ -119,7 +119,8 @@ pub const ARM_SHARE: f64 = 63.0 / 64.0;
 /// merging at [`COPLANAR`] may leave, with room.
 ///
 /// Faces are derived data that prove nothing, so a larger value costs depth accuracy (the planarity error enters every
-/// reported error) and a smaller one would refuse hulls that were built here.
+/// reported error) and a smaller one would refuse hulls that were built here. Where merging leaves more, of what is thinner
+/// than rounding, the builder keeps the facets.
 pub const MERGED_PLANARITY: f64 = 8.0 * COPLANAR;
 
 /// Share of its coordinates by which a vertex of a chain may lie beside the line of its neighbours and count as on it.

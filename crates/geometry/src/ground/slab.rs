@@ -3,7 +3,7 @@
 use crate::aabb::Aabb3;
 use glam::{DVec3, Vec3};
 
-/// A box that moves on a line, or a ray: what triangles' boxes are asked by.
+/// A box that moves on a line, or a ray: what a field's columns, rows and heights are asked by.
 ///
 /// In f64, and widened by more than it may round, so that no box is lost: a slab's time is right to a few units in
 /// the last place of the coordinates that went into it.

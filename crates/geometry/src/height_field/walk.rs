@@ -3,7 +3,7 @@
 use super::HeightField;
 use super::grid::{Cell, Grid};
 use crate::aabb::{Aabb3, Bounds};
-use crate::ground::slab::Slab;
+use crate::ground::slab::{Slab, gap};
 use crate::ground::tree::Ask;
 use arrayvec::ArrayVec;
 use core::ops::{ControlFlow, Range};
@@ -103,37 +103,38 @@ impl HeightField {
         });
     }
 
-    /// Hands triangles to `visitor` block by block as the order has it, and in its order within each. `place` is what
-    /// `ask` is, of a single box.
-    pub(crate) fn visit_in_order(
+    /// Hands triangles near a box to `visitor`, block by block, and the nearest of each first.
+    pub(crate) fn visit_nearest(
         &self,
-        ask: &impl Ask,
-        place: impl Fn([f32; 3], [f32; 3]) -> Option<f64>,
+        (near, bounds): (&impl Ask, &Aabb3),
         limit: f64,
         mut visitor: impl FnMut(u32) -> f64,
     ) {
         let (grid, mut limit) = (&self.data.grid, limit);
-        self.data.blocks.visit_in_order(ask, limit, |block, _| {
-            let mut found = [(0.0, 0); (2 * BLOCK.side * BLOCK.side) as usize];
-            let mut count = 0;
+        self.data.blocks.visit_in_order(near, limit, |block, _| {
+            let mut found = Found::new_const();
             for cell in cells_of(grid, block).filter(|&cell| !grid.is_hole(cell)) {
-                for (triangle, [low, high]) in grid.boxes(cell) {
-                    if let Some(place) = place(low, high).filter(|&place| place <= limit) {
-                        found[count] = (place, triangle);
-                        count += 1;
-                    }
-                }
+                let near = grid.boxes(cell).map(|(triangle, [low, high])| (gap(bounds, low, high), triangle));
+                found.extend(near.filter(|&(place, _)| place <= limit));
             }
-            let found = &mut found[..count];
-            found.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
-            for &mut (place, triangle) in found {
-                if place <= limit {
-                    limit = visitor(triangle).min(limit);
-                }
-            }
+            limit = hand_over(found, limit, &mut visitor);
             limit
         });
     }
+}
+
+/// Triangles of a block, each with its place in an order.
+type Found = ArrayVec<(f64, u32), { 2 * (BLOCK.side * BLOCK.side) as usize }>;
+
+/// Hands over triangles in order, up to a limit that `visitor` may lower; says what it is then.
+fn hand_over(mut found: Found, mut limit: f64, visitor: &mut impl FnMut(u32) -> f64) -> f64 {
+    found.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    for (place, triangle) in found {
+        if place <= limit {
+            limit = visitor(triangle).min(limit);
+        }
+    }
+    limit
 }
 
 /// How far a way goes at most, in cells, that leads over no more than a block's columns and rows.
@@ -165,7 +166,7 @@ impl<V: FnMut(u32) -> f64> Way<'_, V> {
         for (time, column) in over_columns.iter_mut().zip(columns.clone()) {
             *time = over(0, column);
         }
-        let mut found: ArrayVec<(f64, u32), { 2 * SIDE * SIDE }> = ArrayVec::new_const();
+        let mut found = Found::new_const();
         for row in rows {
             let [enter, leave] = over(1, row);
             for (time, column) in over_columns.iter().zip(columns.clone()) {
@@ -181,12 +182,7 @@ impl<V: FnMut(u32) -> f64> Way<'_, V> {
                 }
             }
         }
-        found.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
-        for (place, triangle) in found {
-            if place <= self.limit {
-                self.limit = (self.visitor)(triangle).min(self.limit);
-            }
-        }
+        self.limit = hand_over(found, self.limit, &mut self.visitor);
     }
 }
 

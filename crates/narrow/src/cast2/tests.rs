@@ -192,17 +192,27 @@ fn what_turns_while_it_passes_one_sided_ground_from_behind_is_not_stopped_half_w
     }
 }
 
-#[test]
-fn a_box_that_hardly_turns_comes_out_of_one_sided_ground_as_one_that_does_not_turn() {
-    let hill = Chain::open([(2.0, -0.5), (0.0, 0.0), (-2.0, -0.5)].map(Vec2::from)).unwrap();
-    let (body, still) = (Shape2::from(Rect::from_half_extents(Vec2::new(0.5, 0.3)).unwrap()), Motion2::STILL);
-    let (hill, mut passed) = (Shape2::from(hill.one_sided()), 0);
-    for i in 0..400 {
-        // To a point around the top, from below.
+fn hill() -> Chain {
+    Chain::open([(2.0, -0.5), (0.0, 0.0), (-2.0, -0.5)].map(Vec2::from)).unwrap()
+}
+
+/// Where ways begin and lead to points around the top of the hill, from below: out of the right slope, and away from what the
+/// left one looks to.
+fn ways_out_of_the_hill() -> impl Iterator<Item = (Pose2, DVec2)> {
+    (0..400).map(|i| {
         let to = Rotation2::from_angle(0.01 * (i % 100) as f32).unwrap();
         let to = DVec2::new(f64::from(to.cos()), f64::from(to.sin())) * 0.45;
         let way = DVec2::new(-1.0, 0.5 + 0.5 * f64::from(i / 100)) * 2.0;
-        let from = Pose2::at(to - 0.8 * way).unwrap();
+        (Pose2::at(to - 0.8 * way).unwrap(), way)
+    })
+}
+
+#[test]
+fn a_box_that_hardly_turns_comes_out_of_one_sided_ground_as_one_that_does_not_turn() {
+    let hill = hill();
+    let (body, still) = (Shape2::from(Rect::from_half_extents(Vec2::new(0.5, 0.3)).unwrap()), Motion2::STILL);
+    let (hill, mut passed) = (Shape2::from(hill.one_sided()), 0);
+    for (i, (from, way)) in ways_out_of_the_hill().enumerate() {
         let turn = Rotation2::from_angle(1e-6).unwrap();
         let [plain, turning] = [Motion2::shift(way).unwrap(), Motion2::new(way, turn).unwrap()];
         let pair = Pair2::new(&body, &from, &hill, &Pose2::IDENTITY);
@@ -238,17 +248,12 @@ fn the_end_of_a_bar_that_turns_and_rises_meets_one_sided_ground() {
 
 #[test]
 fn a_ball_that_turns_about_its_middle_meets_what_one_that_does_not_turn_meets() {
-    let hill = Chain::open([(2.0, -0.5), (0.0, 0.0), (-2.0, -0.5)].map(Vec2::from)).unwrap();
+    let hill = hill();
     let (ball, still) = (circle(0.5), Motion2::STILL);
     let mut passed = 0;
     for (is_one_sided, hill) in [(true, hill.clone().one_sided()), (false, hill)] {
         let hill = Shape2::from(hill);
-        for i in 0..400 {
-            // To a point around the top, from below: out of the right slope, and away from what the left one looks to.
-            let to = Rotation2::from_angle(0.01 * (i % 100) as f32).unwrap();
-            let to = DVec2::new(f64::from(to.cos()), f64::from(to.sin())) * 0.45;
-            let way = DVec2::new(-1.0, 0.5 + 0.5 * f64::from(i / 100)) * 2.0;
-            let from = Pose2::at(to - 0.8 * way).unwrap();
+        for (i, (from, way)) in ways_out_of_the_hill().enumerate() {
             for angle in [1e-6, 0.3, -2.5] {
                 let turn = Rotation2::from_angle(angle).unwrap();
                 let [plain, turning] = [Motion2::shift(way).unwrap(), Motion2::new(way, turn).unwrap()];
