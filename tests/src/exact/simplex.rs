@@ -2,9 +2,9 @@
 //!
 //! Phase one of the simplex method from artificial variables, by Bland's rule (1977), which cannot cycle on degenerate
 //! touching cases. Pivots keep integers, as in Bareiss (1968): every division is exact. The artificial variables'
-//! columns are carried along but never enter again; what stands below them in the end is the proof.
+//! columns are all that is carried along, and never enter again; what stands below them in the end is the proof.
 
-use super::place::{Point, minus};
+use super::place::{Point, dot, minus};
 use num_bigint::{BigInt, Sign};
 
 /// An axis and two levels on it: all of A lies at `of_a` or below, all of B at `of_b` or above, and `of_a < of_b`.
@@ -41,7 +41,7 @@ pub fn parting(a: &[Point], b: &[Point]) -> Option<Parting> {
     let mut axis = refutation(&columns, &goal)?;
     // y.(a - o, 1, 0) <= 0, y.(o - b, 0, 1) <= 0 and y.(0, 1, 1) > 0.
     let levels = axis.split_off(origin.len());
-    let at_origin: BigInt = super::place::dot(&axis, origin);
+    let at_origin: BigInt = dot(&axis, origin);
     Some(Parting { of_a: &at_origin - &levels[0], of_b: &at_origin + &levels[1], axis })
 }
 
@@ -49,52 +49,48 @@ pub fn parting(a: &[Point], b: &[Point]) -> Option<Parting> {
 /// `columns * x = goal`. One or the other exists (Farkas, 1902).
 pub fn refutation(columns: &[Point], goal: &[BigInt]) -> Option<Point> {
     let (width, height) = (columns.len(), goal.len());
-    // Rows over a common denominator: the columns, the artificial ones, the right side. Below them the infeasibility,
-    // to be brought to zero, as a sum of rows; what multiplies each stands below the artificial columns.
-    let unit = |row: usize| (0..height).map(move |i| BigInt::from(u8::from(i == row)));
-    let mut rows: Vec<Point> = (0..height)
-        .map(|row| {
-            let given = columns.iter().map(|column| column[row].clone());
-            given.chain(unit(row)).chain([goal[row].clone()]).collect()
-        })
-        .collect();
-    let right = width + height;
-    rows.push((0..=right).map(|j| rows.iter().map(|row| &row[j]).sum()).collect());
-    let mut basis: Vec<usize> = (width..right).collect();
+    // What stands below the artificial columns and the right side, over a common denominator; of the others only what
+    // is asked for is worked out (the revised method). The last row is the infeasibility, to be brought to zero, as a
+    // sum of the others; what multiplies each of them stands there.
+    let unit = |row: usize| (0..height).map(move |i| BigInt::from(u8::from(i == row || row == height)));
+    let sum = goal.iter().sum();
+    let right_sides = goal.iter().chain([&sum]);
+    let mut rows: Vec<Point> =
+        right_sides.enumerate().map(|(row, right)| unit(row).chain([right.clone()]).collect()).collect();
+    let mut basis: Vec<usize> = (width..width + height).collect();
     let mut denominator = BigInt::from(1);
-    while rows[height][right].sign() == Sign::Plus {
-        let Some(entering) = (0..width).find(|&j| rows[height][j].sign() == Sign::Plus) else {
-            return Some(rows[height][width..right].to_vec());
+    while rows[height][height].sign() == Sign::Plus {
+        let multipliers = &rows[height][..height];
+        let Some(entering) = columns.iter().position(|column| dot(multipliers, column).sign() == Sign::Plus)
+        else {
+            return Some(multipliers.to_vec());
         };
+        let column: Point = rows.iter().map(|row| dot(&row[..height], &columns[entering])).collect();
         // The infeasibility cannot fall without end, so that something bounds whatever lowers it.
-        let leaving = leaving_row(&rows, &basis, entering).expect("bounded");
-        denominator = pivot(&mut rows, leaving, entering, &denominator);
+        let leaving = leaving_row(&rows, &column, &basis).expect("bounded");
+        denominator = pivot(&mut rows, &column, leaving, &denominator);
         basis[leaving] = entering;
     }
     None
 }
 
 /// The row that bounds the entering variable first; ties to the least variable, as Bland's rule demands.
-fn leaving_row(rows: &[Point], basis: &[usize], entering: usize) -> Option<usize> {
-    let right = rows[0].len() - 1;
+fn leaving_row(rows: &[Point], column: &[BigInt], basis: &[usize]) -> Option<usize> {
+    let right = basis.len();
     let ratio_order = |&p: &usize, &q: &usize| {
-        let left = &rows[p][right] * &rows[q][entering];
-        left.cmp(&(&rows[q][right] * &rows[p][entering])).then(basis[p].cmp(&basis[q]))
+        let left = &rows[p][right] * &column[q];
+        left.cmp(&(&rows[q][right] * &column[p])).then(basis[p].cmp(&basis[q]))
     };
-    (0..basis.len()).filter(|&row| rows[row][entering].sign() == Sign::Plus).min_by(ratio_order)
+    (0..basis.len()).filter(|&row| column[row].sign() == Sign::Plus).min_by(ratio_order)
 }
 
 /// One step of fraction-free elimination; returns the new common denominator, which is positive.
-fn pivot(rows: &mut [Point], leaving: usize, entering: usize, denominator: &BigInt) -> BigInt {
+fn pivot(rows: &mut [Point], column: &[BigInt], leaving: usize, denominator: &BigInt) -> BigInt {
     let pivot_row = rows[leaving].clone();
-    let by = &pivot_row[entering];
-    for (index, row) in rows.iter_mut().enumerate().filter(|(index, _)| *index != leaving) {
-        let factor = row[entering].clone();
-        for (j, (cell, across)) in row.iter_mut().zip(&pivot_row).enumerate() {
-            let product = &*cell * by - &factor * across;
-            let quotient = &product / denominator;
-            debug_assert_eq!(&quotient * denominator, product, "row {index}, column {j}");
-            *cell = quotient;
+    let by = &column[leaving];
+    for (_, (row, factor)) in rows.iter_mut().zip(column).enumerate().filter(|(index, _)| *index != leaving) {
+        for (cell, across) in row.iter_mut().zip(&pivot_row) {
+            *cell = (&*cell * by - factor * across) / denominator;
         }
     }
     by.clone()

@@ -2,7 +2,7 @@
 //! the other.
 
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
-use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, TriMesh, Triangle3};
+use asunder_geometry::{Aabb3, Capsule3, Cuboid, Hull, Pose3, Shape3, TriMesh, Triangle3};
 use asunder_narrow::{Manifold3, Pair3, Separation3};
 use asunder_tests::cases::Random;
 use core::fmt::Display;
@@ -58,14 +58,26 @@ pub(super) fn nearest(
     triangles: impl Iterator<Item = [Vec3; 3]>,
     limit: f32,
 ) -> Option<(f64, f64)> {
-    let found = triangles.filter_map(|[a, b, c]| {
-        let triangle = Shape3::from(Triangle3::new(a, b, c).unwrap());
-        match Pair3::new(body, at, &triangle, &Pose3::IDENTITY).separation(limit) {
-            Separation3::Measured(found) => Some((f64::from(found.separation), f64::from(found.error))),
-            Separation3::AtLeast(_) => None,
+    let mut least: Option<(f32, f32)> = None;
+    let mut reach = body.bounds(at, limit);
+    for [a, b, c] in triangles {
+        // Most of a large ground is beyond what has been found.
+        if !reach.overlaps(&Aabb3::from_points([a, b, c])) {
+            continue;
         }
-    });
-    found.min_by(|one, other| one.0.total_cmp(&other.0))
+        let triangle = Shape3::from(Triangle3::new(a, b, c).unwrap());
+        let within = least.map_or(limit, |(separation, error)| (separation + error).max(0.0).min(limit));
+        let Separation3::Measured(found) =
+            Pair3::new(body, at, &triangle, &Pose3::IDENTITY).separation(within)
+        else {
+            continue;
+        };
+        if least.is_none_or(|least| found.separation < least.0) {
+            least = Some((found.separation, found.error));
+            reach = body.bounds(at, (found.separation + found.error).clamp(0.0, limit));
+        }
+    }
+    least.map(|(separation, error)| (f64::from(separation), f64::from(error)))
 }
 
 /// What is told of a body's least separation, which must be within both errors of this one.
