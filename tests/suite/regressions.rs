@@ -2,6 +2,7 @@
 
 mod blades;
 mod close;
+mod grids;
 mod hooks;
 mod middles;
 mod needles;

@@ -166,7 +166,9 @@ pub struct Slide<K, O, N, P> {
     pub ground: Option<Obstacle<K, N, P>>,
     /// What it met that it cannot stand on or does not get up on, walls, ceilings and kerbs, in the order in which it
     /// met them; first upright walls that it was closer to than its skin, and goes into. No more than eight. Whoever
-    /// did not go all of the way is told why here, or by `ground`; ground that turned a jump aside is told nowhere.
+    /// did not go all of the way is told why here, or by `ground`; but ground that turned a jump aside, and ground that
+    /// broke a fall and was left again within the same displacement, are told nowhere: compare `moved` with what was
+    /// asked for.
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
     pub blocked: bool,

@@ -3,8 +3,8 @@
 use super::{at, chain, cut_line, noise, sliders, towards, turned};
 use asunder::glam::{DVec2, Vec2};
 use asunder::{
-    Chain, Circle, Collider2, Filter2, Motion2, Pair2, Pose2, Ray2, Rect, Rotation2, Shape2, Walk2, World2,
-    cast_ray2,
+    Capsule2, Chain, Circle, Collider2, Filter2, Motion2, Pair2, Polygon, Pose2, Ray2, Rect, Rotation2,
+    Shape2, Walk2, World2, cast_ray2,
 };
 use asunder_tests::cases::Random;
 use asunder_tests::cores::segments;
@@ -266,4 +266,45 @@ fn a_character_jumps_through_a_platform_and_lands_on_it() {
         }
         assert!(is_standing && (pose.position().y - 0.9).abs() < 0.02, "{pose:?}");
     }
+}
+
+/// Symptom: who came down beside the tip of a wall of no width, drawn up and back down with one side, went into it as far
+/// as its middle came. Cause: at the tip the chain turns by all of a half turn, which counted as no corner, so that
+/// nothing was met that looked past the face on whose side the middle was.
+#[test]
+fn a_wall_of_no_width_is_the_same_with_one_side_and_with_two() {
+    let shapes: [Shape2; 4] = [
+        Circle::new(0.5).unwrap().into(),
+        Rect::from_half_extents(Vec2::splat(0.5)).unwrap().into(),
+        Polygon::regular(0.6, 5).unwrap().into(),
+        Capsule2::from_half_height(0.4, 0.3).unwrap().into(),
+    ];
+    let mut met = 0;
+    // Back all of the way, and a quarter of it.
+    for back in [0.0, 0.75] {
+        let vertices = [[3.0, 0.0], [0.0, 0.0], [0.0, 1.0], [0.0, back], [-3.0, back]].map(Vec2::from);
+        let two_sided = Chain::open(vertices).unwrap();
+        let walls = [two_sided.clone().one_sided(), two_sided].map(Shape2::from);
+        let mut random = Random::new(8633);
+        for case in 0..4000 {
+            let shape = &shapes[case % shapes.len()];
+            let from = Pose2::at([random.between(-1.7, 1.7), 2.2]).unwrap();
+            let way = Vec2::new(random.between(-1.1, 1.1) as f32, random.between(-2.3, -1.0) as f32);
+            let [one, two] = walls.each_ref().map(|wall| {
+                let pair = Pair2::new(shape, &from, wall, &Pose2::IDENTITY);
+                pair.cast(way).map(|impact| (impact.fraction, impact.normal))
+            });
+            // The side that it is asked of first is found with another last digit.
+            let is_same = match (one, two) {
+                (Some((at, normal)), Some((then, other))) => {
+                    (at - then).abs() < 1e-8 && (normal - other).length() < 1e-6
+                }
+                (one, two) => one == two,
+            };
+            let story = format_args!("{case}: {shape:?} from {} by {way}, back to {back}", from.position());
+            assert!(is_same, "{story}: {one:?}, {two:?}");
+            met += usize::from(one.is_some());
+        }
+    }
+    assert!(met > 4000, "{met}");
 }

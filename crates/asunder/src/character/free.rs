@@ -78,12 +78,12 @@ pub(super) fn free<S: Walks>(
         let target = if round < ROUNDS / 2 { target } else { target / 16.0 };
         let way = deepest.away * (target - deepest.gap);
         let alone = S::moved(&pose, way).filter(|moved| !overlaps(moved));
-        if let Some(moved) = alone.filter(|_| share_before_ground(world, (shape, &pose), way, filter) >= 1.0)
-        {
+        let share_of = |way: S::Point| share_before_ground(world, (shape, &pose), (way, target), filter);
+        if let Some(moved) = alone.filter(|_| share_of(way) >= 1.0) {
             return found(moved, true);
         }
         let way = push::<S>(&near, target);
-        let share = share_before_ground(world, (shape, &pose), way, filter);
+        let share = share_of(way);
         match S::moved(&pose, way * share) {
             Some(pushed) => pose = pushed,
             None => break,
@@ -95,18 +95,22 @@ pub(super) fn free<S: Walks>(
 /// How much of a way may be gone: all of it, unless the shape's middle would go through ground, from a side that is
 /// solid. Beyond, that ground would be nothing that the shape overlaps, and who is pressed against it would count as
 /// free there.
+///
+/// The middle stays `before` metres from where it would go through. Of the way that was left a share was gone until
+/// 2026-11-27: after sixteen rounds nothing is left between the middle and the ground, and the next push starts behind.
 fn share_before_ground<S: Walks>(
     world: &World<S>,
     at: At<'_, S>,
-    way: S::Point,
+    (way, before): (S::Point, f64),
     filter: &Filter<'_, S>,
 ) -> f64 {
     let Some(ray) = S::ray(S::middle(at), way) else { return 1.0 };
+    let before = before / way.length();
     let mut share = 1.0_f64;
-    let _ = bodies_along_ray(world, &ray, 1.0, filter).visit(|hit| {
+    // Who goes all of the way stays as far from what lies beyond.
+    let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
         if !hit.inside && world.bodies.get(hit.body).is_some_and(|body| S::is_ground(&body.shape)) {
-            // Not quite to where a middle is on neither side.
-            share = share.min(hit.distance * 0.9);
+            share = share.min((hit.distance - before).max(0.0));
         }
         ControlFlow::Continue(())
     });

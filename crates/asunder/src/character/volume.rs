@@ -91,8 +91,8 @@ impl World<Volume> {
     ///   to the displacement.
     /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting what it
     ///   took to free it, or to move it back to its skin's distance out of an acute corner.
-    /// - A displacement that is not finite counts as none, as does one that leads beyond 1e9 m. Half-spaces do not
-    ///   move.
+    /// - A displacement that is not finite counts as none. Beyond 1e9 m nobody goes: of a displacement that leads there,
+    ///   what would end there is left out, and so all of it where nothing is in the way. Half-spaces do not move.
     ///
     /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a
     /// wall that may be a step.

@@ -107,8 +107,10 @@ impl Surface {
         // Away from the corner.
         let leaving = if end == 1 { next } else { -next };
         // Behind the face is who meets a hollow corner so; of a convex one of less than a right angle, nobody: normals
-        // of it may look away from the face.
-        let is_convex = leaving.dot(self.normal) < 0.0;
+        // of it may look away from the face. A chain that leads straight back is a wall of no width, with a tip.
+        let rise = leaving.dot(self.normal);
+        let leads_back = rise.abs() <= ALONG_GROUND && leaving.dot(self.along) * lean < 0.0;
+        let is_convex = rise < 0.0 || leads_back;
         let is_seen = !self.is_one_sided || is_convex || height >= -ALONG_GROUND;
         if direction.dot(leaving) <= ALONG_GROUND && is_seen {
             return Told::Corner;
@@ -116,7 +118,7 @@ impl Surface {
         let normal = if is_in_front { right_of(next) } else { -right_of(next) };
         // In front of the one and behind the other, a body looks at the corner over the one that it is beyond.
         let is_across = is_in_front != self.is_front && !self.is_one_sided;
-        let is_sharp = leaving.dot(self.normal) < 0.0 && normal.dot(self.normal) < SHARP_CORNER;
+        let is_sharp = rise < 0.0 && normal.dot(self.normal) < SHARP_CORNER;
         if is_across || (is_sharp && is_in_front == self.is_front) {
             Told::Beyond(normal)
         } else {
