@@ -4,6 +4,7 @@ mod blades;
 mod close;
 mod grids;
 mod hooks;
+mod leaves;
 mod middles;
 mod needles;
 mod peers;

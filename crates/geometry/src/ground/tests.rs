@@ -17,6 +17,15 @@ fn mesh_of(given: &Named) -> TriMesh {
         .unwrap_or_else(|e| panic!("{}: {e}", given.name))
 }
 
+/// Each mesh as it is, and with one side, beside what plain loops say of it.
+fn all_by_sides(mut check: impl FnMut(&Named, &TriMesh, &Plain)) {
+    for given in all() {
+        let mesh = mesh_of(&given);
+        check(&given, &mesh, &Plain::of(&given, false));
+        check(&given, &mesh.one_sided(), &Plain::of(&given, true));
+    }
+}
+
 /// A generator with a short period and no ambition.
 struct Dice(u64);
 
@@ -43,8 +52,7 @@ impl Dice {
 #[test]
 fn dropped_triangles_are_those_that_plain_loops_drop_and_the_others_keep_their_numbers() {
     let mut seen = DroppedTriangles::default();
-    for given in all() {
-        let (mesh, plain) = (mesh_of(&given), Plain::of(&given));
+    all_by_sides(|given, mesh, plain| {
         let (mut degenerate, mut duplicate) = (0, 0);
         for number in 0..given.triangles.len() as u32 {
             assert_eq!(mesh.is_dropped(number), !plain.is_kept(number), "{} {number}", given.name);
@@ -60,15 +68,14 @@ fn dropped_triangles_are_those_that_plain_loops_drop_and_the_others_keep_their_n
         assert_eq!(mesh.dropped(), DroppedTriangles { degenerate, duplicate }, "{}", given.name);
         seen.degenerate += degenerate;
         seen.duplicate += duplicate;
-    }
+    });
     assert!(seen.degenerate > 10 && seen.duplicate > 20, "{seen:?}");
 }
 
 #[test]
 fn neighbors_are_those_that_plain_loops_find_and_know_each_other() {
     let (mut joined, mut ends) = (0, 0);
-    for given in all() {
-        let (mesh, plain) = (mesh_of(&given), Plain::of(&given));
+    all_by_sides(|given, mesh, plain| {
         for number in 0..given.triangles.len() as u32 {
             for edge in 0..3 {
                 let found = mesh.neighbor(number, edge);
@@ -84,15 +91,14 @@ fn neighbors_are_those_that_plain_loops_find_and_know_each_other() {
                 }
             }
         }
-    }
+    });
     assert!(joined > 2000 && ends > 2000, "{joined} {ends}");
 }
 
 #[test]
 fn edges_and_corners_are_prominent_where_angles_say_so() {
     let mut counts = [0; 4];
-    for given in all() {
-        let (mesh, plain) = (mesh_of(&given), Plain::of(&given));
+    all_by_sides(|given, mesh, plain| {
         for number in 0..given.triangles.len() as u32 {
             let found = mesh.prominent(number);
             assert_eq!(found, plain.prominent(number), "{} {number}", given.name);
@@ -101,22 +107,21 @@ fn edges_and_corners_are_prominent_where_angles_say_so() {
                 counts[2 + usize::from(side)] += usize::from(!found.any(side));
             }
         }
-    }
+    });
     assert!(counts.iter().all(|&count| count > 200), "{counts:?}");
 }
 
 #[test]
 fn patches_are_the_planes_that_plain_loops_find() {
     let (mut alone, mut together) = (0, 0);
-    for given in all() {
-        let (mesh, plain) = (mesh_of(&given), Plain::of(&given));
+    all_by_sides(|given, mesh, plain| {
         let patches = plain.patches();
         for number in 0..given.triangles.len() as u32 {
             assert_eq!(mesh.patch(number), patches[number as usize], "{} {number}", given.name);
             alone += usize::from(mesh.patch(number) == number);
             together += usize::from(mesh.patch(number) != number);
         }
-    }
+    });
     assert!(alone > 300 && together > 300, "{alone} {together}");
 }
 

@@ -11,7 +11,12 @@ use crate::tolerance::{MAX_MESH_VERTICES, MAX_RADIUS, MAX_TRIANGLES};
 use crate::triangle::Triangle3;
 use glam::{DVec3, Vec3};
 
-pub(super) fn build(mut vertices: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Result<Data, MeshError> {
+/// A mesh's data; where backs are kept, as one that is solid from the front alone is to have them.
+pub(super) fn build(
+    mut vertices: Vec<Vec3>,
+    mut triangles: Vec<[u32; 3]>,
+    keeps_backs: bool,
+) -> Result<Data, MeshError> {
     check(&vertices, &triangles)?;
     weld(&vertices, &mut triangles);
     let corners = |triangle: u32| triangles[triangle as usize].map(|vertex| vertices[vertex as usize]);
@@ -22,7 +27,8 @@ pub(super) fn build(mut vertices: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Re
     };
     let mut is_dropped: Vec<bool> = (0..count).map(is_degenerate).collect();
     let degenerate = is_dropped.iter().filter(|&&is_dropped| is_dropped).count();
-    let Edges { twins, duplicate } = Edges::of(&triangles, vertices.len(), &mut is_dropped);
+    let Edges { twins, duplicate, has_backs } =
+        Edges::of(&triangles, vertices.len(), &mut is_dropped, keeps_backs);
     let kept = || (0..count).filter(|&triangle| !is_dropped[triangle as usize]);
     let Some((low, high)) = kept().map(|triangle| around(corners(triangle))).reduce(union) else {
         return Err(MeshError::NoTriangles);
@@ -53,7 +59,20 @@ pub(super) fn build(mut vertices: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Re
     let dropped = DroppedTriangles { degenerate, duplicate };
     vertices.shrink_to_fit();
     triangles.shrink_to_fit();
-    Ok(Data { vertices, triangles, twins, patches, marks, tree, dropped, low, high, center, outer_radius })
+    Ok(Data {
+        vertices,
+        triangles,
+        twins,
+        patches,
+        marks,
+        tree,
+        dropped,
+        has_backs,
+        low,
+        high,
+        center,
+        outer_radius,
+    })
 }
 
 /// Vertices a triangle up to which the tree holds corners, too: 12 bytes more a triangle, and 100 in all are promised.

@@ -6,6 +6,8 @@ pub(super) struct Edges {
     pub(super) twins: Vec<u32>,
     /// How many triangles were dropped as others' duplicates.
     pub(super) duplicate: usize,
+    /// Whether one of those is another's back: the same three vertices, seen from the other side.
+    pub(super) has_backs: bool,
 }
 
 /// Twin of a half-edge beyond which there is nothing, or not one thing.
@@ -13,13 +15,20 @@ pub(super) const NO_TWIN: u32 = u32::MAX;
 
 impl Edges {
     /// Pairs half-edges, and drops triangles that have the same three vertices as an earlier one: those share three
-    /// edges with it, and at each the vertex on the other side.
+    /// edges with it, and at each the vertex on the other side. Backs are kept where they are asked for: then a sheet
+    /// of both is two, which hang together where it ends.
     ///
     /// By sorting: half-edges go to the lesser of their vertices, by counting, and there stand in the order of the
     /// other.
-    pub(super) fn of(triangles: &[[u32; 3]], vertices: usize, is_dropped: &mut [bool]) -> Self {
+    pub(super) fn of(
+        triangles: &[[u32; 3]],
+        vertices: usize,
+        is_dropped: &mut [bool],
+        keeps_backs: bool,
+    ) -> Self {
+        let twins = vec![NO_TWIN; 3 * triangles.len()];
         let mut pairing =
-            Pairing { triangles, twins: vec![NO_TWIN; 3 * triangles.len()], duplicate: 0, is_dropped };
+            Pairing { triangles, twins, duplicate: 0, has_backs: false, is_dropped, keeps_backs };
         let (mut half_edges, ends) = pairing.by_lesser_vertex(vertices);
         let mut start = 0;
         for end in ends {
@@ -28,7 +37,7 @@ impl Edges {
             at_vertex.chunk_by_mut(|one, other| one >> 32 == other >> 32).for_each(|edge| pairing.pair(edge));
             start = end as usize;
         }
-        Self { twins: pairing.twins, duplicate: pairing.duplicate }
+        Self { twins: pairing.twins, duplicate: pairing.duplicate, has_backs: pairing.has_backs }
     }
 }
 
@@ -36,7 +45,9 @@ struct Pairing<'a> {
     triangles: &'a [[u32; 3]],
     twins: Vec<u32>,
     duplicate: usize,
+    has_backs: bool,
     is_dropped: &'a mut [bool],
+    keeps_backs: bool,
 }
 
 impl Pairing<'_> {
@@ -80,24 +91,36 @@ impl Pairing<'_> {
     fn pair(&mut self, edge: &mut [u64]) {
         let opposite = |half_edge: u64| self.vertices(half_edge as u32)[2];
         edge.sort_unstable_by_key(|&half_edge| (opposite(half_edge), half_edge));
-        let mut different = [0_u32; 2];
-        let mut count = 0;
-        let mut last = None;
+        // Of the first two vertices that are opposite, a half-edge each way.
+        let mut different = [[NO_TWIN; 2]; 2];
+        let (mut count, mut last, mut seen) = (0, None, [false; 2]);
         for &half_edge in &*edge {
-            let (half_edge, opposite) = (half_edge as u32, self.vertices(half_edge as u32)[2]);
-            if last.replace(opposite) == Some(opposite) {
+            let half_edge = half_edge as u32;
+            let [from, to, opposite] = self.vertices(half_edge);
+            let way = usize::from(from > to);
+            if last.replace(opposite) != Some(opposite) {
+                (count, seen) = (count + 1, [false; 2]);
+            }
+            let [is_repeated, is_back] = [seen[way], !seen[way] && seen[1 - way]];
+            seen[way] = true;
+            if is_repeated || is_back && !self.keeps_backs {
                 let is_dropped = &mut self.is_dropped[half_edge as usize / 3];
                 self.duplicate += usize::from(!*is_dropped);
+                self.has_backs |= is_back;
                 *is_dropped = true;
                 continue;
             }
-            if let Some(different) = different.get_mut(count) {
-                *different = half_edge;
+            if let Some(different) = different.get_mut(count - 1) {
+                different[way] = half_edge;
             }
-            count += 1;
         }
-        let [one, other] = different;
-        if count == 2 && self.vertices(one)[0] != self.vertices(other)[0] {
+        let [[up, down], others] = different;
+        let pairs = match count {
+            1 => [[up, down], [NO_TWIN; 2]],
+            2 => [[up, others[1]], [down, others[0]]],
+            _ => return,
+        };
+        for [one, other] in pairs.into_iter().filter(|pair| !pair.contains(&NO_TWIN)) {
             self.twins[one as usize] = other;
             self.twins[other as usize] = one;
         }

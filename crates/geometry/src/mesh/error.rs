@@ -16,7 +16,8 @@ pub struct DroppedTriangles {
     /// What [`Triangle3::new`](crate::Triangle3::new) refuses: without an area, so thin that their normal would be
     /// rounding, or too small.
     pub degenerate: usize,
-    /// The same three points as an earlier one, in any order.
+    /// The same three points as an earlier one, in any order; in a [one-sided](crate::TriMesh::one_sided) mesh, wound
+    /// the same way.
     pub duplicate: usize,
 }
 

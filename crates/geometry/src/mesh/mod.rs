@@ -26,7 +26,7 @@ use std::sync::Arc;
 /// sides unless it is [`one_sided`](Self::one_sided).
 ///
 /// Vertices at the same place count as one, whatever files say. Triangles without an area and such that are there
-/// already are [dropped](Self::dropped); the others keep the numbers that they were given by, so that materials can
+/// already, wound either way, are [dropped](Self::dropped); the others keep the numbers that they were given by, so that materials can
 /// be looked up by them. Two triangles are neighbours where they alone share an edge and wind alike.
 ///
 /// # Costs and limits
@@ -62,6 +62,8 @@ struct Data {
     marks: Vec<u16>,
     tree: Tree,
     dropped: DroppedTriangles,
+    /// Whether some were dropped that are others' backs.
+    has_backs: bool,
     low: Vec3,
     high: Vec3,
     center: Vec3,
@@ -78,14 +80,32 @@ impl TriMesh {
         vertices: impl Into<Vec<Vec3>>,
         triangles: impl Into<Vec<[u32; 3]>>,
     ) -> Result<Self, MeshError> {
-        let data = build::build(vertices.into(), triangles.into())?;
+        let data = build::build(vertices.into(), triangles.into(), false)?;
         Ok(Self { data: Arc::new(data), is_one_sided: false })
     }
 
     /// The same, solid only from the front.
+    ///
+    /// A triangle that was dropped as another's back, the same three vertices wound the other way, is there again: so
+    /// leaves and fences that are drawn from both sides stand in the way of both. The mesh is made once more for that,
+    /// and data not shared; else this costs nothing.
+    ///
+    /// ```
+    /// use asunder_geometry::{TriMesh, glam::Vec3};
+    /// let leaf = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], [[0, 2, 1], [0, 1, 2]])?;
+    /// assert!(leaf.is_dropped(1) && !leaf.one_sided().is_dropped(1));
+    /// # Ok::<(), asunder_geometry::MeshError>(())
+    /// ```
     #[must_use]
     pub fn one_sided(self) -> Self {
-        Self { is_one_sided: true, ..self }
+        let data = if self.data.has_backs && !self.is_one_sided {
+            let Data { vertices, triangles, .. } = &*self.data;
+            // What was a mesh with fewer of its triangles is one with more.
+            build::build(vertices.clone(), triangles.clone(), true).map_or(self.data, Arc::new)
+        } else {
+            self.data
+        };
+        Self { data, is_one_sided: true }
     }
 
     /// Whether it is solid only from the front.

@@ -39,6 +39,13 @@ pub(super) fn all() -> Vec<Named> {
     let mut flipped = grid("flipped", 10, &noise);
     flipped.triangles.iter_mut().step_by(3).for_each(|triangle| triangle.swap(0, 2));
     meshes.push(flipped);
+    // Drawn from both sides: all of it, and here and there.
+    for step in [1, 3] {
+        let mut leaf = grid(&format!("leaf {step}"), 8, &noise);
+        let backs: Vec<_> = leaf.triangles.iter().step_by(step).map(|&[a, b, c]| [b, a, c]).collect();
+        leaf.triangles.extend(backs);
+        meshes.push(leaf);
+    }
     meshes
 }
 

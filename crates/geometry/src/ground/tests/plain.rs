@@ -6,16 +6,20 @@ use crate::tolerance::FLAT;
 use crate::triangle::Triangle3;
 use glam::{DVec3, Vec3};
 
+/// Of which triangle, which edge, and from where to where.
+type HalfEdge = (u32, usize, [Vec3; 2]);
+
 pub(super) struct Plain<'a> {
     given: &'a Named,
+    is_one_sided: bool,
     kept: Vec<bool>,
     /// Half-edges of kept triangles, by the places of their ends.
-    half_edges: Vec<(u32, usize, [Vec3; 2])>,
+    half_edges: Vec<HalfEdge>,
 }
 
 impl<'a> Plain<'a> {
-    pub(super) fn of(given: &'a Named) -> Self {
-        let mut plain = Self { given, kept: vec![], half_edges: vec![] };
+    pub(super) fn of(given: &'a Named, is_one_sided: bool) -> Self {
+        let mut plain = Self { given, is_one_sided, kept: vec![], half_edges: vec![] };
         let mut known: Vec<Vec<[u32; 3]>> = Vec::new();
         for number in 0..given.triangles.len() as u32 {
             let places = plain.places(number);
@@ -35,11 +39,16 @@ impl<'a> Plain<'a> {
         self.given.triangles[number as usize].map(|vertex| self.given.vertices[vertex as usize])
     }
 
-    /// Corners as bits, in one order.
+    /// Corners as bits, in one order; of what has one side, from the least on.
     fn places(&self, number: u32) -> Vec<[u32; 3]> {
         let bits = |corner: Vec3| corner.to_array().map(|part| (part + 0.0).to_bits());
         let mut places: Vec<_> = self.corners(number).map(bits).to_vec();
-        places.sort_unstable();
+        if self.is_one_sided {
+            let least = (0..3).min_by_key(|&corner| places[corner]).unwrap();
+            places.rotate_left(least);
+        } else {
+            places.sort_unstable();
+        }
         places
     }
 
@@ -58,8 +67,31 @@ impl<'a> Plain<'a> {
         let same = |ends: [Vec3; 2]| ends == [from, to] || ends == [to, from];
         let others: Vec<_> =
             self.half_edges.iter().filter(|known| known.0 != number && same(known.2)).collect();
+        if self.is_one_sided {
+            return self.neighbor_of_one_sheet(number, &others, [to, from]);
+        }
         let [(other, twin, ends)] = others[..] else { return None };
         (*ends == [to, from]).then_some((*other, *twin))
+    }
+
+    /// The same where a triangle and its back lie in two sheets: the one next to it, and its back if there is none.
+    fn neighbor_of_one_sheet(
+        &self,
+        number: u32,
+        others: &[&HalfEdge],
+        ends: [Vec3; 2],
+    ) -> Option<(u32, usize)> {
+        let sorted = |number: u32| {
+            let mut places = self.places(number);
+            places.sort_unstable();
+            places
+        };
+        let (backs, beside): (Vec<&HalfEdge>, Vec<&HalfEdge>) =
+            others.iter().copied().partition(|(other, ..)| sorted(*other) == sorted(number));
+        let is_one_place = beside.iter().all(|(other, ..)| sorted(*other) == sorted(beside[0].0));
+        let candidates = if beside.is_empty() { backs } else { beside };
+        let opposed = candidates.iter().find(|known| known.2 == ends).filter(|_| is_one_place)?;
+        Some((opposed.0, opposed.1))
     }
 
     fn normal(&self, number: u32) -> DVec3 {
