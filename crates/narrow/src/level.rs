@@ -32,7 +32,13 @@
 //! that passes over ends no deeper in it than that 64th beyond what it does in the touched. What a motion sinks into
 //! the touched by all its thickness, as a coin that falls for a frame while it lies, passes under what stands there.
 
+mod contacts;
+#[cfg(test)]
+mod tests;
+
 use asunder_geometry::tolerance::{NEXT_LEVEL, NEXT_THICKNESS};
+pub(crate) use contacts::{AlongAxis, Contacts};
+use contacts::{Axis, Bundle, Holds};
 
 /// Share of a body's thickness by which it may sink into what it touches, and be led over what is flush with that.
 const SUNK: f64 = 0.5;
@@ -62,53 +68,112 @@ pub(crate) struct Passing<'p, V> {
     pub(crate) closing: &'p dyn Fn(V, f64) -> f64,
     /// The fraction at which who turns meets the other; zero where nobody turns, and for what is touched at the start.
     pub(crate) met_at: f64,
-    pub(crate) dot: fn(V, V) -> f64,
+    pub(crate) reach: Reach,
 }
 
-impl<V: Copy> Passing<'_, V> {
-    /// Classifies a meeting along a unit axis, given the normals and separations of the contacts between the two
-    /// bodies, where they touch, and of all that A touches.
+/// By how much a gap along an axis, and what is made of it, differs from that along another.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reach {
+    /// How far a point of B is from one of A at most, in metres: at the start, and at any time.
+    pub(crate) arms: [f64; 2],
+    /// What the sum of all lengths that a gap is made of loses to rounding.
+    pub(crate) rounding: f64,
+}
+
+impl Reach {
+    /// Of two parts as far apart as their bounding balls say, which go so far against each other. The lengths that a
+    /// gap is a sum of may be longer.
+    pub(crate) fn new(start: f64, way: f64, lengths: f64) -> Self {
+        // A stored rotation of the plane stretches by its length, which is one up to the rounding of f32.
+        let grown = |arm: f64| arm * (1.0 + 8.0 * f64::from(f32::EPSILON));
+        Self { arms: [grown(start), grown(start + way)], rounding: 1024.0 * f64::EPSILON * lengths }
+    }
+}
+
+impl<V: Axis> Passing<'_, V> {
+    /// Classifies a meeting along a unit axis, given the contacts between the two bodies, where they touch, and all
+    /// that A touches.
     pub(crate) fn lies(
         &self,
         normal: V,
-        touched: Option<impl Iterator<Item = (V, f64)> + Clone>,
-        beside: impl Iterator<Item = (V, f64)>,
+        touched: Option<&Contacts<impl AlongAxis>>,
+        beside: &Contacts<impl AlongAxis>,
     ) -> Lies {
         let has_inner_edges = self.is_on_ground && touched.is_some();
         let may_be_flush = !self.is_endless && !has_inner_edges;
-        if may_be_flush && beside.chain(touched.clone().into_iter().flatten()).any(|it| self.is_flush(it)) {
+        let is_flush = |bundle: &Bundle| self.is_flush(bundle);
+        if may_be_flush && (beside.any(is_flush) || touched.is_some_and(|touched| touched.any(is_flush))) {
             return Lies::Level;
         }
-        let Some(mut touched) = touched else { return Lies::Ahead };
+        let Some(touched) = touched else { return Lies::Ahead };
         let slack = NEXT_LEVEL * self.thickness;
         if (self.gap)(normal) > slack {
             return Lies::Ahead;
         }
-        let from = if self.begins_deep(normal, touched.clone()) { self.met_at } else { 0.0 };
+        let from = if self.begins_deep(normal, touched) { self.met_at } else { 0.0 };
         let into = (self.closing)(normal, from);
-        let anyway = |axis: V| (self.closing)(axis, 0.0).max(0.0) * (self.dot)(axis, normal).max(0.0);
-        let is_level = into <= slack || touched.any(|(axis, _)| into - anyway(axis) <= slack);
+        let is_level = into <= slack || touched.any(|bundle| self.goes_anyway(normal, into, bundle));
         if is_level { Lies::Level } else { Lies::Across }
     }
 
-    /// Whether the two reach further into each other along a unit axis, at the start, than what is touched accounts
-    /// for, and are met later.
-    fn begins_deep(&self, normal: V, touched: impl Iterator<Item = (V, f64)>) -> bool {
+    /// Whether the two reach further into each other along a unit axis, at the start, than any of what is touched
+    /// accounts for, and are met later.
+    fn begins_deep(&self, normal: V, touched: &Contacts<impl AlongAxis>) -> bool {
         if self.met_at <= 0.0 {
             return false;
         }
-        let along = |(axis, separation): (V, f64)| separation * (self.dot)(axis, normal).max(0.0);
-        let pressed = touched.map(along).fold(0.0, f64::min);
-        (self.gap)(normal) < pressed - NEXT_LEVEL * self.thickness
+        let (gap, slack) = ((self.gap)(normal), NEXT_LEVEL * self.thickness);
+        let accounts = |bundle: &Bundle| {
+            let along = V::of(bundle.axis).dot(normal);
+            if gap >= bundle.separation * along.max(0.0) - slack {
+                return Holds::Yes;
+            }
+            let deepest = bundle.separations[0].min(0.0) * (along + bundle.spread).max(0.0);
+            if gap < deepest - slack - self.reach.rounding { Holds::No } else { Holds::Perhaps }
+        };
+        gap < -slack && !touched.any(accounts)
+    }
+
+    /// Whether what the motion leads into the touched explains, but for the slack, how far it leads in along a unit
+    /// axis.
+    fn goes_anyway(&self, normal: V, into: f64, bundle: &Bundle) -> Holds {
+        let slack = NEXT_LEVEL * self.thickness;
+        let axis = V::of(bundle.axis);
+        let (closing, along) = ((self.closing)(axis, 0.0), axis.dot(normal));
+        if into - closing.max(0.0) * along.max(0.0) <= slack {
+            return Holds::Yes;
+        }
+        let Reach { rounding, .. } = self.reach;
+        let most = (closing + self.closes_by(bundle)).max(0.0) * (along + bundle.spread + rounding).max(0.0);
+        if into - most > slack + rounding { Holds::No } else { Holds::Perhaps }
     }
 
     /// Whether it stands up no higher than a contact, and no further down than the body reaches, which in the end is no
     /// deeper below that than half its thickness, and was not at the start.
-    fn is_flush(&self, (axis, separation): (V, f64)) -> bool {
+    fn is_flush(&self, bundle: &Bundle) -> Holds {
         let slack = NEXT_LEVEL * self.thickness;
+        let axis = V::of(bundle.axis);
         let above = (self.gap)(axis);
-        let deepest = (self.closing)(axis, 0.0).max(0.0) - separation;
-        above <= slack && above >= separation - slack && deepest <= SUNK * self.thickness
+        let off = self.reach.arms[0] * bundle.spread + self.reach.rounding;
+        let [least, most] = bundle.separations;
+        if above - off > slack || above + off < least - slack {
+            return Holds::No;
+        }
+        let closing = (self.closing)(axis, 0.0);
+        let deepest = closing.max(0.0) - bundle.separation;
+        if above <= slack && above >= bundle.separation - slack && deepest <= SUNK * self.thickness {
+            return Holds::Yes;
+        }
+        // Of a contact that is high enough, and one that is no deeper in than that.
+        let highest = most.min(above + off + slack);
+        let lowest = (closing - self.closes_by(bundle)).max(0.0) - SUNK * self.thickness;
+        if lowest - self.reach.rounding > highest { Holds::No } else { Holds::Perhaps }
+    }
+
+    /// By how much more or less than along a contact's axis a gap closes along those laid out behind it, at most.
+    fn closes_by(&self, bundle: &Bundle) -> f64 {
+        let Reach { arms: [start, ever], rounding } = self.reach;
+        (start + ever) * bundle.spread + 2.0 * rounding
     }
 }
 

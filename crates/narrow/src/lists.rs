@@ -14,21 +14,32 @@ thread_local! {
     static MANIFOLDS3: Cell<Vec<Vec<Manifold3>>> = const { Cell::new(Vec::new()) };
 }
 
+/// Lists of a thread that nobody has at the moment.
+pub(crate) type Lists<T> = LocalKey<Cell<Vec<Vec<T>>>>;
+
 /// Hands out an empty list, and takes it back. A question within a question gets another one.
-pub(crate) fn with_list<T, R>(
-    lists: &'static LocalKey<Cell<Vec<Vec<T>>>>,
-    ask: impl FnOnce(&mut Vec<T>) -> R,
-) -> R {
+pub(crate) fn with_list<T, R>(lists: &'static Lists<T>, ask: impl FnOnce(&mut Vec<T>) -> R) -> R {
+    let mut list = take_list(lists);
+    let answer = ask(&mut list);
+    give_back(lists, list);
+    answer
+}
+
+/// An empty list, for who gives it back.
+pub(crate) fn take_list<T>(lists: &'static Lists<T>) -> Vec<T> {
     // A thread that is about to end has no place for them any more.
     let mut all = lists.try_with(Cell::take).unwrap_or_default();
     let mut list = all.pop().unwrap_or_default();
     let _ = lists.try_with(|place| place.set(all));
     list.clear();
-    let answer = ask(&mut list);
+    list
+}
+
+/// Keeps a list for who asks next.
+pub(crate) fn give_back<T>(lists: &'static Lists<T>, list: Vec<T>) {
     let mut all = lists.try_with(Cell::take).unwrap_or_default();
     all.push(list);
     let _ = lists.try_with(|place| place.set(all));
-    answer
 }
 
 /// The manifolds of a pair in the plane within a margin.

@@ -6,7 +6,7 @@ use super::piece::{Piece, for_pieces};
 use super::stretch::{Stretch, Travel};
 use crate::answer::Manifold2;
 use crate::impact2::Impact2;
-use crate::level::{Lies, Passing, half_through, thickness, thinner};
+use crate::level::{Contacts, Lies, Passing, Reach, half_through, thickness, thinner};
 use crate::lists::with_manifolds2;
 use crate::pair2::Pair2;
 use crate::touch::Touch2;
@@ -21,9 +21,9 @@ pub(super) struct Touched<'t> {
     pair: &'t Pair2<'t>,
     travel: &'t Travel,
     /// How the two touch each other, where they do.
-    manifolds: Option<&'t [Manifold2]>,
+    contacts: Option<Contacts<'t, Manifold2>>,
     /// What A touches, which may be B.
-    touches: &'t [Touch2],
+    beside: Contacts<'t, Touch2>,
     /// Which of the two are ground, and so have no thickness that counts.
     are_ground: [bool; 2],
 }
@@ -35,11 +35,14 @@ pub(super) fn with_touched<R>(
     ask: impl FnOnce(&Touched) -> R,
 ) -> R {
     let are_ground = [pair.shape_a.is_ground(), pair.shape_b.is_ground()];
-    let touched = Touched { pair, travel, manifolds: None, touches, are_ground };
+    let size = pair.shape_a.outer_radius().min(pair.shape_b.outer_radius());
+    let beside = Contacts::new(touches, size);
     if !do_touch {
-        return ask(&touched);
+        return ask(&Touched { pair, travel, contacts: None, beside, are_ground });
     }
-    with_manifolds2(pair, 0.0, |manifolds| ask(&Touched { manifolds: Some(manifolds), ..touched }))
+    with_manifolds2(pair, 0.0, |manifolds| {
+        ask(&Touched { pair, travel, contacts: Some(Contacts::new(manifolds, size)), beside, are_ground })
+    })
 }
 
 impl Touched<'_> {
@@ -81,11 +84,28 @@ impl Touched<'_> {
             gap: &|axis| first.gap(axis, 0.0),
             closing: &closing,
             met_at: if is_turning { fraction } else { 0.0 },
-            dot: DVec2::dot,
+            reach: self.reach(pieces),
         };
-        let touch = |it: &Manifold2| (it.normal.as_dvec2(), it.separation.into());
-        let touched = self.manifolds.map(|manifolds| manifolds.iter().map(touch));
-        passing.lies(normal, touched, self.touches.iter().filter_map(Touch2::axis))
+        passing.lies(normal, self.contacts.as_ref(), &self.beside)
+    }
+
+    /// How far apart points of two parts are, along whatever axis.
+    fn reach(&self, pieces: [&Piece; 2]) -> Reach {
+        let stretches = self.travel.stretches();
+        let finite = |radius: f64| if radius.is_finite() { radius } else { 0.0 };
+        let radii = finite(pieces[0].outer) + finite(pieces[1].outer);
+        let arms = pieces.map(|piece| piece.center.length());
+        let way_of = |stretch: &Stretch| {
+            let chords = [0, 1].map(|i| stretch.spins[i].chord() * arms[i]);
+            stretch.velocity.length() + chords[0] + chords[1]
+        };
+        let way: f64 = stretches.iter().map(way_of).sum();
+        let offset = stretches.first().map_or(DVec2::ZERO, |stretch| {
+            let [a, b] = [0, 1].map(|i| stretch.spins[i].turn_at(0.0).turn(pieces[i].center));
+            stretch.offset + (b - a)
+        });
+        let start = offset.length() + radii;
+        Reach::new(start, way, start + way + 2.0 * (arms[0] + arms[1]))
     }
 
     /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.

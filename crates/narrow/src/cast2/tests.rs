@@ -1,3 +1,5 @@
+use crate::counted::steps_of;
+use crate::numbers::Numbers;
 use crate::{Impact2, Pair2, RayHit2, cast_ray2};
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{
@@ -334,4 +336,30 @@ fn a_ball_that_turns_about_its_middle_rolls_into_what_one_that_does_not_turn_rol
         }
     }
     assert!(at_start > 20 && later > 100 && passed > 100, "{at_start} {later} {passed}");
+}
+
+/// A row of so many squares, each tilted in a way of its own.
+fn row(numbers: &mut Numbers, count: u32) -> Shape2 {
+    let parts = (0..count).map(|i| {
+        let tilted = Rotation2::new(1.0, numbers.number() as f32 * 0.01).unwrap();
+        (Pose2::new([f64::from(i) - f64::from(count) / 2.0, 0.0], tilted).unwrap(), rect(0.5, 0.5))
+    });
+    Compound2::new(parts.collect::<Vec<_>>()).unwrap().into()
+}
+
+/// Two rows that lie on each other, pressed together: each pair of parts that meets was compared with each contact.
+#[test]
+fn what_is_met_next_takes_as_much_longer_as_there_are_more_contacts() {
+    let mut numbers = Numbers::new(5740);
+    let motion = Motion2::new([0.7, -0.6], Rotation2::new(1.0, 1e-5).unwrap()).unwrap();
+    let [few, many] = [64, 512].map(|count| {
+        let (one, two) = (row(&mut numbers, count), row(&mut numbers, count));
+        let (here, above) = (at(0.0, 0.0), at(0.3, 1.0));
+        let pair = Pair2::new(&one, &above, &two, &here);
+        let contacts = pair.manifolds(0.0).len();
+        let (impact, steps) = steps_of(|| pair.next_impact(&motion, &Motion2::STILL));
+        assert!(contacts > count as usize && impact.is_some(), "{contacts} {impact:?}");
+        steps / contacts
+    });
+    assert!(many < 3 * few, "steps a contact: {few}, and {many} of eight times as many");
 }

@@ -5,7 +5,7 @@ use super::passage::{Course, Moment, Passage};
 use crate::answer::Manifold3;
 use crate::ground3::OnGround;
 use crate::impact3::Impact3;
-use crate::level::{Lies, Passing, half_through, thickness, thinner};
+use crate::level::{Contacts, Lies, Passing, half_through, thickness, thinner};
 use crate::lists::with_manifolds3;
 use crate::pair3::{Pair3, Part, for_parts};
 use crate::polyhedron::closest::Placed;
@@ -21,9 +21,9 @@ const MOMENTS: u32 = 32;
 /// What is touched at the start.
 pub(super) struct Touched<'t> {
     /// How the two touch each other, where they do.
-    manifolds: Option<&'t [Manifold3]>,
+    contacts: Option<Contacts<'t, Manifold3>>,
     /// What A touches, which may be B.
-    touches: &'t [Touch3],
+    beside: Contacts<'t, Touch3>,
     /// Which of the two are ground, and so have no thickness that counts.
     are_ground: [bool; 2],
 }
@@ -35,10 +35,14 @@ pub(super) fn with_touched<R>(
     ask: impl FnOnce(&Touched) -> R,
 ) -> R {
     let are_ground = [pair.shape_a.is_ground(), pair.shape_b.is_ground()];
+    let size = pair.shape_a.outer_radius().min(pair.shape_b.outer_radius());
+    let beside = Contacts::new(touches, size);
     if !do_touch {
-        return ask(&Touched { manifolds: None, touches, are_ground });
+        return ask(&Touched { contacts: None, beside, are_ground });
     }
-    with_manifolds3(pair, 0.0, |manifolds| ask(&Touched { manifolds: Some(manifolds), touches, are_ground }))
+    with_manifolds3(pair, 0.0, |manifolds| {
+        ask(&Touched { contacts: Some(Contacts::new(manifolds, size)), beside, are_ground })
+    })
 }
 
 impl Touched<'_> {
@@ -68,11 +72,9 @@ impl Touched<'_> {
             gap: &|axis| gap(&start, axis),
             closing: &closing,
             met_at,
-            dot: DVec3::dot,
+            reach: passage.reach(&parts),
         };
-        let touch = |it: &Manifold3| (it.normal.as_dvec3(), it.separation.into());
-        let touched = self.manifolds.map(|manifolds| manifolds.iter().map(touch));
-        passing.lies(normal, touched, self.touches.iter().filter_map(Touch3::axis))
+        passing.lies(normal, self.contacts.as_ref(), &self.beside)
     }
 
     /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.

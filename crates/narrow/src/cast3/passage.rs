@@ -1,6 +1,7 @@
 //! How two bodies move past each other, and how two of their parts stand at any moment of it.
 
 use crate::among::Region3;
+use crate::level::Reach;
 use crate::pair3::{Pair3, Part};
 use crate::polyhedron::closest::Placed;
 use crate::polyhedron::half_space::Plane;
@@ -206,6 +207,17 @@ impl Passage {
     /// How far an arm of unit length of a body goes while it turns, by poses whose rotations are rounded to f32.
     fn chord(&self, i: usize) -> f64 {
         self.turns[i].map_or(0.0, |turn| turn.chord() + 2.0 * f64::from(f32::EPSILON))
+    }
+
+    /// How far apart points of two parts are, along whatever axis.
+    pub(super) fn reach(&self, parts: &[Part; 2]) -> Reach {
+        let finite = |radius: f32| if radius.is_finite() { f64::from(radius) } else { 0.0 };
+        let radii: f64 = parts.iter().map(|part| finite(part.shape.outer_radius())).sum();
+        let arms = [0, 1].map(|i| parts[i].center.length());
+        let apart = (self.between + (parts[1].center - parts[0].center)).length();
+        let drift = self.drift.length();
+        let way = drift + self.chord(0) * arms[0] + self.chord(1) * arms[1];
+        Reach::new(apart + radii, way, self.between.length() + drift + arms[0] + arms[1] + radii)
     }
 
     /// Where the parts of a body are, at the start, that may meet a part of the other, or all of it, and how that

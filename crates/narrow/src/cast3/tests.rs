@@ -1,8 +1,12 @@
 //! Casts whose answers are known beforehand.
 
+use crate::counted::steps_of;
+use crate::numbers::Numbers;
 use crate::pair3::Pair3;
 use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
-use asunder_geometry::{Cuboid, HalfSpace, HeightField, Hull, Motion3, Pose3, Segment3, Shape3, Sphere};
+use asunder_geometry::{
+    Compound3, Cuboid, HalfSpace, HeightField, Hull, Motion3, Pose3, Segment3, Shape3, Sphere,
+};
 
 fn cube() -> Shape3 {
     Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into()
@@ -216,4 +220,32 @@ fn a_ball_that_turns_about_its_middle_rolls_into_what_one_that_does_not_turn_rol
         }
     }
     assert!(at_start > 20 && later > 100 && passed > 100, "{at_start} {later} {passed}");
+}
+
+/// A slab of so many cuboids along both sides, each tilted in a way of its own.
+fn slab(numbers: &mut Numbers, count: u32) -> Shape3 {
+    let mut tilt = || numbers.number() as f32 * 0.01;
+    let half = f64::from(count) / 2.0;
+    let parts = (0..count * count).map(|i| {
+        let at = DVec3::new(f64::from(i % count) - half, 0.0, f64::from(i / count) - half);
+        (Pose3::new(at, Quat::from_xyzw(tilt(), 0.0, tilt(), 1.0)).unwrap(), cube())
+    });
+    Compound3::new(parts).unwrap().into()
+}
+
+/// Two slabs that lie on each other, pressed together: each pair of parts that meets was compared with each contact.
+#[test]
+fn what_is_met_next_takes_as_much_longer_as_there_are_more_contacts() {
+    let mut numbers = Numbers::new(5730);
+    let motion = Motion3::new([0.7, -0.6, 0.4], Quat::from_xyzw(0.0, 0.002, 0.0, 1.0)).unwrap();
+    let [few, many] = [8, 24].map(|count| {
+        let (one, two) = (slab(&mut numbers, count), slab(&mut numbers, count));
+        let (here, above) = (at(0.0, 0.0, 0.0), at(0.3, 1.0, 0.2));
+        let pair = Pair3::new(&one, &above, &two, &here);
+        let contacts = pair.manifolds(0.0).len();
+        let (impact, steps) = steps_of(|| pair.next_impact(&motion, &Motion3::STILL));
+        assert!(contacts > 2 * (count * count) as usize && impact.is_some(), "{contacts} {impact:?}");
+        steps / contacts
+    });
+    assert!(many < 3 * few, "steps a contact: {few}, and {many} of nine times as many");
 }
