@@ -65,9 +65,10 @@ impl Pair3<'_> {
     ///
     /// Of ground, the first triangle that is met; `part_b` (or `part_a`) is its number. One-sided ground stops what is
     /// in front of a triangle at the start, by the centre of the part, however fast it is, and nothing else; what
-    /// overlaps no triangle that sees it does not touch at the start. The normal is the triangle's own, except where an
-    /// edge or vertex stands out of the ground around it. Cost: that for each triangle whose box the moved part's box
-    /// meets and whose plane it reaches; for ground that turns, and for half-spaces, every triangle.
+    /// overlaps no triangle that sees it does not touch at the start. What comes up through one-sided ground, and moves
+    /// away from the front of the triangle beside, passes the edge between the two. The normal is the triangle's own,
+    /// except where an edge or vertex stands out of the ground around it. Cost: that for each triangle whose box the
+    /// moved part's box meets and whose plane it reaches; for ground that turns, and for half-spaces, every triangle.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};

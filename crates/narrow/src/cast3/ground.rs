@@ -6,15 +6,20 @@
 //!     one-sided, and the part's centre starts behind:       passed through
 //!     the part starts and ends on one side of its plane:    passed by
 //!     else:                                                 when the two touch, as any two convex shapes
+//!     touched at an inner edge or vertex, by a direction that the part moves along:
+//!       one-sided:                                          comes out of the ground, and passes
+//!       else:                                               an impact along the axis that they touch along
 //! the triangle touched first, and the direction that is its there: no inner edge or vertex has one of its own
 //! ```
-//! The side is that at the start of the motion: what comes from the front is stopped however fast it is.
+//! The side is that at the start of the motion: what comes from the front is stopped however fast it is. What is behind
+//! one triangle and in front of the plane of the next comes up through the former, and meets the edge of the latter
+//! from below: there is no front that it moves into.
 
 use super::advance::{End, Met};
 use super::beyond::Touched as TouchedAtStart;
 use super::passage::Passage;
 use super::{impact_of, part_end};
-use crate::ground3::{Corners, OnGround, SeenAt, Touched};
+use crate::ground3::{Corners, Facing, OnGround, SeenAt, Touched};
 use crate::impact3::Impact3;
 use crate::level::Lies;
 use crate::pair3::{Pair3, Part};
@@ -27,6 +32,8 @@ struct First {
     met: Met,
     part: u32,
     triangle: u32,
+    /// The part's radius, in metres.
+    radius: f64,
     /// What tells the side that the part is on at the start, in the ground's axes.
     seen_at: SeenAt,
 }
@@ -66,7 +73,7 @@ impl Pair3<'_> {
         if search.touches {
             return Some(self.touching_at_start());
         }
-        search.first.map(|first| told(on, passage, &first))
+        search.first.map(|first| told(on, passage, &first).0)
     }
 }
 
@@ -137,24 +144,41 @@ impl Search<'_> {
                 met
             }
         };
-        let (part, seen_at) = (part.index, placed.seen_at);
-        let rank = (met.fraction, part, number);
+        let rank = (met.fraction, part.index, number);
         if self.first.as_ref().is_none_or(|known| rank < (known.met.fraction, known.part, known.triangle)) {
-            let first = First { met, part, triangle: number, seen_at };
-            let is_level = self.beyond.is_some_and(|touched| {
-                let normal = told(on, self.passage, &first).normal.as_dvec3();
-                touched.lies(self.passage, parts, (first.met.fraction, normal)) == Lies::Level
-            });
-            if !is_level {
+            let radius = f64::from(part.shape.radius());
+            let first = First { met, part: part.index, triangle: number, radius, seen_at: placed.seen_at };
+            if !self.is_passed(&first, parts) {
                 self.first = Some(first);
             }
         }
         self.until()
     }
+
+    /// Whether a touch is none that counts: with one-sided ground that the part comes out of, or with what is level
+    /// with what is touched at the start.
+    fn is_passed(&self, first: &First, parts: [Part; 2]) -> bool {
+        let is_one_sided = self.on.ground.is_one_sided();
+        if !is_one_sided && self.beyond.is_none() {
+            return false;
+        }
+        let (_, facing) = told(self.on, self.passage, first);
+        if is_one_sided && facing.is_left {
+            return true;
+        }
+        self.beyond.is_some_and(|touched| {
+            let normal = if self.on.is_b { -facing.away } else { facing.away };
+            touched.lies(self.passage, parts, (first.met.fraction, normal)) == Lies::Level
+        })
+    }
 }
 
-/// A touch in the direction that is the ground's there.
-fn told(on: &OnGround, passage: &Passage, first: &First) -> Impact3 {
+/// A touch in the direction that is the ground's there, and that, in world axes. Where the body moves along it, and
+/// into what it touches, the touch has the axis that they touch along.
+///
+/// What turns may lean over an inner edge from the far side, and what is level is still told by the ground's direction:
+/// a box that slides over a hill, pressed into it, meets the far corners from inside.
+fn told(on: &OnGround, passage: &Passage, first: &First) -> (Impact3, Facing) {
     let met = &first.met;
     let [_, of_ground] = on.in_order([0, 1]);
     let basis = passage.turns[of_ground].map_or(on.basis, |turn| turn.basis_at(met.fraction));
@@ -163,9 +187,29 @@ fn told(on: &OnGround, passage: &Passage, first: &First) -> Impact3 {
         triangle: first.triangle,
         point: basis.turn_back(met.anchors[of_ground]),
         away: basis.turn_back(towards_body),
+        way: basis.turn_back(way_of_body(on, passage, first)),
     };
-    let (triangle, away) = on.facing(&touched, first.seen_at);
-    let away = basis.turn(away);
+    let facing = on.facing(&touched, first.seen_at);
+    let facing = Facing { away: basis.turn(facing.away), ..facing };
+    let away = if facing.is_left && !touched.is_left(touched.away) { towards_body } else { facing.away };
     let normal = if on.is_b { -away } else { away };
-    impact_of(&Met { normal, ..*met }, on.in_order([first.part, triangle]))
+    (impact_of(&Met { normal, ..*met }, on.in_order([first.part, facing.triangle])), facing)
+}
+
+/// How the point of the body's core that touches moves just then, as seen from the ground: of a ball, its middle,
+/// however it turns about that.
+fn way_of_body(on: &OnGround, passage: &Passage, first: &First) -> DVec3 {
+    let Met { fraction, normal, anchors, .. } = first.met;
+    let between = passage.between_at(fraction);
+    let spun = |i: usize, arm: DVec3| {
+        passage.turns[i].map_or(DVec3::ZERO, |turn| (turn.axis() * turn.speed_at(fraction)).cross(arm))
+    };
+    // From A's position.
+    let point = if on.is_b {
+        anchors[0] - normal * first.radius
+    } else {
+        between + anchors[1] + normal * first.radius
+    };
+    let way = passage.drift + spun(0, point) - spun(1, point - between);
+    if on.is_b { way } else { -way }
 }

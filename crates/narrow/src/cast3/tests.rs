@@ -5,7 +5,8 @@ use crate::numbers::Numbers;
 use crate::pair3::Pair3;
 use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder_geometry::{
-    Compound3, Cuboid, HalfSpace, HeightField, Hull, Motion3, Pose3, Segment3, Shape3, Sphere,
+    Capsule3, Compound3, Cuboid, HalfSpace, HeightField, Hull, Motion3, Pose3, Segment3, Shape3, Sphere,
+    TriMesh,
 };
 
 fn cube() -> Shape3 {
@@ -248,4 +249,64 @@ fn what_is_met_next_takes_as_much_longer_as_there_are_more_contacts() {
         steps / contacts
     });
     assert!(many < 3 * few, "steps a contact: {few}, and {many} of nine times as many");
+}
+
+/// A floor that faces up where x is below zero, and from its end a slope upwards.
+fn valley() -> TriMesh {
+    let row = |x: f32, y: f32| [Vec3::new(x, y, -8.0), Vec3::new(x, y, 8.0)];
+    let vertices = [row(-8.0, 0.0), row(0.0, 0.0), row(8.0, 8.0)].concat();
+    TriMesh::new(vertices, [[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]]).unwrap()
+}
+
+#[test]
+fn what_comes_up_through_one_sided_ground_passes_the_edge_of_what_is_beside() {
+    let ball = Shape3::from(Sphere::new(0.5).unwrap());
+    let capsule = Shape3::from(Capsule3::from_half_height(0.5, 0.5).unwrap());
+    let (one_sided, both_sides) = (Shape3::from(valley().one_sided()), Shape3::from(valley()));
+    let tilt = Quat::from_xyzw(1e-4, 0.0, 1e-4, 1.0);
+    let still = Motion3::STILL;
+    // In the hill behind the slope, and above the plane of the floor, whose end is on the way of the lowest ball.
+    for (body, turn, height) in [(&ball, Quat::IDENTITY, 0.25), (&ball, tilt, 0.25), (&capsule, tilt, 0.75)] {
+        let here = at(2.0, height, 0.1);
+        let from = |way: Vec3, ground: &Shape3| {
+            let motion = Motion3::new(way, turn).unwrap();
+            let ours = Pair3::new(body, &here, ground, &Pose3::IDENTITY).next_impact(&motion, &still);
+            [ours, Pair3::new(ground, &Pose3::IDENTITY, body, &here).impact(&still, &motion)]
+        };
+        assert_eq!(from(Vec3::new(-3.0, 0.2, 0.0), &one_sided), [None; 2], "it rises from the floor");
+        let [ours, theirs] = from(Vec3::new(-3.0, -0.1, 0.0), &one_sided).map(Option::unwrap);
+        assert!(ours.normal == Vec3::NEG_Y && theirs.normal == Vec3::Y, "{ours:?} {theirs:?}");
+    }
+    // From above, and by ground of two sides, it is stopped all the same.
+    let above = Pair3::new(&ball, &at(-1.0, 1.0, 0.0), &one_sided, &Pose3::IDENTITY);
+    assert_eq!(above.cast(Vec3::NEG_Y).unwrap().normal, Vec3::NEG_Y);
+    let behind = Pair3::new(&ball, &at(2.0, 0.25, 0.1), &both_sides, &Pose3::IDENTITY);
+    assert!(behind.cast(Vec3::new(-3.0, 0.2, 0.0)).is_some_and(|met| met.normal.x < -0.5));
+}
+
+#[test]
+fn no_ground_is_met_by_a_normal_that_one_moves_along() {
+    let mut number = numbers();
+    let ball = Shape3::from(Sphere::new(0.5).unwrap());
+    let bodies = [ball, cube(), Capsule3::from_half_height(0.4, 0.2).unwrap().into()];
+    let mut met = [0; 2];
+    for i in 0..12_000 {
+        let height = [0.05, 0.5, 2.0][i % 3];
+        let heights: Vec<f32> = (0..16).map(|_| height * number()).collect();
+        let field = HeightField::new(4, 4, heights, Vec2::ONE).unwrap();
+        let is_one_sided = i % 4 > 0;
+        let hills = Shape3::from(if is_one_sided { field.one_sided() } else { field });
+        let mut vector = || DVec3::new(f64::from(number()), f64::from(number()), f64::from(number()));
+        let from = hills.center().as_dvec3() + vector() * DVec3::new(2.5, 1.0, 2.5);
+        let (way, turn) = (vector().as_vec3() * 2.0, vector().as_vec3());
+        let from = Pose3::new(from, Quat::from_xyzw(turn.x, turn.y, turn.z, 0.5)).unwrap();
+        let pair = Pair3::new(&bodies[i / 3 % 3], &from, &hills, &Pose3::IDENTITY);
+        let motion = Motion3::shift(way).unwrap();
+        let (first, next) = (pair.cast(way), pair.next_impact(&motion, &Motion3::STILL));
+        for impact in [first, next].iter().flatten().filter(|it| !it.overlapping && it.fraction > 0.0) {
+            assert!(impact.normal.dot(way) > -2e-4 * way.length(), "{i}: {way} {impact:?}");
+            met[usize::from(is_one_sided)] += 1;
+        }
+    }
+    assert!(met[0] > 300 && met[1] > 300, "{met:?}");
 }

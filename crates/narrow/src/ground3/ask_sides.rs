@@ -16,6 +16,19 @@ pub(crate) struct Touched {
     pub(crate) triangle: u32,
     pub(crate) point: DVec3,
     pub(crate) away: DVec3,
+    /// How the body moves there, of any length.
+    pub(crate) way: DVec3,
+}
+
+/// Which way ground faces where it is touched.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Facing {
+    /// Whose direction that is.
+    pub(crate) triangle: u32,
+    /// The unit direction.
+    pub(crate) away: DVec3,
+    /// Whether the body moves that way.
+    pub(crate) is_left: bool,
 }
 
 /// A triangle around a touched point.
@@ -33,6 +46,13 @@ fn normal_of([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
+impl Touched {
+    /// Whether the body moves to where a unit direction points, by more than rounding.
+    pub(crate) fn is_left(&self, away: DVec3) -> bool {
+        away.dot(self.way) > SAME_NORMAL * self.way.length()
+    }
+}
+
 impl OnGround<'_> {
     /// Whether a triangle sees a part that is there: always, unless the ground is one-sided and that is behind.
     pub(crate) fn sees(&self, corners: [Vec3; 3], seen_at: SeenAt) -> bool {
@@ -48,34 +68,41 @@ impl OnGround<'_> {
     /// ```text
     /// the triangle's normal:                               its own
     /// else, where nothing around the point rises into it:  it is that of an edge or a vertex that stands out
-    /// else the normal of a face around the point:          one that nothing rises into, if there is any;
+    /// else the normal of a face around the point:          of one-sided ground one that the body moves into, if there
+    ///                                                      is any;
+    ///                                                      of those one that nothing rises into, if there is any;
     ///                                                      of those the one nearest to the direction found
     /// ```
     /// A direction belongs to a point of a set if no part of the set near it lies that way (its normal cone; Ericson,
     /// "Real-Time Collision Detection" (2005), 5.1, has the same as Voronoi regions of edges and vertices). Asked of
     /// all triangles that hold the point and not of those across its edges, it also holds where edges do not meet.
-    pub(crate) fn facing(&self, touched: &Touched, seen_at: SeenAt) -> (u32, DVec3) {
+    pub(crate) fn facing(&self, touched: &Touched, seen_at: SeenAt) -> Facing {
+        let told = |triangle: u32, away: DVec3| Facing { triangle, away, is_left: touched.is_left(away) };
         let corners = self.ground.corners(touched.triangle).map(|corner| corner.as_dvec3());
-        let Some(own) = normal_of(corners).try_normalize() else { return (touched.triangle, touched.away) };
+        let Some(own) = normal_of(corners).try_normalize() else {
+            return told(touched.triangle, touched.away);
+        };
         let own = if own.dot(touched.away) < 0.0 { -own } else { own };
         if own.cross(touched.away).length() <= SAME_NORMAL {
-            return (touched.triangle, own);
+            return told(touched.triangle, own);
         }
         let around = self.around(touched.point, corners, seen_at);
         if is_free(&around, touched.point, touched.away) {
-            return (touched.triangle, touched.away);
+            return told(touched.triangle, touched.away);
         }
-        let mut best: Option<((bool, f64), &Around)> = None;
+        let mut best: Option<((bool, bool, f64), &Around)> = None;
         for one in around.iter().filter(|one| one.sees) {
             // The triangle itself, where others are no nearer.
             let nearness =
                 one.facing.dot(touched.away) + if one.number == touched.triangle { SAME_NORMAL } else { 0.0 };
-            let rank = (is_free(&around, touched.point, one.facing), nearness);
+            // On ground of two sides, through which nobody comes, the nearest tells what is level.
+            let is_met = !self.ground.is_one_sided() || !touched.is_left(one.facing);
+            let rank = (is_met, is_free(&around, touched.point, one.facing), nearness);
             if best.is_none_or(|(known, _)| rank > known) {
                 best = Some((rank, one));
             }
         }
-        best.map_or((touched.triangle, touched.away), |(_, one)| (one.number, one.facing))
+        best.map_or(told(touched.triangle, touched.away), |(_, one)| told(one.number, one.facing))
     }
 
     /// The triangles that hold a point.
