@@ -16,7 +16,7 @@ use asunder_geometry::{Motion3, Shape3};
 
 /// Moments of a motion with a turn that are looked at: 6 degrees of a half turn apart, by which an arm comes 0.14 %
 /// further.
-const MOMENTS: u32 = 32;
+pub(super) const MOMENTS: u32 = 32;
 
 /// What is touched at the start.
 pub(super) struct Touched<'t> {

@@ -7,7 +7,7 @@
 //!     the part starts and ends on one side of its plane:    passed by
 //!     else:                                                 when the two touch, as any two convex shapes
 //!     touched at an inner edge or vertex, by a direction that the part moves along:
-//!       one-sided:                                          comes out of the ground, and passes
+//!       one-sided, and its centre stays in front:           comes out of the ground, and passes
 //!       else:                                               an impact along the axis that they touch along
 //! the triangle touched first, and the direction that is its there: no inner edge or vertex has one of its own
 //! ```
@@ -16,7 +16,7 @@
 //! from below: there is no front that it moves into.
 
 use super::advance::{End, Met};
-use super::beyond::Touched as TouchedAtStart;
+use super::beyond::{MOMENTS, Touched as TouchedAtStart};
 use super::passage::Passage;
 use super::{impact_of, part_end};
 use crate::ground3::{Corners, Facing, OnGround, SeenAt, Touched};
@@ -163,12 +163,35 @@ impl Search<'_> {
             return false;
         }
         let (_, facing) = told(self.on, self.passage, first);
-        if is_one_sided && facing.is_left {
+        if is_one_sided && facing.is_left && self.stays_in_front(first, parts) {
             return true;
         }
         self.beyond.is_some_and(|touched| {
             let normal = if self.on.is_b { -facing.away } else { facing.away };
             touched.lies(self.passage, parts, (first.met.fraction, normal)) == Lies::Level
+        })
+    }
+}
+
+impl Search<'_> {
+    /// Whether a part's centre stays in front of the plane of a triangle that it leaves: what turns may come back, and
+    /// go through.
+    fn stays_in_front(&self, first: &First, parts: [Part; 2]) -> bool {
+        let (on, passage) = (self.on, self.passage);
+        if passage.is_straight() {
+            return true;
+        }
+        let [body, ground] = on.in_order([0, 1]);
+        let [a, b, c] = on.ground.corners(first.triangle).map(|corner| corner.as_dvec3());
+        let normal = (b - a).cross(c - a);
+        let local = passage.bases[body].turn_back(parts[body].center);
+        let after = (1..=MOMENTS).map(|i| f64::from(i) / f64::from(MOMENTS));
+        after.filter(|&at| at > first.met.fraction).all(|at| {
+            let basis = |i: usize| passage.turns[i].map_or(passage.bases[i], |turn| turn.basis_at(at));
+            let between = passage.between_at(at);
+            let to_body = if on.is_b { -between } else { between };
+            let center = basis(ground).turn_back(to_body + basis(body).turn(local));
+            SeenAt::Place(center).is_in_front(a, normal)
         })
     }
 }

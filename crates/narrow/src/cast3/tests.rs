@@ -285,6 +285,20 @@ fn what_comes_up_through_one_sided_ground_passes_the_edge_of_what_is_beside() {
 }
 
 #[test]
+fn what_swings_up_past_an_edge_and_down_into_its_front_is_stopped() {
+    // On an arm of 20 m: over the end of the floor at a height of 0.35 m, and 4 m on through it.
+    let ball = Shape3::from(Sphere::new(0.5).unwrap());
+    let arm = Shape3::from(Compound3::new([(at(2.0, 19.9, 0.0), ball)]).unwrap());
+    let (ground, here) = (Shape3::from(valley().one_sided()), at(0.0, -19.65, 0.1));
+    let swung = |turn: f32| {
+        let motion = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, turn, 1.0)).unwrap();
+        Pair3::new(&arm, &here, &ground, &Pose3::IDENTITY).impact(&motion, &Motion3::STILL)
+    };
+    assert_eq!(swung(0.1), None, "it ends above the floor");
+    assert!(swung(0.15).is_some_and(|met| met.normal.x < -0.5 && met.normal.y < 0.0));
+}
+
+#[test]
 fn no_ground_is_met_by_a_normal_that_one_moves_along() {
     let mut number = numbers();
     let ball = Shape3::from(Sphere::new(0.5).unwrap());
