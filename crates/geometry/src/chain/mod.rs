@@ -40,7 +40,8 @@ use tree::Tree;
 /// [`one_sided`](Self::one_sided) leaves one, on the *right* of the way from vertex to vertex: contacts, casts and rays
 /// see a segment only from there, and motions pass through from behind: what comes through is met, and pushed out to
 /// the front, as soon as its centre is there. So a closed chain that winds counter-clockwise is solid, as a polygon is;
-/// and ground drawn from right to left looks up.
+/// and ground drawn from right to left looks up. One that leads straight back along itself is there a wall of no width,
+/// with a tip.
 ///
 /// # Costs and limits
 /// A body's pair costs what the segments near it cost, and the logarithm of their number. A collider with this shape is

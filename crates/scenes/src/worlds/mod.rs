@@ -52,7 +52,7 @@ pub enum WorldScene {
     MostlyStatic,
     /// A far larger city in which one body of ten thousand moves.
     World1m,
-    /// Shapes far apart that could move; one of a hundred does.
+    /// Shapes that are loosely spread and could move; one of a hundred does.
     Spread1,
 }
 
