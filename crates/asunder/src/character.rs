@@ -222,8 +222,8 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     fn moved(pose: &Self::Pose, by: Self::Point) -> Option<Self::Pose>;
     /// The bounding radius of a shape.
     fn size(shape: &Self::Shape) -> f64;
-    /// The middle of its bounding ball.
-    fn middle(at: (&Self::Shape, &Self::Pose)) -> Self::Point;
+    /// What tells on which side of ground it is: the middle of each convex part's bounding ball.
+    fn middles(at: (&Self::Shape, &Self::Pose), each: impl FnMut(Self::Point));
     /// How far the shape reaches along a direction, from its position.
     fn reach(at: (&Self::Shape, &Self::Pose), along: Self::Point) -> Option<f64>;
     /// The manifolds with a body that are within the margin, each as a plane.

@@ -31,13 +31,13 @@ impl<const N: usize> Lanes<N> {
         self.map(|lane| f64::from(lane as f32))
     }
 
-    /// The lesser lane by lane; where either is no number, the other's.
+    /// The lesser lane by lane; where either is no number, that of `other`.
     #[inline(always)]
     pub(crate) fn least(self, other: Self) -> Self {
         self.zip(other, |a, b| if a < b { a } else { b })
     }
 
-    /// The greater lane by lane; where either is no number, the other's.
+    /// The greater lane by lane; where either is no number, that of `other`.
     #[inline(always)]
     pub(crate) fn greatest(self, other: Self) -> Self {
         self.zip(other, |a, b| if a > b { a } else { b })

@@ -40,8 +40,8 @@ impl Boxes {
 }
 
 /// Symptom: the contact of a sensor and a box that are flush with each other was there beyond both margins, up to 1.41
-/// of them away, and went on when it had ended. Cause: a share of an edge that runs along the side of a face is no
-/// number, and corners of a patch that are found by it were trusted where no contact points were asked for.
+/// of them away, and went on when it had ended. Cause: the share of an edge that runs along the side of a face, on
+/// its very line, is no number, and had the edge count as within the face's other sides, too.
 #[test]
 fn a_sensor_sees_boxes_on_a_grid_within_its_margin_and_no_further() {
     let story = Boxes { halves: [IVec3::splat(4); 2], offset: IVec3::new(12, 0, 13) };

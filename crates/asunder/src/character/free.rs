@@ -47,7 +47,8 @@ pub(super) type At<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
 ///   push out of all planes at once
 /// ```
 /// The deepest alone comes first since among tiles of a floor it is the only one that matters: the sides of its
-/// neighbours, of which the shape overlaps a little, would push it sideways. No push takes the middle through ground.
+/// neighbours, of which the shape overlaps a little, would push it sideways. No push takes a part's middle through
+/// ground.
 pub(super) fn free<S: Walks>(
     world: &World<S>,
     (shape, start): At<'_, S>,
@@ -92,11 +93,11 @@ pub(super) fn free<S: Walks>(
     found(best.1, false)
 }
 
-/// How much of a way may be gone: all of it, unless the shape's middle would go through ground, from a side that is
-/// solid. Beyond, that ground would be nothing that the shape overlaps, and who is pressed against it would count as
-/// free there.
+/// How much of a way may be gone: all of it, unless the middle of one of the shape's convex parts would go through
+/// ground, from a side that is solid. Beyond, that ground would be nothing that the part overlaps, and who is pressed
+/// against it would count as free there.
 ///
-/// The middle stays `before` metres from where it would go through. Of the way that was left a share was gone until
+/// Middles stay `before` metres from where they would go through. Of the way that was left a share was gone until
 /// 2026-11-27: after sixteen rounds nothing is left between the middle and the ground, and the next push starts behind.
 fn share_before_ground<S: Walks>(
     world: &World<S>,
@@ -104,15 +105,17 @@ fn share_before_ground<S: Walks>(
     (way, before): (S::Point, f64),
     filter: &Filter<'_, S>,
 ) -> f64 {
-    let Some(ray) = S::ray(S::middle(at), way) else { return 1.0 };
     let before = before / way.length();
     let mut share = 1.0_f64;
-    // Who goes all of the way stays as far from what lies beyond.
-    let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
-        if !hit.inside && world.bodies.get(hit.body).is_some_and(|body| S::is_ground(&body.shape)) {
-            share = share.min((hit.distance - before).max(0.0));
-        }
-        ControlFlow::Continue(())
+    S::middles(at, |middle| {
+        let Some(ray) = S::ray(middle, way) else { return };
+        // Who goes all of the way stays as far from what lies beyond.
+        let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
+            if !hit.inside && world.bodies.get(hit.body).is_some_and(|body| S::is_ground(&body.shape)) {
+                share = share.min((hit.distance - before).max(0.0));
+            }
+            ControlFlow::Continue(())
+        });
     });
     share
 }

@@ -43,7 +43,7 @@ impl World<Plane> {
     /// body. Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up
     /// to sixteen times. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried
     /// whose deepest overlap was shallowest. No path is looked for: a shape in a thin wall may come out on the other
-    /// side. Only through chains no push takes its middle, unless from behind where they have one side. Cost: a round
+    /// side. Only through chains no push takes a part's middle, unless from behind where they have one side. Cost: a round
     /// is a query for boxes, and a manifold for each body met.
     ///
     /// ```
@@ -146,8 +146,13 @@ impl Walks for Plane {
         shape.outer_radius().into()
     }
 
-    fn middle((shape, pose): (&Shape2, &Pose2)) -> DVec2 {
-        pose.transform(shape.center())
+    fn middles((shape, pose): (&Shape2, &Pose2), mut each: impl FnMut(DVec2)) {
+        match shape {
+            Shape2::Compound(compound) => {
+                compound.parts().iter().for_each(|part| each(pose.transform(part.center())));
+            }
+            _ => each(pose.transform(shape.center())),
+        }
     }
 
     fn reach((shape, pose): (&Shape2, &Pose2), along: DVec2) -> Option<f64> {

@@ -144,14 +144,9 @@ impl Touching<'_> {
         if f64::from(separation) >= self.margin {
             return Some(Contact::Apart(hint_to(of), 0.0));
         }
-        // Heights are not to be trusted either where an edge runs along a side, whether or not points are asked for.
-        let unclear = Contact::Unclear(hint_with(hint_to(nearest), of));
-        if !patch.is_clear {
-            return Some(unclear);
-        }
         if let Some(manifold) = manifold {
             if self.fill_over(patch, manifold).is_none() {
-                return Some(unclear);
+                return Some(Contact::Unclear(hint_with(hint_to(nearest), of)));
             }
             manifold.separation = separation;
             manifold.error = placed.precision.of_distance(least, above.max(0.0) + rounding);
@@ -162,7 +157,7 @@ impl Touching<'_> {
     /// The height of the lowest corner over the best face, where the points are measured from another.
     #[inline(never)]
     fn lowest_over(&self, nearest: AxisOf) -> Option<f64> {
-        let lowest = |patch: &Patch| patch.is_clear.then(|| self.placed.lowest(patch));
+        let lowest = |patch: &Patch| Some(self.placed.lowest(patch));
         match nearest {
             AxisOf::FaceA(face) => self.over_face(face, false, lowest),
             AxisOf::FaceB(face) => self.over_face(face, true, lowest),

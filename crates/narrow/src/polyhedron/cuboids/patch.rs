@@ -178,7 +178,15 @@ impl Slab {
         let low = (Lanes::all(-half) - from) * inverse;
         let high = (Lanes::all(half) - from) * inverse;
         let off = (from.abs() - Lanes::all(half)).abs();
-        Self { enter: low.least(high), leave: low.greatest(high), off }
+        let (mut enter, mut leave) = (low.least(high), low.greatest(high));
+        if one.is_infinite() | other.is_infinite() {
+            // An edge that runs along a side, and on its very line, is within: nothing times no end is no number, and
+            // would have the other slab forgotten. So is one between both sides, whose shares have no end either way.
+            for k in (0..4).filter(|&k| (low.0[k] + high.0[k]).is_nan()) {
+                (enter.0[k], leave.0[k]) = (f64::NEG_INFINITY, f64::INFINITY);
+            }
+        }
+        Self { enter, leave, off }
     }
 }
 
