@@ -75,7 +75,8 @@ impl Pair2<'_> {
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
     ///   by how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.
-    /// - A one-sided chain is met from its front alone: what is behind a segment when it comes to touch it passes.
+    /// - A one-sided chain is met from its front alone: what is behind a segment when it comes to touch it passes. What
+    ///   turns may come to touch it again, from its front, once the two are apart.
     ///   Inner vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the
     ///   first segment of the straight run that is met.
     /// - A displacement that is not finite counts as none: who touches is told so, unlike by a world's `cast_shape`.
@@ -232,11 +233,11 @@ impl Pair2<'_> {
 
     /// The first pair of parts that touch on the way; beyond those that are touched, where they are given.
     fn first_touch_along(&self, travel: &Travel, beyond: Option<&Touched>) -> Option<Impact2> {
-        let mut last = None;
-        travel.stretches().iter().find_map(|stretch| {
-            let before = last.replace(stretch);
+        let stretches = travel.stretches();
+        stretches.iter().enumerate().find_map(|(i, stretch)| {
+            let before = i.checked_sub(1).and_then(|i| stretches.get(i));
             if self.has_ground() {
-                return self.first_touch_of_ground((before, stretch), beyond);
+                return self.first_touch_of_ground([before, stretches.get(i + 1)], stretch, beyond);
             }
             self.first_touch_of_parts((before, stretch), beyond)
         })

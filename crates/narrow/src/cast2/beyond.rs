@@ -14,7 +14,7 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Chain, Motion2, Shape2};
 
 /// Moments of each half of a motion with a turn that are looked at.
-const MOMENTS: u32 = 16;
+pub(super) const MOMENTS: u32 = 16;
 
 /// What is touched at the start.
 pub(super) struct Touched<'t> {

@@ -1,5 +1,6 @@
 //! Two convex parts on their way: the gap between them at a time, and for how long it lasts.
 
+mod again;
 mod wheel;
 
 use super::piece::Piece;

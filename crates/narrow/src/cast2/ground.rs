@@ -28,13 +28,14 @@ impl Pair2<'_> {
         Some(deepest.as_ref().and_then(at_start).unwrap_or_else(|| self.touching_at_start()))
     }
 
-    /// The first segment and part that touch within a stretch, which may follow another.
+    /// The first segment and part that touch within a stretch, which may have one before and one after it.
     pub(super) fn first_touch_of_ground(
         &self,
-        (before, stretch): (Option<&Stretch>, &Stretch),
+        [before, after]: [Option<&Stretch>; 2],
+        stretch: &Stretch,
         beyond: Option<&Touched>,
     ) -> Option<Impact2> {
-        let mut first = First { before, stretch, end: 1.0, impact: None, beyond };
+        let mut first = First { before, stretch, after, end: 1.0, impact: None, beyond };
         match (self.shape_a, self.shape_b) {
             (Shape2::Chain(a), Shape2::Chain(b)) => {
                 let whole_b = Piece::whole(self.shape_b);
@@ -53,6 +54,7 @@ struct First<'s> {
     /// What went before the stretch, if anything did.
     before: Option<&'s Stretch>,
     stretch: &'s Stretch,
+    after: Option<&'s Stretch>,
     /// When.
     end: f64,
     impact: Option<Impact2>,
@@ -88,16 +90,9 @@ impl First<'_> {
     fn with_chain(&mut self, chain: &Chain, other: &Piece, side: usize) {
         self.of_segments(chain, other, side, |first, segment| {
             let pieces = if side == 0 { [segment, other] } else { [other, segment] };
-            let found = Course::new(first.stretch, pieces, first.end).and_then(|course| {
-                let touching = course.first_touch()?;
-                Some((surface_met((chain, segment.index), &course, &touching, side)?, touching))
-            });
-            let Some((met, touching)) = found else { return };
+            let Some((met, touching)) = first.met_first(chain, pieces, side) else { return };
             // Of equals, the first counts.
             if first.impact.is_some() && touching.at >= first.end {
-                return;
-            }
-            if touching.at <= 0.0 && is_passed(first.before, pieces) {
                 return;
             }
             if first
@@ -113,6 +108,39 @@ impl First<'_> {
             first.impact = Some(impact);
         });
     }
+
+    /// Where a segment of a chain is met first: one-sided ground that is passed may be met later, from its front.
+    fn met_first(&self, chain: &Chain, pieces: [&Piece; 2], side: usize) -> Option<(Met, Touching)> {
+        let mut course = Course::new(self.stretch, pieces, self.end)?;
+        loop {
+            let touching = course.first_touch()?;
+            let met = surface_met((chain, pieces[side].index), (&course, self.after), &touching, side);
+            let is_passed = || match self.before {
+                Some(before) if chain.is_one_sided() => is_passed_still(before, pieces),
+                before => is_passed(before, pieces),
+            };
+            let met = met.filter(|_| touching.at > 0.0 || !is_passed());
+            if let Some(met) = met {
+                return Some((met, touching));
+            }
+            if !chain.is_one_sided() {
+                return None;
+            }
+            course = course.once_apart(&touching)?;
+        }
+    }
+}
+
+/// Whether two parts came to touch in the stretch before, which was no impact, and have not been apart since.
+fn is_passed_still(before: &Stretch, pieces: [&Piece; 2]) -> bool {
+    let mut rest = Course::new(before, pieces, 1.0);
+    while let Some((course, touching)) = rest.and_then(|course| course.first_touch().map(|it| (course, it))) {
+        rest = course.once_apart(&touching);
+        if rest.is_none() {
+            return true;
+        }
+    }
+    false
 }
 
 /// Ground where it is met.
@@ -127,11 +155,12 @@ struct Met {
 /// How the ground is where it is met. Nothing where it does not see the other.
 ///
 /// The ground's own normal may look the way the other goes, where a corner of it is met. What comes so out of one-sided
-/// ground passes; of other ground it is met along the axis that they touch along. But what turns is led over ground by
-/// that normal: a box that slides over a hill, pressed into it, meets the far corners from inside as it leans.
+/// ground passes, unless it turns and its middle goes through the segment's front after all. Then, and of other ground,
+/// it is met along the axis that they touch along. But what turns is led over ground by that normal: a box that slides
+/// over a hill, pressed into it, meets the far corners from inside as it leans.
 fn surface_met(
     (chain, segment): (&Chain, u32),
-    course: &Course,
+    (course, after): (&Course, Option<&Stretch>),
     touching: &Touching,
     side: usize,
 ) -> Option<Met> {
@@ -153,5 +182,6 @@ fn surface_met(
         return along(axis, run);
     }
     let level = if course.is_turning() { axis } else { touching.axis };
-    (!chain.is_one_sided()).then_some(Met { axis: touching.axis, level, run })
+    let passes = chain.is_one_sided() && !course.falls_through(side, touching, after);
+    (!passes).then_some(Met { axis: touching.axis, level, run })
 }

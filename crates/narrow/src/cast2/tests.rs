@@ -248,6 +248,52 @@ fn the_end_of_a_bar_that_turns_and_rises_meets_one_sided_ground() {
     }
 }
 
+/// A floor that looks up, left of zero, and a slope that leads up from its end.
+fn valley() -> Shape2 {
+    Chain::open([(8.0, 8.0), (0.0, 0.0), (-8.0, 0.0)].map(Vec2::from)).unwrap().one_sided().into()
+}
+
+/// What a ball of radius 0.5 meets in the valley that starts on an arm from a middle, turns about that and goes a way;
+/// and where its own middle is then.
+fn swung(arm: [f64; 2], middle: [f64; 2], angle: f32, way: [f64; 2]) -> Option<(Impact2, DVec2)> {
+    let ball = Shape2::from(Compound2::new([(Pose2::at(arm).unwrap(), circle(0.5))]).unwrap());
+    let turn = Motion2::new(way, Rotation2::from_angle(angle).unwrap()).unwrap();
+    let (from, still) = (Pose2::at(middle).unwrap(), Motion2::STILL);
+    let met = Pair2::new(&ball, &from, &valley(), &Pose2::IDENTITY).next_impact(&turn, &still);
+    let back = Pair2::new(&valley(), &Pose2::IDENTITY, &ball, &from).impact(&still, &turn);
+    assert_eq!(met.map(|met| -met.normal), back.map(|back| back.normal));
+    met.map(|met| (met, turn.pose_at(&from, met.fraction).transform(DVec2::from(arm))))
+}
+
+/// From behind the slope, and in front of the floor's line, beyond its end: what moves up from there comes out of the
+/// slope.
+#[test]
+fn what_swings_up_past_an_edge_and_down_through_the_front_is_stopped() {
+    // On an arm of 20 m: over the end of the floor at a height of 0.35 m, and 4 m on through it.
+    let (arm, middle, still) = ([2.0, 19.9], [0.0, -19.65], [0.0; 2]);
+    assert_eq!(swung(arm, middle, 0.25, still), None, "it ends above the floor");
+    for angle in [0.3, 0.5, 0.8] {
+        let (met, at) = swung(arm, middle, angle, still).expect("it ends below the floor");
+        assert!(met.normal.x < -0.5 && met.normal.y < 0.0, "by the edge: {angle} {met:?}");
+        assert!((at.length() - 0.5).abs() < 1e-4, "{angle} {at}");
+    }
+    // Up, and down again through the floor's line beyond its end: there is no front that it goes through.
+    assert_eq!(swung([-0.1128, -0.041], [0.615, 0.05], -3.1, [0.0, -0.2]), None);
+}
+
+#[test]
+fn what_comes_out_of_one_sided_ground_and_back_is_met_when_it_comes_back() {
+    // Past the end, up to 0.79 m above the floor, and down to where the ball touches: 78 degrees on.
+    let (arm, middle, still) = ([1.55, 1.4], [-1.0, -1.3], [0.0; 2]);
+    assert_eq!(swung(arm, middle, 1.35, still), None, "it ends above the floor");
+    // It touches again in the second half of the motion, in the first, and when that ends.
+    for angle in [1.4, 2.0, 2.7, 2.7367, 2.8, 3.1] {
+        let (met, at) = swung(arm, middle, angle, still).expect("the floor is in its way");
+        assert_eq!(met.normal, Vec2::NEG_Y, "{angle} {met:?}");
+        assert!((at.y - 0.5).abs() < 1e-4 && at.x < -1.0, "{angle} {at}");
+    }
+}
+
 #[test]
 fn a_ball_that_turns_about_its_middle_meets_what_one_that_does_not_turn_meets() {
     let hill = hill();

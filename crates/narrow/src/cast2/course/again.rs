@@ -1,0 +1,97 @@
+//! What comes out of one-sided ground, or through it from behind, and comes back: by a turn alone. What does not turn
+//! touches a segment once.
+
+use super::super::beyond::MOMENTS;
+use super::super::stretch::Stretch;
+use super::{Course, Touching};
+use asunder_geometry::Shape2;
+use asunder_geometry::glam::DVec2;
+
+/// Halvings of the time between two moments until the middle's crossing of a line is as sharp as f64 has it.
+const HALVINGS: u32 = 48;
+
+/// What comes of a part that touches a segment, from one time to another.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Fate {
+    /// Its middle goes through the segment's front.
+    Through,
+    /// The two are apart, for certain.
+    Apart,
+    Stays,
+}
+
+impl<'a> Course<'a> {
+    /// The rest of the course, from the first moment after a touch at which the two are apart. Nothing where there is
+    /// none.
+    pub(in super::super) fn once_apart(&self, touching: &Touching) -> Option<Self> {
+        if !self.is_turning() {
+            return None;
+        }
+        let from = self.moments(touching.at).find(|&at| self.is_apart(touching.axis, at))?;
+        Some(Self::over(self.stretch, self.pieces, [from, self.times[1]]))
+    }
+
+    /// Whether what touches a segment of ground, one of the two, and is in front of it, has its middle go through that
+    /// front before they are apart; in the stretch after this one, perhaps.
+    pub(in super::super) fn falls_through(
+        &self,
+        ground: usize,
+        touching: &Touching,
+        after: Option<&Stretch>,
+    ) -> bool {
+        if !self.is_turning() {
+            return false;
+        }
+        match self.fate(ground, touching.axis, touching.at) {
+            Fate::Stays if self.times[1] >= 1.0 => after.is_some_and(|after| {
+                let next = Course::over(after, self.pieces, [0.0, 1.0]);
+                next.fate(ground, touching.axis, 0.0) == Fate::Through
+            }),
+            fate => fate == Fate::Through,
+        }
+    }
+
+    fn fate(&self, ground: usize, axis: DVec2, from: f64) -> Fate {
+        let Shape2::Segment(segment) = self.pieces[ground].shape else { return Fate::Stays };
+        let [start, end] = segment.ends().map(|end| end.as_dvec2());
+        let (along, slack) = (end - start, self.nearness());
+        let right = -along.perp();
+        let is_in_front = |at: f64| right.dot(self.middle_from(ground, at) - start) >= 0.0;
+        let mut last = from;
+        for at in self.moments(from) {
+            if is_in_front(last) && !is_in_front(at) {
+                let mut between = [last, at];
+                for _ in 0..HALVINGS {
+                    let half = 0.5 * (between[0] + between[1]);
+                    between[usize::from(!is_in_front(half))] = half;
+                }
+                let across = (self.middle_from(ground, between[0]) - start).dot(along) / along.length();
+                if across >= -slack && across <= along.length() + slack {
+                    return Fate::Through;
+                }
+            }
+            if self.is_apart(axis, at) {
+                return Fate::Apart;
+            }
+            last = at;
+        }
+        Fate::Stays
+    }
+
+    /// Moments after a time, the last of which is the end.
+    fn moments(&self, after: f64) -> impl Iterator<Item = f64> + use<> {
+        let end = self.times[1];
+        let moments = (1..MOMENTS).map(|i| f64::from(i) / f64::from(MOMENTS));
+        moments.take_while(move |&at| at < end).chain([end]).filter(move |&at| at > after)
+    }
+
+    fn is_apart(&self, axis: DVec2, at: f64) -> bool {
+        self.look(at, axis).is_some_and(|look| look.least > self.enough)
+    }
+
+    /// Where the middle of the other is, in a body's axes and from its position.
+    fn middle_from(&self, which: usize, at: f64) -> DVec2 {
+        let (turn, origin) = self.place(which, at);
+        turn.turn_back(self.center(1 - which, at) - origin)
+    }
+}
