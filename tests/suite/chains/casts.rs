@@ -268,8 +268,8 @@ fn a_character_jumps_through_a_platform_and_lands_on_it() {
     }
 }
 
-/// Symptom: who came down beside the tip of a wall of no width, drawn up and back down with one side, went into it as far
-/// as its middle came. Cause: at the tip the chain turns by all of a half turn, which counted as no corner, so that
+/// Symptom: who came down beside the tip of a wall of no width, drawn up and back down with one side, went into it as
+/// far as its middle came. Cause: at the tip the chain turns by all of a half turn, which counted as no corner, so that
 /// nothing was met that looked past the face on whose side the middle was.
 #[test]
 fn a_wall_of_no_width_is_the_same_with_one_side_and_with_two() {

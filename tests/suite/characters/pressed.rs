@@ -2,7 +2,8 @@
 
 use asunder::{
     Capsule2, Capsule3, Chain, Circle, Collider2, Collider3, Compound2, Compound3, Cuboid, Filter2, Filter3,
-    Pose2, Pose3, Ray3, Rotation2, Shape2, Shape3, Sphere, TriMesh, Walk2, Walk3, World2, World3, cast_ray3,
+    Pose2, Pose3, Ray3, Rect, Rotation2, Shape2, Shape3, Sphere, TriMesh, Walk2, Walk3, World2, World3,
+    cast_ray3,
 };
 use glam::{Vec2, Vec3};
 

@@ -1,4 +1,4 @@
-//! Sheets that are drawn from both sides, as leaves and fences are: every triangle, and once more with the other winding.
+//! Sheets that are drawn from both sides, as leaves and fences are: every triangle, and once more wound the other way.
 
 use asunder::{Capsule3, Cuboid, Hull, Manifold3, Pair3, Pose3, Ray3, Shape3, Sphere, TriMesh, cast_ray3};
 use asunder_geometry::glam::{DVec3, Vec3};

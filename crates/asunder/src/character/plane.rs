@@ -43,8 +43,8 @@ impl World<Plane> {
     /// body. Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up
     /// to sixteen times. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried
     /// whose deepest overlap was shallowest. No path is looked for: a shape in a thin wall may come out on the other
-    /// side. Only through chains no push takes a part's middle, unless from behind where they have one side. Cost: a round
-    /// is a query for boxes, and a manifold for each body met.
+    /// side. Only through chains no push takes a convex part's middle, unless from behind where they have one side.
+    /// Cost: a round is a query for boxes, and a manifold for each body met.
     ///
     /// ```
     /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
@@ -90,8 +90,8 @@ impl World<Plane> {
     ///   to the displacement.
     /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting what it
     ///   took to free it, or to move it back to its skin's distance out of an acute corner.
-    /// - A displacement that is not finite counts as none. Beyond 1e9 m nobody goes: of a displacement that leads there,
-    ///   what would end there is left out, and so all of it where nothing is in the way. Half-spaces do not move.
+    /// - A displacement that is not finite counts as none. Beyond 1e9 m nobody goes: of one that leads there, what would
+    ///   end there is left out, and so all of it where nothing is in the way. Half-spaces do not move.
     ///
     /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a
     /// wall that may be a step.

@@ -26,8 +26,8 @@ use std::sync::Arc;
 /// sides unless it is [`one_sided`](Self::one_sided).
 ///
 /// Vertices at the same place count as one, whatever files say. Triangles without an area and such that are there
-/// already, wound either way, are [dropped](Self::dropped); the others keep the numbers that they were given by, so that materials can
-/// be looked up by them. Two triangles are neighbours where they alone share an edge and wind alike.
+/// already, wound either way, are [dropped](Self::dropped); the others keep the numbers that they were given by, so
+/// that materials can be looked up by them. Two triangles are neighbours where they alone share an edge and wind alike.
 ///
 /// # Costs and limits
 /// At most [`MAX_TRIANGLES`](crate::tolerance::MAX_TRIANGLES) triangles and
