@@ -88,9 +88,14 @@ fn leaving_row(rows: &[Point], column: &[BigInt], basis: &[usize]) -> Option<usi
 fn pivot(rows: &mut [Point], column: &[BigInt], leaving: usize, denominator: &BigInt) -> BigInt {
     let pivot_row = rows[leaving].clone();
     let by = &column[leaving];
-    for (_, (row, factor)) in rows.iter_mut().zip(column).enumerate().filter(|(index, _)| *index != leaving) {
+    for (index, (row, factor)) in
+        rows.iter_mut().zip(column).enumerate().filter(|(index, _)| *index != leaving)
+    {
         for (cell, across) in row.iter_mut().zip(&pivot_row) {
-            *cell = (&*cell * by - factor * across) / denominator;
+            let product = &*cell * by - factor * across;
+            let quotient = &product / denominator;
+            debug_assert_eq!(&quotient * denominator, product, "row {index}");
+            *cell = quotient;
         }
     }
     by.clone()

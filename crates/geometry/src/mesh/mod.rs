@@ -98,9 +98,9 @@ impl TriMesh {
     /// ```
     #[must_use]
     pub fn one_sided(self) -> Self {
-        let data = if self.data.has_backs && !self.is_one_sided {
+        let data = if self.data.has_backs {
             let Data { vertices, triangles, .. } = &*self.data;
-            // What was a mesh with fewer of its triangles is one with more.
+            // Nothing is refused: what is a mesh with fewer of its triangles is one with more.
             build::build(vertices.clone(), triangles.clone(), true).map_or(self.data, Arc::new)
         } else {
             self.data

@@ -171,9 +171,7 @@ impl Search<'_> {
             touched.lies(self.passage, parts, (first.met.fraction, normal)) == Lies::Level
         })
     }
-}
 
-impl Search<'_> {
     /// Whether a part's centre stays in front of the plane of a triangle that it leaves: what turns may come back, and
     /// go through.
     fn stays_in_front(&self, first: &First, parts: [Part; 2]) -> bool {
