@@ -1,4 +1,4 @@
-//! An allocator that counts what the threads of one pool ask of it. A program that counts makes it its own:
+//! An allocator that counts what the threads of a pool ask of it. A program that counts makes it its own:
 //!
 //! ```standalone_crate
 //! use asunder_tests::counting::{Counting, allocations, counted};
@@ -18,58 +18,73 @@ use rayon::ThreadPoolBuilder;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::atomic::{AtomicI64, AtomicU64, Ordering::Relaxed};
-use std::sync::{Barrier, Mutex, PoisonError};
+use std::sync::{Barrier, PoisonError, RwLock};
 
-/// The system's allocator, and two sums.
+/// The system's allocator, and sums.
 pub struct Counting;
 
-static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
-static LIVE: AtomicI64 = AtomicI64::new(0);
+/// What some threads asked for.
+struct Tally {
+    calls: AtomicU64,
+    live: AtomicI64,
+}
 
 thread_local! {
     // Without a destructor, so that it is there for as long as its thread, and costs no allocation itself.
-    static IS_COUNTED: Cell<bool> = const { Cell::new(false) };
+    static TALLY: Cell<Option<&'static Tally>> = const { Cell::new(None) };
 }
 
-/// Calls that asked for memory so far, by counted threads.
+/// Calls that asked for memory so far, by those who are counted with this thread; 0 where it is not counted.
 pub fn allocations() -> u64 {
-    ALLOCATIONS.load(Relaxed)
+    TALLY.get().map_or(0, |tally| tally.calls.load(Relaxed))
 }
 
-/// Bytes that counted threads asked for and have not given back.
+/// Bytes that those who are counted with this thread asked for and have not given back; 0 where it is not counted.
 pub fn live_bytes() -> i64 {
-    LIVE.load(Relaxed)
+    TALLY.get().map_or(0, |tally| tally.live.load(Relaxed))
 }
 
-static ALONE: Mutex<()> = Mutex::new(());
+/// Threads that are counted alone may be so at the same time. What several count depends on who takes which work, the
+/// more so the busier the processors are: they have them for themselves.
+static ALONE: RwLock<()> = RwLock::new(());
+
+/// Some bytes for each work that is counted: a thread of a pool may outlive it.
+fn new_tally() -> &'static Tally {
+    Box::leak(Box::new(Tally { calls: AtomicU64::new(0), live: AtomicI64::new(0) }))
+}
 
 /// Runs the work on this thread, which is in no pool; no other counts.
 pub fn counted_here<T>(work: impl FnOnce() -> T) -> T {
-    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    IS_COUNTED.set(true);
+    let _alone = ALONE.write().unwrap_or_else(PoisonError::into_inner);
+    TALLY.set(Some(new_tally()));
     let done = work();
-    IS_COUNTED.set(false);
+    TALLY.set(None);
     done
 }
 
-/// Runs the work in a pool of so many threads, which are the only ones that count while it runs.
+/// Runs the work in a pool of so many threads, which are the only ones that count with it.
 pub fn counted<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let (_beside, _alone) = if threads == 1 {
+        (Some(ALONE.read().unwrap_or_else(PoisonError::into_inner)), None)
+    } else {
+        (None, Some(ALONE.write().unwrap_or_else(PoisonError::into_inner)))
+    };
+    let tally = new_tally();
     let pool = ThreadPoolBuilder::new().num_threads(threads);
-    let pool = pool.start_handler(|_| IS_COUNTED.set(true)).build().unwrap();
+    let pool = pool.start_handler(move |_| TALLY.set(Some(tally))).build().unwrap();
     // The first time that a thread takes work from another it registers itself, with 2304 bytes: some time, unless now.
     let all = Barrier::new(threads);
     pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| _ = all.wait())));
     let done = pool.install(work);
     // Threads end after their pool does, and what they give back then is nobody's.
-    pool.broadcast(|_| IS_COUNTED.set(false));
+    pool.broadcast(|_| TALLY.set(None));
     done
 }
 
 fn count(calls: u64, bytes: i64) {
-    if IS_COUNTED.get() {
-        ALLOCATIONS.fetch_add(calls, Relaxed);
-        LIVE.fetch_add(bytes, Relaxed);
+    if let Some(tally) = TALLY.get() {
+        tally.calls.fetch_add(calls, Relaxed);
+        tally.live.fetch_add(bytes, Relaxed);
     }
 }
 
