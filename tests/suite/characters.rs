@@ -3,6 +3,7 @@
 
 mod edges;
 mod freeing;
+mod parts;
 mod plane;
 mod pressed;
 mod rooms;

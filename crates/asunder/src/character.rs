@@ -213,6 +213,12 @@ pub(crate) struct Gap<P> {
     part: u32,
 }
 
+/// Whether a ray only leads along a plane, up to rounding, by how fast it closes in on it, and the two lengths that
+/// this is a product of.
+pub(crate) fn is_along(closing: f64, lengths: [f64; 2]) -> bool {
+    closing.abs() <= 64.0 * f64::EPSILON * lengths[0] * lengths[1]
+}
+
 /// A dimension to walk in.
 pub(crate) trait Walks: Asked<Point: Linear> {
     fn wide(vector: Self::Vector) -> Self::Point;
@@ -235,6 +241,10 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     );
     /// Whether a body is solid from one side only.
     fn has_one_side(body: &crate::collider::Collider<Self>) -> bool;
+    /// Where a ray that starts on a body of ground first goes through some of it, within so many lengths: of what it
+    /// starts on, at once, if that has one side, and it leads in there. On what has two sides, who is on it may leave to
+    /// either.
+    fn first_through(ray: &Self::Ray, limit: f64, body: &crate::collider::Collider<Self>) -> Option<f64>;
     /// A ray, if it is one.
     fn ray(origin: Self::Point, direction: Self::Point) -> Option<Self::Ray>;
     /// The unit direction that lies in both planes, given by their normals; nothing where they are parallel, or in

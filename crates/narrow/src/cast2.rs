@@ -42,6 +42,7 @@
 //! of the arm. That is the best `error` that an impact of turning shapes can have.
 
 mod beyond;
+mod counts;
 mod course;
 mod ground;
 mod piece;
@@ -56,7 +57,8 @@ use crate::pair2::Pair2;
 use crate::touch::Touch2;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Motion2, Pose2};
-use beyond::{Touched, with_touched};
+use beyond::with_touched;
+use counts::Counts;
 use course::{Course, Touching, meeting};
 use piece::{Piece, for_pieces_along};
 pub use ray::cast_ray2;
@@ -207,7 +209,7 @@ impl Pair2<'_> {
             return None;
         }
         with_touched((self, &travel), (do_touch, touches), |touched| {
-            let first = self.first_touch_along(&travel, Some(touched));
+            let first = self.first_touch_along(&travel, Counts::Beyond(touched));
             if do_touch { touched.across([motion_a, motion_b], first.as_ref()).or(first) } else { first }
         })
     }
@@ -228,18 +230,18 @@ impl Pair2<'_> {
         if travel.is_still() {
             return None;
         }
-        self.first_touch_along(travel, None)
+        self.first_touch_along(travel, Counts::All)
     }
 
-    /// The first pair of parts that touch on the way; beyond those that are touched, where they are given.
-    fn first_touch_along(&self, travel: &Travel, beyond: Option<&Touched>) -> Option<Impact2> {
+    /// The first pair of parts that touch on the way, and whose touch counts.
+    fn first_touch_along(&self, travel: &Travel, counts: Counts) -> Option<Impact2> {
         let stretches = travel.stretches();
         stretches.iter().enumerate().find_map(|(i, stretch)| {
             let before = i.checked_sub(1).and_then(|i| stretches.get(i));
             if self.has_ground() {
-                return self.first_touch_of_ground([before, stretches.get(i + 1)], stretch, beyond);
+                return self.first_touch_of_ground([before, stretches.get(i + 1)], stretch, counts);
             }
-            self.first_touch_of_parts((before, stretch), beyond)
+            self.first_touch_of_parts((before, stretch), counts)
         })
     }
 
@@ -247,7 +249,7 @@ impl Pair2<'_> {
     fn first_touch_of_parts(
         &self,
         (before, stretch): (Option<&Stretch>, &Stretch),
-        beyond: Option<&Touched>,
+        counts: Counts,
     ) -> Option<Impact2> {
         let whole_b = Piece::whole(self.shape_b);
         let mut first: Option<Impact2> = None;
@@ -265,12 +267,11 @@ impl Pair2<'_> {
                 if touching.at <= 0.0 && is_passed(before, [a, b]) {
                     return;
                 }
-                let (when, axis) = ((stretch, touching.at), touching.axis);
-                if beyond.is_some_and(|touched| touched.passes_over([a, b], when, axis)) {
-                    return;
+                let impact = impact(stretch, &touching, [a, b]);
+                if counts.admits([a, b], (stretch, touching.at), touching.axis, &impact) {
+                    end = touching.at;
+                    first = Some(impact);
                 }
-                end = touching.at;
-                first = Some(impact(stretch, &touching, [a, b]));
             });
         });
         first

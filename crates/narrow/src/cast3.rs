@@ -25,6 +25,7 @@
 mod advance;
 mod beyond;
 mod boxes;
+mod counts;
 mod ground;
 mod march;
 mod onto_plane;
@@ -36,13 +37,13 @@ mod tests;
 use crate::answer::{Manifold3, Separation3};
 use crate::ground3::OnGround;
 use crate::impact3::Impact3;
-use crate::level::Lies;
 use crate::pair3::{Pair3, Part, for_parts_along};
 use crate::touch::Touch3;
 use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Motion3, Shape3};
-use beyond::{Touched, with_touched};
+use beyond::with_touched;
+use counts::Counts;
 use march::march;
 use passage::{Course, Passage, Stretch, rounding_of};
 pub use ray::cast_ray3;
@@ -208,19 +209,19 @@ impl Pair3<'_> {
         }
         with_touched(self, (do_touch, touches), |touched| match OnGround::of(self) {
             Some(on) => {
-                let first = self.first_touch_on(&on, &passage, Some(touched));
+                let first = self.first_touch_on(&on, &passage, Counts::Beyond(touched));
                 if !do_touch {
                     return first;
                 }
                 self.across((&on, &passage), [motion_a, motion_b], touched, first.as_ref()).or(first)
             }
-            None => self.first_touch_of_parts(&passage, Some(touched)),
+            None => self.first_touch_of_parts(&passage, Counts::Beyond(touched)),
         })
     }
 
     fn first_touch(&self, passage: &Passage) -> Option<Impact3> {
         if let Some(on) = OnGround::of(self) {
-            return self.first_touch_on(&on, passage, None);
+            return self.first_touch_on(&on, passage, Counts::All);
         }
         if passage.is_straight()
             && let Some(end) = self.end_on_plane(passage)
@@ -241,7 +242,7 @@ impl Pair3<'_> {
                 return None;
             }
         }
-        self.first_touch_of_parts(passage, None)
+        self.first_touch_of_parts(passage, Counts::All)
     }
 
     /// The first touch with a half-space of what is certainly apart from it at the start, in closed form.
@@ -257,8 +258,8 @@ impl Pair3<'_> {
         }
     }
 
-    /// The first of the pairs of convex parts; beyond those that are touched, where they are given.
-    fn first_touch_of_parts(&self, passage: &Passage, beyond: Option<&Touched>) -> Option<Impact3> {
+    /// The first of the pairs of convex parts whose touch counts.
+    fn first_touch_of_parts(&self, passage: &Passage, counts: Counts) -> Option<Impact3> {
         let mut first: Option<Impact3> = None;
         let mut is_asked = false;
         let whole_b = Part::whole(self.shape_b, &passage.bases[1]);
@@ -277,23 +278,22 @@ impl Pair3<'_> {
                     End::Apart => return false,
                     End::Met(met) => met,
                     End::Unclear(met, is_parting) => {
-                        if beyond.is_none() && !is_asked && self.overlaps() {
+                        if counts.is_all() && !is_asked && self.overlaps() {
                             return true;
                         }
                         is_asked = true;
                         let is_touched = || self.parts(&passage.bases, a, b).convex.verdict().overlapping;
-                        if is_parting || beyond.is_some() && is_touched() {
+                        if is_parting || !counts.is_all() && is_touched() {
                             return false;
                         }
                         met
                     }
                 };
-                let meeting = (met.fraction, met.normal);
-                if beyond.is_some_and(|touched| touched.lies(passage, [a, b], meeting) == Lies::Level) {
-                    return false;
-                }
-                if first.is_none_or(|known| met.fraction < known.fraction) {
-                    first = Some(impact_of(&met, [a.index, b.index]));
+                let impact = || impact_of(&met, [a.index, b.index]);
+                if first.is_none_or(|known| met.fraction < known.fraction)
+                    && counts.admits((passage, [a, b]), (met.fraction, met.normal), impact)
+                {
+                    first = Some(impact());
                 }
                 false
             })

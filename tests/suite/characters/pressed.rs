@@ -2,8 +2,8 @@
 
 use asunder::{
     Capsule2, Capsule3, Chain, Circle, Collider2, Collider3, Compound2, Compound3, Cuboid, Filter2, Filter3,
-    Pose2, Pose3, Ray3, Rect, Rotation2, Shape2, Shape3, Sphere, TriMesh, Walk2, Walk3, World2, World3,
-    cast_ray3,
+    HeightField, Pose2, Pose3, Ray3, Rect, Rotation2, Shape2, Shape3, Sphere, TriMesh, Walk2, Walk3, World2,
+    World3, cast_ray3,
 };
 use glam::{Vec2, Vec3};
 
@@ -151,6 +151,77 @@ fn no_part_is_pressed_through_a_wall() {
             assert_eq!(slide.is_free, press < -1.6, "{is_one_sided}, frame {frame}: {slide:?}");
             assert!(at_flat.position().x + 0.5 < 1.0, "{is_one_sided}, frame {frame}: {slide:?}");
         }
+    }
+}
+
+/// Symptom: who was sunk into one-sided ground so that its middle was in the very plane of it was pressed through, and
+/// said to be free. Cause: a way that starts on ground was taken to leave it, whatever side it led to.
+#[test]
+fn nobody_is_pressed_through_a_floor_from_its_very_plane() {
+    let (ball, disc) = (Shape3::from(Sphere::new(0.3).unwrap()), Shape2::from(Circle::new(0.3).unwrap()));
+    let corners = [[-5.0, 0.0, -5.0], [5.0, 0.0, -5.0], [5.0, 0.0, 5.0], [-5.0, 0.0, 5.0]].map(Vec3::from);
+    let mesh = TriMesh::new(corners, [[0, 2, 1], [0, 3, 2]]).unwrap().one_sided();
+    let field = HeightField::new(11, 11, [0.0; 121], Vec2::ONE).unwrap().one_sided();
+    let floors: [(Shape3, [f64; 3]); 2] = [(mesh.into(), [0.0; 3]), (field.into(), [-5.0, 0.0, -5.0])];
+    // On one triangle, on an edge, and in a corner; and beside the end of a press, where there is a way out.
+    for (floor, at) in floors {
+        for place in [[0.3, 0.0, 0.1], [0.5, 0.0, 0.5], [0.0, 0.0, 0.0], [2.1, 0.0, 0.1]] {
+            let mut world = World3::new();
+            world.insert(Collider3::new(floor.clone()).at(Pose3::at(at).unwrap()));
+            let press = Collider3::new(Cuboid::from_half_extents(Vec3::new(2.0, 0.5, 2.0)).unwrap());
+            world.insert(press.at(Pose3::at([0.0, 0.4, 0.0]).unwrap()));
+            let freed = world.depenetrate((&ball, &Pose3::at(place).unwrap()), &Filter3::new());
+            assert!(freed.pose.position().y >= 0.0, "{place:?}: {freed:?}");
+            assert_eq!(freed.is_free, place[0] > 2.0, "{place:?}: {freed:?}");
+        }
+    }
+    let line = Chain::open([Vec2::new(5.0, 0.0), Vec2::ZERO, Vec2::new(-5.0, 0.0)]).unwrap().one_sided();
+    for place in [[0.3, 0.0], [0.0, 0.0], [2.1, 0.0]] {
+        let mut world = World2::new();
+        world.insert(Collider2::new(line.clone()));
+        let press = Collider2::new(Rect::from_half_extents(Vec2::new(2.0, 0.5)).unwrap());
+        world.insert(press.at(Pose2::at([0.0, 0.4]).unwrap()));
+        let freed = world.depenetrate((&disc, &Pose2::at(place).unwrap()), &Filter2::new());
+        assert!(freed.pose.position().y >= 0.0, "{place:?}: {freed:?}");
+        assert_eq!(freed.is_free, place[0] > 2.0, "{place:?}: {freed:?}");
+    }
+}
+
+/// Symptom: whose middle was in the very plane of one sheet of a mesh was pressed through the next, which it was not
+/// where the sheets were two bodies. Cause: of a body that a way starts on, nothing further was looked at.
+#[test]
+fn nobody_is_pressed_through_the_sheet_behind() {
+    let (ball, disc) = (Shape3::from(Sphere::new(0.3).unwrap()), Shape2::from(Circle::new(0.3).unwrap()));
+    let sheet = |y: f32| [[-5.0, y, -5.0], [5.0, y, -5.0], [5.0, y, 5.0], [-5.0, y, 5.0]].map(Vec3::from);
+    let mesh = |corners: &[Vec3]| -> Shape3 {
+        let two = |i: u32| [[4 * i, 4 * i + 2, 4 * i + 1], [4 * i, 4 * i + 3, 4 * i + 2]];
+        let triangles: Vec<[u32; 3]> = (0..corners.len() as u32 / 4).flat_map(two).collect();
+        TriMesh::new(corners, triangles).unwrap().into()
+    };
+    let (high, low) = (sheet(0.0), sheet(-0.2));
+    let worlds = [vec![mesh(&high), mesh(&low)], vec![mesh(&[high, low].concat())]];
+    for shapes in worlds {
+        let mut world = World3::new();
+        for shape in shapes {
+            world.insert(Collider3::new(shape));
+        }
+        let press = Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.5, 9.0)).unwrap());
+        world.insert(press.at(Pose3::at([0.0, 0.4, 0.0]).unwrap()));
+        let freed = world.depenetrate((&ball, &Pose3::at([0.3, 0.0, 0.1]).unwrap()), &Filter3::new());
+        assert!(freed.pose.position().y > -0.2, "{freed:?}");
+    }
+    let line = [[-5.0, 0.0], [5.0, 0.0]].map(Vec2::from);
+    let below = [[5.0, -0.2], [-5.0, -0.2]].map(Vec2::from);
+    let chain = |vertices: &[Vec2]| Shape2::from(Chain::open(vertices.iter().copied()).unwrap());
+    for shapes in [vec![chain(&line), chain(&below)], vec![chain(&[line, below].concat())]] {
+        let mut world = World2::new();
+        for shape in shapes {
+            world.insert(Collider2::new(shape));
+        }
+        let press = Collider2::new(Rect::from_half_extents(Vec2::new(9.0, 0.5)).unwrap());
+        world.insert(press.at(Pose2::at([0.0, 0.4]).unwrap()));
+        let freed = world.depenetrate((&disc, &Pose2::at([0.3, 0.0]).unwrap()), &Filter2::new());
+        assert!(freed.pose.position().y > -0.2, "{freed:?}");
     }
 }
 

@@ -111,9 +111,12 @@ fn share_before_ground<S: Walks>(
         let Some(ray) = S::ray(middle, way) else { return };
         // Who goes all of the way stays as far from what lies beyond.
         let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
-            if !hit.inside && world.bodies.get(hit.body).is_some_and(|body| S::is_ground(&body.shape)) {
-                share = share.min((hit.distance - before).max(0.0));
-            }
+            let ground = world.bodies.get(hit.body).filter(|body| S::is_ground(&body.shape));
+            let through = ground.and_then(|body| match hit.inside {
+                true => S::first_through(&ray, 1.0 + before, body),
+                false => Some(hit.distance),
+            });
+            share = through.map_or(share, |at| share.min((at - before).max(0.0)));
             ControlFlow::Continue(())
         });
     });

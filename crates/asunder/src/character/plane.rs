@@ -3,13 +3,15 @@
 use super::free::{free, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
-use super::{Freed2, Gap, Linear, Slide2, Walk2, Walks};
+use super::{Freed2, Gap, Linear, Slide2, Walk2, Walks, is_along};
 use crate::collider::Collider2;
 use crate::query::{Asked, Filter2};
 use crate::space::Plane;
 use crate::world::World;
 use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::{DirectionError, HalfPlane, Pose2, Ray2, Shape2};
+use asunder_geometry::{Aabb2, DirectionError, HalfPlane, Pose2, Ray2, Shape2};
+use asunder_narrow::cast_ray2;
+use core::ops::ControlFlow;
 
 impl Linear for DVec2 {
     const ZERO: Self = Self::ZERO;
@@ -175,6 +177,32 @@ impl Walks for Plane {
 
     fn has_one_side(body: &Collider2) -> bool {
         matches!(&body.shape, Shape2::Chain(chain) if chain.is_one_sided())
+    }
+
+    fn first_through(ray: &Ray2, limit: f64, body: &Collider2) -> Option<f64> {
+        let Shape2::Chain(chain) = &body.shape else { return None };
+        let from = body.pose.transform_back(ray.origin());
+        let way = body.pose.turn_back(ray.direction().as_dvec2());
+        let to = from + way * limit;
+        let grown = DVec2::splat(f64::from(f32::EPSILON) * (from.abs() + to.abs()).max_element());
+        let bounds = Aabb2::new((from.min(to) - grown).as_vec2(), (from.max(to) + grown).as_vec2());
+        let mut first = None;
+        let _ = chain.visit_near(&bounds, |number| {
+            let (Some(segment), Some(run)) = (chain.segment(number), chain.run_of(number)) else {
+                return ControlFlow::Continue(());
+            };
+            let [start, end] = run.vertices().map(|vertex| chain.vertices()[vertex as usize].as_dvec2());
+            let closing = (end - start).perp_dot(way);
+            if !is_along(closing, [(end - start).length(), way.length()])
+                && (closing > 0.0 || !chain.is_one_sided())
+            {
+                let hit = cast_ray2(&segment.into(), &body.pose, ray, first.unwrap_or(limit));
+                first =
+                    hit.filter(|hit| !hit.inside || chain.is_one_sided()).map(|hit| hit.distance).or(first);
+            }
+            ControlFlow::Continue(())
+        });
+        first
     }
 
     fn ray(origin: DVec2, direction: DVec2) -> Option<Ray2> {

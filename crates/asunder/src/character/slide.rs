@@ -4,7 +4,7 @@ use super::clip::along;
 use super::free::{Near, free, has_entered, is_overlapping, near, push};
 use super::gait::Gait;
 use super::{Freed, Gap, Linear, Obstacle, Slide, Walk, Walks};
-use crate::query::{Asked, Filter, Meet, bodies_along};
+use crate::query::{Asked, Enter, Filter, Meet, bodies_along, bodies_along_ray, parts_along};
 use crate::space::Space;
 use crate::world::{World, slot_of};
 use asunder_geometry::tolerance::{EDGE_HOLD, GRAZING, MAX_POSITION, SKIN_SLACK, STANDSTILL, UPRIGHT};
@@ -348,7 +348,8 @@ impl<S: Walks> Mover<'_, S> {
     /// Whether a character can stand on what it met: on ground, and on an edge no higher than a step, behind which
     /// there is ground.
     ///
-    /// The normal at an edge is wherever round feet happen to touch it. What counts there is the surface just behind.
+    /// The normal at an edge is wherever round feet happen to touch it. What counts there is the surface just behind,
+    /// of whichever body.
     fn holds(&self, hit: &Hit<S>) -> bool {
         let Gait { up, skin, steepest, step, .. } = self.gait;
         let rise = hit.normal.dot(up);
@@ -362,11 +363,23 @@ impl<S: Walks> Mover<'_, S> {
         if step <= 0.0 || rise < EDGE_HOLD || height > step + 2.0 * skin {
             return false;
         }
-        let Some(body) = self.world.bodies.get(hit.body) else { return false };
         let above = hit.point + (inwards + up * 2.0) * skin;
-        let enter = |ray| S::enter(&ray, 1.0, hit.body, body);
-        let found = S::ray(above, -up * (4.0 * skin)).and_then(enter);
+        let found = S::ray(above, -up * (4.0 * skin)).and_then(|ray| self.first_entered(&ray));
         found.is_some_and(|found| !found.inside && S::wide(found.normal).dot(up) >= steepest)
+    }
+
+    /// What a ray enters first, at most its own length away. Asked one by one, so that it can be asked within a query
+    /// and needs no memory there.
+    fn first_entered(&self, ray: &S::Ray) -> Option<Enter<S>> {
+        let mut first: Option<Enter<S>> = None;
+        let rank = |entered: &Enter<S>| (!entered.inside, entered.distance, slot_of(entered.body));
+        let _ = bodies_along_ray(self.world, ray, 1.0, &self.filter).visit(|entered| {
+            if first.as_ref().is_none_or(|known| rank(&entered) < rank(known)) {
+                first = Some(entered);
+            }
+            ControlFlow::Continue(())
+        });
+        first
     }
 
     /// Climbs a step: up, on, and down to where one can stand. Tells which share of the way it led; where it leads
@@ -422,22 +435,15 @@ impl<S: Walks> Mover<'_, S> {
         Some(hit)
     }
 
-    /// The ground that is stood on where something steep beside it is met first on the way down.
+    /// The ground that is stood on where something steep beside it is met first on the way down, of the same body or
+    /// another.
     fn ground_beside(&self) -> Option<Hit<S>> {
         let cast = S::narrow(-self.gait.up * self.outlook_down());
         let (length, unit) = (S::wide(cast).length(), S::wide(cast).unit()?);
-        let mut ground: Option<Hit<S>> = None;
-        let rank = |hit: &Hit<S>| (hit.at, slot_of(hit.body));
-        let _ = bodies_along(self.world, (self.shape, &self.pose), cast, &self.filter).visit(|hit| {
-            let hit = Hit::of(&hit, unit, length);
-            if self.holds_below(&hit, unit, 0.0)
-                && ground.as_ref().is_none_or(|known| rank(&hit) < rank(known))
-            {
-                ground = Some(hit);
-            }
-            ControlFlow::Continue(())
-        });
-        ground
+        let hit_of = |met: &Meet<S>| Hit::of(met, unit, length);
+        let counts = |met: &Meet<S>| self.holds_below(&hit_of(met), unit, 0.0);
+        let met = parts_along(self.world, (self.shape, &self.pose), cast, &self.filter, &counts).first();
+        met.as_ref().map(hit_of)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::free::{free, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
-use super::{Freed3, Gap, Linear, Slide3, Walk3, Walks};
+use super::{Freed3, Gap, Linear, Slide3, Walk3, Walks, is_along};
 use crate::collider::Collider3;
 use crate::query::{Asked, Filter3};
 use crate::space::Volume;
@@ -11,6 +11,7 @@ use crate::world::World;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::STANDSTILL;
 use asunder_geometry::{DirectionError, Ground, HalfSpace, Pose3, Ray3, Shape3};
+use asunder_narrow::cast_ray3;
 
 impl Linear for DVec3 {
     const ZERO: Self = Self::ZERO;
@@ -176,6 +177,28 @@ impl Walks for Volume {
 
     fn has_one_side(body: &Collider3) -> bool {
         Ground::of(&body.shape).is_some_and(Ground::is_one_sided)
+    }
+
+    fn first_through(ray: &Ray3, limit: f64, body: &Collider3) -> Option<f64> {
+        let ground = Ground::of(&body.shape)?;
+        let from = body.pose.transform_back(ray.origin());
+        let way = body.pose.turn_back(ray.direction().as_dvec3());
+        let grown = f64::from(f32::EPSILON) * (from.abs().max_element() + way.abs().max_element());
+        let mut first = None;
+        ground.visit_along(from, way, Vec3::splat(grown as f32), limit, |number| {
+            let within = first.unwrap_or(limit);
+            let Some(triangle) = ground.triangle(number) else { return within };
+            let [a, b, c] = ground.corners(number).map(|corner| corner.as_dvec3());
+            let normal = (b - a).cross(c - a);
+            let closing = -normal.dot(way);
+            if is_along(closing, [normal.length(), way.length()]) || ground.is_one_sided() && closing < 0.0 {
+                return within;
+            }
+            let hit = cast_ray3(&triangle.into(), &body.pose, ray, within);
+            first = hit.filter(|hit| !hit.inside || ground.is_one_sided()).map(|hit| hit.distance).or(first);
+            first.unwrap_or(limit)
+        });
+        first
     }
 
     fn ray(origin: DVec3, direction: DVec3) -> Option<Ray3> {

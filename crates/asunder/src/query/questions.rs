@@ -145,6 +145,19 @@ pub(crate) fn bodies_along<'q, S: Asked>(
     })
 }
 
+/// Where a moved shape first meets a part that counts of each body.
+pub(crate) fn parts_along<'q, S: Asked>(
+    world: &'q World<S>,
+    at: Posed<'q, S>,
+    displacement: S::Vector,
+    filter: &'q Filter<'q, S>,
+    counts: &'q dyn Fn(&Meet<S>) -> bool,
+) -> Question<'q, S, impl Asks<S, Meet<S>>> {
+    moved((world, filter), at, displacement, move |key, body| {
+        S::meet_if(at, displacement, (key, body), counts)
+    })
+}
+
 /// What a moved shape runs into first, but for what it touches at the start, and what is flush with that.
 pub(crate) fn first_ahead<S: Asked>(
     world: &World<S>,

@@ -70,6 +70,13 @@ pub(crate) trait Asked: Space {
         displacement: Self::Vector,
         body: &Collider<Self>,
     ) -> Option<(f64, Self::Impact)>;
+    /// Where it first meets a part of the body that counts.
+    fn meet_if(
+        at: Posed<'_, Self>,
+        displacement: Self::Vector,
+        of: (Self::Key, &Collider<Self>),
+        counts: impl Fn(&Meet<Self>) -> bool,
+    ) -> Option<Meet<Self>>;
     /// That share of a displacement, as a motion. Nothing where it is not finite, or longer than any.
     fn shift(displacement: Self::Vector, share: f64) -> Option<Self::Motion>;
     /// The greatest coordinate of a displacement, in metres.
@@ -173,6 +180,17 @@ impl Asked for Plane {
     ) -> Option<(f64, Impact2)> {
         let impact = Pair2::new(shape, pose, &body.shape, &body.pose).cast(displacement)?;
         Some((impact.fraction, impact))
+    }
+
+    fn meet_if(
+        (shape, pose): Posed<'_, Self>,
+        displacement: Vec2,
+        (key, body): (Self::Key, &Collider<Self>),
+        counts: impl Fn(&Meet<Self>) -> bool,
+    ) -> Option<Meet<Self>> {
+        let met = |impact: &Impact2| Self::met(impact.fraction, impact, key, body);
+        let pair = Pair2::new(shape, pose, &body.shape, &body.pose);
+        pair.cast_if(displacement, |impact| counts(&met(impact))).map(|impact| met(&impact))
     }
 
     fn shift(displacement: Vec2, share: f64) -> Option<Motion2> {
@@ -287,6 +305,17 @@ impl Asked for Volume {
     ) -> Option<(f64, Impact3)> {
         let impact = Pair3::new(shape, pose, &body.shape, &body.pose).cast(displacement)?;
         Some((impact.fraction, impact))
+    }
+
+    fn meet_if(
+        (shape, pose): Posed<'_, Self>,
+        displacement: Vec3,
+        (key, body): (Self::Key, &Collider<Self>),
+        counts: impl Fn(&Meet<Self>) -> bool,
+    ) -> Option<Meet<Self>> {
+        let met = |impact: &Impact3| Self::met(impact.fraction, impact, key, body);
+        let pair = Pair3::new(shape, pose, &body.shape, &body.pose);
+        pair.cast_if(displacement, |impact| counts(&met(impact))).map(|impact| met(&impact))
     }
 
     fn shift(displacement: Vec3, share: f64) -> Option<Motion3> {

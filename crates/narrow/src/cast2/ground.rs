@@ -3,7 +3,7 @@
 //! Each segment is a shape like any other, so that a miss is as certain as of those. What the ground adds is which
 //! sides are seen, and which normals there are: see `ground2`.
 
-use super::beyond::Touched;
+use super::counts::Counts;
 use super::course::{Course, Touching, meeting};
 use super::piece::{Piece, for_pieces};
 use super::stretch::Stretch;
@@ -33,9 +33,9 @@ impl Pair2<'_> {
         &self,
         [before, after]: [Option<&Stretch>; 2],
         stretch: &Stretch,
-        beyond: Option<&Touched>,
+        counts: Counts,
     ) -> Option<Impact2> {
-        let mut first = First { before, stretch, after, end: 1.0, impact: None, beyond };
+        let mut first = First { before, stretch, after, end: 1.0, impact: None, counts };
         match (self.shape_a, self.shape_b) {
             (Shape2::Chain(a), Shape2::Chain(b)) => {
                 let whole_b = Piece::whole(self.shape_b);
@@ -58,8 +58,7 @@ struct First<'s> {
     /// When.
     end: f64,
     impact: Option<Impact2>,
-    /// What is touched at the start, where only what is met beyond it is wanted.
-    beyond: Option<&'s Touched<'s>>,
+    counts: Counts<'s>,
 }
 
 impl First<'_> {
@@ -95,17 +94,13 @@ impl First<'_> {
             if first.impact.is_some() && touching.at >= first.end {
                 return;
             }
-            if first
-                .beyond
-                .is_some_and(|touched| touched.passes_over(pieces, (first.stretch, touching.at), met.level))
-            {
-                return;
-            }
-            first.end = touching.at;
             let mut impact = impact(first.stretch, &touching, pieces);
             impact.normal = met.axis.as_vec2();
             *(if side == 0 { &mut impact.part_a } else { &mut impact.part_b }) = met.run.first();
-            first.impact = Some(impact);
+            if first.counts.admits(pieces, (first.stretch, touching.at), met.level, &impact) {
+                first.end = touching.at;
+                first.impact = Some(impact);
+            }
         });
     }
 

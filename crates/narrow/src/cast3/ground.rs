@@ -16,12 +16,12 @@
 //! from below: there is no front that it moves into.
 
 use super::advance::{End, Met};
-use super::beyond::{MOMENTS, Touched as TouchedAtStart};
+use super::beyond::MOMENTS;
+use super::counts::Counts;
 use super::passage::Passage;
 use super::{impact_of, part_end};
 use crate::ground3::{Corners, Facing, OnGround, SeenAt, Touched};
 use crate::impact3::Impact3;
-use crate::level::Lies;
 use crate::pair3::{Pair3, Part};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -48,23 +48,17 @@ struct Search<'s> {
     first: Option<First>,
     /// Whether they touch at the start.
     touches: bool,
-    /// What they touch at the start, where only what is met beyond it is wanted.
-    beyond: Option<&'s TouchedAtStart<'s>>,
+    counts: Counts<'s>,
 }
 
 impl Pair3<'_> {
-    pub(super) fn first_touch_on(
-        &self,
-        on: &OnGround,
-        passage: &Passage,
-        beyond: Option<&TouchedAtStart>,
-    ) -> Option<Impact3> {
+    pub(super) fn first_touch_on(&self, on: &OnGround, passage: &Passage, counts: Counts) -> Option<Impact3> {
         if passage.is_still() {
             return self.overlaps_seen(on).then(|| self.touching_at_start());
         }
         let drift = if on.is_b { passage.drift } else { -passage.drift };
         let way = on.basis.turn_back(drift);
-        let mut search = Search { pair: self, on, passage, way, first: None, touches: false, beyond };
+        let mut search = Search { pair: self, on, passage, way, first: None, touches: false, counts };
         let reach = if passage.is_straight() { drift.length() } else { f64::INFINITY };
         on.for_body_parts(reach, |part| {
             search.over(part);
@@ -135,7 +129,7 @@ impl Search<'_> {
             End::Unclear(met, is_parting) => {
                 let parts = self.pair.parts(&self.passage.bases, parts[0], parts[1]);
                 if parts.convex.verdict().overlapping {
-                    self.touches = self.beyond.is_none();
+                    self.touches = self.counts.is_all();
                     return if self.touches { -1.0 } else { until };
                 }
                 if is_parting {
@@ -155,21 +149,18 @@ impl Search<'_> {
         self.until()
     }
 
-    /// Whether a touch is none that counts: with one-sided ground that the part comes out of, or with what is level
-    /// with what is touched at the start.
+    /// Whether a touch is none that counts, such as with one-sided ground that the part comes out of.
     fn is_passed(&self, first: &First, parts: [Part; 2]) -> bool {
         let is_one_sided = self.on.ground.is_one_sided();
-        if !is_one_sided && self.beyond.is_none() {
+        if !is_one_sided && self.counts.is_all() {
             return false;
         }
-        let (_, facing) = told(self.on, self.passage, first);
+        let (impact, facing) = told(self.on, self.passage, first);
         if is_one_sided && facing.is_left && self.stays_in_front(first, parts) {
             return true;
         }
-        self.beyond.is_some_and(|touched| {
-            let normal = if self.on.is_b { -facing.away } else { facing.away };
-            touched.lies(self.passage, parts, (first.met.fraction, normal)) == Lies::Level
-        })
+        let normal = if self.on.is_b { -facing.away } else { facing.away };
+        !self.counts.admits((self.passage, parts), (first.met.fraction, normal), || impact)
     }
 
     /// Whether a part's centre stays in front of the plane of a triangle that it leaves: what turns may come back, and
