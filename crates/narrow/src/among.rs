@@ -4,7 +4,7 @@
 //! yes or no             in the tree's order, until a pair overlaps
 //! how far               nearest parts first; of two of many, those that are no further apart than two that are near each other
 //! contacts              found by the tree, then in the order of the numbers: the same bits as by a loop over all parts
-//! moved bodies          found along the way, then as contacts
+//! moved bodies          found along the way, in legs where one turns, then as contacts
 //! rays                  in the order in which boxes are met; of equals, the lowest number
 //! ```
 //! Every pair that is found asks for itself whether it is near, as in a loop: the tree only leaves out what none would
@@ -50,11 +50,13 @@ pub(crate) fn many3(shape: &Shape3) -> Option<&Compound3> {
     }
 }
 
-/// Visits what a walk finds in the order of the numbers, until the visitor says to stop; returns whether it did.
+/// Visits what a walk finds in the order of the numbers, each once, until the visitor says to stop; returns whether it
+/// did.
 pub(crate) fn in_order(walk: impl FnOnce(&mut Vec<u32>), mut visit: impl FnMut(u32) -> bool) -> bool {
     with_list(&NUMBERS, |numbers| {
         walk(numbers);
         numbers.sort_unstable();
+        numbers.dedup();
         numbers.iter().any(|&number| visit(number))
     })
 }

@@ -45,6 +45,7 @@ mod beyond;
 mod counts;
 mod course;
 mod ground;
+mod legs;
 mod piece;
 mod ray;
 mod stretch;
@@ -60,7 +61,7 @@ use asunder_geometry::{Motion2, Pose2};
 use beyond::with_touched;
 use counts::Counts;
 use course::{Course, Touching, meeting};
-use piece::{Piece, for_pieces_along};
+use piece::{Piece, for_pieces_met};
 pub use ray::cast_ray2;
 use stretch::{Stretch, Travel};
 
@@ -254,11 +255,14 @@ impl Pair2<'_> {
         let whole_b = Piece::whole(self.shape_b);
         let mut first: Option<Impact2> = None;
         let mut end = 1.0;
-        for_pieces_along((self.shape_a, 0), stretch, &whole_b, |a| {
-            if meeting(stretch, [a, &whole_b], end).is_none() {
+        for_pieces_met((self.shape_a, 0), stretch, (&whole_b, 1.0), |a, from| {
+            if from > end || meeting(stretch, [a, &whole_b], end).is_none() {
                 return;
             }
-            for_pieces_along((self.shape_b, 1), stretch, a, |b| {
+            for_pieces_met((self.shape_b, 1), stretch, (a, end), |b, from| {
+                if from > end {
+                    return;
+                }
                 let touching = Course::new(stretch, [a, b], end).and_then(|course| course.first_touch());
                 // Of equals, the first pair counts.
                 let Some(touching) = touching.filter(|touching| first.is_none() || touching.at < end) else {

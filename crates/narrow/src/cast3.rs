@@ -8,6 +8,7 @@
 //! | half-space, any other | one height | [`onto_plane`] |
 //! | any two cores | one simplex all the way | [`march`] |
 //! | ground | its triangles, each as any two; which normal counts | [`ground`] |
+//! | what has many parts, and turns | those that may meet on the way, in straight legs | [`legs`] |
 //! | what is touched already, and has parts | those that are not, and not level with it | [`beyond`] |
 //! | two half-spaces; what touches at the start or stalls; all that turns | a distance, a step, a distance | [`advance`] |
 //!
@@ -27,6 +28,7 @@ mod beyond;
 mod boxes;
 mod counts;
 mod ground;
+mod legs;
 mod march;
 mod onto_plane;
 mod passage;
@@ -37,7 +39,7 @@ mod tests;
 use crate::answer::{Manifold3, Separation3};
 use crate::ground3::OnGround;
 use crate::impact3::Impact3;
-use crate::pair3::{Pair3, Part, for_parts_along};
+use crate::pair3::{Pair3, Part};
 use crate::touch::Touch3;
 use advance::{End, Met, advance};
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -264,15 +266,16 @@ impl Pair3<'_> {
         let mut is_asked = false;
         let whole_b = Part::whole(self.shape_b, &passage.bases[1]);
         let is_many = matches!(self.shape_b, Shape3::Compound(_));
-        let beside_b = || passage.region(0, self.shape_a, &whole_b);
-        let overlaps = for_parts_along(self.shape_a, &passage.bases[0], beside_b, |a| {
+        let overlaps = passage.for_parts_met((self.shape_a, 0), &whole_b, 1.0, |a, from| {
             let until = first.map_or(1.0, |known| known.fraction);
-            if is_many && passage.stretch([&a, &whole_b], until).is_none() {
+            if from > until || is_many && passage.stretch([&a, &whole_b], until).is_none() {
                 return false;
             }
-            let beside_a = || passage.region(1, self.shape_b, &a);
-            for_parts_along(self.shape_b, &passage.bases[1], beside_a, |b| {
+            passage.for_parts_met((self.shape_b, 1), &a, until, |b, from| {
                 let until = first.map_or(1.0, |known| known.fraction);
+                if from > until {
+                    return false;
+                }
                 let Some(stretch) = passage.stretch([&a, &b], until) else { return false };
                 let met = match part_end(passage, [a, b], &stretch, until) {
                     End::Apart => return false,

@@ -6,6 +6,7 @@ mod wheel;
 use super::piece::Piece;
 use super::stretch::Stretch;
 use super::{at_start, sum};
+use crate::counted::count_step;
 use crate::ground2::Surface;
 use crate::pair2::Pair2;
 use crate::polygon::distance::{Reached, Until, Witness, distance};
@@ -206,6 +207,7 @@ impl<'a> Course<'a> {
         let mut now = self.times[0];
         let mut axis = self.towards_b(now);
         for round in 1..=MAX_ROUNDS {
+            count_step();
             let Some(look) = self.look(now, axis) else {
                 let touching = self.too_close(now, axis);
                 let is_parting = now <= 0.0 && self.parts(touching.axis, ROUNDED);

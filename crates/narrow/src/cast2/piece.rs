@@ -1,9 +1,11 @@
 //! The convex parts of a body, as a cast sees them: where they are in the body, and how far they reach.
 
+use super::legs::Legs;
 use super::stretch::Stretch;
 use crate::among::{Region2, in_order, many2};
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Aabb2, Part2, Pose2, Shape2};
+use asunder_geometry::tolerance::CAST_GAP2;
+use asunder_geometry::{Aabb2, Compound2, Part2, Pose2, Shape2};
 
 /// A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
 const STRETCH: f64 = 1.0 + 4.0 * f32::EPSILON as f64;
@@ -67,22 +69,42 @@ pub(super) fn for_pieces<'a>(shape: &'a Shape2, mut visit: impl FnMut(&Piece<'a>
 }
 
 /// As [`for_pieces`], in the same order, but for those of a compound of many that certainly do not meet a piece of the
-/// other body within a stretch: pieces of A (0), or of B (1).
-pub(super) fn for_pieces_along<'a>(
+/// other body before a time of a stretch: pieces of A (0), or of B (1), each with a time before which it does not.
+pub(super) fn for_pieces_met<'a>(
     (shape, which): (&'a Shape2, usize),
     stretch: &Stretch,
-    other: &Piece,
+    (other, until): (&Piece, f64),
+    mut visit: impl FnMut(&Piece<'a>, f64),
+) {
+    // What has no end is everywhere.
+    let many = many2(shape).filter(|_| other.outer.is_finite());
+    let Some(compound) = many else { return for_pieces(shape, |piece| visit(piece, 0.0)) };
+    if !stretch.is_turning() {
+        return for_pieces_along((compound, which), stretch, (other, until), |piece| visit(piece, 0.0));
+    }
+    let legs = Legs::new(stretch, (compound, which), (other, until));
+    let visit_met = |index: u32| {
+        let piece = Piece::of(&compound.parts()[index as usize], index);
+        if let Some(from) = legs.first_meeting(piece.center, piece.outer) {
+            visit(&piece, from);
+        }
+        false
+    };
+    in_order(|numbers| legs.walk(compound, numbers), visit_met);
+}
+
+/// The same of a compound where nobody turns, and perhaps others of its pieces.
+fn for_pieces_along<'a>(
+    (compound, which): (&'a Compound2, usize),
+    stretch: &Stretch,
+    (other, until): (&Piece, f64),
     mut visit: impl FnMut(&Piece<'a>),
 ) {
-    let Some(compound) = many2(shape) else { return for_pieces(shape, visit) };
-    let (region, way) = region(stretch, which, &Piece::whole(shape), other);
-    if region.radius.is_infinite() {
-        return for_pieces(shape, visit);
-    }
+    let (region, way) = region(stretch, (compound, which), other);
     let walk = |numbers: &mut Vec<u32>| {
-        compound.visit_along(region.center, way, region.grown(way, compound), 1.0, |index| {
+        compound.visit_along(region.center, way, region.grown(way, compound), until, |index| {
             numbers.push(index);
-            1.0
+            until
         });
     };
     in_order(walk, |index| {
@@ -91,18 +113,16 @@ pub(super) fn for_pieces_along<'a>(
     });
 }
 
-/// Where the pieces of a body are when a stretch begins, in its own axes, that may meet a piece of the other, and how
-/// that moves.
-fn region(stretch: &Stretch, which: usize, body: &Piece, other: &Piece) -> (Region2, DVec2) {
-    let (own, others) = (&stretch.spins[which], &stretch.spins[1 - which]);
-    let center = others.turn_at(0.0).turn(other.center);
+/// Where the pieces of a compound are when a stretch begins, in its own axes, that may meet a piece of the other body,
+/// where nobody turns, and how that moves.
+fn region(stretch: &Stretch, (compound, which): (&Compound2, usize), other: &Piece) -> (Region2, DVec2) {
+    let [own, others] = [which, 1 - which].map(|i| stretch.spins[i].turn_at(0.0));
+    let center = others.turn(other.center);
     let (from, way) = match which {
         0 => (stretch.offset + center, -stretch.velocity),
         _ => (center - stretch.offset, stretch.velocity),
     };
-    // Where they are after that, they are no further from where they were than a chord.
-    let turned = others.chord() * other.center.length() + own.chord() * (body.center.length() + body.outer);
-    let turn = own.turn_at(0.0);
-    let radius = other.outer + turned + stretch.lost(1.0);
-    (Region2 { center: turn.turn_back(from), radius }, turn.turn_back(way))
+    let met = CAST_GAP2 * (other.outer + f64::from(compound.outer_radius()));
+    let radius = other.outer + met + 2.0 * stretch.lost(1.0);
+    (Region2 { center: own.turn_back(from), radius }, own.turn_back(way))
 }

@@ -1,6 +1,6 @@
 //! How two bodies move past each other, and how two of their parts stand at any moment of it.
 
-use crate::among::Region3;
+use crate::counted::count_step;
 use crate::level::Reach;
 use crate::pair3::{Pair3, Part};
 use crate::polyhedron::closest::Placed;
@@ -169,6 +169,7 @@ impl Passage {
     /// Whether the bounding spheres of two parts may meet until a fraction, by what they do while their bodies turn:
     /// from where they are, on to where they may meet at the earliest (as `advance`, of spheres).
     fn may_meet(&self, parts: [&Part; 2], until: f64) -> bool {
+        count_step();
         let arms = parts.map(|part| part.center.length());
         let local = |i: usize| self.bases[i].turn_back(parts[i].center);
         let locals = [local(0), local(1)];
@@ -198,12 +199,6 @@ impl Passage {
         true
     }
 
-    /// That of a ball about where a part's bounding sphere is at the start, which holds it at any time while its body
-    /// turns.
-    fn swept_radius(&self, i: usize, part: &Part) -> f64 {
-        f64::from(part.shape.outer_radius()) + self.chord(i) * part.center.length()
-    }
-
     /// How far an arm of unit length of a body goes while it turns, by poses whose rotations are rounded to f32.
     fn chord(&self, i: usize) -> f64 {
         self.turns[i].map_or(0.0, |turn| turn.chord() + 2.0 * f64::from(f32::EPSILON))
@@ -218,18 +213,6 @@ impl Passage {
         let drift = self.drift.length();
         let way = drift + self.chord(0) * arms[0] + self.chord(1) * arms[1];
         Reach::new(apart + radii, way, self.between.length() + drift + arms[0] + arms[1] + radii)
-    }
-
-    /// Where the parts of a body are, at the start, that may meet a part of the other, or all of it, and how that
-    /// moves: parts of A (0), or of B (1).
-    pub(super) fn region(&self, i: usize, body: &Shape3, other: &Part) -> (Region3, DVec3) {
-        let (center, way) = match i {
-            0 => (self.between + other.center, -self.drift),
-            _ => (other.center - self.between, self.drift),
-        };
-        let arm = f64::from(body.outer_radius()) + body.center().as_dvec3().length();
-        let turned = if arm.is_finite() { self.chord(i) * arm } else { 0.0 };
-        (Region3 { center, radius: self.swept_radius(1 - i, other) + turned + self.rounding }, way)
     }
 }
 

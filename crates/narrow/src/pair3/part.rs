@@ -109,23 +109,20 @@ pub(super) fn for_parts_near<'a>(
     compound.visit_near(&bounds, is_enough).is_break()
 }
 
-/// As [`for_parts_in`], of a region that moves on a way.
+/// Visits the parts of a compound in the order of their numbers, without those that are certainly outside a region that
+/// moves on a way, as far as a fraction of it; as the body's position sees it in world axes.
 pub(crate) fn for_parts_along<'a>(
-    shape: &'a Shape3,
+    compound: &'a Compound3,
     basis: &Basis3,
-    region: impl FnOnce() -> (Region3, DVec3),
+    (region, way): (Region3, DVec3),
+    until: f64,
     mut visit: impl FnMut(Part<'a>) -> bool,
 ) -> bool {
-    let Some(compound) = many3(shape) else { return for_parts(shape, basis, visit) };
-    let (region, way) = region();
-    if region.radius.is_infinite() {
-        return for_parts(shape, basis, visit);
-    }
     let (local, way) = (region.turned_back(basis), basis.turn_back(way));
     let walk = |numbers: &mut Vec<u32>| {
-        compound.visit_along(local.center, way, local.grown(way, compound), 1.0, |index| {
+        compound.visit_along(local.center, way, local.grown(way, compound), until, |index| {
             numbers.push(index);
-            1.0
+            until
         });
     };
     in_order(walk, |index| visit(Part::of(compound, index, basis)))
