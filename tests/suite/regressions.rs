@@ -10,6 +10,7 @@ mod needles;
 mod peers;
 mod points;
 mod rays;
+mod ridges;
 mod shapes;
 mod turned;
 mod wheels;

@@ -242,8 +242,8 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     /// Whether a body is solid from one side only.
     fn has_one_side(body: &crate::collider::Collider<Self>) -> bool;
     /// Where a ray that starts on a body of ground first goes through some of it, within so many lengths: of what it
-    /// starts on, at once, if that has one side, and it leads in there. On what has two sides, who is on it may leave to
-    /// either.
+    /// starts on, at once, if that has one side, and it leads in there. On what has two sides, who is on it may leave
+    /// to either.
     fn first_through(ray: &Self::Ray, limit: f64, body: &crate::collider::Collider<Self>) -> Option<f64>;
     /// A ray, if it is one.
     fn ray(origin: Self::Point, direction: Self::Point) -> Option<Self::Ray>;

@@ -200,3 +200,26 @@ fn whoever_starts_free_in_the_plane_ends_free_and_inside() {
     }
     assert!(walked > 5000 && met > 2000, "{walked} {met}");
 }
+
+/// Symptom: who dashed straight at a wall that leans over stopped there, and with a rise of a picometre slid 0.6 m down
+/// along it: so in levels turned by what f32 makes of an angle. Cause: any rise at all counted as one.
+#[test]
+fn a_rise_that_is_rounding_leads_nobody_down_an_overhang() {
+    let mut world = World2::new();
+    put(&mut world, [0.5, 4.0], [-2.0, 4.0], 19.5);
+    let [shape, _] = shapes();
+    let walk = Walk2::new(&shape, Vec2::Y).unwrap();
+    for from in [2.0, -6.0] {
+        let start = Pose2::at([from, 4.0]).unwrap();
+        let dash = |rise: f32| {
+            let way = Vec2::new(if from > 0.0 { -5.0 } else { 5.0 }, rise);
+            world.move_and_slide((&shape, &start), way, &walk, &Filter2::new())
+        };
+        let level = dash(0.0);
+        assert!(!level.walls.is_empty(), "{level:?}");
+        for rise in [-1e-6, -1e-12, 1e-12, 1e-9, 1e-6] {
+            let slide = dash(rise);
+            assert!((slide.moved - level.moved).length() < 1e-5, "{rise}: {slide:?} and {level:?}");
+        }
+    }
+}

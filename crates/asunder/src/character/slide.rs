@@ -239,7 +239,8 @@ impl<S: Walks> Mover<'_, S> {
             rise = rise.max(0.0);
         }
         let mut walls: Planes<S> = bounds.iter().filter_map(|bound| bound.wall).collect();
-        let is_rising = rise > 0.0;
+        // Not by what rounding makes of a level way.
+        let is_rising = rise > STANDSTILL * left.length();
         if !is_rising {
             self.add_walls_over(bounds, &mut walls);
         }

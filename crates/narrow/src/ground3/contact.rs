@@ -27,6 +27,10 @@
 //! around it: an edge gives a direction that leans towards neither face, a corner one that leans along none of its
 //! edges. What flat and concave edges would give is refused, and the triangle's own normal stands in.
 //!
+//! It tells nothing deep of a triangle that the part does not meet: what lies over a ridge, on one slope of a roof, is
+//! behind the other's plane, and by how much is no depth. Where the part is deep in ground that lies in the triangle's
+//! plane and hangs together with it, it leaves all of that at once, and its depth is that of the whole.
+//!
 //! That normal may be a bad one: of a box that leans over a cliff, a triangle of the cliff's top whose corner alone
 //! lies in the box is left by the box sideways along the cliff, which its neighbours refuse; straight up would throw
 //! the box onto the cliff. So triangles whose axis was refused wait until all others have been heard: where a move
@@ -379,11 +383,13 @@ impl Seen<'_> {
         }
     }
 
-    /// Adds points by a triangle's own normal. Where it is seen from behind, deep ones only if part and triangle meet:
-    /// what lies over a bend may be behind the plane of a triangle, and nowhere near the triangle itself.
+    /// Adds points by a triangle's own normal. Where it is seen from behind, or from in front by what is behind its
+    /// plane, deep ones only if part and triangle meet: what lies over a bend may be behind the plane of a triangle,
+    /// and nowhere near the triangle itself.
     fn add_where_met(&self, prism: &Prism, separation: f64, known: &mut Known) -> bool {
         let least = -(self.standing.slack + prism.doubt);
-        if prism.facet.is_front || separation >= least {
+        let is_clear = prism.facet.is_front && prism.facet.height(self.standing.center) >= 0.0;
+        if is_clear || separation >= least {
             return self.add_by_normal(prism, known);
         }
         let is_left_out = Cell::new(false);

@@ -126,6 +126,12 @@ impl Groups {
         group.map_or(f64::INFINITY, Group::found)
     }
 
+    /// Whether a point on a flat patch is deeper than the slack.
+    pub(super) fn is_deep_in(&self, patch: u32) -> bool {
+        let is_deep = |pin: &Pin| pin.of_ground == Feature::Face(patch) && pin.separation < -self.slack;
+        self.groups.iter().any(|group| group.pins.iter().any(is_deep))
+    }
+
     /// Adds a point. Cost: linear in the normals and in the points of its own.
     pub(super) fn add(&mut self, base: &Base, pin: Pin) {
         let slack = self.slack;

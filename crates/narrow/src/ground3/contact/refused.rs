@@ -19,6 +19,7 @@ use super::{Known, Seen};
 use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
+use core::cell::Cell;
 use core::f64::consts::FRAC_1_SQRT_2;
 
 /// A triangle whose axis was refused, and how the part stands over it.
@@ -63,7 +64,7 @@ impl Seen<'_> {
             prism.facet.has_own_plane() || Facet::seen(prism.ground, number, self.standing.center).is_some()
         };
         if !is_seen() || known.refused.try_push((number, refusal)).is_err() {
-            self.add_in_place(prism, refusal.told, known);
+            self.add_in_place(prism, refusal, known);
         }
     }
 
@@ -101,7 +102,7 @@ impl Seen<'_> {
             {
                 let refused = Refused { plane, refusal };
                 if !is_freed(&refused, known) {
-                    self.add_in_place(&self.prism_over(&refused.plane), refusal.told, known);
+                    self.add_in_place(&self.prism_over(&refused.plane), refusal, known);
                 }
             }
         }
@@ -148,10 +149,16 @@ impl Seen<'_> {
         nearest - over >= -outwards.dot(normal) * least - standing.slack
     }
 
-    /// Adds points by a triangle's own normal, in place of those along what was refused.
-    fn add_in_place(&self, prism: &Prism, told: Option<[f64; 2]>, known: &mut Known) {
-        self.add_by_normal(prism, known);
-        if let Some(told) = told {
+    /// Adds points by a triangle's own normal, in place of those along what was refused. Of one that a gap parts from
+    /// the part, none is deep: the part is beside it, and not in it. But where the part is deep in others of its plane
+    /// that hang together with it, it leaves all of them at once.
+    fn add_in_place(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
+        let is_left_out = Cell::new(false);
+        let is_deep = || known.groups.is_deep_in(prism.ground.patch(prism.facet.number));
+        let gate = (refusal.is_apart && !is_deep())
+            .then_some((-(self.standing.slack + prism.doubt), &is_left_out));
+        self.add_by_normal(&Prism { gate, ..*prism }, known);
+        if let Some(told) = refusal.told {
             known.groups.tell(prism.facet.normal, told);
         }
     }

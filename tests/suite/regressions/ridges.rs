@@ -1,0 +1,91 @@
+//! Bodies that lie over ridges: what they are told of the slope on the other side.
+
+use asunder::{
+    Capsule3, Collider3, Cuboid, Filter3, Hull, Manifold3, Pair3, Pose3, Shape3, TriMesh, Triangle3, World3,
+};
+use asunder_geometry::glam::{Quat, Vec2, Vec3};
+use asunder_geometry::{Ground, HeightField};
+use asunder_tests::cases::Random;
+
+/// Symptom: a plank that touches one slope of a roof was told to be 0.18 m deep in the other, which is 6 cm away, and
+/// `depenetrate` moved it by that. Cause: it is behind that slope's plane, over the ridge, and counts as in front of the
+/// ground; how far its lowest corner is below that plane was told as its depth, though it is nowhere near the slope.
+#[test]
+fn a_plank_on_one_slope_of_a_roof_is_not_in_the_other() {
+    let [one, other] = [-1.0, 1.0].map(|z| Vec3::new(0.0, 1.0, z));
+    let (left, right) = (Vec3::NEG_X, Vec3::X);
+    let roof = Shape3::from(TriMesh::new([one, other, left, right], [[0, 2, 1], [0, 1, 3]]).unwrap());
+    let plank = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.25, 0.5, 0.75)).unwrap());
+    let pose = Pose3::new([0.875, 1.375, 0.0], Quat::from_xyzw(1.0, 1.0, 1.0, 0.0)).unwrap();
+    let slope = Shape3::from(Triangle3::new(one, left, other).unwrap());
+    let distance = Pair3::new(&plank, &pose, &slope, &Pose3::IDENTITY).distance().unwrap();
+    assert!((distance.distance - 0.0559).abs() < 1e-4);
+    for margin in [0.0, 0.01, 0.05, 0.1, 1.0] {
+        let told = Pair3::new(&plank, &pose, &roof, &Pose3::IDENTITY).manifolds(margin);
+        assert!(!told.is_empty());
+        for Manifold3 { separation, error, .. } in told {
+            assert!(separation.abs() <= error || separation > 0.05, "{margin}: {separation} ± {error}");
+        }
+    }
+    let mut world = World3::new();
+    world.insert(Collider3::new(roof).fixed());
+    let freed = world.depenetrate((&plank, &pose), &Filter3::new());
+    assert!(freed.is_free && freed.moved.length() < 1e-3, "{freed:?}");
+}
+
+fn body(random: &mut Random) -> Shape3 {
+    let mut half = || random.between(0.1, 0.8) as f32;
+    let half = Vec3::new(half(), half(), half());
+    match random.below(4) {
+        0 => Capsule3::from_half_height(half.x, half.y).unwrap().into(),
+        1 => Hull::prism(half.x, half.y, 5).unwrap().into(),
+        _ => Cuboid::from_half_extents(half).unwrap().into(),
+    }
+}
+
+/// Steep hills, of one side or two.
+fn hills(random: &mut Random) -> HeightField {
+    let heights: Vec<f32> = (0..25).map(|_| random.between(-0.6, 0.6) as f32).collect();
+    let hills = HeightField::new(5, 5, heights, Vec2::ONE).unwrap();
+    if random.below(3) == 0 { hills.one_sided() } else { hills }
+}
+
+/// The same at any margin, of bodies lowered onto hills and pressed in by up to 5 cm. Along the normal of a face, what
+/// is told as deep is so in a triangle of that normal which the body overlaps, as the exact test of bare triangles has it.
+#[test]
+fn nothing_is_deep_in_a_slope_that_it_does_not_touch() {
+    let mut random = Random::new(0x21D6E);
+    let (mut deep, mut shallow) = (0, 0);
+    for case in 0..12_000 {
+        let (body, field) = (body(&mut random), hills(&mut random));
+        let hills = Shape3::from(field);
+        let at = [random.between(0.0, 4.0), 5.0, random.between(0.0, 4.0)];
+        let above = Pose3::new(at, random.quaternion()).unwrap();
+        let met = Pair3::new(&body, &above, &hills, &Pose3::IDENTITY).cast(Vec3::NEG_Y * 8.0);
+        let Some(met) = met else { continue };
+        let pressed = [0.001, 0.01, 0.05][case % 3];
+        let pose = above.shifted([0.0, -8.0 * met.fraction - pressed, 0.0]).unwrap();
+        let ground = Ground::of(&hills).unwrap();
+        let triangles: Vec<Triangle3> =
+            (0..ground.triangle_count()).filter_map(|number| ground.triangle(number)).collect();
+        for margin in [0.0, 0.02, 0.1, 0.4] {
+            for told in Pair3::new(&body, &pose, &hills, &Pose3::IDENTITY).manifolds(margin) {
+                // By less than that a part may be level with triangles beside the one that it is in.
+                if told.separation > -(1.5 * pressed + 0.02) as f32 {
+                    shallow += 1;
+                    continue;
+                }
+                let normal = told.normal.as_dvec3();
+                let mut own = triangles.iter().filter(|one| one.normals()[0].dot(normal).abs() > 0.9999);
+                let is_in = |one: &Triangle3| {
+                    let bare = Shape3::from(*one);
+                    Pair3::new(&body, &pose, &bare, &Pose3::IDENTITY).overlaps()
+                };
+                let is_of_a_face = own.clone().next().is_some();
+                assert!(!is_of_a_face || own.any(is_in), "{case}, margin {margin}: {body:?} {pose:?} {told:?}");
+                deep += usize::from(is_of_a_face);
+            }
+        }
+    }
+    assert!(deep > 0 && shallow > 20_000, "{deep} deep, {shallow} shallow");
+}
