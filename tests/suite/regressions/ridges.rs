@@ -82,7 +82,10 @@ fn nothing_is_deep_in_a_slope_that_it_does_not_touch() {
                     Pair3::new(&body, &pose, &bare, &Pose3::IDENTITY).overlaps()
                 };
                 let is_of_a_face = own.clone().next().is_some();
-                assert!(!is_of_a_face || own.any(is_in), "{case}, margin {margin}: {body:?} {pose:?} {told:?}");
+                assert!(
+                    !is_of_a_face || own.any(is_in),
+                    "{case}, margin {margin}: {body:?} {pose:?} {told:?}"
+                );
                 deep += usize::from(is_of_a_face);
             }
         }

@@ -155,8 +155,8 @@ impl Seen<'_> {
     fn add_in_place(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
         let is_left_out = Cell::new(false);
         let is_deep = || known.groups.is_deep_in(prism.ground.patch(prism.facet.number));
-        let gate = (refusal.is_apart && !is_deep())
-            .then_some((-(self.standing.slack + prism.doubt), &is_left_out));
+        let gate =
+            (refusal.is_apart && !is_deep()).then_some((-(self.standing.slack + prism.doubt), &is_left_out));
         self.add_by_normal(&Prism { gate, ..*prism }, known);
         if let Some(told) = refusal.told {
             known.groups.tell(prism.facet.normal, told);
