@@ -12,6 +12,7 @@ mod points;
 mod rays;
 mod ridges;
 mod shapes;
+mod stale;
 mod turned;
 mod wheels;
 

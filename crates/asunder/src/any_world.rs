@@ -23,7 +23,7 @@ use crate::world::{StaleKey, World};
 ///     assert_eq!((world.contacts().len(), world.candidates().len(), world.impacts().len()), (1, 1, 0));
 ///     assert!(world.contact(b, a).is_some_and(|contact| (contact.a, contact.b) == (a, b)));
 ///     assert!(world.is_touching(a, b) && world.touching(a).eq([b]) && world.candidates_of(b).eq([(a, b)]));
-///     assert_eq!(world.impacts_of(a).len(), 0);
+///     assert_eq!(world.impacts_of(a).count(), 0);
 ///     assert_eq!(world.contacts_of(a).next(), world.contact(a, b));
 ///     world.sleep(b)?;
 ///     assert!(world.get(b).is_some_and(Collider::is_asleep));
@@ -104,7 +104,7 @@ pub trait AnyWorld<S: Space> {
     fn impacts(&self) -> &[Hit<S::Key, S::Impact>];
 
     /// What one bullet ran into: [`World3::impacts_of`](crate::World3::impacts_of).
-    fn impacts_of(&self, bullet: S::Key) -> &[Hit<S::Key, S::Impact>];
+    fn impacts_of(&self, bullet: S::Key) -> impl Iterator<Item = &Hit<S::Key, S::Impact>> + Clone;
 }
 
 impl<S: Space> AnyWorld<S> for World<S> {
@@ -180,7 +180,7 @@ impl<S: Space> AnyWorld<S> for World<S> {
         &self.impacts
     }
 
-    fn impacts_of(&self, bullet: S::Key) -> &[Hit<S::Key, S::Impact>] {
+    fn impacts_of(&self, bullet: S::Key) -> impl Iterator<Item = &Hit<S::Key, S::Impact>> + Clone {
         self.hits_of(bullet)
     }
 }

@@ -117,12 +117,16 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    pub(crate) fn hits_of(&self, bullet: S::Key) -> &[Hit<S::Key, S::Impact>] {
-        let slot = slot_of(bullet);
+    pub(crate) fn hits_of(&self, bullet: S::Key) -> impl Iterator<Item = &Hit<S::Key, S::Impact>> + Clone {
+        // A stale key gets an empty range.
+        let slot = if self.bodies.contains_key(bullet) { slot_of(bullet) } else { u32::MAX };
         let before = self.impacts.partition_point(|hit| slot_of(hit.bullet) < slot);
         let later = &self.impacts[before..];
-        // A reused slot is another bullet's.
-        &later[..later.iter().take_while(|hit| hit.bullet == bullet).count()]
+        // A reused slot was another bullet's then, and the other body may have been removed since.
+        later
+            .iter()
+            .take_while(move |hit| hit.bullet == bullet)
+            .filter(|hit| self.bodies.contains_key(hit.other))
     }
 
     /// Motions that an update before has seen, and did not get to the end with: a hook panicked. All pairs of these

@@ -151,12 +151,13 @@ impl World<Volume> {
     /// bullet touches, like the next tile of a floor, is passed over:
     /// [`next_impact_beside`](crate::Pair3::next_impact_beside). The motions of both count: a ray, which sees bodies
     /// where they stand, may tell of another place.
+    /// A body removed since is still among them.
     pub fn impacts(&self) -> &[Hit3] {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update, by time; nothing for a stale key, or for what is no bullet. One
-    /// that had no motion itself is run into by what had. Cost: the logarithm of all impacts.
+    /// What one bullet ran into at the last update and is still there, by time; nothing for a stale key, or for what is
+    /// no bullet. One that had no motion itself is run into by what had. Cost: the logarithm of all impacts.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Motion3, Pose3, World3};
@@ -167,15 +168,17 @@ impl World<Volume> {
     /// let shot = world.insert(ball.bullet());
     /// world.set_motion(shot, Motion3::shift([9.0, 0.0, 0.0])?)?;
     /// world.update();
-    /// assert!(world.impacts_of(shot).iter().map(|hit| hit.other).eq([gate, wall]));
-    /// assert!(world.impacts_of(wall).is_empty(), "it is no bullet");
+    /// assert!(world.impacts_of(shot).map(|hit| hit.other).eq([gate, wall]));
+    /// assert!(world.impacts_of(wall).next().is_none(), "it is no bullet");
     ///
     /// world.set_motion(wall, Motion3::shift([-9.0, 0.0, 0.0])?)?;
     /// world.update();
-    /// assert!(world.impacts_of(shot).iter().map(|hit| hit.other).eq([wall]), "the shot stood");
+    /// assert!(world.impacts_of(shot).map(|hit| hit.other).eq([wall]), "the shot stood");
+    /// world.remove(wall);
+    /// assert_eq!((world.impacts_of(shot).count(), world.impacts().len()), (0, 1));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn impacts_of(&self, bullet: BodyKey3) -> &[Hit3] {
+    pub fn impacts_of(&self, bullet: BodyKey3) -> impl Iterator<Item = &Hit3> + Clone {
         self.hits_of(bullet)
     }
 
@@ -357,7 +360,7 @@ impl World<Volume> {
     ///     world.set_bullet(shot, is_bullet)?;
     ///     world.set_motion(shot, Motion3::shift([20.0, 0.0, 0.0])?)?;
     ///     world.update();
-    ///     assert_eq!(world.impacts_of(shot).iter().any(|hit| hit.other == wall), is_bullet);
+    ///     assert_eq!(world.impacts_of(shot).any(|hit| hit.other == wall), is_bullet);
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

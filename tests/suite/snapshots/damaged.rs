@@ -339,7 +339,7 @@ fn impacts_are_in_order() {
     world.update();
     let whole = serde_json::to_value(world.snapshot()).unwrap();
     let restored = judged(whole.clone()).unwrap();
-    assert!(bullets.iter().all(|&bullet| restored.impacts_of(bullet).len() == 2));
+    assert!(bullets.iter().all(|&bullet| restored.impacts_of(bullet).count() == 2));
     for (one, other) in [(0, 1), (2, 3), (0, 2), (1, 3), (0, 3)] {
         let mut changed = whole.clone();
         changed["content"]["impacts"].as_array_mut().unwrap().swap(one, other);
