@@ -4,11 +4,13 @@
 //! - [`rays`]: rays, through edges and vertices too
 //! - [`casts`]: what moves and turns; sides; normals over inner edges
 //! - [`onwards`]: what bodies run into next that touch ground already
+//! - [`fronts`]: whether anything is in the way, by fronts
 //! - [`worlds`]: worlds asked about ground, bullets, bad input
 //! - [`walks`]: characters on ground
 //! - [`peer`]: parry3d's word
 
 mod casts;
+mod fronts;
 mod onwards;
 mod overlaps;
 mod peer;

@@ -108,6 +108,30 @@ impl<'a> Pair2<'a> {
         self.verdict().overlapping
     }
 
+    /// Whether the shapes share a point, as contacts and characters see it: [`overlaps`](Self::overlaps), but of a
+    /// one-sided chain only the runs whose front the middle of a part is on. Two chains see each other from all sides.
+    /// Exact, and no more than a yes or no.
+    ///
+    /// ```
+    /// use asunder_geometry::{Chain, Circle, Pose2, Shape2, glam::Vec2};
+    /// use asunder_narrow::Pair2;
+    /// let floor = Shape2::from(Chain::open([Vec2::X, Vec2::NEG_X])?.one_sided());
+    /// let (ball, here) = (Shape2::from(Circle::new(0.5)?), Pose2::IDENTITY);
+    /// let (above, below) = (Pose2::at([0.0, 0.25])?, Pose2::at([0.0, -0.25])?);
+    /// assert!(Pair2::new(&ball, &above, &floor, &here).overlaps_front());
+    /// let behind = Pair2::new(&ball, &below, &floor, &here);
+    /// assert_eq!((behind.overlaps_front(), behind.overlaps()), (false, true));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn overlaps_front(&self) -> bool {
+        let has_one_side = |shape: &Shape2| matches!(shape, Shape2::Chain(chain) if chain.is_one_sided());
+        if has_one_side(self.shape_a) || has_one_side(self.shape_b) {
+            self.overlaps_seen()
+        } else {
+            self.overlaps()
+        }
+    }
+
     /// [`overlaps`](Self::overlaps), and the tier of precision that settled it.
     ///
     /// ```

@@ -101,6 +101,33 @@ impl<'a> Pair3<'a> {
         self.verdict().overlapping
     }
 
+    /// Whether the shapes share a point, as contacts and characters see it: [`overlaps`](Self::overlaps), but of
+    /// one-sided ground only the triangles whose front the middle of a part is on. Two grounds see each other from all
+    /// sides. Exact, and no more than a yes or no.
+    ///
+    /// ```
+    /// use asunder_geometry::{Pose3, Shape3, Sphere, TriMesh, glam::Vec3};
+    /// use asunder_narrow::Pair3;
+    /// let floor = TriMesh::new([Vec3::ZERO, Vec3::Z, Vec3::X], [[0, 1, 2]])?;
+    /// let (floor, here) = (Shape3::from(floor.one_sided()), Pose3::IDENTITY);
+    /// let ball = Shape3::from(Sphere::new(0.5)?);
+    /// let (above, below) = (Pose3::at([0.25, 0.25, 0.25])?, Pose3::at([0.25, -0.25, 0.25])?);
+    /// assert!(Pair3::new(&ball, &above, &floor, &here).overlaps_front());
+    /// let behind = Pair3::new(&ball, &below, &floor, &here);
+    /// assert_eq!((behind.overlaps_front(), behind.overlaps()), (false, true));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn overlaps_front(&self) -> bool {
+        match OnGround::of(self) {
+            // Contacts and casts tell a middle that is in a front's plane up to rounding by other roundings of that
+            // plane: this goes with contacts.
+            Some(on) if on.ground.is_one_sided() && !on.body.is_ground() => {
+                self.contact(0.0, Hint::NONE, None).1 == Ok(true)
+            }
+            _ => self.overlaps(),
+        }
+    }
+
     /// [`overlaps`](Self::overlaps), and the tier of precision that settled it.
     ///
     /// ```

@@ -174,26 +174,14 @@ pub(super) fn near<S: Walks>(
     found
 }
 
-/// Whether the shape overlaps anything that sees it; exact.
+/// Whether the shape overlaps anything that sees it, of one-sided ground a front; exact.
 pub(super) fn is_overlapping<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
-    is_any(world, at, filter, |body| blocks(at, body))
+    is_any(world, at, filter, |body| S::overlaps_front(at, body))
 }
 
 /// The same after a way that casts have led: what has one side may have been passed from behind, and sees it only now.
 pub(super) fn has_entered<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
-    is_any(world, at, filter, |body| !S::has_one_side(body) && blocks(at, body))
-}
-
-/// Whether a shape overlaps a body that sees it: of one-sided ground, a front. Two grounds see each other from all
-/// sides.
-fn blocks<S: Walks>(at: At<'_, S>, body: &Collider<S>) -> bool {
-    if S::is_ground(&body.shape) && !S::is_ground(at.0) {
-        let mut is_deep = false;
-        S::gaps(at, body, 0.0, |plane| is_deep |= plane.gap <= 0.0);
-        is_deep
-    } else {
-        S::overlaps(at, body)
-    }
+    is_any(world, at, filter, |body| !S::has_one_side(body) && S::overlaps(at, body))
 }
 
 fn is_any<S: Walks>(

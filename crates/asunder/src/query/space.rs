@@ -45,6 +45,8 @@ pub(crate) trait Asked: Space {
     fn point(at: Self::Point) -> Option<(Self::Shape, Self::Pose)>;
     /// Whether the body shares a point with the shape; exact.
     fn overlaps(at: Posed<'_, Self>, body: &Collider<Self>) -> bool;
+    /// The same, but of one-sided ground a front alone.
+    fn overlaps_front(at: Posed<'_, Self>, body: &Collider<Self>) -> bool;
     /// Appends what the body is to a shape that overlaps it.
     fn add_touches(at: Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Self::Touch>);
     /// Hands over the manifolds of the shape with a body that are within the margin, one by one.
@@ -110,6 +112,10 @@ impl Asked for Plane {
 
     fn overlaps((shape, pose): Posed<'_, Self>, body: &Collider<Self>) -> bool {
         Pair2::new(shape, pose, &body.shape, &body.pose).overlaps()
+    }
+
+    fn overlaps_front((shape, pose): Posed<'_, Self>, body: &Collider<Self>) -> bool {
+        Pair2::new(shape, pose, &body.shape, &body.pose).overlaps_front()
     }
 
     fn add_touches((shape, pose): Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Touch2>) {
@@ -235,6 +241,10 @@ impl Asked for Volume {
 
     fn overlaps((shape, pose): Posed<'_, Self>, body: &Collider<Self>) -> bool {
         Pair3::new(shape, pose, &body.shape, &body.pose).overlaps()
+    }
+
+    fn overlaps_front((shape, pose): Posed<'_, Self>, body: &Collider<Self>) -> bool {
+        Pair3::new(shape, pose, &body.shape, &body.pose).overlaps_front()
     }
 
     fn add_touches((shape, pose): Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Touch3>) {

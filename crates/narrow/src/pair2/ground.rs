@@ -12,7 +12,7 @@ use super::{Pair2, Part, Parts, Place, for_parts};
 use crate::answer::{Tier, Verdict};
 use crate::counted::count_step;
 use crate::feature::Hint;
-use crate::ground2::Zone;
+use crate::ground2::{Surface, Zone};
 use crate::least::Least;
 use crate::polygon::measure::{Asked, Near, Probe};
 use crate::precision::round_down;
@@ -29,7 +29,7 @@ impl Pair2<'_> {
 
     pub(super) fn verdict_on_ground(&self) -> Verdict {
         let mut tier = Tier::Bound;
-        let overlapping = self.any_on_ground(|parts| {
+        let overlapping = self.any_on_ground(false, |parts| {
             let verdict = parts.convex.verdict();
             tier = tier.max(verdict.tier);
             verdict.overlapping
@@ -38,17 +38,26 @@ impl Pair2<'_> {
     }
 
     pub(super) fn guess_on_ground(&self) -> bool {
-        self.any_on_ground(|parts| parts.convex.guess())
+        self.any_on_ground(false, |parts| parts.convex.guess())
     }
 
-    /// Whether the answer is yes for any segment and any part of the other shape, of those whose boxes meet.
-    fn any_on_ground(&self, mut ask: impl FnMut(&Parts) -> bool) -> bool {
+    /// Whether any part overlaps a segment of a run that sees it.
+    pub(super) fn overlaps_seen(&self) -> bool {
+        self.any_on_ground(true, |parts| parts.convex.verdict().overlapping)
+    }
+
+    /// Whether the answer is yes for any segment and any part of the other shape, of those whose boxes meet. Two grounds
+    /// see each other from all sides.
+    fn any_on_ground(&self, only_seen: bool, mut ask: impl FnMut(&Parts) -> bool) -> bool {
+        let only_seen = only_seen && !(self.shape_a.is_ground() && self.shape_b.is_ground());
         let near = |zone: &Zone, bounds: &Aabb2| zone.gap(bounds) <= 0.0;
         let mut among = |side: usize, chain: &Chain, other: Part| {
             let zone = self.zone(side, &other);
             let visit = |segment| {
-                let is_met = self.with_segment(side, chain, (segment, other), |parts| ask(&parts));
-                if is_met == Some(true) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                let is_meant = !only_seen || self.is_seen((side, chain), segment, &other);
+                let mut is_met =
+                    || self.with_segment(side, chain, (segment, other), |parts| ask(&parts)) == Some(true);
+                if is_meant && is_met() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
             chain.visit_where(|bounds| near(&zone, bounds), visit).is_break()
         };
@@ -67,6 +76,15 @@ impl Pair2<'_> {
             (other, Shape2::Chain(b)) => for_parts(other, &self.turn_a, |part| among(1, b, part)),
             _ => false,
         }
+    }
+
+    /// Whether a segment's run is seen by a part: of one-sided ground, its front.
+    fn is_seen(&self, (side, chain): (usize, &Chain), segment: u32, part: &Part) -> bool {
+        let [chain_at, body_at] =
+            if side == 0 { [DVec2::ZERO, self.between] } else { [self.between, DVec2::ZERO] };
+        let turn = if side == 0 { &self.turn_a } else { &self.turn_b };
+        let run = chain.run_of(segment);
+        run.and_then(|run| Surface::new(chain, &run, (turn, chain_at), part.middle(body_at))).is_some()
     }
 
     /// The segment and part with the least separation, or a bound where all are beyond the limit.
