@@ -36,8 +36,8 @@ pub enum Event<K> {
         /// Whether either is a sensor.
         sensor: bool,
     },
-    /// A contact that had begun is gone: the bodies are further apart than their margins, or may not meet any more,
-    /// or one was disabled, removed, or given another shape with which they do not overlap.
+    /// A contact that had begun is gone: the bodies are further apart than their margins, having moved or been given
+    /// other shapes, or may not meet any more, or one was disabled or removed.
     Ended {
         /// The body in the lower slot. Its key may be stale by now.
         a: K,
