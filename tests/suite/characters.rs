@@ -8,5 +8,6 @@ mod plane;
 mod pressed;
 mod rooms;
 pub(crate) mod stage;
+mod standing_up;
 mod walking;
 mod walls;

@@ -64,7 +64,9 @@ impl World<Volume> {
 
     /// Whether a shape overlaps no solid, exactly, as [`depenetrate`](World::depenetrate) and
     /// [`move_and_slide`](World::move_and_slide) see it: touching counts as overlapping, and one-sided ground that it
-    /// is behind is nothing that it overlaps. Whether there is room to stand up, say. Cost: a query for boxes, and a
+    /// is behind is nothing that it overlaps. So it does not tell whether there is room to stand up: under a low
+    /// one-sided ceiling the middle of who stands is behind that. Before the shape grows, cast the crouching one
+    /// upwards by the difference in height: [`characters`](crate::guide::characters). Cost: a query for boxes, and a
     /// yes or no for each body met.
     ///
     /// ```
