@@ -135,6 +135,10 @@ impl World<Plane> {
     /// motions can bring them. For a [`bullet`](Collider2::bullet) there are [`impacts`](Self::impacts) too. A pair
     /// with a sensor has no speculative contact; impacts do include sensors.
     ///
+    /// One-sided chains have no speculative contact with a part whose middle is behind their front now, before the
+    /// motions. An impact asks for that side where the two first touch: so who comes up beside the tip of a ledge may
+    /// be told an impact with it, and no contact.
+    ///
     /// A body that sleeps is woken. Of a compound, every part within that reach has a manifold: thousands of parts
     /// are better put into the world as bodies of their own, with one owner.
     ///

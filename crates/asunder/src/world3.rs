@@ -135,6 +135,9 @@ impl World<Volume> {
     /// motions can bring them. For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too. A pair
     /// with a sensor has no speculative contact; impacts do include sensors.
     ///
+    /// A one-sided triangle of ground has neither a speculative contact nor an impact with a part that is clear of it
+    /// and whose middle is behind its front now, before the motions: who comes up beside the edge of a ledge passes it.
+    ///
     /// A body that sleeps is woken. Of a compound, every part within that reach has a manifold: thousands of parts
     /// are better put into the world as bodies of their own, with one owner.
     ///

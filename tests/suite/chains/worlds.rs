@@ -1,10 +1,10 @@
 //! Worlds with chains in them.
 
 use super::{at, chain, cut_line, sliders};
-use asunder::glam::{DVec2, Vec2};
+use asunder::glam::{DVec2, Vec2, Vec3};
 use asunder::{
-    Chain, Circle, Collider2, Compound2, CompoundError, DebugOptions, Event, Filter2, MassError, Pose2, Ray2,
-    Shape2, Snapshot, World2,
+    Chain, Circle, Collider2, Collider3, Compound2, CompoundError, DebugOptions, Event, Filter2, MassError,
+    Motion2, Motion3, Pose2, Pose3, Ray2, Shape2, Snapshot, Sphere, TriMesh, World2, World3,
 };
 
 /// Ground of some four hundred segments that looks up.
@@ -148,4 +148,30 @@ fn ground_is_no_part_and_has_no_mass() {
     let ball: Shape2 = Circle::new(1.0).unwrap().into();
     let refused = Compound2::new([(Pose2::IDENTITY, ball), (Pose2::IDENTITY, ground)]);
     assert_eq!(refused, Err(CompoundError::Ground { index: 1 }));
+}
+
+/// A bullet that jumps past the tip of a one-sided ledge, from below. A chain asks for the side when the two first
+/// touch, a mesh at the start of the motion, and speculative contacts as everything stands now.
+#[test]
+fn who_comes_up_beside_the_tip_of_a_ledge_runs_into_a_chain_and_passes_a_mesh() {
+    let mut world = World2::new();
+    let ledge =
+        world.insert(Collider2::new(Chain::open([Vec2::X * 2.0, Vec2::X * 0.5]).unwrap().one_sided()));
+    let bullet = Collider2::new(Circle::new(0.5).unwrap()).bullet().at(Pose2::at([-0.75, -1.0]).unwrap());
+    let bullet = world.insert(bullet);
+    world.set_motion(bullet, Motion2::shift([1.0, 1.4]).unwrap()).unwrap();
+    world.update();
+    let hit = *world.impacts_of(bullet).next().unwrap();
+    assert!(hit.other == ledge && (hit.impact.fraction - 0.753).abs() < 0.001, "{hit:?}");
+    assert!(world.contact(ledge, bullet).is_none(), "its middle is below the ledge's line now");
+
+    let corners = [[0.5, 0.0, -5.0], [0.5, 0.0, 5.0], [5.0, 0.0, 5.0], [5.0, 0.0, -5.0]].map(Vec3::from);
+    let ledge = TriMesh::new(corners, [[0, 1, 2], [0, 2, 3]]).unwrap().one_sided();
+    let mut world = World3::new();
+    let ledge = world.insert(Collider3::new(ledge));
+    let bullet = Collider3::new(Sphere::new(0.5).unwrap()).bullet();
+    let bullet = world.insert(bullet.at(Pose3::at([-0.75, -1.0, 0.0]).unwrap()));
+    world.set_motion(bullet, Motion3::shift([1.0, 1.4, 0.0]).unwrap()).unwrap();
+    world.update();
+    assert!(world.impacts().is_empty() && world.contact(ledge, bullet).is_none());
 }
