@@ -112,9 +112,8 @@ fn share_before_ground<S: Walks>(
         // Who goes all of the way stays as far from what lies beyond.
         let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
             let ground = world.bodies.get(hit.body).filter(|body| S::is_ground(&body.shape));
-            let through = ground.and_then(|body| match hit.inside {
-                true => S::first_through(&ray, 1.0 + before, body),
-                false => Some(hit.distance),
+            let through = ground.and_then(|body| {
+                if hit.inside { S::first_through(&ray, 1.0 + before, body) } else { Some(hit.distance) }
             });
             share = through.map_or(share, |at| share.min((at - before).max(0.0)));
             ControlFlow::Continue(())

@@ -45,8 +45,8 @@ impl World<Volume> {
     /// body. Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up
     /// to sixteen times. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried
     /// whose deepest overlap was shallowest. No path is looked for: a shape in a thin wall may come out on the other
-    /// side. Only through meshes, height fields and chains no push takes a convex part's middle, unless from behind where
-    /// they have one side. Cost: a round is a query for boxes, and a manifold for each body met.
+    /// side. Only through meshes and height fields no push takes a convex part's middle, unless from behind where they
+    /// have one side. Cost: a round is a query for boxes, and a manifold for each body met.
     ///
     /// ```
     /// use asunder::{Sphere, Cuboid, Collider3, Filter3, Pose3, Shape3, World3, glam::Vec3};

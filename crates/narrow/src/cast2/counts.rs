@@ -67,9 +67,8 @@ impl Pair2<'_> {
             return None;
         }
         if first.overlapping {
-            let known = |impact: &Impact2| counts(impact);
             let touched =
-                with_manifolds2(self, 0.0, |manifolds| manifolds.iter().filter_map(at_start).find(known));
+                with_manifolds2(self, 0.0, |manifolds| manifolds.iter().filter_map(at_start).find(&counts));
             if touched.is_some() {
                 return touched;
             }

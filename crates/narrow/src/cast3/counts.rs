@@ -69,8 +69,8 @@ impl Pair3<'_> {
             return None;
         }
         if first.overlapping {
-            let known = |impact: &Impact3| counts(impact);
-            let touched = with_manifolds3(self, 0.0, |manifolds| manifolds.iter().map(at_start).find(known));
+            let touched =
+                with_manifolds3(self, 0.0, |manifolds| manifolds.iter().map(at_start).find(&counts));
             if touched.is_some() {
                 return touched;
             }

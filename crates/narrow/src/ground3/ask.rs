@@ -24,6 +24,7 @@ use super::ask_box::Corners;
 use super::ask_sides::sphere_of;
 use super::near::{OnGround, grown_around};
 use crate::answer::{Closest3, Measured3, Separation3, Tier, Verdict};
+use crate::counted::count_step;
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::pair3::{Pair3, Part, Parts, for_parts};
@@ -100,6 +101,7 @@ impl Pair3<'_> {
         on.for_body_parts(0.0, |part| {
             let placed = Corners::of(on, part);
             let flow = on.ground.visit_near(&placed.bounds(0.0, part), |number| {
+                count_step();
                 let corners = on.ground.corners(number);
                 let beside = placed.beside(corners);
                 let is_meant =

@@ -101,6 +101,7 @@ mod standing;
 mod unsaid;
 
 use super::OnGround;
+use crate::counted::count_step;
 use crate::pair3::{Pair3, Part, for_parts, reach_of};
 use crate::polyhedron::solid::Solid;
 use crate::room::Room;
@@ -281,6 +282,7 @@ impl Known {
 impl Seen<'_> {
     /// Looks at one triangle; `plane` is that of the one before.
     fn look_at(&self, near: &NearTriangle, plane: &mut Option<Plane>, known: &mut Known) {
+        count_step();
         if self.is_ball {
             return self.look_at_from_ball(near.number, known);
         }
