@@ -7,7 +7,7 @@
 //! - [`refusals`]: what is no convex shape and no pose is refused, by an error that names the place
 //! - [`poses`]: poses in the axes of others take points where one after the other does
 //! - [`bounds`]: the box around a posed shape holds it, and is no wider than rounding needs
-//! - [`hulls`]: parry3d's vertices, errors that hold, and clouds of 65,535 points
+//! - [`hulls`]: parry3d's vertices, and errors that hold
 //! - [`polygons`]: hulls of points in the plane, simplified ones, and outlines cut into convex parts, against exact
 //!   integers
 //! - [`fuzzed`]: the fuzz targets' bodies, on tens of thousands of seeded strings

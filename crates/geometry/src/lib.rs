@@ -14,6 +14,7 @@ mod circle;
 mod compound;
 mod copied;
 mod cores;
+mod counted;
 mod cuboid;
 mod decompose;
 mod direction;

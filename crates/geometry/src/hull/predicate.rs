@@ -3,6 +3,7 @@
 //! Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997). Exact for all
 //! finite f32: products of three of them neither overflow nor underflow in f64.
 
+use crate::counted::count_step;
 use glam::{DVec3, Vec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
@@ -64,6 +65,7 @@ pub(super) fn planar_hull(points: &[Vec3], in_plane: &[u32], triangle: [u32; 3])
     for chain in [forwards, sorted] {
         let floor = hull.len();
         for i in chain {
+            count_step();
             while hull.len() >= floor + 2 && turn(hull[hull.len() - 2], hull[hull.len() - 1], i) <= 0.0 {
                 hull.pop();
             }

@@ -17,6 +17,7 @@
 use super::HullError;
 use super::loops::Loops;
 use super::predicate::{Filter, affine_basis, is_collinear, outside, planar_hull};
+use crate::counted::count_step;
 use crate::tolerance::MAX_HULL_VERTICES;
 use core::cmp::Reverse;
 use glam::{DVec3, Vec3};
@@ -218,6 +219,7 @@ impl<'a> Growth<'a> {
         let place = self.points[point as usize];
         let mut found: Option<(f64, usize)> = None;
         for (index, triangle) in self.triangles.iter().enumerate().skip(first_new) {
+            count_step();
             if self.measure == Measure::Height {
                 let height = triangle.reach(place) * triangle.per_length;
                 let is_better = found.is_none_or(|best| height > best.0);
@@ -246,6 +248,7 @@ impl<'a> Growth<'a> {
         let mut next = 0;
         while next < seen.len() {
             for neighbour in self.triangles[seen[next] as usize].neighbours {
+                count_step();
                 let triangle = &self.triangles[neighbour as usize];
                 if !triangle.is_dropped && self.is_outside(triangle, apex) {
                     self.triangles[neighbour as usize].is_dropped = true;
@@ -305,6 +308,7 @@ impl<'a> Growth<'a> {
             let mut next = 0;
             while next < region.len() {
                 for across in self.triangles[region[next] as usize].neighbours {
+                    count_step();
                     if !is_taken[across as usize] && self.is_coplanar(seed, across) {
                         is_taken[across as usize] = true;
                         region.push(across);
@@ -361,6 +365,7 @@ impl<'a> Growth<'a> {
         let to = |triangle| self.distance_to(triangle, self.points[point as usize]);
         let (mut at, mut least) = (start, to(start));
         while least > enough {
+            count_step();
             let neighbours = self.triangles[at].neighbours.map(|neighbour| neighbour as usize);
             let nearer = neighbours
                 .map(|neighbour| (to(neighbour), neighbour))

@@ -1,5 +1,6 @@
 mod clouds;
 mod holding;
+mod large;
 #[cfg(feature = "serde")]
 mod restored;
 
