@@ -101,7 +101,11 @@ fn begin_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) -> bool {
     }
     records.begin_at(candidates.firsts().iter().copied());
     settled.iter_mut().for_each(Settled::wake);
-    core::mem::replace(is_settled, true) && goes_on
+    let were_settled = core::mem::replace(is_settled, true);
+    if !were_settled {
+        settled.iter_mut().for_each(|settled| settled.tally.forget());
+    }
+    were_settled && goes_on
 }
 
 /// Of chunks in which nothing can have changed, takes last update's lists as they are.

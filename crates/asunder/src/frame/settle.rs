@@ -50,8 +50,12 @@ pub(crate) struct Settled<S: Space> {
 /// What is told of a chunk's records without reading them again: they are large, and far away by then.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
-    /// The second body of each.
+    /// The second body of each; while they are counted, those of the last count behind them.
     pub(super) seconds: Vec<u32>,
+    /// So many were counted.
+    counted: usize,
+    /// Whether the second bodies are others than those of the last count.
+    pub(super) has_others: bool,
     /// Pairs that were asked about.
     pub(super) asked: usize,
     pub(super) new: usize,
@@ -60,16 +64,32 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    fn clear(&mut self) {
-        self.seconds.clear();
+    fn begin(&mut self) {
+        (self.counted, self.has_others) = (0, false);
         (self.asked, self.new, self.touching, self.manifolds) = (0, 0, 0, 0);
     }
 
+    #[inline]
     fn count<K>(&mut self, record: &Record<K>) {
-        self.seconds.push(record.pair.b);
+        if self.seconds.get(self.counted) != Some(&record.pair.b) {
+            self.seconds.truncate(self.counted);
+            self.seconds.push(record.pair.b);
+            self.has_others = true;
+        }
+        self.counted += 1;
         self.new += usize::from(record.is_new);
         self.touching += usize::from(record.overlapping);
         self.manifolds += record.manifolds.count();
+    }
+
+    fn end(&mut self) {
+        self.has_others |= self.counted < self.seconds.len();
+        self.seconds.truncate(self.counted);
+    }
+
+    /// What was counted last is of another world.
+    pub(super) fn forget(&mut self) {
+        self.seconds.clear();
     }
 }
 
@@ -91,8 +111,13 @@ impl<S: Space> Default for Settled<S> {
 }
 
 impl<S: Space> Settled<S> {
-    /// Of what was handed over, keeps the memory.
+    /// Of what was handed over, keeps the memory: of a chunk that is none any more.
     pub(super) fn clear(&mut self) {
+        self.start_over();
+        self.tally.end();
+    }
+
+    fn start_over(&mut self) {
         self.pairs.clear();
         self.are_noted = false;
         self.ways.clear();
@@ -100,12 +125,12 @@ impl<S: Space> Settled<S> {
         self.kept.clear();
         self.vacated.clear();
         self.bullets.clear();
-        self.tally.clear();
+        self.tally.begin();
     }
 
     /// Begins with a chunk of these pairs, which are noted if it may go on in the next update.
     pub(super) fn begin_with(&mut self, pairs: &[PairId], may_go_on: bool) {
-        self.clear();
+        self.start_over();
         self.are_noted = may_go_on;
         if may_go_on {
             self.pairs.extend_from_slice(pairs);
@@ -129,6 +154,7 @@ impl<S: Space> Settled<S> {
     pub(super) fn keep_quiet(&mut self) {
         self.is_quiet = true;
         self.tally.asked = 0;
+        self.tally.has_others = false;
     }
 
     #[inline]
@@ -221,6 +247,7 @@ impl<S: Space> Asker<'_, S> {
             };
         }
         settled.tally.asked = next;
+        settled.tally.end();
         // Those that are gone came first. Numbers ascend as pairs do.
         settled.ended.sort_unstable();
     }
