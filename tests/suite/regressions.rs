@@ -1,5 +1,6 @@
 //! What went wrong once, as the smallest scene that shows it: symptom, cause, scene.
 
+mod bends;
 mod blades;
 mod close;
 mod grids;

@@ -46,9 +46,13 @@ impl<P> Least<P> {
     }
 
     /// Whether parts at least so far apart are no nearer than the nearest so far but for its error, and need no looking
-    /// at.
+    /// at. Where that one is a hair away, others may overlap within the error: they are looked at, since the sign is
+    /// exact.
     pub(crate) fn is_no_less(&self, at_least: f64) -> bool {
-        self.best.as_ref().is_some_and(|best| at_least >= f64::from(best.separation) - f64::from(best.error))
+        self.best.as_ref().is_some_and(|best| {
+            at_least >= f64::from(best.separation) - f64::from(best.error)
+                && (at_least > 0.0 || best.separation <= 0.0)
+        })
     }
 
     /// Parts that turned out to be at least so far apart, and that beyond reach.
@@ -125,6 +129,17 @@ mod tests {
         least.offer("measured", 1.125, 0.0);
         assert_eq!(least.finish(), Ok(("measured", 0.0)));
         assert_eq!(Least::<&str>::within(1.0).finish(), Err(f32::INFINITY));
+    }
+
+    #[test]
+    fn within_the_error_nothing_is_nearer_unless_it_may_overlap() {
+        let mut least = Least::within(f64::INFINITY);
+        least.offer("away", 1.0, 0.5);
+        assert!(least.is_no_less(0.75) && !least.is_no_less(0.25));
+        least.offer("a hair away", 1e-9, 1e-6);
+        assert!(least.is_no_less(1e-12) && !least.is_no_less(0.0) && !least.is_no_less(-1e-12));
+        least.offer("touching", 0.0, 1e-6);
+        assert!(least.is_no_less(0.0) && least.is_no_less(-1e-12));
     }
 
     #[test]

@@ -1,0 +1,37 @@
+//! Ground that bends by a hair: by less than rounding at its size.
+
+use asunder_geometry::{Hull, Pose3, Shape3, TriMesh};
+use asunder_narrow::{Pair3, Separation3};
+use asunder_tests::cases::Random;
+use glam::{DVec3, Vec3};
+
+fn mesh(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Shape3 {
+    TriMesh::new(vertices, triangles).unwrap().into()
+}
+
+/// Symptom: of a prism that stood on a floor whose vertices are off by 1e-30 to 1e-15 m, the separation was above zero
+/// and the distance not none, though the two overlapped. Cause: triangles no nearer than the nearest so far, but for its
+/// error, were left out even where that one was a hair away and they were touched.
+#[test]
+fn what_touches_one_triangle_and_is_a_hair_off_the_next_is_not_apart() {
+    let mut random = Random::new(5);
+    let prism = Shape3::from(Hull::prism(1.0, 0.5, 6).unwrap());
+    let hairs = [0.0, 0.0, 1e-30, -1e-30, 1e-20, -1e-20, 1e-15, -1e-15];
+    let corners = [[-1, -1], [0, -1], [-1, 0], [0, 0], [1, 0], [1, -1]];
+    let (mut touched, mut apart) = (0, 0);
+    for _ in 0..4000 {
+        let vertex = |[x, z]: [i32; 2]| Vec3::new(x as f32, random.pick(&hairs), z as f32);
+        let floor = mesh(corners.map(vertex).into(), vec![[0, 2, 1], [1, 2, 3], [1, 3, 4], [1, 4, 5]]);
+        let mut along = || random.between(-1.2, 1.2);
+        let at = Pose3::at(DVec3::new(along(), 1.0, along() - 0.5)).unwrap();
+        let pair = Pair3::new(&floor, &Pose3::IDENTITY, &prism, &at);
+        let do_overlap = pair.overlaps();
+        let Separation3::Measured(measured) = pair.separation(f32::INFINITY) else {
+            panic!("there is no limit")
+        };
+        assert_eq!(do_overlap, measured.separation <= 0.0, "{measured:?} at {at:?} of {floor:?}");
+        assert_eq!(do_overlap, pair.distance().is_none(), "at {at:?} of {floor:?}");
+        if do_overlap { touched += 1 } else { apart += 1 }
+    }
+    assert!(touched > 1000 && apart > 100, "{touched} {apart}");
+}
