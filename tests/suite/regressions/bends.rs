@@ -1,9 +1,9 @@
 //! Ground that bends by a hair: by less than rounding at its size.
 
-use asunder_geometry::{Hull, Pose3, Shape3, TriMesh};
+use asunder_geometry::{HalfSpace, Hull, Pose3, Shape3, TriMesh};
 use asunder_narrow::{Pair3, Separation3};
 use asunder_tests::cases::Random;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Quat, Vec3};
 
 fn mesh(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Shape3 {
     TriMesh::new(vertices, triangles).unwrap().into()
@@ -34,4 +34,21 @@ fn what_touches_one_triangle_and_is_a_hair_off_the_next_is_not_apart() {
         if do_overlap { touched += 1 } else { apart += 1 }
     }
     assert!(touched > 1000 && apart > 100, "{touched} {apart}");
+}
+
+/// Symptom: contact points of a half-space and a mesh of two long triangles panicked. Cause: by rounding, a point was on
+/// both sides of the line between two others, and so twice in the way around the patch.
+#[test]
+fn a_corner_on_both_sides_of_a_line_is_one_corner() {
+    let corners = [[0.0, 0.0, 0.0], [0.0, 1e6, 1e-7], [1e6, 1e-7, 0.0], [1.0, 0.0, 0.0]].map(Vec3::from);
+    let ground = mesh(corners.into(), vec![[0, 1, 2], [0, 1, 3]]);
+    let below = Shape3::from(HalfSpace::new(Vec3::Y).unwrap());
+    let turned = Pose3::new(DVec3::new(0.5, 0.3, 0.1), Quat::from_xyzw(0.1, 0.2, 0.3, 1.0)).unwrap();
+    let manifolds = Pair3::new(&ground, &Pose3::IDENTITY, &below, &turned).manifolds(0.0);
+    assert!(!manifolds.is_empty());
+    for manifold in manifolds {
+        let names: Vec<_> = manifold.points.iter().map(|point| point.feature).collect();
+        let is_told_once = |place: usize| !names[..place].contains(&names[place]);
+        assert!((0..names.len()).all(is_told_once), "{manifold:?}");
+    }
 }

@@ -367,7 +367,14 @@ impl Group {
         order.sort_unstable_by(|&i, &j| along(i, j));
         let mut around = ArrayVec::new();
         self.half(order.iter().copied(), &places, slack, &mut around);
+        let halfway = around.len();
         self.half(order.iter().rev().copied(), &places, slack, &mut around);
+        // By rounding, one may be beside a line on both its sides; it is one corner all the same.
+        for place in (halfway..around.len()).rev() {
+            if around[..halfway].contains(&around[place]) {
+                around.remove(place);
+            }
+        }
         around
     }
 
