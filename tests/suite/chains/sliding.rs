@@ -195,7 +195,13 @@ fn depth_leads_out_of_the_ground_and_not_along_it() {
                     let at = line.middle + line.along * (0.137 * f64::from(place)) + line.up * (foot - depth);
                     let level = turned(-line.up.perp());
                     let pose = Pose2::new(at, level).unwrap();
-                    let manifolds = Pair2::new(&line.ground, &line.pose, body, &pose).manifolds(0.0);
+                    let pair = Pair2::new(&line.ground, &line.pose, body, &pose);
+                    let manifolds = pair.manifolds(0.0);
+                    // A micrometre may be less than what rounding took from the vertices.
+                    if depth < 1e-5 && !pair.overlaps() {
+                        assert!(manifolds.is_empty(), "{name} {depth}: {manifolds:?}");
+                        continue;
+                    }
                     assert_eq!(manifolds.len(), 1, "{name} {depth}: {manifolds:?}");
                     let normal = manifolds[0].normal.as_dvec2();
                     assert!(normal.perp_dot(line.up).abs() < STRAIGHT, "{name} {depth}: {manifolds:?}");

@@ -1,17 +1,18 @@
 //! Ground that bends by a hair: by less than rounding at its size.
 
-use asunder_geometry::{HalfSpace, Hull, Pose3, Shape3, TriMesh};
-use asunder_narrow::{Pair3, Separation3};
+use asunder::{Collider2, World2};
+use asunder_geometry::{Capsule2, Chain, HalfSpace, Hull, Pose2, Pose3, Shape2, Shape3, TriMesh};
+use asunder_narrow::{Pair2, Pair3, Separation3};
 use asunder_tests::cases::Random;
-use glam::{DVec3, Quat, Vec3};
+use glam::{DVec3, Quat, Vec2, Vec3};
 
 fn mesh(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Shape3 {
     TriMesh::new(vertices, triangles).unwrap().into()
 }
 
 /// Symptom: of a prism that stood on a floor whose vertices are off by 1e-30 to 1e-15 m, the separation was above zero
-/// and the distance not none, though the two overlapped. Cause: triangles no nearer than the nearest so far, but for its
-/// error, were left out even where that one was a hair away and they were touched.
+/// and the distance not none, though the two overlapped. Cause: triangles no nearer than the nearest so far, but for
+/// its error, were left out even where that one was a hair away and they were touched.
 #[test]
 fn what_touches_one_triangle_and_is_a_hair_off_the_next_is_not_apart() {
     let mut random = Random::new(5);
@@ -36,8 +37,8 @@ fn what_touches_one_triangle_and_is_a_hair_off_the_next_is_not_apart() {
     assert!(touched > 1000 && apart > 100, "{touched} {apart}");
 }
 
-/// Symptom: contact points of a half-space and a mesh of two long triangles panicked. Cause: by rounding, a point was on
-/// both sides of the line between two others, and so twice in the way around the patch.
+/// Symptom: contact points of a half-space and a mesh of two long triangles panicked. Cause: by rounding, a point was
+/// on both sides of the line between two others, and so twice in the way around the patch.
 #[test]
 fn a_corner_on_both_sides_of_a_line_is_one_corner() {
     let corners = [[0.0, 0.0, 0.0], [0.0, 1e6, 1e-7], [1e6, 1e-7, 0.0], [1.0, 0.0, 0.0]].map(Vec3::from);
@@ -51,4 +52,34 @@ fn a_corner_on_both_sides_of_a_line_is_one_corner() {
         let is_told_once = |place: usize| !names[..place].contains(&names[place]);
         assert!((0..names.len()).all(is_told_once), "{manifold:?}");
     }
+}
+
+/// Symptom: a capsule without a margin that was lifted off a chain by a hair was never told to have left it. Cause: by
+/// rounding its points were no further away than the margin of zero, and so it had a contact still.
+#[test]
+fn a_hair_above_a_chain_is_off_it() {
+    let mut random = Random::new(7);
+    let hairs = [0.0, 0.0, 1e-24, -1e-24, 1e-20, -1e-20, 1e-16, -1e-16, 1e-12, -1e-12];
+    let pill = Shape2::from(Capsule2::from_half_height(0.25, 0.25).unwrap());
+    let mut left = 0;
+    for _ in 0..2000 {
+        let points = [2.0, 1.0, 0.0, -1.0, -2.0].map(|x| Vec2::new(x, random.pick(&hairs)));
+        let floor = Shape2::from(Chain::open(points).unwrap());
+        let [x, hair] = [random.between(-2.2, 2.2), f64::from(random.pick(&hairs))];
+        let [pressed, lifted] = [0.4, 0.5 + hair].map(|y| Pose2::at([x, y]).unwrap());
+        let pair = Pair2::new(&floor, &Pose2::IDENTITY, &pill, &lifted);
+        let do_overlap = pair.overlaps();
+        assert_eq!(do_overlap, !pair.manifolds(0.0).is_empty(), "{floor:?} {lifted:?}");
+        assert_eq!(do_overlap, pair.manifold(0.0).is_some(), "{floor:?} {lifted:?}");
+        let mut world = World2::new();
+        world.insert(Collider2::new(floor));
+        let body = world.insert(Collider2::new(pill.clone()).at(pressed));
+        world.update();
+        let did_touch = !world.events().is_empty();
+        world.set_pose(body, lifted).unwrap();
+        world.update();
+        assert_eq!(world.events().len(), usize::from(did_touch && !do_overlap), "{lifted:?}");
+        left += world.events().len();
+    }
+    assert!(left > 100, "{left}");
 }

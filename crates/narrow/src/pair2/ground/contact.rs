@@ -105,7 +105,7 @@ impl Standing<'_> {
             };
             ControlFlow::Continue(())
         });
-        patches.finish(overlapping).then_some(overlapping)
+        patches.finish(overlapping, self.margin).then_some(overlapping)
     }
 
     /// Which boxes hold segments whose run may be within the limit.

@@ -123,8 +123,13 @@ impl<'m> Patches<'m> {
         }
     }
 
-    /// Whether there is a contact. The exact answer decides the signs.
-    pub(super) fn finish(mut self, overlapping: bool) -> bool {
+    /// Whether there is a contact within a margin of at least zero. The exact answer decides the signs.
+    pub(super) fn finish(mut self, overlapping: bool, margin: f32) -> bool {
+        // Without a margin what shares no point has no contact, though rounding may take its points for touched.
+        if !overlapping && margin == 0.0 {
+            self.manifolds.truncate(self.first);
+            return false;
+        }
         // What a margin brings in takes nobody's place.
         let is_touched = |own: &Manifold2| own.points.iter().any(|point| point.separation <= 0.0);
         if overlapping
