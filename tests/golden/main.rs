@@ -137,11 +137,21 @@ fn small_scenes_say_what_they_always_said() {
     check(&on_threads(1, small), "one thread");
 }
 
+// Apart, so that they are run side by side.
+
 #[test]
-fn large_scenes_say_what_they_always_said_on_any_number_of_threads() {
-    for threads in [1, 2, 8] {
-        check(&on_threads(threads, large), &format!("{threads} threads"));
-    }
+fn large_scenes_say_what_they_always_said_on_one_thread() {
+    check(&on_threads(1, large), "one thread");
+}
+
+#[test]
+fn large_scenes_say_the_same_on_two_threads() {
+    check(&on_threads(2, large), "two threads");
+}
+
+#[test]
+fn large_scenes_say_the_same_on_eight_threads() {
+    check(&on_threads(8, large), "eight threads");
 }
 
 /// Of each ground, which come first: whether bodies of every kind that is there touch it at some time.
