@@ -7,6 +7,7 @@ use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, Sphere};
 use asunder_narrow::{Pair3, Separation3};
 use asunder_scenes::random::Random;
 use asunder_tests::precise::separation3;
+use clap::Parser;
 use parry3d::math::Pose;
 use parry3d::query;
 use parry3d::shape::SharedShape;
@@ -15,8 +16,16 @@ use std::error::Error;
 /// Within this share of the pair's size of touching, parry3d's word is not held against ours.
 const BAND: f32 = 1e-4;
 
+/// Random pairs beside parry3d: how often both say the same, and how far apart their numbers are.
+#[derive(Parser)]
+struct Options {
+    /// Pairs.
+    #[arg(default_value_t = 20_000)]
+    count: usize,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let count: usize = std::env::args().nth(1).map_or(Ok(20_000), |count| count.parse())?;
+    let Options { count } = Options::parse();
     let mut random = Random::new(9);
     let (mut touching, mut near, mut differ, mut worst) = (0, 0, 0, [0.0_f64; 2]);
     for _ in 0..count {

@@ -100,6 +100,28 @@ impl Part {
         }
     }
 
+    /// Of all its rows.
+    fn row_names(&self) -> Vec<String> {
+        let effort = self.options().effort();
+        match self {
+            Self::Broad(BroadOptions { hurt: true, large, .. }) => {
+                growth::cases(*large).iter().map(growth::name).collect()
+            }
+            Self::Broad(BroadOptions { threads, large, .. }) => {
+                let cases = broad::cases(&effort, *large);
+                let queries = if threads.is_none() { queries::cases(&effort) } else { Vec::new() };
+                cases.iter().map(broad::name).chain(queries.iter().map(queries::name)).collect()
+            }
+            Self::Narrow(_) => {
+                narrow::cases().iter().map(narrow::name).chain(flat::cases().iter().map(flat::name)).collect()
+            }
+            Self::Shapes(_) => shapes::cases().iter().map(shapes::name).collect(),
+            Self::World(_) => world::cases().iter().map(world::name).collect(),
+            Self::Mesh(_) => mesh::cases(&effort).iter().map(mesh::name).collect(),
+            Self::Certain(_) => certain::cases().iter().map(certain::name).collect(),
+        }
+    }
+
     fn heading(&self) -> String {
         match self {
             Self::Certain(_) => certain::heading(),
@@ -114,6 +136,12 @@ impl Part {
 fn main() -> Result<(), Box<dyn Error>> {
     let part = Cli::parse().part;
     let options = part.options();
+    let names = part.row_names();
+    if !names.iter().any(|name| name.contains(&options.only)) {
+        return Err(
+            format!("no row has {:?} in its name; there are {}", options.only, names.join(", ")).into()
+        );
+    }
     // One thread, so that its CPU time is all the time there is.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     if let Part::Broad(BroadOptions { hurt: true, large, .. }) = part {

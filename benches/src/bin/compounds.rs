@@ -7,6 +7,7 @@ use asunder_benches::clock::{Samples, time};
 use asunder_geometry::{Compound3, Cuboid, Hull, Pose3, Shape3};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Pair3, Separation3, collide3};
 use asunder_scenes::random::Random;
+use clap::Parser;
 use glam::{DVec3, Quat, Vec3};
 
 /// Pairs of a row.
@@ -27,8 +28,16 @@ struct Posed {
     poses: [Pose3; 2],
 }
 
+/// What hints buy pairs of compounds.
+#[derive(Parser)]
+struct Options {
+    /// Turns of which the median counts.
+    #[arg(default_value_t = 15)]
+    rounds: usize,
+}
+
 fn main() {
-    let rounds = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(15_usize);
+    let Options { rounds } = Options::parse();
     println!(
         "{:<10} {:>6} {:>6} {:>12} {:>12} {:>7}",
         "pair", "parts", "of", "without ns", "with ns", "ratio"

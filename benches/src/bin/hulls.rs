@@ -5,6 +5,7 @@
 
 use asunder_benches::clock::{Samples, time};
 use asunder_geometry::Hull;
+use clap::Parser;
 use glam::Vec3;
 use parry3d::transformation::try_convex_hull;
 
@@ -21,8 +22,16 @@ const CLOUDS: [(&str, usize, bool); 9] = [
     ("sphere", 65_535, true),
 ];
 
+/// How long hulls of points take beside parry3d's.
+#[derive(Parser)]
+struct Options {
+    /// Turns of which the median counts.
+    #[arg(default_value_t = 31)]
+    rounds: usize,
+}
+
 fn main() {
-    let rounds = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(31_usize);
+    let Options { rounds } = Options::parse();
     println!("{:<14} {:>12} {:>12} {:>8} {:>9}", "points", "ours us", "parry us", "ratio", "vertices");
     for (name, count, is_sphere) in CLOUDS {
         let points = cloud(count, is_sphere);

@@ -8,6 +8,7 @@ use asunder_benches::parry::{self, Shapes};
 use asunder_geometry::{Compound3, Cuboid, Motion3, Pose3, Ray3, Shape3, Sphere};
 use asunder_narrow::{Pair3, cast_ray3};
 use asunder_scenes::random::Random;
+use clap::Parser;
 use glam::{DVec3, Quat, Vec3};
 use parry3d::math::Vector;
 use parry3d::query::{self, Ray, ShapeCastOptions};
@@ -65,8 +66,16 @@ const QUESTIONS: [(&str, Ours, Option<Peers>); 5] = [
     ),
 ];
 
+/// What compounds of many parts cost, beside parry3d's.
+#[derive(Parser)]
+struct Options {
+    /// Turns of which the median counts.
+    #[arg(default_value_t = 9)]
+    rounds: usize,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let rounds = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(9_usize);
+    let Options { rounds } = Options::parse();
     println!(
         "{:>6} {:<8} {:<10} {:>12} {:>12} {:>7}",
         "parts", "with", "question", "asunder us", "parry3d us", "ratio"

@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("README shows saved data: give --readme together with --save or --from".into());
     }
     let (data, folder) = match &options.from {
-        Some(folder) => (Data::read(folder)?, Some(folder.clone())),
+        Some(folder) => (kept_in(folder)?, Some(folder.clone())),
         None => measured(&options)?,
     };
     write_page(&data, &options)?;
@@ -61,6 +61,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         write_readme(&folder)?;
     }
     Ok(())
+}
+
+/// The rows of a folder, of which there must be some.
+fn kept_in(folder: &Path) -> Result<Data, Box<dyn Error>> {
+    let data = Data::read(folder)?;
+    if data == Data::default() {
+        return Err(format!("no rows in {}", folder.display()).into());
+    }
+    Ok(data)
 }
 
 /// The repository's root: results and README lie there, wherever the program is started.
