@@ -106,6 +106,7 @@ mod tests {
         index_by_second((all, count), 20 * count, &mut sorted, (&mut seconds, &mut ends));
         assert_eq!(counted, sorted);
     }
+
     /// A floor of so many tiles with a crate on each, and the crates.
     fn crates_on_tiles(count: u32) -> (World3, Vec<BodyKey3>) {
         let unit = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap()).margin(0.01).unwrap();
