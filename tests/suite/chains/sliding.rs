@@ -187,6 +187,7 @@ fn the_seam_of_a_closed_chain_is_not_felt() {
 /// Deep below the surface a tiny segment's own least axis leads sideways.
 #[test]
 fn depth_leads_out_of_the_ground_and_not_along_it() {
+    let [mut touched, mut rounded_off] = [0; 2];
     for i in 0..16 {
         let line = line(i, i % 2 == 1);
         for (name, body, foot) in &sliders() {
@@ -200,6 +201,7 @@ fn depth_leads_out_of_the_ground_and_not_along_it() {
                     // A micrometre may be less than what rounding took from the vertices.
                     if depth < 1e-5 && !pair.overlaps() {
                         assert!(manifolds.is_empty(), "{name} {depth}: {manifolds:?}");
+                        rounded_off += 1;
                         continue;
                     }
                     assert_eq!(manifolds.len(), 1, "{name} {depth}: {manifolds:?}");
@@ -209,10 +211,12 @@ fn depth_leads_out_of_the_ground_and_not_along_it() {
                         (f64::from(manifolds[0].separation) + depth).abs() < 3e-5,
                         "{name} {depth}: {manifolds:?}"
                     );
+                    touched += usize::from(depth < 1e-5);
                 }
             }
         }
     }
+    assert!(touched > 2 * rounded_off, "a micrometre deep: {touched} touch, {rounded_off} do not");
 }
 
 /// Two runs, whose normals differ by less than can be told, and by more than rounding: one manifold, as wide as the

@@ -119,6 +119,10 @@ fn an_edge_of_two_bodies_is_walked_over_as_that_of_one() {
     let flat_hero = Shape2::from(Capsule2::from_half_height(0.5, 0.4).unwrap());
     let (walk, flat_walk) = (Walk3::new(&hero, Vec3::Y).unwrap(), Walk2::new(&flat_hero, Vec2::Y).unwrap());
     let mut carried = 0;
+    let mut check = |apart: f64, ups: [Option<f32>; 2], told: &str| {
+        assert!(apart < 1e-4 && ups[0].is_some() == ups[1].is_some(), "{told}");
+        carried += usize::from(ups[0].is_some_and(|up| up < 0.7));
+    };
     for start in 0..20 {
         let x = 0.01 * f64::from(start);
         let (mut at, mut flat_at) = (Pose3::at([x, 1.01, 0.1]).unwrap(), Pose2::at([x, 1.01]).unwrap());
@@ -126,23 +130,21 @@ fn an_edge_of_two_bodies_is_walked_over_as_that_of_one() {
             let way = Vec3::new(0.07, -0.008, 0.0);
             let [one, two] =
                 [0, 1].map(|i| worlds[i].move_and_slide((&hero, &at), way, &walk, &Filter3::new()));
-            let apart = (one.moved - two.moved).length();
-            assert!(
-                apart < 1e-4 && one.ground.is_some() == two.ground.is_some(),
-                "{x} {frame}: {one:?} {two:?}"
+            check(
+                (one.moved - two.moved).length(),
+                [one.ground, two.ground].map(|ground| Some(ground?.normal.y)),
+                &format!("{x} {frame}: {one:?} {two:?}"),
             );
-            carried += usize::from(one.ground.is_some_and(|ground| ground.normal.y < 0.7));
             at = one.pose;
 
             let way = Vec2::new(0.07, -0.008);
             let [one, two] = [0, 1]
                 .map(|i| flat[i].move_and_slide((&flat_hero, &flat_at), way, &flat_walk, &Filter2::new()));
-            let apart = (one.moved - two.moved).length();
-            assert!(
-                apart < 1e-4 && one.ground.is_some() == two.ground.is_some(),
-                "{x} {frame}: {one:?} {two:?}"
+            check(
+                (one.moved - two.moved).length(),
+                [one.ground, two.ground].map(|ground| Some(ground?.normal.y)),
+                &format!("{x} {frame}: {one:?} {two:?}"),
             );
-            carried += usize::from(one.ground.is_some_and(|ground| ground.normal.y < 0.7));
             flat_at = one.pose;
         }
     }
