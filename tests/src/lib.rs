@@ -1,6 +1,7 @@
 //! The judges of asunder's answers: slow, plain, and made without its algorithms.
 //!
 //! - [`answers`]: what the narrow phase says of a case, measured by full projections of our own
+//! - [`bare_triangles`]: how far a body is from ground, by its triangles one by one
 //! - [`brute_pairs`]: every overlapping pair of boxes, by a double loop
 //! - [`solid`]: facets and edges of a hull, from nothing but its vertices, decided exactly
 //! - [`placed`]: a shape where it is, in f64
@@ -30,6 +31,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a judge that cannot judge must stop the test")]
 
 pub mod answers;
+pub mod bare_triangles;
 pub mod bodies;
 pub mod brute_pairs;
 pub mod cases;

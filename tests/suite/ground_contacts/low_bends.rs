@@ -1,29 +1,31 @@
 //! Ground of many low bends in a row: each too low to give a normal, and all together no plane under one body.
 
-use super::rims::{nearest, told_within};
 use asunder_geometry::glam::{DQuat, DVec3, Vec2, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Ground, HeightField, Hull, Pose3, Shape3, Sphere, TriMesh};
 use asunder_narrow::{Batch3, Hint, Job3, Manifold3, Pair3, Persistent3, collide3};
+use asunder_tests::bare_triangles::{nearest, told_within};
 use asunder_tests::cases::Random;
 use core::fmt;
 
 const MARGIN: f32 = 0.02;
 
-/// Ground, how it is turned from axes in which up is y, and where its middle is.
+/// Ground, its triangles, how it is turned from axes in which up is y, and where its middle is.
 struct Laid {
     shape: Shape3,
+    corners: Vec<[Vec3; 3]>,
     turn: DQuat,
     middle: DVec3,
 }
 
 impl Laid {
-    fn place(&self, local: DVec3) -> DVec3 {
-        self.middle + self.turn * local
+    fn new(shape: Shape3, turn: DQuat, middle: DVec3) -> Self {
+        let ground = Ground::of(&shape).unwrap();
+        let corners = (0..ground.triangle_count()).map(|number| ground.corners(number)).collect();
+        Self { shape, corners, turn, middle }
     }
 
-    fn corners(&self) -> impl Iterator<Item = [Vec3; 3]> + '_ {
-        let ground = Ground::of(&self.shape).unwrap();
-        (0..ground.triangle_count()).map(move |number| ground.corners(number))
+    fn place(&self, local: DVec3) -> DVec3 {
+        self.middle + self.turn * local
     }
 }
 
@@ -69,7 +71,7 @@ fn ground(random: &mut Random, bend: f64) -> Laid {
         let field = HeightField::new(side, side, heights, Vec2::splat(step as f32)).unwrap();
         let shape = if is_one_sided { field.one_sided() } else { field }.into();
         let middle = DVec3::new(half, 0.0, half) * step;
-        return Laid { shape, turn: DQuat::IDENTITY, middle };
+        return Laid::new(shape, DQuat::IDENTITY, middle);
     }
     let turn =
         if random.below(3) == 0 { DQuat::IDENTITY } else { random.quaternion().as_dquat().normalize() };
@@ -89,7 +91,7 @@ fn ground(random: &mut Random, bend: f64) -> Laid {
     }
     let mesh = TriMesh::new(vertices, triangles).unwrap();
     let shape = if is_one_sided { mesh.one_sided() } else { mesh }.into();
-    Laid { shape, turn, middle: DVec3::ZERO }
+    Laid::new(shape, turn, DVec3::ZERO)
 }
 
 fn body(random: &mut Random) -> Shape3 {
@@ -158,7 +160,7 @@ fn stand(random: &mut Random, bend: f64, gap: f64) -> Stand {
     let at = |height: f64| Pose3::new(laid.place(DVec3::new(x, height, z)), pose).unwrap();
     let mut height = 1.5;
     for _ in 0..3 {
-        let Some((above, _)) = nearest(&body, &at(height), laid.corners(), 3.0) else { break };
+        let Some((above, _)) = nearest(&body, &at(height), &laid.corners, 3.0) else { break };
         height -= above - gap;
     }
     let at = at(height);
@@ -172,7 +174,7 @@ impl Stand {
     }
 
     fn truth(&self, at: &Pose3) -> Option<(f64, f64)> {
-        nearest(&self.body, at, self.laid.corners(), 0.1)
+        nearest(&self.body, at, &self.laid.corners, 0.1)
     }
 }
 

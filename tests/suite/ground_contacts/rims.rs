@@ -2,10 +2,10 @@
 //! the other.
 
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
-use asunder_geometry::{Aabb3, Capsule3, Cuboid, Hull, Pose3, Shape3, TriMesh, Triangle3};
-use asunder_narrow::{Manifold3, Pair3, Separation3};
+use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, TriMesh};
+use asunder_narrow::Pair3;
+use asunder_tests::bare_triangles::{nearest, told_within};
 use asunder_tests::cases::Random;
-use core::fmt::Display;
 
 const MARGIN: f32 = 0.02;
 
@@ -51,49 +51,6 @@ fn around(random: &mut Random, [a, b, c]: [DVec3; 3], reach: f64) -> Option<Pose
     Pose3::new(from + way * (0.9 * reach), turn).ok()
 }
 
-/// The least separation of a body from triangles one by one, with its error, where it is within the limit.
-pub(super) fn nearest(
-    body: &Shape3,
-    at: &Pose3,
-    triangles: impl Iterator<Item = [Vec3; 3]>,
-    limit: f32,
-) -> Option<(f64, f64)> {
-    let mut least: Option<(f32, f32)> = None;
-    let mut reach = body.bounds(at, limit);
-    for [a, b, c] in triangles {
-        // Most of a large ground is beyond what has been found.
-        if !reach.overlaps(&Aabb3::from_points([a, b, c])) {
-            continue;
-        }
-        let triangle = Shape3::from(Triangle3::new(a, b, c).unwrap());
-        let within = least.map_or(limit, |(separation, error)| (separation + error).max(0.0).min(limit));
-        let Separation3::Measured(found) =
-            Pair3::new(body, at, &triangle, &Pose3::IDENTITY).separation(within)
-        else {
-            continue;
-        };
-        if least.is_none_or(|least| found.separation < least.0) {
-            least = Some((found.separation, found.error));
-            reach = body.bounds(at, (found.separation + found.error).clamp(0.0, limit));
-        }
-    }
-    least.map(|(separation, error)| (f64::from(separation), f64::from(error)))
-}
-
-/// What is told of a body's least separation, which must be within both errors of this one.
-pub(super) fn told_within(
-    manifolds: &[Manifold3],
-    (separation, error): (f64, f64),
-    story: impl Display,
-) -> &Manifold3 {
-    let least = manifolds.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
-    let Some(least) = least else { panic!("{story}: {separation} +- {error}, and nothing told") };
-    let off = (f64::from(least.separation) - separation).abs();
-    let may = error + f64::from(least.error);
-    assert!(off <= may, "{story}: {separation} +- {error}, off {off}, told {least:?}");
-    least
-}
-
 /// Symptom: what reached around a rim had no contact in a gap within its margin, twenty times in a million, and one of
 /// four points further off than its error said. Cause: ground refused the direction that leads from its other side, and
 /// the kernels' points were taken for all that they had found.
@@ -111,7 +68,7 @@ fn what_reaches_around_a_rim_is_told() {
         let Some(at) = around(&mut random, corners[0].map(|corner| corner.as_dvec3()), reach.into()) else {
             continue;
         };
-        let Some((separation, error)) = nearest(&body, &at, corners.iter().copied(), 1.0) else { continue };
+        let Some((separation, error)) = nearest(&body, &at, &corners, 1.0) else { continue };
         if separation <= error || separation + error > f64::from(MARGIN) {
             continue;
         }
@@ -192,7 +149,8 @@ fn a_cut_that_counts_as_level_does_not_hide_a_rim_that_is_nearer() {
         cells.flat_map(|i| [[i, i + SIDE, i + 1], [i + 1, i + SIDE, i + SIDE + 1]]).collect();
     let mesh = TriMesh::new(vertices.clone(), triangles.clone()).unwrap();
     let grounds = [mesh.clone(), mesh.one_sided()].map(Shape3::from);
-    let corners = || triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize]));
+    let corners: Vec<[Vec3; 3]> =
+        triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize])).collect();
     let mut random = Random::new(0x00C0_75ED);
     let mut told = 0;
     for case in 0..4000 {
@@ -201,7 +159,7 @@ fn a_cut_that_counts_as_level_does_not_hide_a_rim_that_is_nearer() {
         let turn = Quat::from_axis_angle(random.direction().as_vec3(), random.between(2e-5, 4e-4) as f32);
         let over = DVec3::new(random.signed() * 2.0, random.between(0.3, 0.4), random.signed() * 2.0);
         let at = Pose3::new(over, turn).unwrap();
-        let Some(truth) = nearest(&body, &at, corners(), 0.2) else { continue };
+        let Some(truth) = nearest(&body, &at, &corners, 0.2) else { continue };
         for ground in &grounds {
             let manifolds = Pair3::new(&body, &at, ground, &Pose3::IDENTITY).manifolds(0.2);
             told_within(&manifolds, truth, format_args!("{case}, {half}, {at:?}"));
@@ -234,7 +192,7 @@ fn a_corner_beside_a_ridge_is_no_nearer_than_the_ridge_is() {
         let lowest = points.min_by(|one, other| one.y.total_cmp(&other.y)).unwrap();
         let above = DVec3::new(1e-5 * random.signed(), random.between(1e-3, 2e-2), 0.5);
         let at = Pose3::new(above - lowest, turn).unwrap();
-        let Some(truth) = nearest(&body, &at, corners.into_iter(), 0.1) else { continue };
+        let Some(truth) = nearest(&body, &at, &corners, 0.1) else { continue };
         told_within(&Pair3::new(&body, &at, &ground, &Pose3::IDENTITY).manifolds(0.1), truth, case);
         told += 1;
     }

@@ -1,9 +1,9 @@
 //! Ground that is turned as a whole: its corners are rounded, so that no two of its triangles lie in one plane.
 
-use super::rims::{nearest, told_within};
 use asunder_geometry::glam::{DQuat, DVec3, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, Sphere, TriMesh};
 use asunder_narrow::Pair3;
+use asunder_tests::bare_triangles::{nearest, told_within};
 use asunder_tests::cases::Random;
 
 /// Six by six squares about the origin, each of two triangles, as high as is said at a place in squares.
@@ -55,15 +55,16 @@ fn a_gap_over_turned_ground_is_within_its_error() {
         let about = DQuat::from_rotation_y(random.between(0.0, 6.0));
         let pose = if random.below(3) == 0 { random.quaternion() } else { (turn * about).as_quat() };
         let (x, z) = (random.between(-0.3, 0.3), random.between(-0.3, 0.3));
-        let corners = || triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize]));
+        let corners: Vec<[Vec3; 3]> =
+            triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize])).collect();
         // Let down until it is as far above as is wanted.
         let (mut height, gap) = (1.0, 0.005);
         let at = |height: f64| Pose3::new(turn * DVec3::new(x, height, z), pose).unwrap();
         for _ in 0..3 {
-            let Some((above, _)) = nearest(&body, &at(height), corners(), 2.0) else { break };
+            let Some((above, _)) = nearest(&body, &at(height), &corners, 2.0) else { break };
             height -= above - gap;
         }
-        let Some((separation, error)) = nearest(&body, &at(height), corners(), 0.1) else { continue };
+        let Some((separation, error)) = nearest(&body, &at(height), &corners, 0.1) else { continue };
         if separation <= error || separation + error > f64::from(margin) {
             continue;
         }
@@ -106,14 +107,14 @@ fn a_corner_beside_the_end_of_ground_is_within_its_error() {
         let at = |height: f64| Pose3::new(place + DVec3::Y * height, pose).unwrap();
         let mut height = 1.0;
         for _ in 0..60 {
-            let Some((above, _)) = nearest(&body, &at(height), [[a, b, c]].into_iter(), 3.0) else { break };
+            let Some((above, _)) = nearest(&body, &at(height), &[[a, b, c]], 3.0) else { break };
             if (above - gap).abs() < 1e-9 {
                 break;
             }
             height -= above - gap;
         }
         let at = at(height);
-        let Some((separation, error)) = nearest(&body, &at, [[a, b, c]].into_iter(), 0.1) else { continue };
+        let Some((separation, error)) = nearest(&body, &at, &[[a, b, c]], 0.1) else { continue };
         if separation <= 0.0 || separation > 1e-5 {
             continue;
         }
@@ -152,7 +153,8 @@ fn what_stands_over_a_low_bend_has_its_contact() {
         let roof = |x: f64| -x.abs() * if x < 0.0 { left } else { right };
         let (vertices, triangles) = squares(1.0, roof);
         let vertices: Vec<Vec3> = vertices.into_iter().map(|vertex| vertex.as_vec3()).collect();
-        let corners = || triangles.iter().map(|triangle: &[u32; 3]| triangle.map(|i| vertices[i as usize]));
+        let corners: Vec<[Vec3; 3]> =
+            triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize])).collect();
         let mesh: Shape3 = TriMesh::new(vertices.clone(), triangles.clone()).unwrap().into();
         let tilt = random.pick(&[0.0, 0.0, 0.2, 0.5]);
         let pose = DQuat::from_rotation_z(tilt).as_quat();
@@ -163,10 +165,10 @@ fn what_stands_over_a_low_bend_has_its_contact() {
             |height: f64| Pose3::new(DVec3::new(x, height, z) - DVec3::new(foot.x, 0.0, 0.0), pose).unwrap();
         let mut height = 2.0;
         for _ in 0..3 {
-            let Some((above, _)) = nearest(body, &at(height), corners(), 4.0) else { break };
+            let Some((above, _)) = nearest(body, &at(height), &corners, 4.0) else { break };
             height -= above - gap;
         }
-        let Some((separation, error)) = nearest(body, &at(height), corners(), 1.0) else { continue };
+        let Some((separation, error)) = nearest(body, &at(height), &corners, 1.0) else { continue };
         if separation <= error {
             continue;
         }

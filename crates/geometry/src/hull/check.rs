@@ -268,8 +268,13 @@ impl<'a> Examiner<'a> {
             Some(facets) => Surface { dimension: 3, vertices: &vertices, facets },
             None => own,
         };
+        let mut near = surface.near();
         for (index, point) in points.iter().enumerate() {
-            let distance = surface.distance_outside(point.as_dvec3());
+            let point = point.as_dvec3();
+            if surface.dimension == 3 && !surface.is_outside(point) {
+                continue;
+            }
+            let distance = near.distance(point, allowed);
             if distance > allowed {
                 return Err(HullFault::PointOutside { index, distance });
             }

@@ -110,25 +110,19 @@ impl Surface<'_> {
     /// The largest of the bounds above over many points. A point that is nearer than the furthest so far to any
     /// triangle need not know which is nearest.
     pub(super) fn furthest_outside(&self, points: impl Iterator<Item = DVec3>) -> f64 {
-        let triangles: Vec<[DVec3; 3]> = self.triangles().collect();
-        let (mut most, mut hint) = (0.0, 0);
+        let (mut most, mut near) = (0.0, self.near());
         for p in points {
-            let mut least = (f64::INFINITY, hint);
-            for index in (hint..triangles.len()).chain(0..hint) {
-                let distance = to_triangle(p, triangles[index]);
-                if distance < least.0 {
-                    least = (distance, index);
-                }
-                if distance <= most {
-                    break;
-                }
-            }
-            hint = least.1;
-            if least.0 > most && (self.dimension < 3 || self.is_outside(p)) {
-                most = least.0;
+            let distance = near.distance(p, most);
+            if distance > most && (self.dimension < 3 || self.is_outside(p)) {
+                most = distance;
             }
         }
         most
+    }
+
+    /// The same triangles, for many points in turn.
+    pub(super) fn near(&self) -> Near {
+        Near { triangles: self.triangles().collect(), last: 0 }
     }
 
     /// Whether a point lies strictly outside of any facet: exact.
@@ -148,6 +142,31 @@ impl Surface<'_> {
         }
         let distance = self.distance_outside(center.as_dvec3());
         0.0 - round_up(distance * (1.0 + 8.0 * f64::EPSILON))
+    }
+}
+
+/// Triangles of which many points are asked about, one mostly near the last.
+pub(super) struct Near {
+    triangles: Vec<[DVec3; 3]>,
+    /// The triangle that the last point was found near.
+    last: usize,
+}
+
+impl Near {
+    /// A point's distance to the nearest triangle; or to any that is no further than `enough`.
+    pub(super) fn distance(&mut self, p: DVec3, enough: f64) -> f64 {
+        let mut least = (f64::INFINITY, self.last);
+        for index in (self.last..self.triangles.len()).chain(0..self.last) {
+            let distance = to_triangle(p, self.triangles[index]);
+            if distance < least.0 {
+                least = (distance, index);
+            }
+            if distance <= enough {
+                break;
+            }
+        }
+        self.last = least.1;
+        least.0
     }
 }
 
