@@ -9,6 +9,7 @@
 #![deny(missing_docs)]
 
 mod aabb;
+mod basis3;
 mod chain;
 mod circle;
 mod compound;
@@ -53,6 +54,7 @@ mod vertex;
 #[doc(hidden)]
 pub use aabb::BoxList;
 pub use aabb::{Aabb2, Aabb3, Bounds};
+pub use basis3::Basis3;
 pub use chain::{Chain, ChainError, Run};
 pub use circle::Circle;
 pub use compound::{Compound2, Compound3, CompoundError, Part2, Part3};
@@ -73,7 +75,7 @@ pub use octets::{EdgeArc, EdgeOctet, FaceOctet, VertexOctet};
 pub use outward::round_down;
 pub use polygon::{Polygon, PolygonError};
 pub use pose2::{Pose2, Rotation2};
-pub use pose3::{Basis3, Pose3, PoseError};
+pub use pose3::{Pose3, PoseError};
 pub use radius::RadiusError;
 pub use ray::{Ray2, Ray3, RayError};
 pub use rect::Rect;

@@ -1,6 +1,7 @@
 //! How a body moves in space from one pose to another, and how fast it turns on the way.
 
-use crate::pose3::{Basis3, Pose3, PoseError, check_position, check_rotation};
+use crate::basis3::Basis3;
+use crate::pose3::{Pose3, PoseError, check_position, check_rotation};
 use crate::tolerance::MAX_POSITION;
 use glam::{DVec3, Quat};
 

@@ -1,7 +1,8 @@
 //! Poses in the axes of others: what is held, carried and mounted.
 
+use crate::basis3::turn_between;
 use crate::pose2::{Pose2, Rotation2};
-use crate::pose3::{Pose3, PoseError, turn_between};
+use crate::pose3::{Pose3, PoseError};
 use glam::Quat;
 
 impl Pose3 {

@@ -1,8 +1,9 @@
 //! What a stepper needs to know of a body's matter.
 
 use super::second::Second;
+use crate::basis3::Basis3;
 use crate::pose2::Pose2;
-use crate::pose3::{Basis3, Pose3};
+use crate::pose3::Pose3;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Mass, centre of mass and inertia of a shape in the plane, from
