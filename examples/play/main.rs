@@ -13,7 +13,7 @@ use asunder_examples::playable::{InSpace, Playable};
 use asunder_examples::recording::{Head, read_head};
 use asunder_examples::replay::{Recorder, replay};
 use asunder_examples::report::Times;
-use asunder_examples::{picture, report};
+use asunder_examples::{output, picture, report};
 use asunder_scenes::stages::{Scene, Stage};
 use clap::Parser;
 use std::error::Error;
@@ -128,7 +128,7 @@ fn step<S: Playable>(game: &mut Game<S>, options: &Options, head: &Head) -> Resu
         return report::timed(game, options.steps, |_| Ok(()));
     };
     let at = |error: &dyn Error| format!("{}: {error}", file.display());
-    let to = BufWriter::new(File::create(file).map_err(|error| at(&error))?);
+    let to = BufWriter::new(output::create(file)?);
     let mut recorder = Recorder::new(to, head, game).map_err(|error| at(&error))?;
     let times =
         report::timed(game, options.steps, |game| recorder.record(game)).map_err(|error| at(&error))?;

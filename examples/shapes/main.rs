@@ -18,10 +18,11 @@ mod surface;
 mod tint;
 mod touch;
 
+use asunder_examples::output::write;
 use clap::Parser;
 use kinds::Kind;
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use touch::Attitude::{Across, Edge, Flat, Over, Vertex};
 use touch::{Attitude, Touch, TouchError, touch2, touch3};
@@ -120,11 +121,4 @@ fn print<S, P>(touches: &[Vec<Touch<'_, S, P>>]) -> Result<(), TouchError> {
         }
     }
     result
-}
-
-fn write(file: &Path, text: &str) -> Result<(), Box<dyn Error>> {
-    if let Some(folder) = file.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
-    Ok(std::fs::write(file, text).map_err(|error| format!("{}: {error}", file.display()))?)
 }

@@ -20,6 +20,7 @@
 pub mod falling;
 pub mod game;
 pub mod opened;
+pub mod output;
 pub mod picture;
 pub mod playable;
 pub mod recording;

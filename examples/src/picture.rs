@@ -5,6 +5,7 @@ mod order;
 pub mod plane;
 pub mod volume;
 
+use crate::output;
 use asunder::glam::{DVec2, DVec3};
 use core::fmt::Write;
 use std::error::Error;
@@ -15,10 +16,7 @@ use std::path::Path;
 /// # Errors
 /// What the file system says, with the path.
 pub fn save(file: &Path, picture: &str) -> Result<(), Box<dyn Error>> {
-    if let Some(folder) = file.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
-    std::fs::write(file, picture).map_err(|error| format!("{}: {error}", file.display()))?;
+    output::write(file, picture)?;
     println!("picture        {}", file.display());
     Ok(())
 }

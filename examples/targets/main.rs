@@ -4,6 +4,7 @@
 //! missed ends the program with exit code 1. Then, with `--times`, what a step of each scene costs, stage by stage.
 
 use asunder_examples::opened::{AnyGame, SEED};
+use asunder_examples::output;
 use asunder_examples::report::{self, Times, stages};
 use asunder_examples::trials::{Figure, digest, keep, shoot, stand};
 use asunder_scenes::stages::Stage;
@@ -139,7 +140,7 @@ fn write_times(file: &Path, options: &Options) -> Result<(), Box<dyn Error>> {
             times.mean(update)
         );
     }
-    std::fs::write(file, table).map_err(|error| format!("{}: {error}", file.display()))?;
+    output::write(file, &table)?;
     println!("times          {}", file.display());
     Ok(())
 }
