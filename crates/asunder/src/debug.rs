@@ -119,3 +119,23 @@ impl DebugLine {
 
 /// An arc of at most half a circle is halved so often: a quarter circle is off by at most 0.5 % of its radius.
 const HALVINGS: u32 = 3;
+
+/// Whether a line has a point in a box. Its own box would not do: that of a line of turned ground overlaps regions that
+/// no triangle of the line's comes near, and ground is only looked at where a region is.
+fn reaches_into<const N: usize>([low, high]: [[f64; N]; 2], [from, to]: [[f64; N]; 2]) -> bool {
+    let mut within = [0.0_f64, 1.0];
+    for axis in 0..N {
+        let (low, high, start, end) = (low[axis], high[axis], from[axis], to[axis]);
+        // Nothing is in a box that is no number.
+        if !(start.min(end) <= high && start.max(end) >= low) {
+            return false;
+        }
+        let way = end - start;
+        if way != 0.0 {
+            let (entry, exit) = if way > 0.0 { (low, high) } else { (high, low) };
+            within[0] = within[0].max((entry - start) / way);
+            within[1] = within[1].min((exit - start) / way);
+        }
+    }
+    within[0] <= within[1]
+}

@@ -1,6 +1,6 @@
 //! Outlines in the plane.
 
-use super::{DebugLine, DebugOptions, HALVINGS};
+use super::{DebugLine, DebugOptions, HALVINGS, reaches_into};
 use crate::space::Plane;
 use crate::world::World;
 use asunder_geometry::glam::DVec2;
@@ -27,7 +27,7 @@ impl World<Plane> {
         self.draw(None, options, line);
     }
 
-    /// The same of a region: the lines whose own boxes overlap it, in the order in which they come of the whole world.
+    /// The same of a region: the lines that reach into it, in the order in which they come of the whole world.
     /// Cost: a look at every body, contact and box, and at all that there is of a body that reaches in; nothing is
     /// allocated.
     ///
@@ -50,8 +50,9 @@ impl World<Plane> {
         options: &DebugOptions,
         line: &mut impl FnMut(DVec2, DVec2, DebugLine),
     ) {
+        let sides = [region.min, region.max].map(|corner| corner.as_dvec2().to_array());
         self.draw(Some(region), options, &mut |from, to, what| {
-            if reaches_into(region, from, to) {
+            if reaches_into(sides, [from.to_array(), to.to_array()]) {
                 line(from, to, what);
             }
         });
@@ -133,12 +134,6 @@ impl DebugOptions {
     pub fn outline2(&self, (shape, pose): (&Shape2, &Pose2), line: &mut impl FnMut(DVec2, DVec2)) {
         outline(shape, pose, self, line);
     }
-}
-
-/// Whether a line's box overlaps a region.
-fn reaches_into(region: &Aabb2, from: DVec2, to: DVec2) -> bool {
-    let (low, high) = (region.min.as_dvec2(), region.max.as_dvec2());
-    from.min(to).cmple(high).all() && from.max(to).cmpge(low).all()
 }
 
 fn rectangle(low: DVec2, high: DVec2, line: &mut impl FnMut(DVec2, DVec2)) {

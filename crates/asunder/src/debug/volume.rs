@@ -1,6 +1,6 @@
 //! Outlines in space.
 
-use super::{DebugLine, DebugOptions, HALVINGS};
+use super::{DebugLine, DebugOptions, HALVINGS, reaches_into};
 use crate::space::Volume;
 use crate::world::World;
 use asunder_geometry::glam::DVec3;
@@ -35,7 +35,7 @@ impl World<Volume> {
         self.draw(None, options, line);
     }
 
-    /// The same of a region: the lines whose own boxes overlap it, in the order in which they come of the whole world.
+    /// The same of a region: the lines that reach into it, in the order in which they come of the whole world.
     /// Of ground, only what is there is looked at. Cost: linear in what is drawn, with a look at every body, contact
     /// and box.
     ///
@@ -58,8 +58,9 @@ impl World<Volume> {
         options: &DebugOptions,
         line: &mut impl FnMut(DVec3, DVec3, DebugLine),
     ) {
+        let sides = [region.min, region.max].map(|corner| corner.as_dvec3().to_array());
         self.draw(Some(region), options, &mut |from, to, what| {
-            if reaches_into(region, from, to) {
+            if reaches_into(sides, [from.to_array(), to.to_array()]) {
                 line(from, to, what);
             }
         });
@@ -74,8 +75,11 @@ impl World<Volume> {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
-                if region.is_none_or(|region| shape.bounds(pose, 0.0).overlaps(region)) {
-                    outline((shape, pose), region, options, &mut |from, to| line(from, to, what));
+                // Of a region without end, as far as the body goes: turned into its axes, infinities are no numbers.
+                let there = region.map(|region| shape.bounds(pose, 0.0).intersection(region));
+                if there != Some(None) {
+                    let there = there.flatten();
+                    outline((shape, pose), there.as_ref(), options, &mut |from, to| line(from, to, what));
                 }
             }
         }
@@ -216,12 +220,6 @@ fn seen_from(pose: &Pose3, region: &Aabb3) -> Aabb3 {
     let reach = region.min.abs().max(region.max.abs()).max_element();
     let slack = 1e-6 * (low.abs().max_element() + high.abs().max_element() + f64::from(reach));
     Aabb3::new((low - slack).as_vec3(), (high + slack).as_vec3())
-}
-
-/// Whether a line's box overlaps a region.
-fn reaches_into(region: &Aabb3, from: DVec3, to: DVec3) -> bool {
-    let (low, high) = (region.min.as_dvec3(), region.max.as_dvec3());
-    from.min(to).cmple(high).all() && from.max(to).cmpge(low).all()
 }
 
 /// A triangle, cuboid or hull, with or without a radius.
