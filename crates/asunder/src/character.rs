@@ -59,8 +59,10 @@ pub struct Walk<N> {
     /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: what is steeper is a
     /// wall. At first 0.7, 45.6 degrees; a NaN counts as that.
     pub steepest: f32,
-    /// The highest step that is climbed, give or take half a skin; 0 for none. Anything higher is a wall. Default: 0.35
-    /// of the shape's bounding radius, a third of a metre for a grown-up.
+    /// The highest step that is climbed, give or take half a skin; 0 for none. Anything higher is a wall, but for round
+    /// feet of radius r: they walk over an edge up to (1 - `steepest`) r high whatever the step, at first 0.3 r, since
+    /// what they touch of it is no steeper than ground. Default: 0.35 of the shape's bounding radius, a third of a
+    /// metre for a grown-up.
     pub step: f32,
     /// How far down a character follows the ground that it stood on, unless it moves up; 0 to switch that off. Default:
     /// as much as `step`.

@@ -188,3 +188,37 @@ fn grooves_of_one_body_are_left_as_those_of_two() {
         }
     }
 }
+
+/// Who climbs no steps walks over low edges nonetheless, if its feet are round: as high as they touch them no steeper
+/// than ground.
+#[test]
+fn round_feet_walk_over_low_edges_whatever_the_step() {
+    for (height, is_low) in [(0.08, true), (0.1, false)] {
+        let (mut space, mut plane) = (World3::new(), World2::new());
+        space.insert(Collider3::new(HalfSpace::new(Vec3::Y).unwrap()));
+        plane.insert(Collider2::new(HalfPlane::new(Vec2::Y).unwrap()));
+        let kerb = Collider3::new(cuboid([1.0, height, 2.0])).at(Pose3::at([2.0, 0.0, 0.0]).unwrap());
+        space.insert(kerb.fixed());
+        let kerb = Rect::from_half_extents(Vec2::new(1.0, height)).unwrap();
+        plane.insert(Collider2::new(kerb).at(Pose2::at([2.0, 0.0]).unwrap()).fixed());
+
+        let mut round = Hero::new(&space, thin_person(), [0.0; 3]);
+        let mut sharp = Hero::new(&space, cuboid([0.3, 0.9, 0.3]), [0.0; 3]);
+        for hero in [&mut round, &mut sharp] {
+            hero.walk.step = 0.0;
+            for _ in 0..100 {
+                hero.step([0.02, -0.02, 0.0]);
+            }
+        }
+        assert_eq!(round.feet().x > 1.5, is_low, "{height}: {}", round.feet());
+        assert!(sharp.feet().x < 0.7, "{height}: {}", sharp.feet());
+
+        let flat = Shape2::from(Capsule2::from_half_height(0.6, 0.3).unwrap());
+        let walk = Walk2 { step: 0.0, ..Walk2::new(&flat, Vec2::Y).unwrap() };
+        let mut pose = Pose2::at([0.0, 0.91]).unwrap();
+        for _ in 0..100 {
+            pose = plane.move_and_slide((&flat, &pose), Vec2::new(0.02, -0.02), &walk, &Filter2::new()).pose;
+        }
+        assert_eq!(pose.position().x > 1.5, is_low, "{height}: {}", pose.position());
+    }
+}
