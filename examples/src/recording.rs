@@ -71,7 +71,7 @@ impl Numbers for Pose3 {
 /// use asunder::{Pose3, Volume};
 /// use asunder_examples::recording::{Head, RecordError, Step, read_head, read_step, write_head, write_step};
 /// let head = Head { dimension: 3, size: 20, bodies: 21, name: "stack".to_owned() };
-/// let step = Step::<Volume> { moved: vec![(4, Pose3::at([1.0, 2.0, 3.0])?)], left: vec![7], contacts: 3, touching: 2 };
+/// let step = Step::<Volume> { moved: vec![(4, Pose3::at([1.0, 2.0, 3.0])?)], left: vec![7], contacts: 3, overlapping: 2 };
 /// let mut file = Vec::new();
 /// write_head(&mut file, &head)?;
 /// write_step(&mut file, &step)?;
@@ -105,7 +105,7 @@ pub struct Step<S: Space> {
     /// Contacts within margins after it: those by where bodies are, not by where they go.
     pub contacts: u32,
     /// Contacts that share a point.
-    pub touching: u32,
+    pub overlapping: u32,
 }
 
 /// What is wrong with a recording.
@@ -203,7 +203,7 @@ pub fn write_step<S: Playable>(to: &mut impl Write, step: &Step<S>) -> Result<()
         write_pose::<S>(pose, to)?;
     }
     to.write_all(&(step.left.len() as u32).to_le_bytes())?;
-    for number in step.left.iter().chain([&step.contacts, &step.touching]) {
+    for number in step.left.iter().chain([&step.contacts, &step.overlapping]) {
         to.write_all(&number.to_le_bytes())?;
     }
     Ok(())
@@ -283,7 +283,7 @@ pub fn read_step<S: Playable>(from: &mut impl Read, head: &Head) -> Result<Optio
     }
     let count = check_count(read_u32(from)?, head)?;
     let left = (0..count).map(|_| read_body(from, head)).collect::<Result<_, _>>()?;
-    Ok(Some(Step { moved, left, contacts: read_u32(from)?, touching: read_u32(from)? }))
+    Ok(Some(Step { moved, left, contacts: read_u32(from)?, overlapping: read_u32(from)? }))
 }
 
 fn check_count(found: u32, head: &Head) -> Result<u32, RecordError> {
@@ -317,7 +317,7 @@ mod tests {
             moved: vec![(1, Pose2::IDENTITY), (5, Pose2::at([-2.0, 0.25]).unwrap())],
             left: vec![3],
             contacts: 9,
-            touching: 8,
+            overlapping: 8,
         };
         let mut bytes = Vec::new();
         write_head(&mut bytes, &head).unwrap();

@@ -44,8 +44,8 @@ impl<S: Playable, W: Write> Recorder<S, W> {
             }
             *last = now;
         }
-        let (contacts, touching) = count_contacts(&game.stepper.world);
-        write_step(&mut self.to, &Step::<S> { moved, left, contacts, touching })
+        let (contacts, overlapping) = count_contacts(&game.stepper.world);
+        write_step(&mut self.to, &Step::<S> { moved, left, contacts, overlapping })
     }
 
     /// Ends the recording.
@@ -64,7 +64,7 @@ fn pose<S: Playable>(game: &Game<S>, number: usize) -> Option<S::Pose> {
 /// How many contacts there are by where bodies are, and how many of them share a point.
 fn count_contacts<S: Playable>(world: &World<S>) -> (u32, u32) {
     let near = world.contacts().filter(|contact| !contact.speculative);
-    near.fold((0, 0), |(near, touching), contact| (near + 1, touching + u32::from(contact.overlapping)))
+    near.fold((0, 0), |(near, overlapping), contact| (near + 1, overlapping + u32::from(contact.overlapping)))
 }
 
 /// Plays at most so many steps of a recording, and returns what they cost. The game is that of the recording's scene,
@@ -104,10 +104,10 @@ pub fn replay<S: Playable>(
         };
         times.measure(game, |game| game.stepper.world.stats(), set);
         let found = count_contacts(&game.stepper.world);
-        if found != (step.contacts, step.touching) {
+        if found != (step.contacts, step.overlapping) {
             return Err(format!(
-                "step {number}: {} contacts, {} touching; the recording has {} and {}",
-                found.0, found.1, step.contacts, step.touching
+                "step {number}: {} contacts, {} overlapping; the recording has {} and {}",
+                found.0, found.1, step.contacts, step.overlapping
             )
             .into());
         }

@@ -170,8 +170,8 @@ fn print_pairs(stats: &Stats) {
         false_pairs(stats) * 1e2
     );
     println!(
-        "contacts       {} ({} touching, {} manifolds)",
-        stats.contacts, stats.touching, stats.manifolds
+        "contacts       {} ({} overlapping, {} manifolds)",
+        stats.contacts, stats.overlapping, stats.manifolds
     );
 }
 
@@ -192,8 +192,8 @@ pub fn json(name: &str, times: &Times, stats: &Stats) -> String {
     let (update, all) = (times.updates(), times.all);
     let _ = write!(line, ",\"update_ms\":{:.4},\"step_ms\":{:.4}", times.mean(update), times.mean(all));
     let _ = write!(line, ",\"worst_update_ms\":{:.4}", times.worst_update.as_secs_f64() * 1e3);
-    let Stats { bodies, candidates, contacts, touching, .. } = *stats;
+    let Stats { bodies, candidates, contacts, overlapping, .. } = *stats;
     let _ = write!(line, ",\"bodies\":{bodies},\"candidates\":{candidates}");
-    let _ = write!(line, ",\"contacts\":{contacts},\"touching\":{touching}}}");
+    let _ = write!(line, ",\"contacts\":{contacts},\"overlapping\":{overlapping}}}");
     line
 }

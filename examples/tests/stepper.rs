@@ -115,7 +115,7 @@ fn a_recording_plays_again_with_the_same_contacts_and_tells_of_others() {
         recorder.record(&game).unwrap();
     }
     recorder.finish().unwrap();
-    assert!(game.stepper.world.stats().touching > 20, "it says something");
+    assert!(game.stepper.world.stats().overlapping > 20, "it says something");
 
     let play = |mut bytes: &[u8]| {
         let mut game = open();

@@ -191,7 +191,7 @@ fn what_hops_takes_no_memory_each_time() {
             }
             held[usize::from(cycle >= 20)] = live_bytes();
         }
-        assert!(world.stats().touching >= 300);
+        assert!(world.stats().overlapping >= 300);
         held[1] - held[0]
     });
     // Kept by the wrong one, it was 70,000 a cycle.

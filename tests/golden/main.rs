@@ -38,7 +38,7 @@ impl Told {
     fn hear<S: Recording>(&mut self, world: &World<S>) {
         hash(world, &mut self.events, &mut self.contacts);
         self.event_count += S::events(world).len();
-        self.touching += world.stats().touching;
+        self.touching += world.stats().overlapping;
     }
 
     fn row(self, name: &str) -> String {

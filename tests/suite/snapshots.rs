@@ -27,8 +27,14 @@ fn shown<S: Stored>(world: &World<S>) -> String {
         shown += &format!("{:?}{:?}", S::contacts_of(world, key), S::touching(world, key));
     }
     let counts = *world.stats();
-    let counts =
-        (counts.bodies, counts.moved, counts.candidates, counts.contacts, counts.touching, counts.overflow);
+    let counts = (
+        counts.bodies,
+        counts.moved,
+        counts.candidates,
+        counts.contacts,
+        counts.overlapping,
+        counts.overflow,
+    );
     shown + &format!("{counts:?}{}", world.stats().manifolds)
 }
 

@@ -59,7 +59,7 @@ fn live<S: Stored>(seed: u128, (count, room): (usize, f64), frames: usize) {
         assert_eq!(S::candidates_of(&world, key), S::candidates_of(&copy, key), "frame {frame}");
         let counts = |world: &World<S>| {
             let stats = world.stats();
-            [stats.bodies, stats.moved, stats.candidates, stats.contacts, stats.touching, stats.manifolds]
+            [stats.bodies, stats.moved, stats.candidates, stats.contacts, stats.overlapping, stats.manifolds]
         };
         assert_eq!(counts(&world), counts(&copy), "frame {frame}");
         assert_eq!(S::checksum(&world), S::checksum(&copy), "frame {frame}: all that a future depends on");

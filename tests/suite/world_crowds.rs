@@ -72,7 +72,7 @@ fn check(world: &World3, model: &mut Model, story: &str) -> [usize; 3] {
     let contacts: Touching = world.contacts().map(|contact| ordered(contact.a, contact.b)).collect();
     assert!(contacts == now && world.contacts().len() == now.len(), "{story}: contacts");
     let stats = world.stats();
-    assert_eq!([stats.contacts, stats.touching, stats.manifolds], [now.len(); 3], "{story}");
+    assert_eq!([stats.contacts, stats.overlapping, stats.manifolds], [now.len(); 3], "{story}");
     for (&key, ball) in model.balls.iter().step_by(29) {
         let of = now.iter().filter(|(a, b)| *a == key || *b == key).count();
         assert_eq!(world.contacts_of(key).count(), of, "{story}");

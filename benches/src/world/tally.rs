@@ -26,7 +26,7 @@ pub(super) struct Found {
 impl Tally {
     /// One of our frames.
     pub(super) fn push(&mut self, stats: &Stats, walked: Walked) {
-        self.push_counts(stats.candidates, stats.touching, walked);
+        self.push_counts(stats.candidates, stats.overlapping, walked);
     }
 
     /// One of the peer's.

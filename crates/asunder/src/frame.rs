@@ -70,14 +70,14 @@ impl<S: Space> World<S> {
 
 /// The stages, one after the other.
 pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
-    let Stats { candidates, contacts, touching, manifolds, .. } = world.stats;
+    let Stats { candidates, contacts, overlapping, manifolds, .. } = world.stats;
     // If a hook panics, last update's events and impacts must not be taken for this one's; candidates and contacts are,
     // and so are their counts.
     world.events.clear();
     world.impacts.clear();
     world.mark_kept_motions();
     let bodies = world.bodies.len();
-    world.stats = Stats { bodies, candidates, contacts, touching, manifolds, ..Stats::default() };
+    world.stats = Stats { bodies, candidates, contacts, overlapping, manifolds, ..Stats::default() };
     world.stats.refit = world.timed(refit::refit);
     world.stats.sweep = world.timed(|world| sweep::sweep(world, hooks));
     world.stats.collide = world.timed(collide::collide);

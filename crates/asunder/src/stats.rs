@@ -39,7 +39,7 @@ pub struct Stats {
     /// Pairs within their margins.
     pub contacts: usize,
     /// Pairs that share a point.
-    pub touching: usize,
+    pub overlapping: usize,
     /// Manifolds of all contacts.
     pub manifolds: usize,
     /// Whether there were more candidates than allowed: contacts are then last update's, there are no events and no

@@ -103,7 +103,7 @@ impl<S: Sight> Show for Player<S> {
         let mut lines = vec![
             format!("step {}", self.game.steps()),
             format!("{} bodies: {awake} awake, {asleep} asleep", stats.bodies),
-            format!("{} pairs, {} contacts, {} touch", stats.candidates, stats.contacts, stats.touching),
+            format!("{} pairs, {} contacts, {} overlap", stats.candidates, stats.contacts, stats.overlapping),
             format!("whole step {:7.2} ms", ms(self.times.all)),
             format!("  solver   {:7.2} ms", ms(self.times.all.saturating_sub(self.times.updates()))),
         ];

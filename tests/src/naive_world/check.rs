@@ -17,7 +17,7 @@ impl<S: Judged> NaiveWorld<S> {
         assert_eq!(stats.bodies, self.bodies.len());
         assert_eq!(stats.candidates, S::candidates(world).len());
         assert_eq!(stats.contacts, self.records.len());
-        assert_eq!(stats.touching, self.records.values().filter(|record| record.overlapping).count());
+        assert_eq!(stats.overlapping, self.records.values().filter(|record| record.overlapping).count());
         assert_eq!(stats.manifolds, S::contacts(world).iter().map(|one| one.manifolds.len()).sum::<usize>());
         assert_eq!(stats.overflow, self.is_given_up);
     }

@@ -87,8 +87,8 @@ fn a_pair_hook_that_panics_tells_nothing_twice_and_loses_nothing() {
         let [one, other] = [20.0, 20.5].map(|x| world.insert(ball.clone().at(at(x))));
         assert!(catch_unwind(AssertUnwindSafe(|| world.update_with(&Hooks3::new().pair(&fails)))).is_err());
         assert!(world.events().is_empty() && world.contacts().all(|contact| !contact.is_new));
-        let Stats { candidates, contacts, touching, manifolds, .. } = *world.stats();
-        assert_eq!((candidates, contacts, touching, manifolds), (1, 1, 1, 1));
+        let Stats { candidates, contacts, overlapping, manifolds, .. } = *world.stats();
+        assert_eq!((candidates, contacts, overlapping, manifolds), (1, 1, 1, 1));
         assert_eq!((world.candidates().len(), world.contacts().len()), (1, 1));
         [one, other].into_iter().for_each(|key| drop(world.remove(key)));
     }

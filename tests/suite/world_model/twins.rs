@@ -260,7 +260,7 @@ impl<S: Stage> Twins<S> {
             assert!(S::impacts(original) == S::impacts(&self.world), "impacts of the original");
             let counts = |world: &World<S>| {
                 let stats = world.stats();
-                (stats.moved, stats.contacts, stats.touching, stats.manifolds)
+                (stats.moved, stats.contacts, stats.overlapping, stats.manifolds)
             };
             assert_eq!(counts(original), counts(&self.world), "counts of the original");
         }

@@ -31,11 +31,11 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
     if stats.overflow {
         // Nobody has counted those that stay.
         stats.contacts = records.all().count();
-        stats.touching = records.all().filter(|record| record.overlapping).count();
+        stats.overlapping = records.all().filter(|record| record.overlapping).count();
         stats.manifolds = records.all().map(|record| record.manifolds.count()).sum();
     } else {
         stats.contacts = tallies().map(|tally| tally.seconds.len()).sum();
-        stats.touching = tallies().map(|tally| tally.touching).sum();
+        stats.overlapping = tallies().map(|tally| tally.overlapping).sum();
         stats.manifolds = tallies().map(|tally| tally.manifolds).sum();
         if tallies().any(|tally| tally.has_others) || by_second.len() != stats.contacts {
             let lists = || tallies().map(|tally| &*tally.seconds);

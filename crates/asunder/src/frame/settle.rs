@@ -59,14 +59,14 @@ pub(crate) struct Tally {
     /// Pairs that were asked about.
     pub(super) asked: usize,
     pub(super) new: usize,
-    pub(super) touching: usize,
+    pub(super) overlapping: usize,
     pub(super) manifolds: usize,
 }
 
 impl Tally {
     fn begin(&mut self) {
         (self.counted, self.has_others) = (0, false);
-        (self.asked, self.new, self.touching, self.manifolds) = (0, 0, 0, 0);
+        (self.asked, self.new, self.overlapping, self.manifolds) = (0, 0, 0, 0);
     }
 
     #[inline]
@@ -78,7 +78,7 @@ impl Tally {
         }
         self.counted += 1;
         self.new += usize::from(record.is_new);
-        self.touching += usize::from(record.overlapping);
+        self.overlapping += usize::from(record.overlapping);
         self.manifolds += record.manifolds.count();
     }
 

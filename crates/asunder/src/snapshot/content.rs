@@ -86,7 +86,7 @@ pub(super) struct Counts {
     moved: u64,
     candidates: u64,
     contacts: u64,
-    touching: u64,
+    overlapping: u64,
     manifolds: u64,
     overflow: bool,
 }
@@ -227,7 +227,7 @@ impl Counts {
             moved,
             candidates,
             contacts,
-            touching,
+            overlapping,
             manifolds,
             overflow,
         } = *stats;
@@ -236,20 +236,20 @@ impl Counts {
             moved: moved as u64,
             candidates: candidates as u64,
             contacts: contacts as u64,
-            touching: touching as u64,
+            overlapping: overlapping as u64,
             manifolds: manifolds as u64,
             overflow,
         }
     }
 
     pub(super) fn stats(&self) -> Stats {
-        let Self { bodies, moved, candidates, contacts, touching, manifolds, overflow } = *self;
+        let Self { bodies, moved, candidates, contacts, overlapping, manifolds, overflow } = *self;
         Stats {
             bodies: bodies as usize,
             moved: moved as usize,
             candidates: candidates as usize,
             contacts: contacts as usize,
-            touching: touching as usize,
+            overlapping: overlapping as usize,
             manifolds: manifolds as usize,
             overflow,
             ..Stats::default()
