@@ -64,10 +64,17 @@ pub(super) fn of_convex(shape: &Shape2, density: f64) -> MassProperties2 {
         let middle = vertices.iter().fold(DVec2::ZERO, |sum, &v| sum + v) / vertices.len().max(1) as f64;
         return MassProperties2 { mass: 0.0, center: center + middle, inertia: 0.0 };
     }
-    let offset = moments.first / moments.area;
+    // Of a sliver the area may be no more than rounding, and the quotient anywhere.
+    let (low, high) = box_around(&vertices);
+    let offset = (moments.first / moments.area).clamp(low - radius, high + radius);
     // Never below zero, save by the rounding of this difference.
     let polar = (moments.polar - moments.area * offset.length_squared()).max(0.0);
     MassProperties2 { mass: density * moments.area, center: center + offset, inertia: density * polar }
+}
+
+fn box_around(vertices: &[DVec2]) -> (DVec2, DVec2) {
+    let around = |(low, high): (DVec2, DVec2), &vertex: &DVec2| (low.min(vertex), high.max(vertex));
+    vertices.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around)
 }
 
 /// A polygon, as triangles from the origin, which lies inside or near it.
@@ -122,4 +129,23 @@ fn add_sector(moments: &mut Moments, vertex: DVec2, turn: Turn, r: f64) {
     let (area, pull) = (turn.angle * r * r / 2.0, turn.pull * (r * r * r / 3.0));
     let polar = area * (vertex.length_squared() + r * r / 2.0) + 2.0 * vertex.dot(pull);
     moments.add(area, vertex * area + pull, polar);
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::polygon::Polygon;
+    use crate::shape::Shape2;
+    use glam::Vec2;
+
+    #[test]
+    fn a_sliver_has_its_centre_of_mass_within() {
+        // What places about its middle are rounded by is more than it has of an area.
+        let corners = [(0.0, 0.0), (128_701.21, 480_313.9), (4.964_317e-11, 1.852_687e-10)].map(Vec2::from);
+        for radius in [0.0, 1e-45, 1e-12, 1e-3] {
+            let sliver = Polygon::hull_of(&corners).unwrap().rounded(radius).unwrap();
+            let center = Shape2::from(sliver).mass_properties(1.0).unwrap().center;
+            assert!(center.cmpge(Vec2::splat(-0.002).as_dvec2()).all(), "{radius}: {center}");
+            assert!(center.cmple(Vec2::new(128_701.22, 480_313.93).as_dvec2()).all(), "{radius}: {center}");
+        }
+    }
 }
