@@ -219,7 +219,7 @@ impl Lean {
                 continue;
             }
             let (a, b) = (&self.bodies[a], &self.bodies[b]);
-            // Both shapes are convex, which parry3d supports in every combination.
+            // Convex shapes, and one mesh under all others: parry3d supports these in every combination.
             let _ = DefaultQueryDispatcher.contact_manifolds(
                 &a.pose.inv_mul(&b.pose),
                 &*a.shape.0,
