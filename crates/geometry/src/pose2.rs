@@ -1,6 +1,7 @@
 //! Where a body is in the plane, and the exact meaning of its rotation.
 
 use crate::pose3::{PoseError, check_position, check_rotation};
+use crate::tolerance::UNIT_ROTATION;
 use glam::{DAffine2, DVec2};
 
 /// A rotation in the plane, stored as its cosine and sine.
@@ -47,13 +48,25 @@ impl Rotation2 {
         Self { cos: self.cos, sin: 0.0 - self.sin }
     }
 
-    /// The rotation that was stored as these, bit for bit: [`Rotation2::new`] would round them once more.
-    #[cfg(feature = "serde")]
-    pub(crate) fn restored(cos: f32, sin: f32) -> Result<Self, StoredRotationError> {
-        check_rotation(&[cos, sin]).map_err(StoredRotationError::Pose)?;
+    /// The rotation that showed these as its [`cos`](Self::cos) and [`sin`](Self::sin), bit for bit: for what a game
+    /// stores or sends in a format of its own. [`Rotation2::new`] would round them once more, and change one in two
+    /// hundred.
+    ///
+    /// ```
+    /// use asunder_geometry::{PoseError, Rotation2};
+    /// let sent = Rotation2::from_angle(2.5)?;
+    /// assert_eq!(Rotation2::restored(sent.cos(), sent.sin()), Ok(sent));
+    /// assert_eq!(Rotation2::restored(0.8, 0.8), Err(PoseError::NotUnit { cos: 0.8, sin: 0.8 }));
+    /// # Ok::<(), PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What is not finite, and what no rotation shows, since its length is not 1 up to rounding.
+    pub fn restored(cos: f32, sin: f32) -> Result<Self, PoseError> {
+        check_rotation(&[cos, sin])?;
         let (c, s) = (f64::from(cos), f64::from(sin));
-        if (c * c + s * s - 1.0).abs() > crate::tolerance::UNIT_ROTATION {
-            return Err(StoredRotationError::NotUnit { cos, sin });
+        if (c * c + s * s - 1.0).abs() > UNIT_ROTATION {
+            return Err(PoseError::NotUnit { cos, sin });
         }
         Ok(Self { cos, sin })
     }
@@ -97,33 +110,6 @@ impl Rotation2 {
     pub fn turn(&self, v: DVec2) -> DVec2 {
         let (c, s) = (f64::from(self.cos), f64::from(self.sin));
         DVec2::new(c * v.x - s * v.y, s * v.x + c * v.y)
-    }
-}
-
-/// Why a stored rotation was refused.
-#[cfg(feature = "serde")]
-#[derive(Debug, PartialEq)]
-pub(crate) enum StoredRotationError {
-    Pose(PoseError),
-    /// Its square is not one up to rounding.
-    NotUnit {
-        cos: f32,
-        sin: f32,
-    },
-}
-
-#[cfg(feature = "serde")]
-impl core::fmt::Display for StoredRotationError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Pose(error) => error.fmt(f),
-            Self::NotUnit { cos, sin } => {
-                write!(
-                    f,
-                    "cosine {cos} and sine {sin} are not of length 1 to the last bit: store what a rotation shows"
-                )
-            }
-        }
     }
 }
 

@@ -37,6 +37,14 @@ pub enum PoseError {
     },
     /// The rotation is zero in every component, and so points nowhere.
     ZeroRotation,
+    /// A cosine and a sine that no rotation of the plane shows, see [`Rotation2::restored`](crate::Rotation2::restored):
+    /// their squares do not add up to one.
+    NotUnit {
+        /// The cosine.
+        cos: f32,
+        /// The sine.
+        sin: f32,
+    },
 }
 
 impl core::fmt::Display for PoseError {
@@ -58,6 +66,12 @@ impl core::fmt::Display for PoseError {
                 write!(f, "rotation component {component} is {value}: check the step that made it")
             }
             Self::ZeroRotation => write!(f, "the rotation is zero: use the identity for no rotation"),
+            Self::NotUnit { cos, sin } => {
+                write!(
+                    f,
+                    "cosine {cos} and sine {sin} are not of length 1 to the last bit: store what a rotation shows"
+                )
+            }
         }
     }
 }

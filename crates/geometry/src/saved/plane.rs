@@ -8,7 +8,7 @@ use crate::direction::DirectionError;
 use crate::half_space::HalfPlane;
 use crate::motion2::Motion2;
 use crate::polygon::Polygon;
-use crate::pose2::{Pose2, Rotation2, StoredRotationError};
+use crate::pose2::{Pose2, Rotation2};
 use crate::pose3::PoseError;
 use crate::radius::RadiusError;
 use crate::ray::{Ray2, RayError};
@@ -43,13 +43,13 @@ struct RotationForm {
 
 impl Form for RotationForm {
     type Of = Rotation2;
-    type Error = StoredRotationError;
+    type Error = PoseError;
 
     fn of(value: &Rotation2) -> Self {
         Self { cos: value.cos(), sin: value.sin() }
     }
 
-    fn build(self) -> Result<Rotation2, StoredRotationError> {
+    fn build(self) -> Result<Rotation2, PoseError> {
         Rotation2::restored(self.cos, self.sin)
     }
 }
