@@ -268,6 +268,22 @@ fn lengths_that_are_no_numbers_give_lines_that_can_be_drawn() {
     }
 }
 
+/// A half-space's arrow leads into it; where its length is below zero, out of it, into regions that it is not in itself.
+#[test]
+fn an_arrow_that_leads_out_of_a_half_space_is_seen_there() {
+    let (mut space, mut plane) = (World3::new(), World2::new());
+    space.insert(Collider3::new(HalfSpace::new(Vec3::Y).unwrap()));
+    plane.insert(Collider2::new(HalfPlane::new(Vec2::Y).unwrap()));
+    let (above, over) = (Vec3::new(-1.0, 1.0, -1.0), Vec2::new(-1.0, 1.0));
+    let (above, over) = (Aabb3::new(above, Vec3::splat(2.0)), Aabb2::new(over, Vec2::splat(2.0)));
+    for (length, drawn) in [(3.0, 0), (-3.0, 1)] {
+        let (options, mut counts) = (DebugOptions { length, ..ALL }, [0; 2]);
+        space.debug_lines_in(&above, &options, &mut |_, _, _| counts[0] += 1);
+        plane.debug_lines_in(&over, &options, &mut |_, _, _| counts[1] += 1);
+        assert_eq!(counts, [drawn; 2], "{length}");
+    }
+}
+
 /// Whether a line has a point in a box, by the axes that may part the two: those of the box, and across the line and
 /// each of them.
 fn reaches_in(region: &Aabb3, [from, to]: &[DVec3; 2]) -> bool {

@@ -67,7 +67,9 @@ impl World<Plane> {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
-                if region.is_none_or(|region| shape.bounds(pose, 0.0).overlaps(region)) {
+                // The arrow of what has no end leads out of it where lengths are below zero.
+                let is_endless = shape.outer_radius().is_infinite();
+                if region.is_none_or(|region| is_endless || shape.bounds(pose, 0.0).overlaps(region)) {
                     outline(shape, pose, options, &mut |from, to| line(from, to, what));
                 }
             }

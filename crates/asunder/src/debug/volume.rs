@@ -75,9 +75,11 @@ impl World<Volume> {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
+                // The arrow of what has no end leads out of it where lengths are below zero.
+                let is_endless = shape.outer_radius().is_infinite();
                 // Of a region without end, as far as the body goes: turned into its axes, infinities are no numbers.
                 let there = region.map(|region| shape.bounds(pose, 0.0).intersection(region));
-                if there != Some(None) {
+                if is_endless || there != Some(None) {
                     let there = there.flatten();
                     outline((shape, pose), there.as_ref(), options, &mut |from, to| line(from, to, what));
                 }
