@@ -40,8 +40,8 @@ pub struct Basis3 {
 
 impl Basis3 {
     /// The axes of one rotation as seen from another: of quaternions x, y, z, w of any length but zero, with the
-    /// values of f32 numbers. [`Pose3::basis_from`] is made of it; it stands alone for those that hold many
-    /// rotations side by side.
+    /// values of f32 numbers. [`Pose3::basis_from`](crate::Pose3::basis_from) is made of it; it stands alone for those
+    /// that hold many rotations side by side.
     ///
     /// ```
     /// use asunder_geometry::Basis3;
