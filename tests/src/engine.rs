@@ -1,5 +1,7 @@
 //! One face for both worlds, so that the model and the operation lists are written once.
 
+#[macro_use]
+mod forwarded;
 mod plane;
 mod volume;
 
