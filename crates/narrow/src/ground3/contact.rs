@@ -9,7 +9,7 @@
 //!     the side it is on: of one-sided ground the plane's, and its front alone counts; of other ground that of the
 //!         surface around the point nearest to the part's centre                           (Facet::has_in_front)
 //!     no edge or corner stands out near the part, or the part's lowest vertex is well inside:
-//!         the triangle's own normal                                                                   (prism)
+//!         the triangle's own normal                                                           (closer, prism)
 //!     an axis that costs little parts them: done; of a cuboid, any of thirteen                   (standing, axes)
 //!     its corner or edge has spoken through a neighbour: done                                   (outstanding)
 //!     a corner or edge of it stands well inside the part's face: that face's normal, if it is let through   (against)
@@ -17,6 +17,7 @@
 //!     of one that a gap parts from it, the nearest points are, in closed form: as little                  (gap)
 //!     else the kernels of part and triangle: their axis, if the feature's neighbours let it through   (meeting)
 //!         else the triangle's own normal, unless a contact with others frees the part from it, too
+//!   where the part is deep in a flat patch, what is deeper over the rest of it                                (whole)
 //!   points go to the group of their normal                                                            (groups)
 //!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
 //!   what is nearer, in a gap along what ground refused                                              (unsaid)
@@ -29,7 +30,8 @@
 //!
 //! It tells nothing deep of a triangle that the part does not meet: what lies over a ridge, on one slope of a roof, is
 //! behind the other's plane, and by how much is no depth. Where the part is deep in ground that lies in the triangle's
-//! plane and hangs together with it, it leaves all of that at once, and its depth is that of the whole.
+//! plane and hangs together with it, it leaves all of that at once, and its depth is that of the whole. What is deep is
+//! so at any margin: a larger one adds what a gap parts from the part, and nothing else (see `whole`).
 //!
 //! That normal may be a bad one: of a box that leans over a cliff, a triangle of the cliff's top whose corner alone
 //! lies in the box is left by the box sideways along the cliff, which its neighbours refuse; straight up would throw
@@ -85,6 +87,7 @@ mod answer;
 mod axes;
 mod ball;
 mod behind;
+mod closer;
 mod facet;
 mod gap;
 mod groups;
@@ -99,17 +102,16 @@ mod refused;
 mod round;
 mod standing;
 mod unsaid;
+mod whole;
 
 use super::OnGround;
 use crate::counted::count_step;
 use crate::pair3::{Pair3, Part, for_parts, reach_of};
 use crate::polyhedron::solid::Solid;
 use crate::room::Room;
-use against::Against;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Aabb3, NearTriangle, Pose3, Prominent, Shape3};
-use axes::Axes;
+use asunder_geometry::{Aabb3, NearTriangle, Pose3, Shape3};
 use ball::nearest_to;
 use behind::AllBehind;
 use core::cell::Cell;
@@ -117,11 +119,11 @@ use core::ops::ControlFlow;
 use facet::Facet;
 pub(crate) use facet::{front_of, widened};
 use groups::Groups;
-use meeting::{Meeting, Met};
+use meeting::Meeting;
 use over::Plane;
 use prism::{Incident, Prism};
 use protrusion::Levels;
-use refused::{AllRefused, Refusal};
+use refused::AllRefused;
 use round::Round;
 use standing::{Octets, Place, Standing};
 pub(super) use standing::{doubt_of, span_of};
@@ -256,6 +258,7 @@ impl<'a> Asking<'a> {
         }
         seen.look_at_behind(&mut known);
         seen.add_refused(&mut known);
+        seen.add_whole(&mut known);
         seen.conclude(&mut known, is_overlap_known);
         seen.bound_least(&mut known, manifolds.is_wanted());
         self.answer(part, &mut known, is_overlap_known, manifolds)
@@ -296,88 +299,8 @@ impl Seen<'_> {
         }
     }
 
-    /// Looks at a triangle that is near enough.
-    fn look_on(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) {
-        let (number, doubt) = (near.number, prism.doubt);
-        let separation = prism.extent.low - self.standing.radius;
-        if self.needs_kernels(prism, near.prominent) {
-            return self.look_closer(prism, near.prominent, known);
-        }
-        let has_points = self.add_where_met(prism, separation, known);
-        known.note_level(prism, near.prominent);
-        if known.overlapping || separation > doubt {
-            return;
-        }
-        if prism.does_cross() {
-            return known.settle(number);
-        }
-        self.leave_unclear(number, (has_points, separation), known);
-    }
-
-    /// Looks at a triangle whose own normal may not be the answer.
-    fn look_closer(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
-        let Prism { ground, standing, facet, extent, doubt, .. } = *prism;
-        let number = facet.number;
-        let separation = extent.low - standing.radius;
-        let beyond = self.asking.reach + 2.0 * doubt;
-        let mut axes = Axes::NONE;
-        let has_axes = !self.asking.is_plain && prism.fill(&mut axes, beyond + standing.radius);
-        let axes = has_axes.then_some(&axes);
-        if standing.is_apart((facet, axes), beyond) {
-            return;
-        }
-        known.note_level(prism, prominent);
-        if let Some(least) = self.explained(facet, known) {
-            if least <= doubt {
-                self.leave_unclear(number, (true, separation), known);
-            }
-            return;
-        }
-        match prism.add_against(&self.incident_to(facet.normal, known), &mut known.groups) {
-            Against::Apart => return,
-            Against::Refused(refusal) => {
-                self.refuse(prism, refusal, known);
-                return self.leave_unclear(number, (false, separation), known);
-            }
-            Against::Added(_, true) => return known.settle(number),
-            Against::Added(separation, _) if separation > doubt + standing.planarity => return,
-            Against::Added(separation, _) => return self.leave_unclear(number, (true, separation), known),
-            Against::Unknown => {}
-        }
-        if let Some(axes) = axes {
-            if axes.do_overlap(doubt) && prism.refuses(axes) {
-                known.settle(number);
-                let (is_own, told) = (prism.is_own(axes), prism.told_by(axes));
-                return self.refuse(prism, Refusal { is_own, is_apart: false, told }, known);
-            }
-            if axes.best > doubt
-                && let Some(unsaid) = prism.refused_gap(axes)
-            {
-                if unsaid.separation <= self.asking.margin.into() {
-                    known.leave_unsaid(unsaid);
-                    let is_own = unsaid.is_own;
-                    self.refuse(prism, Refusal { is_own, is_apart: true, told: None }, known);
-                }
-                return;
-            }
-        }
-        let met = self.meeting.add_points((ground, facet), standing, self.asking, &mut known.groups);
-        match met {
-            Met::Apart | Met::Told(false) => {}
-            Met::Told(true) => known.settle(number),
-            Met::Refused { overlapping, is_own, gap, told } => {
-                if overlapping {
-                    known.settle(number);
-                }
-                if let Some(unsaid) = gap {
-                    known.leave_unsaid(unsaid);
-                }
-                self.refuse(prism, Refusal { is_own, is_apart: !overlapping, told }, known);
-            }
-        }
-    }
-
     /// The face that the part turns to a normal.
+    #[inline(always)]
     fn incident_to(&self, normal: DVec3, known: &mut Known) -> Incident {
         match known.incident {
             Some(incident) if incident.is_for(normal) => incident,
@@ -389,15 +312,14 @@ impl Seen<'_> {
     /// plane, deep ones only if part and triangle meet: what lies over a bend may be behind the plane of a triangle,
     /// and nowhere near the triangle itself.
     fn add_where_met(&self, prism: &Prism, separation: f64, known: &mut Known) -> bool {
-        let least = -(self.standing.slack + prism.doubt);
-        let is_clear = prism.facet.is_front && prism.facet.height(self.standing.center) >= 0.0;
-        if is_clear || separation >= least {
+        let (least, may_meet) = (self.deep_below(prism), || self.may_meet(prism));
+        let is_clear = || prism.facet.is_front && prism.facet.height(self.standing.center) >= 0.0;
+        if separation >= least || is_clear() && may_meet() {
             return self.add_by_normal(prism, known);
         }
         let is_left_out = Cell::new(false);
         let has_points = self.add_by_normal(&Prism { gate: Some((least, &is_left_out)), ..*prism }, known);
-        let is_met = || prism.does_cross() || self.meeting.overlaps(prism.ground, prism.facet.number);
-        if is_left_out.get() && is_met() {
+        if is_left_out.get() && may_meet() && self.meets(prism) {
             return self.add_by_normal(prism, known);
         }
         has_points

@@ -86,7 +86,7 @@ impl Prism<'_> {
             let is_own = facet.is_nearly_own(-outwards);
             return Against::Refused(Refusal { is_own, is_apart: least > doubt, told: None });
         }
-        let base = Base { normal: -outwards, patch: self.ground.patch(facet.number), weight: 0.0 };
+        let base = Base::along(-outwards, self.ground.patch(facet.number));
         for (share, by) in stretch.ends {
             let (on_ground, separation) = (from + along * share, separation(share));
             if separation <= self.reach {

@@ -101,7 +101,8 @@ impl Nearest {
             of_body: Feature::Vertex(0),
             of_ground,
         };
-        groups.add(&Base { normal, patch, weight: if is_face { facet.area() } else { 0.0 } }, pin);
+        let weight = if is_face { facet.area() } else { 0.0 };
+        groups.add(&Base { weight, ..Base::along(normal, patch) }, pin);
         true
     }
 }

@@ -44,6 +44,9 @@ pub(super) struct Base {
     pub(super) patch: u32,
     /// Of several the normal of the greatest is taken: an area, or zero where it is not a face's own.
     pub(super) weight: f64,
+    /// How far the part reaches behind the plane of a face, of several the furthest: below zero, in metres; infinite
+    /// where it is not a face's own.
+    pub(super) behind: f64,
 }
 
 /// Nothing told yet.
@@ -66,6 +69,8 @@ pub(super) struct Groups {
     slack: f64,
     /// Points no further above the deepest are as deep as any where four of more are chosen, in metres.
     even: f64,
+    /// What is deeper is left out, in metres.
+    floor: f64,
 }
 
 impl Pin {
@@ -93,7 +98,18 @@ impl Pin {
 impl Groups {
     #[inline(always)]
     pub(super) fn new(slack: f64, even: f64) -> Self {
-        Self { groups: ArrayVec::new(), slack, even }
+        Self { groups: ArrayVec::new(), slack, even, floor: f64::NEG_INFINITY }
+    }
+
+    /// Leaves out from now on what is deeper than that, in metres.
+    #[inline]
+    pub(super) fn leave_out(&mut self, below: f64) {
+        self.floor = below;
+    }
+
+    /// Whether anything is left out.
+    pub(super) fn do_leave_out(&self) -> bool {
+        self.floor > f64::NEG_INFINITY
     }
 
     pub(super) fn iter(&self) -> core::slice::Iter<'_, Group> {
@@ -122,18 +138,23 @@ impl Groups {
 
     /// The least separation that was found along a normal; infinite without any.
     pub(super) fn least_along(&self, normal: DVec3) -> f64 {
-        let group = self.groups.iter().find(|group| is_same(group.base.normal, normal));
-        group.map_or(f64::INFINITY, Group::found)
+        self.along(normal).map_or(f64::INFINITY, Group::found)
     }
 
-    /// Whether a point on a flat patch is deeper than the slack.
-    pub(super) fn is_deep_in(&self, patch: u32) -> bool {
-        let is_deep = |pin: &Pin| pin.of_ground == Feature::Face(patch) && pin.separation < -self.slack;
-        self.groups.iter().any(|group| group.pins.iter().any(is_deep))
+    /// That of a normal.
+    pub(super) fn along(&self, normal: DVec3) -> Option<&Group> {
+        self.groups.iter().find(|group| is_same(group.base.normal, normal))
+    }
+
+    pub(super) fn slack(&self) -> f64 {
+        self.slack
     }
 
     /// Adds a point. Cost: linear in the normals and in the points of its own.
     pub(super) fn add(&mut self, base: &Base, pin: Pin) {
+        if pin.separation < self.floor {
+            return;
+        }
         let slack = self.slack;
         if let Some(group) = self.groups.iter_mut().find(|group| is_same(group.base.normal, base.normal)) {
             group.base.join(base);
@@ -162,7 +183,7 @@ impl Groups {
     /// Tells how near a normal's points are, and by how much that may be off, where they stand for more than there are.
     pub(super) fn tell(&mut self, normal: DVec3, told: [f64; 2]) {
         let group = self.groups.iter_mut().find(|group| is_same(group.base.normal, normal));
-        if let Some(group) = group {
+        if let Some(group) = group.filter(|_| told[0] >= self.floor) {
             group.tell(told);
         }
     }
@@ -175,11 +196,9 @@ impl Groups {
         }
     }
 
-    /// The first that is found of a normal and the features of ground that its points are on.
-    pub(super) fn find_on<T>(&self, find: impl Fn(&Base, Feature) -> Option<T>) -> Option<T> {
-        self.groups
-            .iter()
-            .find_map(|group| group.pins.iter().find_map(|pin| find(&group.base, pin.of_ground)))
+    /// The first that is found of a normal and its points.
+    pub(super) fn find_on<T>(&self, mut find: impl FnMut(&Base, &Pin) -> Option<T>) -> Option<T> {
+        self.groups.iter().find_map(|group| group.pins.iter().find_map(|pin| find(&group.base, pin)))
     }
 
     /// Removes points that are deeper than rounding allows of shapes that share no point, and groups without any left.
@@ -235,12 +254,18 @@ impl Groups {
 }
 
 impl Base {
+    /// Of a normal that is not a face's own.
+    pub(super) fn along(normal: DVec3, patch: u32) -> Self {
+        Self { normal, patch, weight: 0.0, behind: f64::INFINITY }
+    }
+
     /// Takes another of the same normal in.
     fn join(&mut self, other: &Self) {
         if other.weight > self.weight {
             (self.normal, self.weight) = (other.normal, other.weight);
         }
         self.patch = self.patch.min(other.patch);
+        self.behind = if other.behind < self.behind { other.behind } else { self.behind };
     }
 }
 
@@ -253,7 +278,7 @@ impl Group {
     }
 
     /// The least separation of its points, or what was told of them.
-    fn found(&self) -> f64 {
+    pub(super) fn found(&self) -> f64 {
         self.least().min(self.told[0])
     }
 

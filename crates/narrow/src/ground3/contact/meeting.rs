@@ -158,7 +158,7 @@ impl<'a> Meeting<'a> {
         if touch.points.is_empty() || !facet.lets_through(ground, towards) {
             return false;
         }
-        let base = Base { normal: towards, patch: ground.patch(facet.number), weight: 0.0 };
+        let base = Base::along(towards, ground.patch(facet.number));
         for point in &touch.points {
             let pin = Pin {
                 on_body: place.point(point.on_a),

@@ -1,56 +1,88 @@
 //! Which triangles have an edge or a corner that stands out near the part, and has not been heard of yet.
 
+use super::axes::Axes;
 use super::facet::{Facet, edge_number};
 use super::prism::Prism;
+use super::whole::touching;
 use super::{Known, Seen};
 use crate::feature::Feature;
 use asunder_geometry::Prominent;
+use asunder_geometry::glam::DVec3;
+
+/// What tells of a triangle.
+pub(super) enum Needs {
+    /// Its own normal.
+    Normal,
+    /// Of what is deep its own normal; of what is parted from it by a gap the kernels.
+    KernelsBeside,
+    Kernels,
+}
+
+/// How much of a triangle was said by another.
+pub(super) enum Explained {
+    /// All; how near it is at least.
+    Wholly(f64),
+    /// What is deep.
+    WhereDeep,
+}
 
 impl Seen<'_> {
-    /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer.
-    pub(super) fn needs_kernels(&self, prism: &Prism, prominent: Prominent) -> bool {
+    /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer. Where
+    /// that is so for the margin alone, it is the answer of what is deep.
+    #[inline(never)]
+    pub(super) fn needs(&self, prism: &Prism, prominent: Prominent) -> Needs {
         let Prism { ground, standing, facet, extent, .. } = *prism;
         let is_front = facet.is_front;
         // Two-sided ground that the part is in may bend the other way, and end there all the same.
         let is_in = extent.low - standing.radius < -standing.slack && !ground.is_one_sided();
         if !(prominent.any(is_front) || is_in && prominent.any(!is_front)) {
-            return false;
+            return Needs::Normal;
         }
-        let radius = standing.outer_radius + self.asking.reach + prism.doubt;
-        let is_near = |edge: usize| {
-            let (from, along) = facet.edge(edge);
-            let place = ((standing.center - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            (standing.center - from - along * place).length_squared() <= radius * radius
-        };
-        let is_corner = |corner: usize| {
-            prominent.corner(corner, is_front)
-                || (is_in
-                    && prominent.corner(corner, !is_front)
-                    && facet.sees_otherwise(ground, corner, standing.center))
-        };
-        let is_corner = [is_corner(0), is_corner(1), is_corner(2)];
-        let stands_out =
-            |edge: usize| prominent.edge(edge, is_front) || is_corner[edge] || is_corner[(edge + 1) % 3];
-        let counts = |edge: usize| stands_out(edge) && is_near(edge);
-        let counts = [counts(0), counts(1), counts(2)];
-        if counts == [false; 3] {
-            return false;
+        let mut is_corner = [0, 1, 2].map(|corner| prominent.corner(corner, is_front));
+        if is_in {
+            for (corner, stands_out) in is_corner.iter_mut().enumerate() {
+                *stands_out = *stands_out
+                    || prominent.corner(corner, !is_front)
+                        && facet.sees_otherwise(ground, corner, standing.center);
+            }
         }
-        // The short way.
-        let depth = -extent.low;
-        let lowest = standing.point(extent.lowest);
-        let is_inside = facet.is_over(lowest, standing.slack);
-        !(is_inside && (depth <= 0.0 || facet.inside(lowest, |edge| counts[edge]) >= depth))
+        let square = |edge: usize| {
+            let stands_out = prominent.edge(edge, is_front) || is_corner[edge] || is_corner[(edge + 1) % 3];
+            if stands_out { facet.square_to_side(standing.center, edge) } else { f64::INFINITY }
+        };
+        let squares = [square(0), square(1), square(2)];
+        let counts = are_within(squares, standing.outer_radius + self.asking.reach + prism.doubt);
+        if counts == [false; 3] || prism.is_short(counts) {
+            return Needs::Normal;
+        }
+        if self.is_behind(prism) && self.is_for_margin_alone(prism, (squares, counts)) {
+            return Needs::KernelsBeside;
+        }
+        Needs::Kernels
     }
 
-    /// How near a triangle is at least, if all that it has to say was said by another around the same corner, or beside
-    /// the same edge: along the normal that it gave, nothing else of this one is within reach.
-    pub(super) fn explained(&self, facet: &Facet, known: &Known) -> Option<f64> {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
+    /// Whether of what is deep its own normal would be the answer without a margin: fewer sides count then.
+    #[inline]
+    fn is_for_margin_alone(&self, prism: &Prism, (squares, counts): ([f64; 3], [bool; 3])) -> bool {
+        let without = are_within(squares, self.standing.outer_radius + touching() + prism.doubt);
+        without != counts && (without == [false; 3] || prism.is_short(without)) && self.is_in_ball(prism)
+    }
+
+    /// How much of what a triangle has to say was said by another around the same corner, or beside the same edge:
+    /// along the normal that it gave, nothing else of this one is within reach. What the part may be deep in is
+    /// explained by what touches alone, as it is without a margin.
+    pub(super) fn explained(
+        &self,
+        (prism, axes): (&Prism, Option<&Axes>),
+        known: &Known,
+    ) -> Option<Explained> {
+        let Prism { ground, standing, facet, doubt, .. } = *prism;
         let numbers = ground.vertex_numbers(facet.number);
-        known.groups.find_on(|base, feature| {
+        let (is_behind, mut is_where_deep) = (self.is_behind(prism), false);
+        let is_apart = || standing.is_apart((facet, axes), touching() + 2.0 * doubt);
+        let wholly = known.groups.find_on(|base, pin| {
             // One corner, or both ends of an edge.
-            let (first, count) = match feature {
+            let (first, count) = match pin.of_ground {
                 Feature::Vertex(vertex) => (numbers.iter().position(|&number| number == vertex), 1),
                 Feature::Edge(edge) => {
                     ((0..3).find(|&own| edge_number(ground, facet.number, own) == edge), 2)
@@ -62,9 +94,47 @@ impl Seen<'_> {
             let low = standing.extent(base.normal, at).low - standing.radius;
             let height = |next: usize| base.normal.dot(facet.corners[(first + next) % 3] - at);
             let is_rest_beyond =
-                (count..3).all(|next| height(next) < 0.0 && low - height(next) > self.asking.reach);
+                |reach: f64| (count..3).all(|next| height(next) < 0.0 && low - height(next) > reach);
             // An edge need not be level to the last bit along the normal that it gave.
-            is_rest_beyond.then(|| low - height(count - 1).max(0.0))
-        })
+            let least = low - height(count - 1).max(0.0);
+            let may_be_deep = is_behind && least <= doubt;
+            if may_be_deep && pin.separation > touching() && !is_apart() {
+                return None;
+            }
+            let is_wholly = is_rest_beyond(self.asking.reach);
+            is_where_deep |= may_be_deep && !is_wholly && is_rest_beyond(touching());
+            is_wholly.then_some(Explained::Wholly(least))
+        });
+        wholly.or(is_where_deep.then_some(Explained::WhereDeep))
+    }
+}
+
+/// Which sides of a triangle are no further than a radius, by the squares of their distances.
+#[inline(always)]
+fn are_within(squares: [f64; 3], radius: f64) -> [bool; 3] {
+    let is_within = |side: usize| squares[side] <= radius * radius;
+    [is_within(0), is_within(1), is_within(2)]
+}
+
+impl Facet {
+    /// The square of how far a side is from a point.
+    #[inline(always)]
+    fn square_to_side(&self, point: DVec3, side: usize) -> f64 {
+        let (from, along) = self.edge(side);
+        let place = ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        (point - from - along * place).length_squared()
+    }
+}
+
+impl Prism<'_> {
+    /// Whether its own normal is the answer by the short way: the part's lowest vertex is well inside of the edges that
+    /// count.
+    #[inline(always)]
+    fn is_short(&self, counts: [bool; 3]) -> bool {
+        let Self { standing, facet, extent, .. } = *self;
+        let depth = -extent.low;
+        let lowest = standing.point(extent.lowest);
+        facet.is_over(lowest, standing.slack)
+            && (depth <= 0.0 || facet.inside(lowest, |edge| counts[edge]) >= depth)
     }
 }

@@ -37,7 +37,7 @@ impl Seen<'_> {
             let doubt = standing.doubt(corner);
             if height <= self.asking.reach {
                 // From the ground to the body.
-                let base = Base { normal: -normal, patch: ground.patch(number), weight: 0.0 };
+                let base = Base::along(-normal, ground.patch(number));
                 let pin = Pin {
                     on_body: corner - normal * height,
                     on_ground: corner,

@@ -220,7 +220,8 @@ impl Prism<'_> {
 
     pub(super) fn base(&self) -> Base {
         let Facet { number, normal, .. } = *self.facet;
-        Base { normal, patch: self.ground.patch(number), weight: self.facet.area() }
+        let behind = self.extent.low - self.standing.radius;
+        Base { normal, patch: self.ground.patch(number), weight: self.facet.area(), behind }
     }
 
     /// The lowest point of the part over the triangle's plane, wherever that is.

@@ -15,6 +15,7 @@ use super::facet::{Facet, is_same};
 use super::groups::MOST_GROUPS;
 use super::over::Plane;
 use super::prism::Prism;
+use super::whole::touching;
 use super::{Known, Seen};
 use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
@@ -60,6 +61,8 @@ impl Seen<'_> {
     /// Keeps a triangle whose axis was refused until all others have been heard.
     pub(super) fn refuse(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
         let number = prism.facet.number;
+        // What is deep of it was told by then, and what waits is told later.
+        let refusal = Refusal { is_apart: refusal.is_apart || known.groups.do_leave_out(), ..refusal };
         let is_seen = || {
             prism.facet.has_own_plane() || Facet::seen(prism.ground, number, self.standing.center).is_some()
         };
@@ -116,7 +119,10 @@ impl Seen<'_> {
     /// Whether a normal frees a triangle, as the part's lowest vertex shows.
     fn is_freed(&self, refused: &Refused, by: Heard) -> bool {
         let facet = &refused.plane.facet;
-        self.is_deeper(refused, by.1) && !is_same(facet.normal, by.0) && self.is_left_below(facet, by)
+        self.is_deeper(refused, by.1)
+            && may_free(refused, by)
+            && !is_same(facet.normal, by.0)
+            && self.is_left_below(facet, by)
     }
 
     /// Whether a move along a normal, by how deep the part was found along it, leaves all of a triangle below the
@@ -135,7 +141,7 @@ impl Seen<'_> {
     fn is_freed_by_face(&self, refused: &Refused, (normal, least): Heard, known: &mut Known) -> bool {
         let standing = self.standing;
         let facet = &refused.plane.facet;
-        if !self.is_deeper(refused, least) {
+        if !self.is_deeper(refused, least) || !may_free(refused, (normal, least)) {
             return false;
         }
         if let Shape3::Cuboid(_) = standing.part.shape {
@@ -154,12 +160,21 @@ impl Seen<'_> {
     /// that hang together with it, it leaves all of them at once.
     fn add_in_place(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
         let is_left_out = Cell::new(false);
-        let is_deep = || known.groups.is_deep_in(prism.ground.patch(prism.facet.number));
-        let gate =
-            (refusal.is_apart && !is_deep()).then_some((-(self.standing.slack + prism.doubt), &is_left_out));
+        let is_in_others = || {
+            let Facet { number, normal, .. } = *prism.facet;
+            self.may_meet(prism) && known.groups.is_deep_in((prism.ground, number), normal)
+        };
+        let is_beside = refusal.is_apart && self.is_behind(prism) && !is_in_others();
+        let gate = is_beside.then_some((self.deep_below(prism), &is_left_out));
         self.add_by_normal(&Prism { gate, ..*prism }, known);
         if let Some(told) = refusal.told {
             known.groups.tell(prism.facet.normal, told);
         }
     }
+}
+
+/// Whether a normal counts at all for a triangle: for one that the part overlaps, if something touches along it. Else
+/// it would depend on the margin what is deep.
+fn may_free(refused: &Refused, (_, least): Heard) -> bool {
+    refused.refusal.is_apart || least <= touching()
 }

@@ -150,7 +150,7 @@ impl Seen<'_> {
         let of_body = Feature::Vertex(standing.extent(normal, on_ground).lowest as u32);
         let of_ground = Feature::Edge(edge_number(ground, number, edge));
         let pin = Pin { on_body, on_ground, separation, doubt, of_body, of_ground };
-        known.groups.add(&Base { normal, patch: ground.patch(number), weight: 0.0 }, pin);
+        known.groups.add(&Base::along(normal, ground.patch(number)), pin);
     }
 
     /// Asks the kernels about triangles that were taken for deep and are not: the part is on the other side of them.

@@ -1,0 +1,119 @@
+//! A triangle that is near enough: by its own normal, or, where that may not be the answer, by the axes that are.
+
+use super::against::Against;
+use super::axes::Axes;
+use super::meeting::Met;
+use super::outstanding::{Explained, Needs};
+use super::prism::Prism;
+use super::refused::Refusal;
+use super::whole::touching;
+use super::{Known, Seen};
+use asunder_geometry::{NearTriangle, Prominent};
+
+impl Seen<'_> {
+    /// Looks at a triangle that is near enough.
+    pub(super) fn look_on(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) {
+        let prominent = near.prominent;
+        match self.needs(prism, prominent) {
+            Needs::Normal => return self.look_along(prism, prominent, known),
+            // There is no gap that kernels could tell of.
+            Needs::KernelsBeside if prism.does_cross() => return self.look_along(prism, prominent, known),
+            Needs::KernelsBeside => {
+                self.look_along(&Prism { reach: touching(), ..*prism }, prominent, known);
+                known.groups.leave_out(self.deep_below(prism));
+            }
+            Needs::Kernels => {}
+        }
+        self.look_closer(prism, prominent, known);
+        known.groups.leave_out(f64::NEG_INFINITY);
+    }
+
+    /// Looks at a triangle by its own normal.
+    fn look_along(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
+        let (number, doubt) = (prism.facet.number, prism.doubt);
+        let separation = prism.extent.low - self.standing.radius;
+        let has_points = self.add_where_met(prism, separation, known);
+        known.note_level(prism, prominent);
+        if known.overlapping || separation > doubt {
+            return;
+        }
+        if prism.does_cross() {
+            return known.settle(number);
+        }
+        self.leave_unclear(number, (has_points, separation), known);
+    }
+
+    /// Looks at a triangle whose own normal may not be the answer.
+    fn look_closer(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
+        let Prism { standing, facet, extent, doubt, .. } = *prism;
+        let beyond = self.asking.reach + 2.0 * doubt;
+        let mut axes = Axes::NONE;
+        let has_axes = !self.asking.is_plain && prism.fill(&mut axes, beyond + standing.radius);
+        let axes = has_axes.then_some(&axes);
+        if standing.is_apart((facet, axes), beyond) {
+            return;
+        }
+        known.note_level(prism, prominent);
+        match self.explained((prism, axes), known) {
+            Some(Explained::Wholly(least)) => {
+                if least <= doubt {
+                    let separation = extent.low - standing.radius;
+                    self.leave_unclear(facet.number, (true, separation), known);
+                }
+                return;
+            }
+            Some(Explained::WhereDeep) => known.groups.leave_out(self.deep_below(prism)),
+            None => {}
+        }
+        self.look_by_axes(prism, axes, known);
+    }
+
+    /// Looks at a triangle by axes that may not be its own normal.
+    #[inline(never)]
+    fn look_by_axes(&self, prism: &Prism, axes: Option<&Axes>, known: &mut Known) {
+        let Prism { ground, standing, facet, extent, doubt, .. } = *prism;
+        let (number, separation) = (facet.number, extent.low - standing.radius);
+        match prism.add_against(&self.incident_to(facet.normal, known), &mut known.groups) {
+            Against::Apart => return,
+            Against::Refused(refusal) => {
+                self.refuse(prism, refusal, known);
+                return self.leave_unclear(number, (false, separation), known);
+            }
+            Against::Added(_, true) => return known.settle(number),
+            Against::Added(separation, _) if separation > doubt + standing.planarity => return,
+            Against::Added(separation, _) => return self.leave_unclear(number, (true, separation), known),
+            Against::Unknown => {}
+        }
+        if let Some(axes) = axes {
+            if axes.do_overlap(doubt) && prism.refuses(axes) {
+                known.settle(number);
+                let (is_own, told) = (prism.is_own(axes), prism.told_by(axes));
+                return self.refuse(prism, Refusal { is_own, is_apart: false, told }, known);
+            }
+            if axes.best > doubt
+                && let Some(unsaid) = prism.refused_gap(axes)
+            {
+                if unsaid.separation <= self.asking.margin.into() {
+                    known.leave_unsaid(unsaid);
+                    let is_own = unsaid.is_own;
+                    self.refuse(prism, Refusal { is_own, is_apart: true, told: None }, known);
+                }
+                return;
+            }
+        }
+        let met = self.meeting.add_points((ground, facet), standing, self.asking, &mut known.groups);
+        match met {
+            Met::Apart | Met::Told(false) => {}
+            Met::Told(true) => known.settle(number),
+            Met::Refused { overlapping, is_own, gap, told } => {
+                if overlapping {
+                    known.settle(number);
+                }
+                if let Some(unsaid) = gap {
+                    known.leave_unsaid(unsaid);
+                }
+                self.refuse(prism, Refusal { is_own, is_apart: !overlapping, told }, known);
+            }
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! What is deep in ground: the same at any margin, and of a flat patch the whole.
+//!
+//! ```text
+//! of a triangle that is near by the margin alone: gaps                                                (may_meet)
+//! of one behind whose plane the part is deep, what is deep is told as without a margin:
+//!     sides that count by the margin alone do not: its own normal tells what is deep, kernels the gaps  (closer)
+//!     it is explained, or freed, by what touches alone, and where it would be then        (outstanding, refused)
+//! at last, where the part is deep in a flat patch, and reaches further behind its plane than was found:
+//!     what is deeper over triangles of the patch that it does not meet
+//! ```
+//! A body leaves a patch along its normal at once, or not at all: of a box that leans over the rim of a floor, what is
+//! lowest may lie under a triangle that it does not touch.
+//!
+//! What was found already is not told again: of points that are as deep, names would be others with every step.
+
+use super::ball::nearest_to;
+use super::facet::is_same;
+use super::groups::{Group, Groups, MOST_GROUPS};
+use super::prism::Prism;
+use super::refused::Heard;
+use super::standing::Standing;
+use super::{Known, Seen};
+use crate::feature::Feature;
+use crate::pair3::reach_of;
+use arrayvec::ArrayVec;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Ground, NearTriangle};
+use core::ops::ControlFlow;
+
+/// Points up to this far away are there without a margin, too: what rounds to nothing is a touch.
+pub(super) fn touching() -> f64 {
+    reach_of(0.0)
+}
+
+impl Seen<'_> {
+    /// The separation below which points over a triangle count as deep, in metres.
+    #[inline]
+    pub(super) fn deep_below(&self, prism: &Prism) -> f64 {
+        -(self.standing.slack + prism.doubt)
+    }
+
+    /// Whether some of the part is deep behind a triangle's plane, however far from the triangle.
+    #[inline]
+    pub(super) fn is_behind(&self, prism: &Prism) -> bool {
+        prism.extent.low - self.standing.radius < self.deep_below(prism)
+    }
+
+    /// Whether a triangle would be looked at without a margin.
+    #[inline]
+    pub(super) fn may_meet(&self, prism: &Prism) -> bool {
+        let ([a, b, c], [low, high]) = (prism.facet.corners, self.standing.turned);
+        let radius = self.standing.radius;
+        let beyond = (a.min(b).min(c) - high).max(low - a.max(b).max(c)).max_element();
+        beyond <= radius && -prism.extent.high <= touching() + radius + prism.doubt
+    }
+
+    /// Whether the part and a triangle share a point, exactly.
+    pub(super) fn meets(&self, prism: &Prism) -> bool {
+        prism.does_cross() || self.meeting.overlaps(prism.ground, prism.facet.number)
+    }
+
+    /// Whether a triangle has a point in the ball around the part. Where it has none, and the part's centre is above
+    /// its plane, nothing of the part that is behind the plane lies over the triangle; else nothing of it is deep
+    /// there.
+    pub(super) fn is_in_ball(&self, prism: &Prism) -> bool {
+        let Standing { center, outer_radius, .. } = *self.standing;
+        let foot = center - prism.facet.normal * prism.facet.height(center);
+        let radius = outer_radius + prism.doubt;
+        (nearest_to(prism.facet, foot).1 - center).length_squared() <= radius * radius
+    }
+
+    /// Adds what is deeper than was found over the rest of a flat patch, where the part is deep in some of it.
+    pub(super) fn add_whole(&self, known: &mut Known) {
+        let slack = self.standing.slack;
+        let is_deeper = |group: &&Group| {
+            let found = group.found();
+            found < -slack && group.base.behind < found - slack
+        };
+        if !known.groups.iter().any(|group| is_deeper(&group)) {
+            return;
+        }
+        let heard: ArrayVec<Heard, MOST_GROUPS> =
+            known.groups.iter().filter(is_deeper).map(|group| (group.base.normal, group.found())).collect();
+        let on = self.asking.on;
+        let bounds = on.bounds_around(&self.standing.part, self.standing.turned, touching());
+        let _ = on.ground.read_near(&bounds, |near| {
+            for &by in &heard {
+                self.add_of_whole(near, by, known);
+            }
+            ControlFlow::Continue(())
+        });
+    }
+
+    /// Adds deeper points over a triangle that the part does not meet, along a normal that is its own, where the part
+    /// is deep in others of its patch.
+    fn add_of_whole(&self, near: &NearTriangle, (normal, found): Heard, known: &mut Known) {
+        if known.groups.is_deep_in((self.asking.on.ground, near.number), normal)
+            && let Some(plane) = self.plane_of(near.number)
+            && is_same(plane.facet.normal, normal)
+        {
+            let prism = Prism { reach: found - self.standing.slack, ..self.prism_over(&plane) };
+            // What the part meets has spoken for itself.
+            if !self.meets(&prism) {
+                self.add_by_normal(&prism, known);
+            }
+        }
+    }
+}
+
+impl Groups {
+    /// Whether a point along a normal is deeper than the slack, on the flat patch of a triangle or its rim.
+    pub(super) fn is_deep_in(&self, (ground, number): (Ground, u32), normal: DVec3) -> bool {
+        let patch = ground.patch(number);
+        let is_of = |number: u32| ground.patch(number) == patch;
+        let is_on = |of_ground: Feature| match of_ground {
+            Feature::Face(of) => of == patch,
+            Feature::Edge(edge) => {
+                let (one, edge) = (edge / 3, edge as usize % 3);
+                is_of(one) || ground.neighbor(one, edge).is_some_and(|(other, _)| is_of(other))
+            }
+            Feature::Vertex(vertex) => ground.vertex_numbers(number).contains(&vertex),
+        };
+        let mut pins = self.along(normal).into_iter().flat_map(|group| &group.pins);
+        pins.any(|pin| pin.separation < -self.slack() && is_on(pin.of_ground))
+    }
+}
