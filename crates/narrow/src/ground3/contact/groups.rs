@@ -107,9 +107,9 @@ impl Groups {
         self.floor = below;
     }
 
-    /// Whether anything is left out.
-    pub(super) fn do_leave_out(&self) -> bool {
-        self.floor > f64::NEG_INFINITY
+    /// What is deeper is left out, in metres.
+    pub(super) fn floor(&self) -> f64 {
+        self.floor
     }
 
     pub(super) fn iter(&self) -> core::slice::Iter<'_, Group> {

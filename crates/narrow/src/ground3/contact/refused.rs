@@ -46,7 +46,16 @@ pub(super) struct Refusal {
 /// of them.
 const MOST_REFUSED: usize = 256;
 
-pub(super) type AllRefused = ArrayVec<(u32, Refusal), MOST_REFUSED>;
+pub(super) type AllRefused = ArrayVec<Waiting, MOST_REFUSED>;
+
+/// A triangle that waits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Waiting {
+    number: u32,
+    refusal: Refusal,
+    /// What is deeper was left out when its axis was refused, and is when it is told, in metres.
+    floor: f64,
+}
 
 /// A normal, and the least separation that was found along it.
 pub(super) type Heard = (DVec3, f64);
@@ -60,13 +69,13 @@ impl Known {
 impl Seen<'_> {
     /// Keeps a triangle whose axis was refused until all others have been heard.
     pub(super) fn refuse(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
-        let number = prism.facet.number;
-        // What is deep of it was told by then, and what waits is told later.
-        let refusal = Refusal { is_apart: refusal.is_apart || known.groups.do_leave_out(), ..refusal };
+        let (number, floor) = (prism.facet.number, known.groups.floor());
+        // What is deep of it was told by then, or another told of it: of what waits there is a gap alone.
+        let refusal = Refusal { is_apart: refusal.is_apart || floor > f64::NEG_INFINITY, ..refusal };
         let is_seen = || {
             prism.facet.has_own_plane() || Facet::seen(prism.ground, number, self.standing.center).is_some()
         };
-        if !is_seen() || known.refused.try_push((number, refusal)).is_err() {
+        if !is_seen() || known.refused.try_push(Waiting { number, refusal, floor }).is_err() {
             self.add_in_place(prism, refusal, known);
         }
     }
@@ -79,7 +88,7 @@ impl Seen<'_> {
         let heard = known.heard();
         let is_freed = |refused: &Refused| heard.iter().any(|&by| self.is_freed(refused, by));
         self.add_those(true, known, |refused, _| is_freed(refused));
-        if known.refused.iter().all(|(_, refusal)| refusal.is_own) {
+        if known.refused.iter().all(|waiting| waiting.refusal.is_own) {
             return;
         }
         let (by_now, deepest) = (known.heard(), known.groups.least().min(0.0));
@@ -99,13 +108,15 @@ impl Seen<'_> {
     /// Adds points of those whose axis is nearly their own normal, or of the others, but for what is freed.
     fn add_those(&self, is_own: bool, known: &mut Known, is_freed: impl Fn(&Refused, &mut Known) -> bool) {
         for place in 0..known.refused.len() {
-            let (number, refusal) = known.refused[place];
+            let Waiting { number, refusal, floor } = known.refused[place];
             if refusal.is_own == is_own
                 && let Some(plane) = self.plane_of(number)
             {
                 let refused = Refused { plane, refusal };
                 if !is_freed(&refused, known) {
+                    known.groups.leave_out(floor);
                     self.add_in_place(&self.prism_over(&refused.plane), refusal, known);
+                    known.groups.leave_out(f64::NEG_INFINITY);
                 }
             }
         }
