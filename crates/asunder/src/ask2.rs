@@ -27,7 +27,7 @@ impl World<Plane> {
     /// region. A body's box is that around its shape as it stands, rounded outwards, without its margin.
     ///
     /// ```
-    /// use asunder::{Aabb2, Motion2, Ray2, Circle, Collider2, Filter2, World2, glam::Vec2};
+    /// use asunder::{Aabb2, Circle, Collider2, Filter2, World2, glam::Vec2};
     /// let mut world = World2::new();
     /// let ball = world.insert(Collider2::new(Circle::new(1.0)?));
     /// let corner = Aabb2::new(Vec2::splat(0.9), Vec2::splat(2.0));

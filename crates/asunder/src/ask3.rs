@@ -27,7 +27,7 @@ impl World<Volume> {
     /// region. A body's box is that around its shape as it stands, rounded outwards, without its margin.
     ///
     /// ```
-    /// use asunder::{Aabb3, Motion3, Ray3, Sphere, Collider3, Filter3, World3, glam::Vec3};
+    /// use asunder::{Aabb3, Collider3, Filter3, Sphere, World3, glam::Vec3};
     /// let mut world = World3::new();
     /// let ball = world.insert(Collider3::new(Sphere::new(1.0)?));
     /// let corner = Aabb3::new(Vec3::splat(0.9), Vec3::splat(2.0));

@@ -60,7 +60,7 @@ type Editing<'a, S> = dyn Fn(Meeting<'_, S>) + Sync + 'a;
 /// The hooks of one update: see [`World::update_with`].
 ///
 /// ```
-/// use asunder::{BodyKey2, Collider2, Hooks2, Pose2, Rect, World2, glam::Vec2};
+/// use asunder::{Collider2, Hooks2, Pose2, Rect, World2, glam::Vec2};
 /// let mut world = World2::new();
 /// let ledge = Rect::from_half_extents(Vec2::new(4.0, 0.5))?;
 /// let ledge = world.insert(Collider2::new(ledge).fixed().user_data(1));

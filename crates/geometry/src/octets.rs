@@ -52,7 +52,7 @@ pub struct FaceOctet {
 /// ([`EdgeOctet::SORTED_FROM`]). Places past the last edge have faces of infinite height.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Hull, Shape3, glam::Vec3};
+/// use asunder_geometry::{Hull, Shape3, glam::Vec3};
 /// let tetrahedron = Shape3::from(Hull::from_points(&[Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z])?);
 /// let core = tetrahedron.core();
 /// let edges = &core.edge_octets()[0];

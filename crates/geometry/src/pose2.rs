@@ -10,7 +10,7 @@ use glam::{DAffine2, DVec2};
 /// rounding of unit length; that tiny scale is part of the true shape.
 ///
 /// ```
-/// use asunder_geometry::{Rotation2, glam::Vec2};
+/// use asunder_geometry::Rotation2;
 /// let quarter = Rotation2::new(0.0, 2.0)?;
 /// assert_eq!((quarter.cos(), quarter.sin()), (0.0, 1.0));
 /// let eighth = Rotation2::from_angle(std::f32::consts::FRAC_PI_4)?;

@@ -272,7 +272,7 @@ impl Pose3 {
     /// An f32 matrix of it is as coarse as the position is far away. Draw relative to the camera, and nothing trembles:
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::{Affine3A, DAffine3, DVec3, Mat4, Quat, Vec3A}};
+    /// use asunder_geometry::{Pose3, glam::{DAffine3, DVec3, Mat4, Quat, Vec3A}};
     /// let body = Pose3::new([1e6, 2.0, 0.25], Quat::from_xyzw(0.0, 0.0, 3.0, 3.0))?;
     /// let eye = DVec3::new(1e6, 0.0, 0.0);
     /// let seen = DAffine3::from_translation(-eye) * body.to_affine();

@@ -182,8 +182,8 @@ pub const LEAST_SKIN: f64 = 1.0 / 4096.0;
 /// visibly while it slides.
 pub const SKIN_SLACK: f64 = 1.0 / 64.0;
 
-/// Share of a displacement below which a character counts as standing still, and the sine below which a direction
-/// counts as along a wall rather than into it.
+/// Share of a displacement below which a character counts as standing still, the sine below which a direction counts
+/// as along a wall rather than into it, and how far below one the cosine between the normals of one wall may be.
 ///
 /// Above the rounding of f32 normals (6e-8) and displacements; a larger one lets characters creep into corners.
 pub const STANDSTILL: f64 = 1e-6;
@@ -255,6 +255,7 @@ pub const MAX_PARTS: usize = 4096;
 
 /// The most vertices a chain may have.
 pub const MAX_CHAIN_VERTICES: usize = 2_000_000;
+
 /// The most triangles a mesh may have.
 pub const MAX_TRIANGLES: usize = 2_000_000;
 

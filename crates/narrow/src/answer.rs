@@ -236,7 +236,7 @@ pub struct Closest3 {
 /// One point of a manifold in the plane.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
+/// use asunder_geometry::{Circle, Pose2, Shape2};
 /// use asunder_narrow::{ContactPoint2, Pair2};
 /// let ball = Shape2::from(Circle::new(1.0)?);
 /// let (here, there) = (Pose2::IDENTITY, Pose2::at([1.5, 0.0])?);
@@ -269,7 +269,7 @@ pub struct ContactPoint2 {
 /// `anchor_a` is `anchor_b + offset - out`.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
+/// use asunder_geometry::{Pose3, Shape3, Sphere};
 /// use asunder_narrow::{ContactPoint3, Pair3};
 /// let ball = Shape3::from(Sphere::new(1.0)?);
 /// let (here, there) = (Pose3::IDENTITY, Pose3::at([1.5, 0.0, 0.0])?);

@@ -135,7 +135,7 @@ impl<'a> Pair2<'a> {
     /// [`overlaps`](Self::overlaps), and the tier of precision that settled it.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rect, Rotation2, Shape2, glam::Vec2};
+    /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
     /// use asunder_narrow::{Pair2, Tier};
     /// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
     /// let next = Pose2::at([2.0, 0.0])?;

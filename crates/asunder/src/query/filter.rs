@@ -9,7 +9,7 @@ use core::fmt;
 /// Every condition must hold. Without any, all bodies are found, sensors among them.
 ///
 /// ```
-/// use asunder::{Collider3, Cuboid, Filter3, Layers, Ray3, World3, glam::Vec3};
+/// use asunder::{Collider3, Cuboid, Filter3, Layers, World3, glam::Vec3};
 /// let mut world = World3::new();
 /// let unit = Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let player = world.insert(unit.clone().owner(1));

@@ -11,7 +11,7 @@ use asunder_geometry::{
 /// moved in a direction that is not finite, meets nothing; in the direction zero, all that it overlaps, at distance 0.
 ///
 /// ```
-/// use asunder_broad::{Cast, Found, Index};
+/// use asunder_broad::{Cast, Index};
 /// use asunder_geometry::{Aabb3, Ray3, glam::Vec3};
 /// let mut index = Index::new();
 /// index.build(&[2.0, 4.0].map(|x| Aabb3::new(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 1.0, 1.0, 1.0))));

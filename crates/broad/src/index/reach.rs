@@ -109,7 +109,7 @@ impl<B: Bounds> Index<B> {
     /// from then on: the same, or the distance of what it found in the box; below 0 to end.
     ///
     /// ```
-    /// use asunder_broad::{Cast, Index, Queue};
+    /// use asunder_broad::{Index, Queue};
     /// use asunder_geometry::{Aabb3, Ray3, glam::Vec3};
     /// let mut index = Index::new();
     /// index.build(&[8.0, 2.0, 4.0].map(|x| Aabb3::new(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 1.0, 1.0, 1.0))));
