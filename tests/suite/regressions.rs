@@ -9,6 +9,7 @@ mod leaves;
 mod middles;
 mod needles;
 mod peers;
+mod planes;
 mod points;
 mod rays;
 mod ridges;

@@ -369,6 +369,9 @@ impl Seen<'_> {
     /// The part's lowest point over a triangle that it overlaps, where every point was cut away.
     fn add_last(&self, number: u32, known: &mut Known) {
         let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        if let Shape3::HalfSpace(half_space) = standing.part.shape {
+            return self.add_lowest_corner(number, standing.place.axes.turn(half_space.unit_normal()), known);
+        }
         let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);

@@ -36,17 +36,7 @@ impl Seen<'_> {
             let height = normal.dot(corner - standing.center);
             let doubt = standing.doubt(corner);
             if height <= self.asking.reach {
-                // From the ground to the body.
-                let base = Base::along(-normal, ground.patch(number));
-                let pin = Pin {
-                    on_body: corner - normal * height,
-                    on_ground: corner,
-                    separation: height,
-                    doubt,
-                    of_body: Feature::Face(0),
-                    of_ground: Feature::Vertex(vertex),
-                };
-                known.groups.add(&base, pin);
+                self.add_corner(facet, (corner, vertex), normal, known);
             }
             if height < -doubt {
                 known.settle(number);
@@ -57,5 +47,32 @@ impl Seen<'_> {
         if is_unclear {
             self.leave_unclear(number, (false, lowest), known);
         }
+    }
+
+    /// Adds the corner of a triangle that reaches furthest into a half-space, where exact arithmetic says that they
+    /// share a point, and rounding put all corners outside. A half-space has no vertices to take the lowest of.
+    pub(super) fn add_lowest_corner(&self, number: u32, normal: DVec3, known: &mut Known) {
+        let ground = self.asking.on.ground;
+        let Some(facet) = Facet::front_of(number, ground.corners(number)) else { return };
+        let height = |(corner, _): &(DVec3, u32)| normal.dot(*corner - self.standing.center);
+        let corners = facet.corners.into_iter().zip(ground.vertex_numbers(number));
+        if let Some(lowest) = corners.min_by(|one, other| height(one).total_cmp(&height(other))) {
+            self.add_corner(&facet, lowest, normal, known);
+        }
+    }
+
+    fn add_corner(&self, facet: &Facet, (corner, vertex): (DVec3, u32), normal: DVec3, known: &mut Known) {
+        let height = normal.dot(corner - self.standing.center);
+        // From the ground to the body.
+        let base = Base::along(-normal, self.asking.on.ground.patch(facet.number));
+        let pin = Pin {
+            on_body: corner - normal * height,
+            on_ground: corner,
+            separation: height,
+            doubt: self.standing.doubt(corner),
+            of_body: Feature::Face(0),
+            of_ground: Feature::Vertex(vertex),
+        };
+        known.groups.add(&base, pin);
     }
 }
