@@ -26,6 +26,7 @@
 
 use crate::feature::FeatureId;
 use asunder_geometry::tolerance::EVEN_AREA;
+use core::array::from_fn;
 
 /// Corners of an arc up to which each is tried as a root; of more, as many spread evenly.
 const EVERY_ROOT: usize = 8;
@@ -49,11 +50,13 @@ where
     let least = (0..count).map(|i| spot(i).separation).fold(f64::INFINITY, f64::min) + even;
     let is_deep = |i: usize| spot(i).separation <= least;
     let at = |i: usize| spot(i).at;
+    // A bit for each.
+    let deep = || (0..count).fold(0, |bits, i| bits | u32::from(is_deep(i)) << i);
     match count {
-        5 => pick_of_few::<5>(at, is_deep, id),
-        6 => pick_of_few::<6>(at, is_deep, id),
-        7 => pick_of_few::<7>(at, is_deep, id),
-        8 => pick_of_few::<8>(at, is_deep, id),
+        5 => pick_of_few::<5>(from_fn(at), deep(), &id),
+        6 => pick_of_few::<6>(from_fn(at), deep(), &id),
+        7 => pick_of_few::<7>(from_fn(at), deep(), &id),
+        8 => pick_of_few::<8>(from_fn(at), deep(), &id),
         _ => pick_of_many(count, at, is_deep, id),
     }
 }
@@ -63,14 +66,14 @@ fn rank(id: FeatureId) -> ([u32; 2], FeatureId) {
     (id.in_any_order(), id)
 }
 
-/// The best four of a few that hold a deep one, by trying all.
+/// The best four of a few that hold a deep one, by trying all; a bit for each that is deep.
+///
+/// What asks for names is not a parameter of its own: of each kind of patch there would be a copy of all that is tried.
 fn pick_of_few<const N: usize>(
-    at: impl Fn(usize) -> [f64; 2],
-    is_deep: impl Fn(usize) -> bool,
-    id: impl Fn(usize) -> FeatureId,
+    places: [[f64; 2]; N],
+    deep: u32,
+    id: &dyn Fn(usize) -> FeatureId,
 ) -> [usize; 4] {
-    let places: [[f64; 2]; N] = core::array::from_fn(at);
-    let deep = (0..N).map(|i| u32::from(is_deep(i)) << i).fold(0, |bits, bit| bits | bit);
     let (mut best, mut most, mut second) = (0b1111, f64::NEG_INFINITY, f64::NEG_INFINITY);
     for_each_four(&places, |four, area| {
         if four & deep == 0 {
@@ -87,9 +90,8 @@ fn pick_of_few<const N: usize>(
         return corners_in(best);
     }
     // A bit for each corner, the first by rank the highest: of sets of four, the greatest is the first.
-    let ranks: [_; N] = core::array::from_fn(|i| (rank(id(i)), i));
-    let bits: [u32; N] =
-        core::array::from_fn(|i| 1 << (N - 1 - ranks.iter().filter(|&other| *other < ranks[i]).count()));
+    let ranks: [_; N] = from_fn(|i| (rank(id(i)), i));
+    let bits: [u32; N] = from_fn(|i| 1 << (N - 1 - ranks.iter().filter(|&other| *other < ranks[i]).count()));
     let mut greatest = 0;
     for_each_four(&places, |four, area| {
         if four & deep != 0 && area >= even {
