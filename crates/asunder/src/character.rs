@@ -228,6 +228,8 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     fn position(pose: &Self::Pose) -> Self::Point;
     /// The pose moved; nothing if it would leave the world.
     fn moved(pose: &Self::Pose, by: Self::Point) -> Option<Self::Pose>;
+    /// Unit directions all around, in an order that never changes.
+    fn all_around(each: impl FnMut(Self::Point));
     /// The bounding radius of a shape.
     fn size(shape: &Self::Shape) -> f64;
     /// What tells on which side of ground it is: the middle of each convex part's bounding ball.

@@ -102,6 +102,41 @@ fn who_is_wedged_is_told_so_and_stays_near() {
     }
 }
 
+/// A person among boxes that lie about: on a floor, under one, between walls that lean.
+fn among_boxes(random: &mut Random) -> (World3, Shape3, Pose3) {
+    let mut world = World3::new();
+    for _ in 0..3 {
+        let half = random.within(DVec3::new(0.4, 0.1, 0.4), DVec3::new(1.5, 0.6, 1.5)).as_vec3();
+        let at = random.within(DVec3::splat(-0.8), DVec3::splat(0.8));
+        world.insert(Collider3::new(cuboid(half)).at(Pose3::new(at, random.rotation()).unwrap()));
+    }
+    let shape = if random.unit() < 0.5 { capsule() } else { crate_of_a_person() };
+    (world, shape, Pose3::at(random.within(DVec3::splat(-0.5), DVec3::splat(0.5))).unwrap())
+}
+
+/// Pushes alone left a person wedged between two bodies, or moved it four metres, where one was enough.
+#[test]
+fn who_can_leave_several_bodies_straight_is_freed_and_goes_not_much_further() {
+    let (mut random, mut cases) = (Random::new(175), 0);
+    for case in 0..1000 {
+        let (world, shape, pose) = among_boxes(&mut random);
+        let freed = world.depenetrate((&shape, &pose), &Filter3::new());
+        assert_eq!(freed.is_free, is_free(&world, &shape, &freed.pose), "{case}");
+        // The best of many straight ways, each shorter than the one before.
+        let (mut best, moved) = (4.0, freed.moved.length());
+        for _ in 0..300 {
+            let way = random.direction() * (best * (0.3 + 0.7 * random.unit()));
+            if is_free(&world, &shape, &pose.shifted(way).unwrap()) {
+                best = way.length();
+            }
+        }
+        cases += usize::from(moved > 0.0);
+        assert!(freed.is_free || best == 4.0, "{case}: wedged, and {best} m are enough");
+        assert!(!freed.is_free || moved < 1.5 * best + 0.01, "{case}: {moved} m, and {best} are enough");
+    }
+    assert!(cases > 500, "{cases}");
+}
+
 #[test]
 fn who_just_fits_into_a_gap_gets_into_it() {
     // 0.4 mm of room to both sides: less than a skin.

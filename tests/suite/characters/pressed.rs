@@ -17,7 +17,8 @@ fn nobody_is_pressed_through_a_one_sided_wall() {
         let mut world = World2::new();
         let wall = Chain::open([Vec2::new(0.0, 5.0), Vec2::new(0.0, -5.0)]).unwrap().one_sided();
         world.insert(Collider2::new(wall));
-        world.insert(Collider2::new(Circle::new(0.5).unwrap()).at(Pose2::at([foe, 0.0]).unwrap()));
+        let press = Rect::from_half_extents(Vec2::splat(5.0)).unwrap();
+        world.insert(Collider2::new(press).at(Pose2::at([foe - 4.5, 0.0]).unwrap()));
         let freed = world.depenetrate((&hero, &at), &Filter2::new());
         assert!(freed.pose.position().x < 0.0 && !freed.is_free, "{foe}: {freed:?}");
         let walk = Walk2::new(&hero, Vec2::Y).unwrap();
@@ -26,7 +27,8 @@ fn nobody_is_pressed_through_a_one_sided_wall() {
     }
 }
 
-/// The same in space; and where there is a way out, it is found.
+/// The same in space; and where there is a way out, it is found: on top of what is lower, and beside what is level, which
+/// pushes alone do not lead to.
 #[test]
 fn who_is_pressed_from_the_side_comes_out_on_top() {
     let hero: Shape3 = Sphere::new(0.3).unwrap().into();
@@ -37,16 +39,17 @@ fn who_is_pressed_from_the_side_comes_out_on_top() {
     assert!(
         cast_ray_of(&wall, [-1.0, 0.5, 0.0], Vec3::X) && !cast_ray_of(&wall, [1.0, 0.5, 0.0], Vec3::NEG_X)
     );
-    for (low, is_free, wall) in
-        [(0.0, false, &wall), (0.3, true, &wall), (0.0, false, &two), (0.3, true, &two)]
-    {
+    for (low, wall) in [(0.0, &wall), (0.3, &wall), (0.0, &two), (0.3, &two)] {
         let mut world = World3::new();
         world.insert(Collider3::new(wall.clone()));
         world.insert(Collider3::new(Sphere::new(0.5).unwrap()).at(Pose3::at([-0.55, -low, 0.0]).unwrap()));
         let freed = world.depenetrate((&hero, &at), &Filter3::new());
-        assert_eq!(freed.is_free, is_free, "{low}: {freed:?}");
-        assert!(freed.pose.position().x < 0.0, "{low}: {freed:?}");
-        assert!(!is_free || freed.pose.position().y > 0.0, "{low}: {freed:?}");
+        assert!(freed.is_free && freed.pose.position().x < 0.0, "{low}: {freed:?}");
+        assert!(low == 0.0 || freed.pose.position().y > 0.0, "{low}: {freed:?}");
+        let walk = Walk3::new(&hero, Vec3::Y).unwrap();
+        let slide = world.move_and_slide((&hero, &at), Vec3::ZERO, &walk, &Filter3::new());
+        assert_eq!(slide.is_free, low > 0.0, "who walks is not thrown out sideways, {low}: {slide:?}");
+        assert!(slide.pose.position().x < 0.0, "{low}: {slide:?}");
     }
 }
 
@@ -168,8 +171,8 @@ fn nobody_is_pressed_through_a_floor_from_its_very_plane() {
         for place in [[0.3, 0.0, 0.1], [0.5, 0.0, 0.5], [0.0, 0.0, 0.0], [2.1, 0.0, 0.1]] {
             let mut world = World3::new();
             world.insert(Collider3::new(floor.clone()).at(Pose3::at(at).unwrap()));
-            let press = Collider3::new(Cuboid::from_half_extents(Vec3::new(2.0, 0.5, 2.0)).unwrap());
-            world.insert(press.at(Pose3::at([0.0, 0.4, 0.0]).unwrap()));
+            let press = Collider3::new(Cuboid::from_half_extents(Vec3::new(2.0, 5.0, 2.0)).unwrap());
+            world.insert(press.at(Pose3::at([0.0, 4.9, 0.0]).unwrap()));
             let freed = world.depenetrate((&ball, &Pose3::at(place).unwrap()), &Filter3::new());
             assert!(freed.pose.position().y >= 0.0, "{place:?}: {freed:?}");
             assert_eq!(freed.is_free, place[0] > 2.0, "{place:?}: {freed:?}");
@@ -179,8 +182,8 @@ fn nobody_is_pressed_through_a_floor_from_its_very_plane() {
     for place in [[0.3, 0.0], [0.0, 0.0], [2.1, 0.0]] {
         let mut world = World2::new();
         world.insert(Collider2::new(line.clone()));
-        let press = Collider2::new(Rect::from_half_extents(Vec2::new(2.0, 0.5)).unwrap());
-        world.insert(press.at(Pose2::at([0.0, 0.4]).unwrap()));
+        let press = Collider2::new(Rect::from_half_extents(Vec2::new(2.0, 5.0)).unwrap());
+        world.insert(press.at(Pose2::at([0.0, 4.9]).unwrap()));
         let freed = world.depenetrate((&disc, &Pose2::at(place).unwrap()), &Filter2::new());
         assert!(freed.pose.position().y >= 0.0, "{place:?}: {freed:?}");
         assert_eq!(freed.is_free, place[0] > 2.0, "{place:?}: {freed:?}");

@@ -14,6 +14,18 @@ const ROUNDS: usize = 16;
 /// How often the planes of one round are gone through.
 const SWEEPS: usize = 32;
 
+/// Times the way out of the deepest alone: whether there is none shorter than one as long is looked at. Out of a floor
+/// and a wall at once it is at most the square root of two.
+const LONG: f64 = 1.5;
+
+/// Places that are tried along one direction, the first as far away as any way out must lead, and each further than the
+/// one before by so much: up to four times as far, so that nobody is taken through walls that are as thick.
+const TRIES: usize = 7;
+const GROWTH: f64 = 1.25;
+
+/// How often what lies between the last two is halved.
+const HALVINGS: usize = 4;
+
 /// Manifolds that are looked at in one round: the nearest, or deepest.
 const MOST_NEAR: usize = 16;
 
@@ -37,6 +49,15 @@ impl<S: Walks> Near<S> {
 /// A shape and where it is.
 pub(super) type At<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
 
+/// What is asked: in which world, of what, how far it is to be clear, and whom it sees.
+struct Freeing<'a, S: Walks> {
+    world: &'a World<S>,
+    shape: &'a S::Shape,
+    start: &'a S::Pose,
+    target: f64,
+    filter: &'a Filter<'a, S>,
+}
+
 /// Moves the shape until it is `target` metres clear of all that it overlapped.
 ///
 /// ```text
@@ -55,71 +76,144 @@ pub(super) fn free<S: Walks>(
     target: f64,
     filter: &Filter<'_, S>,
 ) -> Freed<S::Pose, S::Point> {
-    let found = |pose: S::Pose, is_free: bool| {
-        let moved = S::position(&pose) - S::position(start);
-        Freed { pose, moved, is_free }
-    };
-    let overlaps = |pose: &S::Pose| is_overlapping(world, (shape, pose), filter);
-    let mut pose = *start;
-    let mut best = (f64::NEG_INFINITY, pose);
-    for round in 0..=ROUNDS {
-        let near = near(world, (shape, &pose), target, filter);
-        let planes = near.iter().map(|near| &near.plane);
-        let deepest = planes.reduce(|best, next| if next.gap < best.gap { next } else { best });
-        let Some(deepest) = deepest.filter(|deepest| deepest.gap <= 0.0) else {
-            return found(pose, !overlaps(&pose));
-        };
-        if deepest.gap > best.0 {
-            best = (deepest.gap, pose);
-        }
-        if round == ROUNDS {
-            break;
-        }
-        // In a gap too narrow to be clear of both sides, less has to do.
-        let target = if round < ROUNDS / 2 { target } else { target / 16.0 };
-        let way = deepest.away * (target - deepest.gap);
-        let alone = S::moved(&pose, way).filter(|moved| !overlaps(moved));
-        let share_of = |way: S::Point| share_before_ground(world, (shape, &pose), (way, target), filter);
-        if let Some(moved) = alone.filter(|_| share_of(way) >= 1.0) {
-            return found(moved, true);
-        }
-        let way = push::<S>(&near, target);
-        let share = share_of(way);
-        match S::moved(&pose, way * share) {
-            Some(pushed) => pose = pushed,
-            None => break,
-        }
-    }
-    found(best.1, false)
+    Freeing { world, shape, start, target, filter }.by_rounds().0
 }
 
-/// How much of a way may be gone: all of it, unless the middle of one of the shape's convex parts would go through
-/// ground, from a side that is solid. Beyond, that ground would be nothing that the part overlaps, and who is pressed
-/// against it would count as free there.
-///
-/// Middles stay `before` metres from where they would go through. Of the way that was left a share was gone until
-/// 2026-11-27: after sixteen rounds nothing is left between the middle and the ground, and the next push starts behind.
-fn share_before_ground<S: Walks>(
+/// The same; and where that does not lead out, or by a long way, whatever straight way is shorter, along the normals of
+/// the planes and in directions all around. Not for who walks: between a floor and what comes down on it, that would
+/// throw a character out sideways that is crushed.
+pub(super) fn free_all_around<S: Walks>(
     world: &World<S>,
-    at: At<'_, S>,
-    (way, before): (S::Point, f64),
+    (shape, start): At<'_, S>,
+    target: f64,
     filter: &Filter<'_, S>,
-) -> f64 {
-    let before = before / way.length();
-    let mut share = 1.0_f64;
-    S::middles(at, |middle| {
-        let Some(ray) = S::ray(middle, way) else { return };
-        // Who goes all of the way stays as far from what lies beyond.
-        let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
-            let ground = world.bodies.get(hit.body).filter(|body| S::is_ground(&body.shape));
-            let through = ground.and_then(|body| {
-                if hit.inside { S::first_through(&ray, 1.0 + before, body) } else { Some(hit.distance) }
+) -> Freed<S::Pose, S::Point> {
+    let freeing = Freeing { world, shape, start, target, filter };
+    let (freed, least) = freeing.by_rounds();
+    let most = if freed.is_free { freed.moved.length() } else { f64::INFINITY };
+    if most <= least * LONG {
+        return freed;
+    }
+    freeing.straight(least, most).unwrap_or(freed)
+}
+
+impl<S: Walks> Freeing<'_, S> {
+    fn found(&self, pose: S::Pose, is_free: bool) -> Freed<S::Pose, S::Point> {
+        let moved = S::position(&pose) - S::position(self.start);
+        Freed { pose, moved, is_free }
+    }
+
+    fn overlaps(&self, pose: &S::Pose) -> bool {
+        is_overlapping(self.world, (self.shape, pose), self.filter)
+    }
+
+    fn near(&self, pose: &S::Pose) -> ArrayVec<Near<S>, MOST_NEAR> {
+        near(self.world, (self.shape, pose), self.target, self.filter)
+    }
+
+    /// A place that many pushes lead to, and how long any way out must be.
+    fn by_rounds(&self) -> (Freed<S::Pose, S::Point>, f64) {
+        let mut pose = *self.start;
+        let (mut best, mut least) = ((f64::NEG_INFINITY, pose), 0.0);
+        for round in 0..=ROUNDS {
+            let near = self.near(&pose);
+            let planes = near.iter().map(|near| &near.plane);
+            let deepest = planes.reduce(|best, next| if next.gap < best.gap { next } else { best });
+            let Some(deepest) = deepest.filter(|deepest| deepest.gap <= 0.0) else {
+                return (self.found(pose, !self.overlaps(&pose)), least);
+            };
+            if deepest.gap > best.0 {
+                best = (deepest.gap, pose);
+            }
+            if round == 0 {
+                least = self.target - deepest.gap;
+            }
+            if round == ROUNDS {
+                break;
+            }
+            // In a gap too narrow to be clear of both sides, less has to do.
+            let target = if round < ROUNDS / 2 { self.target } else { self.target / 16.0 };
+            let way = deepest.away * (target - deepest.gap);
+            let alone = S::moved(&pose, way).filter(|moved| !self.overlaps(moved));
+            if let Some(moved) = alone.filter(|_| self.share_before_ground(&pose, way, target) >= 1.0) {
+                return (self.found(moved, true), least);
+            }
+            let way = push::<S>(&near, target);
+            match S::moved(&pose, way * self.share_before_ground(&pose, way, target)) {
+                Some(pushed) => pose = pushed,
+                None => break,
+            }
+        }
+        (self.found(best.1, false), least)
+    }
+
+    /// The shortest straight way out that is found, of at least so many metres and less than so many.
+    fn straight(&self, least: f64, most: f64) -> Option<Freed<S::Pose, S::Point>> {
+        let (mut best, mut most) = (None, most);
+        let mut look = |away: S::Point| {
+            if let Some((way, pose)) = self.first_free(away, least, most) {
+                (best, most) = (Some(self.found(pose, true)), way);
+            }
+        };
+        let near = self.near(self.start);
+        near.iter().filter(|near| near.plane.gap <= 0.0).for_each(|near| look(near.plane.away));
+        S::all_around(look);
+        best
+    }
+
+    /// The least way along a direction that frees the shape, nearly, of at least so many metres and less than so many.
+    fn first_free(&self, away: S::Point, least: f64, most: f64) -> Option<(f64, S::Pose)> {
+        let place = |way: f64| S::moved(self.start, away * way).filter(|pose| !self.overlaps(pose));
+        let (mut blocked, mut way) = (least, least);
+        for _ in 0..TRIES {
+            if way >= most {
+                break;
+            }
+            if let Some(pose) = place(way) {
+                let mut free = (way, pose);
+                for _ in 0..if way > least { HALVINGS } else { 0 } {
+                    let middle = 0.5 * (blocked + free.0);
+                    match place(middle) {
+                        Some(pose) => free = (middle, pose),
+                        None => blocked = middle,
+                    }
+                }
+                // Not only just.
+                let clear = free.0 + self.target;
+                free = place(clear).map_or(free, |pose| (clear, pose));
+                let is_open = self.share_before_ground(self.start, away * free.0, self.target) >= 1.0;
+                return is_open.then_some(free);
+            }
+            (blocked, way) = (way, way * GROWTH);
+        }
+        None
+    }
+
+    /// How much of a way may be gone: all of it, unless the middle of one of the shape's convex parts would go through
+    /// ground, from a side that is solid. Beyond, that ground would be nothing that the part overlaps, and who is
+    /// pressed against it would count as free there.
+    ///
+    /// Middles stay `before` metres from where they would go through. Of the way that was left a share was gone until
+    /// 2026-11-27: after sixteen rounds nothing is left between the middle and the ground, and the next push starts
+    /// behind.
+    fn share_before_ground(&self, from: &S::Pose, way: S::Point, before: f64) -> f64 {
+        let Self { world, shape, filter, .. } = *self;
+        let before = before / way.length();
+        let mut share = 1.0_f64;
+        S::middles((shape, from), |middle| {
+            let Some(ray) = S::ray(middle, way) else { return };
+            // Who goes all of the way stays as far from what lies beyond.
+            let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
+                let ground = world.bodies.get(hit.body).filter(|body| S::is_ground(&body.shape));
+                let through = ground.and_then(|body| {
+                    if hit.inside { S::first_through(&ray, 1.0 + before, body) } else { Some(hit.distance) }
+                });
+                share = through.map_or(share, |at| share.min((at - before).max(0.0)));
+                ControlFlow::Continue(())
             });
-            share = through.map_or(share, |at| share.min((at - before).max(0.0)));
-            ControlFlow::Continue(())
         });
-    });
-    share
+        share
+    }
 }
 
 /// The shortest way to be `target` metres clear of all planes, nearly; somewhere in between where there is none.

@@ -1,6 +1,6 @@
 //! Characters in the plane: vectors, the narrow phase, and the methods of [`World2`].
 
-use super::free::{free, is_overlapping};
+use super::free::{free_all_around, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
 use super::{Freed2, Gap, Linear, Slide2, Walk2, Walks, is_along};
@@ -38,15 +38,18 @@ impl Walk2 {
 /// leave out its own body with [`without`](crate::Filter::without). Sensors are never in the way. All are
 /// functions of the bodies, and allocate nothing.
 impl World<Plane> {
-    /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius
+    /// Moves a shape out of all solids that it overlaps, by as little as may be, and about 1/4096 of its bounding radius
     /// clear of them.
     ///
     /// First it is pushed out of the body that it is deepest in; if that is enough, there is no shorter way out of that
     /// body. Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up
-    /// to sixteen times. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried
+    /// to sixteen times. Where that does not free it, or by a way half as long again as out of that body alone,
+    /// straight ways are tried: along the normals of those manifolds and in eight directions all around, up to four
+    /// times as far. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried
     /// whose deepest overlap was shallowest. No path is looked for: a shape in a thin wall may come out on the other
-    /// side. Only through chains no push takes a convex part's middle, unless from behind where they have one side.
-    /// Cost: a round is a query for boxes, and a manifold for each body met.
+    /// side. Only through chains no push takes a convex part's middle, unless from behind where they
+    /// have one side. Cost: a round is a query for boxes, and a manifold for each body met; a straight way is up to
+    /// twelve queries for boxes, and a yes or no for each body met.
     ///
     /// ```
     /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
@@ -59,7 +62,7 @@ impl World<Plane> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn depenetrate(&self, at: (&Shape2, &Pose2), filter: &Filter2<'_>) -> Freed2 {
-        free(self, at, least_skin::<Plane>(at.0, at.1), &filter.solid())
+        free_all_around(self, at, least_skin::<Plane>(at.0, at.1), &filter.solid())
     }
 
     /// Whether a shape overlaps no solid, exactly, as [`depenetrate`](World::depenetrate) and
@@ -85,8 +88,8 @@ impl World<Plane> {
     /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a
     /// frame, by its velocity times the time, gravity included.
     ///
-    /// - Where it overlaps solids, it is freed first, much as by [`depenetrate`](World::depenetrate). From then on it
-    ///   moves by casts alone: it never enters anything, nor passes through, however far it goes.
+    /// - Where it overlaps solids, it is freed first, by pushes as [`depenetrate`](World::depenetrate) does. From then
+    ///   on it moves by casts alone: it never enters anything, nor passes through, however far it goes.
     /// - On ground that it can walk on, downward motion is cancelled, so it does not slide off. Steeper ground is a
     ///   wall when walked into, and a slope to slide down when falling.
     /// - Standing on ground, it climbs at most one step per call and follows the ground downwards. A displacement that
@@ -144,6 +147,16 @@ impl Walks for Plane {
 
     fn moved(pose: &Pose2, by: DVec2) -> Option<Pose2> {
         Pose2::new(pose.position() + by, pose.rotation()).ok()
+    }
+
+    fn all_around(mut each: impl FnMut(DVec2)) {
+        // The sides and corners of a square.
+        for number in 0..9 {
+            let [x, y] = [number % 3, number / 3].map(|place| f64::from(place - 1));
+            if let Some(direction) = DVec2::new(x, y).unit() {
+                each(direction);
+            }
+        }
     }
 
     fn size(shape: &Shape2) -> f64 {

@@ -85,6 +85,8 @@ struct Mover<'w, S: Walks> {
     pose: S::Pose,
 }
 
+/// Moves a character by casts, and turns what is left of its way along whatever it meets.
+///
 /// ```text
 /// free the shape, or move it back to its skin's distance
 /// who stands begins along what it stands on                     (Mover::footing)
@@ -92,7 +94,8 @@ struct Mover<'w, S: Walks> {
 ///   turn what is left along all planes met                      (Mover::way)
 ///   cast; go until the skin is reached                          (Mover::go)
 ///   a wall, met from the ground: try to climb it as a step      (Mover::climb)
-/// look for ground below, and go down to it if it was walked on; beside what is steep, ground that is near enough  (Mover::land)
+/// look for ground below, and go down to it if it was walked on; beside what is steep,
+///   ground that is near enough                                  (Mover::land)
 /// ```
 pub(crate) fn move_and_slide<S: Walks>(
     world: &World<S>,

@@ -1,6 +1,6 @@
 //! Characters in space: vectors, the narrow phase, and the methods of [`World3`].
 
-use super::free::{free, is_overlapping};
+use super::free::{free_all_around, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
 use super::{Freed3, Gap, Linear, Slide3, Walk3, Walks, is_along};
@@ -38,15 +38,18 @@ impl Walk3 {
 /// leave out its own body with [`without`](crate::Filter::without). Sensors are never in the way. All are
 /// functions of the bodies, and allocate nothing.
 impl World<Volume> {
-    /// Moves a shape out of all solids that it overlaps, by as little as may be, and 1/4096 of its bounding radius
+    /// Moves a shape out of all solids that it overlaps, by as little as may be, and about 1/4096 of its bounding radius
     /// clear of them.
     ///
     /// First it is pushed out of the body that it is deepest in; if that is enough, there is no shorter way out of that
     /// body. Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up
-    /// to sixteen times. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried
+    /// to sixteen times. Where that does not free it, or by a way half as long again as out of that body alone,
+    /// straight ways are tried: along the normals of those manifolds and in 26 directions all around, up to four
+    /// times as far. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried
     /// whose deepest overlap was shallowest. No path is looked for: a shape in a thin wall may come out on the other
     /// side. Only through meshes and height fields no push takes a convex part's middle, unless from behind where they
-    /// have one side. Cost: a round is a query for boxes, and a manifold for each body met.
+    /// have one side. Cost: a round is a query for boxes, and a manifold for each body met; a straight way is up to
+    /// twelve queries for boxes, and a yes or no for each body met.
     ///
     /// ```
     /// use asunder::{Sphere, Cuboid, Collider3, Filter3, Pose3, Shape3, World3, glam::Vec3};
@@ -59,7 +62,7 @@ impl World<Volume> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn depenetrate(&self, at: (&Shape3, &Pose3), filter: &Filter3<'_>) -> Freed3 {
-        free(self, at, least_skin::<Volume>(at.0, at.1), &filter.solid())
+        free_all_around(self, at, least_skin::<Volume>(at.0, at.1), &filter.solid())
     }
 
     /// Whether a shape overlaps no solid, exactly, as [`depenetrate`](World::depenetrate) and
@@ -85,8 +88,8 @@ impl World<Volume> {
     /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a
     /// frame, by its velocity times the time, gravity included.
     ///
-    /// - Where it overlaps solids, it is freed first, much as by [`depenetrate`](World::depenetrate). From then on it
-    ///   moves by casts alone: it never enters anything, nor passes through, however far it goes.
+    /// - Where it overlaps solids, it is freed first, by pushes as [`depenetrate`](World::depenetrate) does. From then
+    ///   on it moves by casts alone: it never enters anything, nor passes through, however far it goes.
     /// - On ground that it can walk on, downward motion is cancelled, so it does not slide off. Steeper ground is a
     ///   wall when walked into, and a slope to slide down when falling.
     /// - Standing on ground, it climbs at most one step per call and follows the ground downwards. A displacement that
@@ -144,6 +147,16 @@ impl Walks for Volume {
 
     fn moved(pose: &Pose3, by: DVec3) -> Option<Pose3> {
         Pose3::new(pose.position() + by, pose.rotation()).ok()
+    }
+
+    fn all_around(mut each: impl FnMut(DVec3)) {
+        // The faces, edges and corners of a cube.
+        for number in 0..27 {
+            let [x, y, z] = [number % 3, number / 3 % 3, number / 9].map(|place| f64::from(place - 1));
+            if let Some(direction) = DVec3::new(x, y, z).unit() {
+                each(direction);
+            }
+        }
     }
 
     fn size(shape: &Shape3) -> f64 {
