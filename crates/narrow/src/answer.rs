@@ -95,6 +95,28 @@ pub enum Separation2 {
     AtLeast(f32),
 }
 
+impl Separation2 {
+    /// What was measured; nothing beyond the caller's limit.
+    ///
+    /// ```
+    /// use asunder_geometry::{Circle, Pose2, Shape2};
+    /// use asunder_narrow::Pair2;
+    /// let ball = Shape2::from(Circle::new(1.0)?);
+    /// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
+    /// let pair = Pair2::new(&ball, &here, &ball, &there);
+    /// let gap = pair.separation(f32::INFINITY).measured().ok_or("all is within that")?;
+    /// assert!((gap.separation - 1.0).abs() <= gap.error);
+    /// assert!(pair.separation(0.5).measured().is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn measured(self) -> Option<Measured2> {
+        match self {
+            Self::Measured(measured) => Some(measured),
+            Self::AtLeast(_) => None,
+        }
+    }
+}
+
 /// A separation in space, or a bound on it.
 ///
 /// ```
@@ -117,6 +139,28 @@ pub enum Separation3 {
     /// Beyond the caller's limit: the shapes are at least this far apart, in metres. Rounded down, so that it may equal
     /// the limit.
     AtLeast(f32),
+}
+
+impl Separation3 {
+    /// What was measured; nothing beyond the caller's limit.
+    ///
+    /// ```
+    /// use asunder_geometry::{Sphere, Pose3, Shape3};
+    /// use asunder_narrow::Pair3;
+    /// let ball = Shape3::from(Sphere::new(1.0)?);
+    /// let (here, there) = (Pose3::IDENTITY, Pose3::at([3.0, 0.0, 0.0])?);
+    /// let pair = Pair3::new(&ball, &here, &ball, &there);
+    /// let gap = pair.separation(f32::INFINITY).measured().ok_or("all is within that")?;
+    /// assert!((gap.separation - 1.0).abs() <= gap.error);
+    /// assert!(pair.separation(0.5).measured().is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn measured(self) -> Option<Measured3> {
+        match self {
+            Self::Measured(measured) => Some(measured),
+            Self::AtLeast(_) => None,
+        }
+    }
 }
 
 /// A separation in the plane and the axis that shows it.
