@@ -154,7 +154,7 @@ impl Aabb2 {
         Vec2::select(center.is_nan_mask(), Vec2::ZERO, center)
     }
 
-    /// Half of its width along each axis, in metres; below zero where it is empty.
+    /// Half of its width along each axis, in metres; below zero along an axis on which its corners are swapped.
     #[inline]
     pub fn half_extents(&self) -> Vec2 {
         self.max * 0.5 - self.min * 0.5
@@ -236,7 +236,7 @@ impl Aabb3 {
         Vec3::select(center.is_nan_mask(), Vec3::ZERO, center)
     }
 
-    /// Half of its width along each axis, in metres; below zero where it is empty.
+    /// Half of its width along each axis, in metres; below zero along an axis on which its corners are swapped.
     #[inline]
     pub fn half_extents(&self) -> Vec3 {
         self.max * 0.5 - self.min * 0.5
