@@ -99,6 +99,7 @@ mod plane;
 mod prism;
 mod protrusion;
 mod refused;
+mod rim;
 mod round;
 mod standing;
 mod unsaid;
@@ -128,6 +129,7 @@ use round::Round;
 use standing::{Octets, Place, Standing};
 pub(super) use standing::{doubt_of, span_of};
 use unsaid::AllUnsaid;
+use whole::touching;
 
 /// Triangles whose yes or no waits until all have been seen.
 const MOST_UNCLEAR: usize = 32;
@@ -376,9 +378,17 @@ impl Seen<'_> {
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
         let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
+        let base = prism.base();
+        if !prism.is_lowest_over() {
+            let prism = Prism { reach: touching(), ..prism };
+            (0..3).for_each(|edge| prism.add_deepest_over(edge, &base, &mut known.groups));
+        }
+        if known.groups.least() <= standing.slack {
+            return self.add_whole(known);
+        }
         let mut pin = prism.lowest();
         pin.on_ground = nearest_to(&facet, pin.on_ground).1;
-        known.groups.add(&prism.base(), pin);
+        known.groups.add(&base, pin);
     }
 
     /// What a height over a triangle may be off by, in metres.

@@ -155,7 +155,7 @@ impl Prism<'_> {
     }
 
     /// The sides of a face of the part, as they cut lines in the triangle's plane.
-    fn cuts(&self, face: usize) -> impl Iterator<Item = Cut> + '_ {
+    pub(super) fn cuts(&self, face: usize) -> impl Iterator<Item = Cut> + '_ {
         let (standing, topology) = (self.standing, self.standing.solid.topology);
         topology.face_half_edges(face).map(|half_edge| {
             let (start, stop) = topology.ends(half_edge);
@@ -229,6 +229,11 @@ impl Prism<'_> {
         let vertex = self.extent.lowest;
         let at = self.standing.point(vertex) - self.facet.normal * self.standing.radius;
         self.pin(at, self.extent.low - self.standing.radius, Feature::Vertex(vertex as u32))
+    }
+
+    /// Whether that is over the triangle.
+    pub(super) fn is_lowest_over(&self) -> bool {
+        self.facet.is_over(self.standing.point(self.extent.lowest), self.standing.slack)
     }
 
     /// Whether the part certainly shares a point with the triangle: a vertex of the core that is nearer to the

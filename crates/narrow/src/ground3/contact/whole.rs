@@ -103,6 +103,7 @@ impl Seen<'_> {
             if !self.meets(&prism) {
                 self.add_by_normal(&prism, known);
             }
+            prism.add_deepest_over_rim(&mut known.groups);
         }
     }
 }
