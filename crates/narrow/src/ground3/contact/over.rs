@@ -5,6 +5,7 @@ use super::facet::Facet;
 use super::prism::Prism;
 use super::standing::Extent;
 use asunder_geometry::NearTriangle;
+use asunder_geometry::glam::DVec3;
 
 /// A triangle, and how a part stands over its plane.
 pub(super) struct Plane {
@@ -50,10 +51,27 @@ impl Seen<'_> {
 
     /// The same of a triangle by its own plane, however far it is: nothing where it is not seen.
     pub(super) fn plane_of(&self, number: u32) -> Option<Plane> {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
-        let facet = Facet::seen(ground, number, standing.center)?;
-        let (extent, doubt) = (standing.extent(facet.normal, facet.origin()), self.doubt_over(&facet));
-        Some(Plane { patch: ground.patch(number), facet, extent, doubt })
+        Facet::seen(self.asking.on.ground, number, self.standing.center).map(|facet| self.over(facet))
+    }
+
+    /// The same of a triangle as it is seen along a direction, whichever of its sides the part is on: beside bends of
+    /// two-sided ground a flat patch may be seen from both. Of one-sided ground, only what is seen.
+    pub(super) fn plane_towards(&self, number: u32, direction: DVec3) -> Option<Plane> {
+        let ground = self.asking.on.ground;
+        if ground.is_one_sided() {
+            return self.plane_of(number);
+        }
+        let mut facet = Facet::front_of(number, ground.corners(number))?;
+        if facet.normal.dot(direction) < 0.0 {
+            facet.turn_over();
+        }
+        Some(self.over(facet))
+    }
+
+    fn over(&self, facet: Facet) -> Plane {
+        let (patch, doubt) = (self.asking.on.ground.patch(facet.number), self.doubt_over(&facet));
+        let extent = self.standing.extent(facet.normal, facet.origin());
+        Plane { patch, facet, extent, doubt }
     }
 
     /// The triangle, the part over it, and what is asked of both.

@@ -82,7 +82,13 @@ impl Seen<'_> {
         let heard: ArrayVec<Heard, MOST_GROUPS> =
             known.groups.iter().filter(is_deeper).map(|group| (group.base.normal, group.found())).collect();
         let on = self.asking.on;
-        let bounds = on.bounds_around(&self.standing.part, self.standing.turned, touching());
+        // Over them a part may be that has gone through the plane as a whole, beside what it holds of the patch.
+        let mut moved = self.standing.turned;
+        for group in known.groups.iter().filter(is_deeper) {
+            let [low, high] = self.standing.turned.map(|end| end - group.base.normal * group.base.behind);
+            moved = [moved[0].min(low), moved[1].max(high)];
+        }
+        let bounds = on.bounds_around(&self.standing.part, moved, touching());
         let _ = on.ground.read_near(&bounds, |near| {
             for &by in &heard {
                 self.add_of_whole(near, by, known);
@@ -95,7 +101,7 @@ impl Seen<'_> {
     /// is deep in others of its patch.
     fn add_of_whole(&self, near: &NearTriangle, (normal, found): Heard, known: &mut Known) {
         if known.groups.is_deep_in((self.asking.on.ground, near.number), normal)
-            && let Some(plane) = self.plane_of(near.number)
+            && let Some(plane) = self.plane_towards(near.number, normal)
             && is_same(plane.facet.normal, normal)
         {
             let prism = Prism { reach: found - self.standing.slack, ..self.prism_over(&plane) };
