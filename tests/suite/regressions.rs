@@ -13,6 +13,7 @@ mod planes;
 mod points;
 mod rays;
 mod ridges;
+mod rims;
 mod shapes;
 mod stale;
 mod turned;

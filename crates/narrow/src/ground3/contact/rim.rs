@@ -21,6 +21,10 @@ const LEAST_SINE: f64 = 1e-9;
 /// By what share of an edge's length a point may be beyond its end: more than rounding, of an edge that ends there.
 const SPARE: f64 = 1e-12;
 
+/// How far another point that is as deep lies from the deepest at least, as a share of the part's radius: nearer ones
+/// are of features that meet there.
+const APART: f64 = 1e-3;
+
 /// A corner, or an edge: where it starts, and the way along it, which is zero for a corner.
 #[derive(Clone, Copy)]
 struct Line {
@@ -38,7 +42,7 @@ struct Lowest {
 
 impl Prism<'_> {
     /// Adds the deepest points of the part over those sides of the triangle where its flat patch ends, as far as they
-    /// are wanted.
+    /// are wanted and deeper than what was found along its normal.
     pub(super) fn add_deepest_over_rim(&self, groups: &mut Groups) {
         let (ground, number, base) = (self.ground, self.facet.number, self.base());
         for edge in 0..3 {
@@ -49,30 +53,36 @@ impl Prism<'_> {
         }
     }
 
-    /// Adds the deepest points of the part over a side of the triangle, as far as they are wanted: all that are as deep
-    /// as any.
+    /// The same over one side, whatever is behind it: the deepest point, and what is as deep well apart from it.
     pub(super) fn add_deepest_over(&self, edge: usize, base: &Base, groups: &mut Groups) {
-        if !self.may_reach(edge) {
+        let slack = self.standing.slack;
+        let reach = self.reach.min(groups.least_along(base.normal) - slack);
+        if !self.may_reach(edge, reach) {
             return;
         }
-        let mut least = f64::INFINITY;
-        self.visit_over(edge, |pin| least = least.min(pin.separation));
-        let even = least + self.standing.slack;
-        if least <= self.reach {
-            self.visit_over(edge, |pin| {
-                if pin.separation <= even {
-                    groups.add(base, pin);
-                }
-            });
-        }
+        let mut deepest: Option<Pin> = None;
+        self.visit_over(edge, |pin| {
+            if deepest.is_none_or(|deepest| pin.separation < deepest.separation) {
+                deepest = Some(pin);
+            }
+        });
+        let Some(deepest) = deepest.filter(|pin| pin.separation <= reach) else { return };
+        groups.add(base, deepest);
+        let apart = APART * self.standing.outer_radius;
+        self.visit_over(edge, |pin| {
+            let is_apart = (pin.on_body - deepest.on_body).length_squared() > apart * apart;
+            if is_apart && pin.separation <= deepest.separation + slack {
+                groups.add(base, pin);
+            }
+        });
     }
 
     /// Whether the part may be as deep over a side as is wanted: in the plane that is so deep, some of the side is on
     /// the inner side of all faces that look down.
-    fn may_reach(&self, edge: usize) -> bool {
+    fn may_reach(&self, edge: usize, reach: f64) -> bool {
         let (solid, normal) = (self.standing.solid, self.facet.normal);
         let (from, along) = self.facet.edge(edge);
-        let from = from + normal * self.reach;
+        let from = from + normal * reach;
         let (mut enters, mut leaves) = (0.0, 1.0);
         for face in 0..solid.face_count() {
             let outwards = solid.normal(face);

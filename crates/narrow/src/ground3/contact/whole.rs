@@ -6,10 +6,13 @@
 //!     sides that count by the margin alone do not: its own normal tells what is deep, kernels the gaps  (closer)
 //!     it is explained, or freed, by what touches alone, and where it would be then        (outstanding, refused)
 //! at last, where the part is deep in a flat patch, and reaches further behind its plane than was found:
-//!     what is deeper over triangles of the patch that it does not meet
+//!     what is deeper over triangles of the patch that it does not meet, and over their sides in its rim   (rim)
+//!     where nothing is deep along other normals, over the rim of those that it meets, too
 //! ```
 //! A body leaves a patch along its normal at once, or not at all: of a box that leans over the rim of a floor, what is
-//! lowest may lie under a triangle that it does not touch.
+//! lowest may lie under a triangle that it does not touch, or another face of it be deeper over the rim than the one
+//! that looks against the normal the most. Where it is deep along other normals, too, a triangle that it meets may have
+//! spoken through one of them, and says no more along its own.
 //!
 //! What was found already is not told again: of points that are as deep, names would be others with every step.
 
@@ -79,37 +82,40 @@ impl Seen<'_> {
         if !known.groups.iter().any(|group| is_deeper(&group)) {
             return;
         }
-        let heard: ArrayVec<Heard, MOST_GROUPS> =
-            known.groups.iter().filter(is_deeper).map(|group| (group.base.normal, group.found())).collect();
-        let on = self.asking.on;
-        // Over them a part may be that has gone through the plane as a whole, beside what it holds of the patch.
-        let mut moved = self.standing.turned;
+        let (on, turned) = (self.asking.on, self.standing.turned);
+        let (mut whole, [mut low, mut high]) = (ArrayVec::<Heard, MOST_GROUPS>::new(), turned);
         for group in known.groups.iter().filter(is_deeper) {
-            let [low, high] = self.standing.turned.map(|end| end - group.base.normal * group.base.behind);
-            moved = [moved[0].min(low), moved[1].max(high)];
+            whole.push((group.base.normal, group.found()));
+            // Beside what it meets, the part may be behind the plane as a whole, over triangles beside its box.
+            let up = group.base.normal * -group.base.behind;
+            (low, high) = (low.min(turned[0] + up), high.max(turned[1] + up));
         }
-        let bounds = on.bounds_around(&self.standing.part, moved, touching());
+        let is_alone = known.groups.iter().filter(|group| group.found() < -slack).count() == 1;
+        let bounds = on.bounds_around(&self.standing.part, [low, high], touching());
         let _ = on.ground.read_near(&bounds, |near| {
-            for &by in &heard {
-                self.add_of_whole(near, by, known);
+            for &by in &whole {
+                self.add_of_whole(near, by, is_alone, known);
             }
             ControlFlow::Continue(())
         });
     }
 
-    /// Adds deeper points over a triangle that the part does not meet, along a normal that is its own, where the part
-    /// is deep in others of its patch.
-    fn add_of_whole(&self, near: &NearTriangle, (normal, found): Heard, known: &mut Known) {
+    /// Adds deeper points over a triangle, along a normal that is its own, where the part is deep in others of its
+    /// patch: of one that the part meets, where nothing else is deep.
+    fn add_of_whole(&self, near: &NearTriangle, (normal, found): Heard, is_alone: bool, known: &mut Known) {
         if known.groups.is_deep_in((self.asking.on.ground, near.number), normal)
             && let Some(plane) = self.plane_towards(near.number, normal)
             && is_same(plane.facet.normal, normal)
         {
             let prism = Prism { reach: found - self.standing.slack, ..self.prism_over(&plane) };
-            // What the part meets has spoken for itself.
-            if !self.meets(&prism) {
+            let do_meet = self.meets(&prism);
+            // What the part meets has spoken for itself, by one face of the part, or through another normal.
+            if !do_meet {
                 self.add_by_normal(&prism, known);
             }
-            prism.add_deepest_over_rim(&mut known.groups);
+            if !do_meet || is_alone {
+                prism.add_deepest_over_rim(&mut known.groups);
+            }
         }
     }
 }
