@@ -30,6 +30,9 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Ground, NearTriangle};
 use core::ops::ControlFlow;
 
+/// Most flat patches of one normal that are told as a whole.
+const MOST_PATCHES: usize = 32;
+
 /// Points up to this far away are there without a margin, too: what rounds to nothing is a touch.
 pub(super) fn touching() -> f64 {
     reach_of(0.0)
@@ -92,19 +95,27 @@ impl Seen<'_> {
         }
         let is_alone = known.groups.iter().filter(|group| group.found() < -slack).count() == 1;
         let bounds = on.bounds_around(&self.standing.part, [low, high], touching());
-        let _ = on.ground.read_near(&bounds, |near| {
-            for &by in &whole {
-                self.add_of_whole(near, by, is_alone, known);
-            }
-            ControlFlow::Continue(())
-        });
+        for &by in &whole {
+            // By all of its triangles: of a corner it is known which of them it belongs to, and not of which patch.
+            let mut patches = ArrayVec::<u32, MOST_PATCHES>::new();
+            let _ = on.ground.read_near(&bounds, |near| {
+                if !patches.contains(&near.patch) && known.groups.is_deep_in((on.ground, near.number), by.0) {
+                    let _ = patches.try_push(near.patch);
+                }
+                ControlFlow::Continue(())
+            });
+            let _ = on.ground.read_near(&bounds, |near| {
+                if patches.contains(&near.patch) {
+                    self.add_of_whole(near, by, is_alone, known);
+                }
+                ControlFlow::Continue(())
+            });
+        }
     }
 
-    /// Adds deeper points over a triangle, along a normal that is its own, where the part is deep in others of its
-    /// patch: of one that the part meets, where nothing else is deep.
+    /// Adds deeper points over a triangle of a patch that the part is deep in, along a normal that is its own: of one that the part meets, where nothing else is deep.
     fn add_of_whole(&self, near: &NearTriangle, (normal, found): Heard, is_alone: bool, known: &mut Known) {
-        if known.groups.is_deep_in((self.asking.on.ground, near.number), normal)
-            && let Some(plane) = self.plane_towards(near.number, normal)
+        if let Some(plane) = self.plane_towards(near.number, normal)
             && is_same(plane.facet.normal, normal)
         {
             let prism = Prism { reach: found - self.standing.slack, ..self.prism_over(&plane) };
