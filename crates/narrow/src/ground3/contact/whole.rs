@@ -96,16 +96,20 @@ impl Seen<'_> {
         let is_alone = known.groups.iter().filter(|group| group.found() < -slack).count() == 1;
         let bounds = on.bounds_around(&self.standing.part, [low, high], touching());
         for &by in &whole {
-            // By all of its triangles: of a corner it is known which of them it belongs to, and not of which patch.
+            // Of a corner it is known which triangles it belongs to, and not of which patch: that is looked up first.
             let mut patches = ArrayVec::<u32, MOST_PATCHES>::new();
+            if known.groups.has_corner_along(by.0) {
+                let _ = on.ground.read_near(&bounds, |near| {
+                    let is_known = patches.contains(&near.patch);
+                    if !is_known && known.groups.is_deep_in((on.ground, near.number), by.0) {
+                        let _ = patches.try_push(near.patch);
+                    }
+                    ControlFlow::Continue(())
+                });
+            }
             let _ = on.ground.read_near(&bounds, |near| {
-                if !patches.contains(&near.patch) && known.groups.is_deep_in((on.ground, near.number), by.0) {
-                    let _ = patches.try_push(near.patch);
-                }
-                ControlFlow::Continue(())
-            });
-            let _ = on.ground.read_near(&bounds, |near| {
-                if patches.contains(&near.patch) {
+                let is_known = patches.contains(&near.patch);
+                if is_known || known.groups.is_deep_in((on.ground, near.number), by.0) {
                     self.add_of_whole(near, by, is_alone, known);
                 }
                 ControlFlow::Continue(())
@@ -132,6 +136,12 @@ impl Seen<'_> {
 }
 
 impl Groups {
+    /// Whether a point along a normal is on a corner of the ground.
+    fn has_corner_along(&self, normal: DVec3) -> bool {
+        let mut pins = self.along(normal).into_iter().flat_map(|group| &group.pins);
+        pins.any(|pin| matches!(pin.of_ground, Feature::Vertex(_)))
+    }
+
     /// Whether a point along a normal is deeper than the slack, on the flat patch of a triangle or its rim.
     pub(super) fn is_deep_in(&self, (ground, number): (Ground, u32), normal: DVec3) -> bool {
         let patch = ground.patch(number);
