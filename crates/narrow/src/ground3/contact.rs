@@ -369,6 +369,8 @@ impl Seen<'_> {
     }
 
     /// The part's lowest point over a triangle that it overlaps, where every point was cut away.
+    #[cold]
+    #[inline(never)]
     fn add_last(&self, number: u32, known: &mut Known) {
         let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
         if let Shape3::HalfSpace(half_space) = standing.part.shape {

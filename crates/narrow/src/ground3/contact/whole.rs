@@ -27,7 +27,7 @@ use crate::feature::Feature;
 use crate::pair3::reach_of;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::{Ground, NearTriangle};
+use asunder_geometry::{Aabb3, Ground, NearTriangle};
 use core::ops::ControlFlow;
 
 /// Most flat patches of one normal that are told as a whole.
@@ -76,48 +76,63 @@ impl Seen<'_> {
     }
 
     /// Adds what is deeper than was found over the rest of a flat patch, where the part is deep in some of it.
+    #[inline]
     pub(super) fn add_whole(&self, known: &mut Known) {
-        let slack = self.standing.slack;
-        let is_deeper = |group: &&Group| {
-            let found = group.found();
-            found < -slack && group.base.behind < found - slack
-        };
-        if !known.groups.iter().any(|group| is_deeper(&group)) {
-            return;
+        if known.groups.iter().any(|group| self.may_be_deeper(group)) {
+            self.add_rest_of_patches(known);
         }
-        let (on, turned) = (self.asking.on, self.standing.turned);
+    }
+
+    /// Whether the part is deep along a normal, and reaches further behind a plane of that than was found.
+    #[inline]
+    fn may_be_deeper(&self, group: &Group) -> bool {
+        let (slack, found) = (self.standing.slack, group.found());
+        found < -slack && group.base.behind < found - slack
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn add_rest_of_patches(&self, known: &mut Known) {
+        let (slack, turned) = (self.standing.slack, self.standing.turned);
         let (mut whole, [mut low, mut high]) = (ArrayVec::<Heard, MOST_GROUPS>::new(), turned);
-        for group in known.groups.iter().filter(is_deeper) {
+        for group in known.groups.iter().filter(|group| self.may_be_deeper(group)) {
             whole.push((group.base.normal, group.found()));
             // Beside what it meets, the part may be behind the plane as a whole, over triangles beside its box.
             let up = group.base.normal * -group.base.behind;
             (low, high) = (low.min(turned[0] + up), high.max(turned[1] + up));
         }
         let is_alone = known.groups.iter().filter(|group| group.found() < -slack).count() == 1;
-        let bounds = on.bounds_around(&self.standing.part, [low, high], touching());
+        let bounds = self.asking.on.bounds_around(&self.standing.part, [low, high], touching());
         for &by in &whole {
-            // Of a corner it is known which triangles it belongs to, and not of which patch: that is looked up first.
-            let mut patches = ArrayVec::<u32, MOST_PATCHES>::new();
-            if known.groups.has_corner_along(by.0) {
-                let _ = on.ground.read_near(&bounds, |near| {
-                    let is_known = patches.contains(&near.patch);
-                    if !is_known && known.groups.is_deep_in((on.ground, near.number), by.0) {
-                        let _ = patches.try_push(near.patch);
-                    }
-                    ControlFlow::Continue(())
-                });
-            }
-            let _ = on.ground.read_near(&bounds, |near| {
+            self.add_rest_along(&bounds, by, is_alone, known);
+        }
+    }
+
+    /// The same along one normal, over what is near a box.
+    fn add_rest_along(&self, bounds: &Aabb3, by: Heard, is_alone: bool, known: &mut Known) {
+        let ground = self.asking.on.ground;
+        // Of a corner it is known which triangles it belongs to, and not of which patch: that is looked up first.
+        let mut patches = ArrayVec::<u32, MOST_PATCHES>::new();
+        if known.groups.has_corner_along(by.0) {
+            let _ = ground.read_near(bounds, |near| {
                 let is_known = patches.contains(&near.patch);
-                if is_known || known.groups.is_deep_in((on.ground, near.number), by.0) {
-                    self.add_of_whole(near, by, is_alone, known);
+                if !is_known && known.groups.is_deep_in((ground, near.number), by.0) {
+                    let _ = patches.try_push(near.patch);
                 }
                 ControlFlow::Continue(())
             });
         }
+        let _ = ground.read_near(bounds, |near| {
+            let is_known = patches.contains(&near.patch);
+            if is_known || known.groups.is_deep_in((ground, near.number), by.0) {
+                self.add_of_whole(near, by, is_alone, known);
+            }
+            ControlFlow::Continue(())
+        });
     }
 
-    /// Adds deeper points over a triangle of a patch that the part is deep in, along a normal that is its own: of one that the part meets, where nothing else is deep.
+    /// Adds deeper points over a triangle of a patch that the part is deep in, along a normal that is its own: of one
+    /// that the part meets, where nothing else is deep.
     fn add_of_whole(&self, near: &NearTriangle, (normal, found): Heard, is_alone: bool, known: &mut Known) {
         if let Some(plane) = self.plane_towards(near.number, normal)
             && is_same(plane.facet.normal, normal)
