@@ -260,7 +260,9 @@ impl<'a> Asking<'a> {
         }
         seen.look_at_behind(&mut known);
         seen.add_refused(&mut known);
-        seen.add_whole(&mut known);
+        if manifolds.is_wanted() {
+            seen.add_whole(&mut known);
+        }
         seen.conclude(&mut known, is_overlap_known);
         seen.bound_least(&mut known, manifolds.is_wanted());
         self.answer(part, &mut known, is_overlap_known, manifolds)
