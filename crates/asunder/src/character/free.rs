@@ -49,55 +49,44 @@ impl<S: Walks> Near<S> {
 /// A shape and where it is.
 pub(super) type At<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
 
-/// What is asked: in which world, of what, how far it is to be clear, and whom it sees.
-struct Freeing<'a, S: Walks> {
-    world: &'a World<S>,
-    shape: &'a S::Shape,
-    start: &'a S::Pose,
-    target: f64,
-    filter: &'a Filter<'a, S>,
-}
-
-/// Moves the shape until it is `target` metres clear of all that it overlapped.
-///
-/// ```text
-/// repeat
-///   find the planes of all that is near
-///   nothing overlaps: done
-///   push out of the deepest alone; free of all: done, and no shorter way leads out of that one
-///   push out of all planes at once
-/// ```
-/// The deepest alone comes first since among tiles of a floor it is the only one that matters: the sides of its
-/// neighbours, of which the shape overlaps a little, would push it sideways. No push takes a part's middle through
-/// ground.
-pub(super) fn free<S: Walks>(
-    world: &World<S>,
-    (shape, start): At<'_, S>,
-    target: f64,
-    filter: &Filter<'_, S>,
-) -> Freed<S::Pose, S::Point> {
-    Freeing { world, shape, start, target, filter }.by_rounds().0
-}
-
-/// The same; and where that does not lead out, or by a long way, whatever straight way is shorter, along the normals of
-/// the planes and in directions all around. Not for who walks: between a floor and what comes down on it, that would
-/// throw a character out sideways that is crushed.
-pub(super) fn free_all_around<S: Walks>(
-    world: &World<S>,
-    (shape, start): At<'_, S>,
-    target: f64,
-    filter: &Filter<'_, S>,
-) -> Freed<S::Pose, S::Point> {
-    let freeing = Freeing { world, shape, start, target, filter };
-    let (freed, least) = freeing.by_rounds();
-    let most = if freed.is_free { freed.moved.length() } else { f64::INFINITY };
-    if most <= least * LONG {
-        return freed;
-    }
-    freeing.straight(least, most).unwrap_or(freed)
+/// What is asked: in which world, of what, how far it is to be clear in metres, and whom it sees.
+pub(super) struct Freeing<'a, S: Walks> {
+    pub(super) world: &'a World<S>,
+    pub(super) shape: &'a S::Shape,
+    pub(super) start: &'a S::Pose,
+    pub(super) target: f64,
+    pub(super) filter: &'a Filter<'a, S>,
 }
 
 impl<S: Walks> Freeing<'_, S> {
+    /// Moves the shape until it is as clear as is asked of all that it overlapped.
+    ///
+    /// ```text
+    /// repeat
+    ///   find the planes of all that is near
+    ///   nothing overlaps: done
+    ///   push out of the deepest alone; free of all: done, and no shorter way leads out of that one
+    ///   push out of all planes at once
+    /// ```
+    /// The deepest alone comes first since among tiles of a floor it is the only one that matters: the sides of its
+    /// neighbours, of which the shape overlaps a little, would push it sideways. No push takes a part's middle through
+    /// ground.
+    pub(super) fn by_pushes(&self) -> Freed<S::Pose, S::Point> {
+        self.by_rounds().0
+    }
+
+    /// The same; and where that does not lead out, or by a long way, whatever straight way is shorter, along the
+    /// normals of the planes and in directions all around. Not for who walks: between a floor and what comes down on
+    /// it, that would throw a character out sideways that is crushed.
+    pub(super) fn all_around(&self) -> Freed<S::Pose, S::Point> {
+        let (freed, least) = self.by_rounds();
+        let most = if freed.is_free { freed.moved.length() } else { f64::INFINITY };
+        if most <= least * LONG {
+            return freed;
+        }
+        self.straight(least, most).unwrap_or(freed)
+    }
+
     fn found(&self, pose: S::Pose, is_free: bool) -> Freed<S::Pose, S::Point> {
         let moved = S::position(&pose) - S::position(self.start);
         Freed { pose, moved, is_free }

@@ -1,6 +1,6 @@
 //! Characters in the plane: vectors, the narrow phase, and the methods of [`World2`].
 
-use super::free::{free_all_around, is_overlapping};
+use super::free::{Freeing, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
 use super::{Freed2, Gap, Linear, Slide2, Walk2, Walks, is_along};
@@ -62,7 +62,8 @@ impl World<Plane> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn depenetrate(&self, at: (&Shape2, &Pose2), filter: &Filter2<'_>) -> Freed2 {
-        free_all_around(self, at, least_skin::<Plane>(at.0, at.1), &filter.solid())
+        let ((shape, start), filter) = (at, &filter.solid());
+        Freeing { world: self, shape, start, target: least_skin::<Plane>(shape, start), filter }.all_around()
     }
 
     /// Whether a shape overlaps no solid, exactly, as [`depenetrate`](World::depenetrate) and

@@ -1,7 +1,7 @@
 //! Going along what is met.
 
 use super::clip::along;
-use super::free::{Near, free, has_entered, is_overlapping, near, push};
+use super::free::{Freeing, Near, has_entered, is_overlapping, near, push};
 use super::gait::Gait;
 use super::{Freed, Gap, Linear, Obstacle, Slide, Walk, Walks};
 use crate::query::{Asked, Enter, Filter, Meet, bodies_along, bodies_along_ray, parts_along};
@@ -158,7 +158,9 @@ impl<S: Walks> Mover<'_, S> {
         let near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
         let least = near.iter().fold(f64::INFINITY, |least, near| least.min(near.plane.gap));
         if least <= 0.0 {
-            let Freed { pose, is_free, .. } = free(self.world, (self.shape, &self.pose), skin, &self.filter);
+            let (world, shape, start, filter) = (self.world, self.shape, &self.pose, &self.filter);
+            let Freed { pose, is_free, .. } =
+                Freeing { world, shape, start, target: skin, filter }.by_pushes();
             self.pose = pose;
             slid.is_free = is_free;
             slid.blocked = !is_free;

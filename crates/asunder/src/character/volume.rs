@@ -1,6 +1,6 @@
 //! Characters in space: vectors, the narrow phase, and the methods of [`World3`].
 
-use super::free::{free_all_around, is_overlapping};
+use super::free::{Freeing, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
 use super::{Freed3, Gap, Linear, Slide3, Walk3, Walks, is_along};
@@ -62,7 +62,8 @@ impl World<Volume> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn depenetrate(&self, at: (&Shape3, &Pose3), filter: &Filter3<'_>) -> Freed3 {
-        free_all_around(self, at, least_skin::<Volume>(at.0, at.1), &filter.solid())
+        let ((shape, start), filter) = (at, &filter.solid());
+        Freeing { world: self, shape, start, target: least_skin::<Volume>(shape, start), filter }.all_around()
     }
 
     /// Whether a shape overlaps no solid, exactly, as [`depenetrate`](World::depenetrate) and

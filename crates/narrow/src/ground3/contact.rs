@@ -17,7 +17,7 @@
 //!     of one that a gap parts from it, the nearest points are, in closed form: as little                  (gap)
 //!     else the kernels of part and triangle: their axis, if the feature's neighbours let it through   (meeting)
 //!         else the triangle's own normal, unless a contact with others frees the part from it, too
-//!   where the part is deep in a flat patch, what is deeper over the rest of it                                (whole)
+//!   where the part is deep in a flat patch, what is deeper over the rest of it                           (whole, rim)
 //!   points go to the group of their normal                                                            (groups)
 //!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
 //!   what is nearer, in a gap along what ground refused                                              (unsaid)
@@ -370,7 +370,8 @@ impl Seen<'_> {
         self.say(known);
     }
 
-    /// The part's lowest point over a triangle that it overlaps, where every point was cut away.
+    /// What is deepest over a triangle that the part overlaps, where every point was cut away: over its sides, where the
+    /// part's lowest point is beside it. Where rounding leaves none of those, that point.
     #[cold]
     #[inline(never)]
     fn add_last(&self, number: u32, known: &mut Known) {

@@ -18,7 +18,7 @@
 
 use super::ball::nearest_to;
 use super::facet::is_same;
-use super::groups::{Group, Groups, MOST_GROUPS};
+use super::groups::{Group, Groups, MOST_GROUPS, Pin};
 use super::prism::Prism;
 use super::refused::Heard;
 use super::standing::Standing;
@@ -151,13 +151,17 @@ impl Seen<'_> {
 }
 
 impl Groups {
-    /// Whether a point along a normal is on a corner of the ground.
-    fn has_corner_along(&self, normal: DVec3) -> bool {
-        let mut pins = self.along(normal).into_iter().flat_map(|group| &group.pins);
-        pins.any(|pin| matches!(pin.of_ground, Feature::Vertex(_)))
+    fn pins_along(&self, normal: DVec3) -> impl Iterator<Item = &Pin> {
+        self.along(normal).into_iter().flat_map(|group| &group.pins)
     }
 
-    /// Whether a point along a normal is deeper than the slack, on the flat patch of a triangle or its rim.
+    /// Whether a point along a normal is on a corner of the ground.
+    fn has_corner_along(&self, normal: DVec3) -> bool {
+        self.pins_along(normal).any(|pin| matches!(pin.of_ground, Feature::Vertex(_)))
+    }
+
+    /// Whether a point along a normal is deeper than the slack, on the flat patch of a triangle, an edge of that, or a
+    /// corner of the triangle itself: which others meet there, a corner does not say.
     pub(super) fn is_deep_in(&self, (ground, number): (Ground, u32), normal: DVec3) -> bool {
         let patch = ground.patch(number);
         let is_of = |number: u32| ground.patch(number) == patch;
@@ -169,7 +173,6 @@ impl Groups {
             }
             Feature::Vertex(vertex) => ground.vertex_numbers(number).contains(&vertex),
         };
-        let mut pins = self.along(normal).into_iter().flat_map(|group| &group.pins);
-        pins.any(|pin| pin.separation < -self.slack() && is_on(pin.of_ground))
+        self.pins_along(normal).any(|pin| pin.separation < -self.slack() && is_on(pin.of_ground))
     }
 }
