@@ -4,8 +4,8 @@
 //! where more than a fifth of the boxes moved: sweep all
 //! else, of the boxes that have moved since all were swept (the movers):
 //!   drop the kept pairs of those that were not among them before
-//!   sweep the movers among themselves
 //!   look up each in the columns that the sweep of all left behind         rest
+//!   movers that look in one place meet each other; where too many do, sweep the movers among themselves
 //!   sort these pairs, and merge them with the kept ones
 //! sweep all again: when a fifth of all boxes has moved by now; when looking up movers that have come to rest has cost as
 //!   much as a sweep; or when movers reach so many boxes at rest that looking them up would cost as much
@@ -19,8 +19,9 @@ use crate::columns::Column;
 use crate::pair::{PairId, TooManyPairs};
 use crate::sweep::order::Order;
 use crate::sweep::{Admit, Sweep, keep};
+use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
-use rest::Rest;
+use rest::{Met, Rest};
 
 /// All overlapping pairs of boxes of which few move from frame to frame.
 ///
@@ -143,9 +144,13 @@ impl<B: Bounds> CoherentSweep<B> {
             let rest = &self.rest;
             self.kept.retain(|pair| rest.rests(pair.a) && rest.rests(pair.b));
         }
-        pairs.clear();
-        let room = limit.checked_sub(self.kept.len()).ok_or(TooManyPairs { limit })?;
-        if !self.pairs_of_movers(boxes, admit, room).map_err(|_| TooManyPairs { limit })? {
+        let room = limit.checked_sub(self.kept.len()).ok_or(TooManyPairs { limit });
+        let have_met = room.and_then(|room| self.pairs_of_movers(boxes, admit, room));
+        let Ok(have_met) = have_met else {
+            pairs.clear();
+            return Err(TooManyPairs { limit });
+        };
+        if !have_met {
             return self.sweep_all(boxes, few, admit, limit, pairs);
         }
         self.order.sort(&mut self.fresh, boxes.len());
@@ -227,22 +232,26 @@ impl<B: Bounds> CoherentSweep<B> {
     /// The pairs of which one box moved at least, in no order; or false, if a sweep of all costs less.
     fn pairs_of_movers(&mut self, boxes: &[B], admit: &Admit, limit: usize) -> Result<bool, TooManyPairs> {
         let Self { movers, moving, among, fresh, .. } = self;
-        moving.clear();
-        moving.extend(movers.iter().map(|&place| boxes[place as usize]));
         fresh.clear();
         let mut found = Gathered { pairs: fresh, admitted: 0, admit, limit };
         // First what may turn out to be too much: then nobody has been asked about any pair yet.
-        if let Some(sorted) = self.sweep.whole()
-            && !self.rest.meet(sorted, boxes, movers, &mut found)
-        {
+        let met = match self.sweep.whole() {
+            Some(sorted) => self.rest.meet(sorted, boxes, movers, &mut found),
+            None => Met::Resting,
+        };
+        if met == Met::Nobody {
             return Ok(false);
         }
         found.sift();
         let room = limit.checked_sub(fresh.len()).ok_or(TooManyPairs { limit })?;
-        let place = |mover: u32| movers[mover as usize];
-        let admits = |a: u32, b: u32| admit(&mut [PairId { a: place(a), b: place(b) }]) == 1;
-        self.sweep_of_movers.pairs(moving, admits, room, among)?;
-        fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
+        if met == Met::Resting {
+            moving.clear();
+            moving.extend(movers.iter().map(|&place| boxes[place as usize]));
+            let place = |mover: u32| movers[mover as usize];
+            let admits = |a: u32, b: u32| admit(&mut [PairId { a: place(a), b: place(b) }]) == 1;
+            self.sweep_of_movers.pairs(moving, admits, room, among)?;
+            fresh.extend(among.iter().map(|pair| PairId { a: place(pair.a), b: place(pair.b) }));
+        }
         Ok(true)
     }
 }
@@ -272,24 +281,63 @@ impl Gathered<'_> {
     }
 }
 
-/// Replaces `into` by both lists, in order: stretches of the kept one are copied whole.
+/// Pairs that are copied at a time where the next one to be put between them is far, and where it is near.
+const STRETCH: usize = 64;
+const STEP: usize = 8;
+
+/// Replaces `into` by both lists, in order.
 fn merge(kept: &[PairId], fresh: &[PairId], into: &mut Vec<PairId>) {
-    into.clear();
-    into.reserve(kept.len() + fresh.len());
-    let mut rest = kept;
-    for &pair in fresh {
-        // Twice as far each time, then halves: few steps for the next pair, and not many for one far away.
-        let mut far = 1;
-        while far < rest.len() && rest[far] < pair {
-            far *= 2;
+    into.resize(kept.len() + fresh.len(), PairId { a: 0, b: 0 });
+    widest(Merging { kept, fresh, into });
+}
+
+/// Writes both lists into one that is as long as they are, in order.
+///
+/// Whatever is copied is so in pieces of one length, of which the last may be too long: the next piece is written over
+/// what was too much. How many of its pairs come first is counted, so that a pair costs one branch that is taken wrongly.
+struct Merging<'a> {
+    kept: &'a [PairId],
+    fresh: &'a [PairId],
+    into: &'a mut [PairId],
+}
+
+impl Kernel for Merging<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<W: Width>(self, _: W) {
+        let Self { kept: mut rest, fresh, into: mut to } = self;
+        let number = |pair: &PairId| u64::from(pair.a) << 32 | u64::from(pair.b);
+        for pair in fresh {
+            let this = number(pair);
+            while let Some((stretch, after)) = rest.split_first_chunk::<STRETCH>()
+                && number(&stretch[STRETCH - 1]) < this
+            {
+                to[..STRETCH].copy_from_slice(stretch);
+                (rest, to) = (after, &mut to[STRETCH..]);
+            }
+            let mut before = 0;
+            while let Some((step, after)) = rest.split_first_chunk::<STEP>() {
+                to[..STEP].copy_from_slice(step);
+                before = 0;
+                for kept in step {
+                    before += u64::from(number(kept) < this);
+                }
+                if before < STEP as u64 {
+                    break;
+                }
+                (rest, to) = (after, &mut to[STEP..]);
+            }
+            let mut before = before as usize;
+            if rest.len() < STEP {
+                before = rest.partition_point(|kept| kept < pair);
+                to[..before].copy_from_slice(&rest[..before]);
+            }
+            to[before] = *pair;
+            (rest, to) = (&rest[before..], &mut to[before + 1..]);
         }
-        let stretch = rest[..rest.len().min(far + 1)].partition_point(|kept| *kept < pair);
-        let (before, after) = rest.split_at(stretch);
-        into.extend_from_slice(before);
-        into.push(pair);
-        rest = after;
+        to.copy_from_slice(rest);
     }
-    into.extend_from_slice(rest);
 }
 
 #[cfg(test)]

@@ -7,7 +7,8 @@ use crate::columns::{Columns, Stretch, begins, owned};
 use crate::index::Index;
 use crate::pair::PairId;
 use crate::sweep::order::Order;
-use crate::sweep::rows::Strips;
+use crate::sweep::rows::Pack;
+use crate::sweep::trial::note;
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
@@ -30,15 +31,15 @@ pub(super) struct Rest<B> {
     /// Bins that any box but those that reach far reaches beyond its first.
     longest: u32,
     far: Index<B>,
-    /// The entries of all columns as strips.
-    strips: Strips,
-    asked: Vec<(u32, Codes, Stretch)>,
-    /// Where each of them starts, and which it is.
+    /// The entries of all columns.
+    packs: Vec<Pack>,
+    looks: Vec<Look>,
+    /// The cell in which each of them starts, and which it is.
     starts: Vec<PairId>,
     order: Order,
 }
 
-asunder_geometry::copied!(Rest<B>, for [B: Bounds], { states, longest, far, strips } but { asked, starts, order });
+asunder_geometry::copied!(Rest<B>, for [B: Bounds], { states, longest, far, packs } but { looks, starts, order });
 
 /// Bins that are counted one by one.
 const BINS: usize = 32;
@@ -53,14 +54,17 @@ const MOST_A_BOX: usize = 1024;
 /// What a column counts as that a mover reaches, in candidates: so that there are at most four for every box.
 const A_STRETCH: usize = 256;
 
+/// Most tests of one mover against another, for every column in which one looks: about what a sweep of the movers takes.
+const MOST_A_LOOK: usize = 16;
+
 impl<B: Bounds> Rest<B> {
     pub(super) fn new() -> Self {
         Self {
             states: Vec::new(),
             longest: 0,
             far: Index::new(),
-            strips: Strips::default(),
-            asked: Vec::new(),
+            packs: Vec::new(),
+            looks: Vec::new(),
             starts: Vec::new(),
             order: Order::default(),
         }
@@ -68,8 +72,8 @@ impl<B: Bounds> Rest<B> {
     pub(super) fn bytes(&self) -> usize {
         self.states.capacity()
             + self.far.bytes()
-            + self.strips.bytes()
-            + self.asked.capacity() * size_of::<(u32, Codes, Stretch)>()
+            + self.packs.capacity() * size_of::<Pack>()
+            + self.looks.capacity() * size_of::<Look>()
             + self.starts.capacity() * size_of::<PairId>()
             + self.order.bytes()
     }
@@ -101,7 +105,7 @@ impl<B: Bounds> Rest<B> {
             }
         }
         let states = &self.states;
-        self.strips.fill(columns.entries());
+        Pack::fill(&mut self.packs, columns.entries());
         self.far.build_from(boxes, |place| states[place as usize] == State::Reaches);
     }
 
@@ -121,86 +125,82 @@ impl<B: Bounds> Rest<B> {
         core::mem::replace(&mut self.states[place], State::Moves) != State::Moves
     }
 
-    /// Hands over each pair of a mover and a box at rest that overlap, until there are too many. Returns false, and has
-    /// handed over none, if there is so much to look at that a sweep of all boxes costs less.
+    /// Hands over each pair of a mover and another box that overlap, or fewer, as it tells; until there are too many.
     pub(super) fn meet(
         &mut self,
         (grid, columns): (&Grid, &Columns),
         boxes: &[B],
         movers: &[u32],
         found: &mut Gathered,
-    ) -> bool {
-        let Self { states, longest, far, strips, asked, starts, order } = self;
+    ) -> Met {
+        let Self { states, longest, far, packs, looks, starts, order } = self;
         let longest = *longest;
-        let asking = Asking {
-            grid,
-            columns,
-            strips,
-            boxes,
-            movers,
-            states,
-            longest,
-            asked,
-            starts,
-            order,
-            found: &mut *found,
-        };
-        match widest(asking) {
-            Looked::AtAll if !far.is_empty() => {}
-            Looked::AtAll | Looked::UntilTold => return true,
-            Looked::AtNone => return false,
+        let looking = Looking { grid, columns, boxes, movers, longest, looks };
+        if !widest(looking) {
+            return Met::Nobody;
         }
-        for &mover in movers {
-            let flow = far.visit_overlapping(&boxes[mover as usize], |place| {
-                let goes_on = states[place as usize] == State::Moves || found.take(PairId::new(mover, place));
-                if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            });
-            if flow.is_break() {
-                break;
+        starts.clear();
+        starts.extend((0..).zip(&*looks).map(|(which, look)| PairId { a: look.stretch.cells[0], b: which }));
+        let cells = grid.count() << grid.bin_bits;
+        let numbers = cells.max(starts.len()) + 1;
+        order.sort_by_first(starts, numbers);
+        let has_met_movers = each_other(looks, starts, boxes, found);
+        let goes_on = widest(Asking { packs, boxes, states, looks, starts, found });
+        if goes_on && !far.is_empty() {
+            for &mover in movers {
+                let flow = far.visit_overlapping(&boxes[mover as usize], |place| {
+                    let goes_on =
+                        states[place as usize] == State::Moves || found.take(PairId::new(mover, place));
+                    if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                });
+                if flow.is_break() {
+                    break;
+                }
             }
         }
-        true
+        if has_met_movers { Met::Everybody } else { Met::Resting }
     }
 }
 
-/// How far movers were looked up.
-enum Looked {
-    AtAll,
-    UntilTold,
-    /// It would have cost too much.
-    AtNone,
+/// Whom movers have met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Met {
+    Everybody,
+    /// Boxes at rest only: among themselves they are so crowded that a sweep of them costs less.
+    Resting,
+    /// There is so much to look at that a sweep of all boxes costs less.
+    Nobody,
 }
 
-/// Looks movers up in the columns.
-///
-/// First where to look, for all of them; then there, in the order of the columns: what one mover has brought from
-/// far memory, the next one finds at hand.
-struct Asking<'a, 'g, B> {
+/// A column that a mover reaches.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    mover: u32,
+    codes: Codes,
+    stretch: Stretch,
+}
+
+/// Says where to look; false where that is too much.
+struct Looking<'a, B> {
     grid: &'a Grid,
     columns: &'a Columns,
-    strips: &'a Strips,
     boxes: &'a [B],
     movers: &'a [u32],
-    states: &'a [State],
     longest: u32,
-    asked: &'a mut Vec<(u32, Codes, Stretch)>,
-    starts: &'a mut Vec<PairId>,
-    order: &'a mut Order,
-    found: &'a mut Gathered<'g>,
+    looks: &'a mut Vec<Look>,
 }
 
-impl<B: Bounds> Kernel for Asking<'_, '_, B> {
-    type Output = Looked;
+impl<B: Bounds> Kernel for Looking<'_, B> {
+    type Output = bool;
 
     #[inline(always)]
-    fn run<W: Width>(self, width: W) -> Looked {
-        let Self { grid, columns, strips, boxes, movers, states, longest, asked, starts, order, found } =
-            self;
-        asked.clear();
+    fn run<W: Width>(self, _: W) -> bool {
+        let Self { grid, columns, boxes, movers, longest, looks } = self;
+        looks.clear();
         let (mut cost, most) = (0, MOST_A_BOX * boxes.len());
         for &mover in movers {
             if cost > most {
-                return Looked::AtNone;
+                return false;
             }
             let bounds = &boxes[mover as usize];
             if bounds.is_valid() {
@@ -208,21 +208,37 @@ impl<B: Bounds> Kernel for Asking<'_, '_, B> {
                 let codes = grid.quantiser.codes(low, high);
                 columns.stretches(grid, &codes, longest, |stretch| {
                     cost += A_STRETCH + (stretch.end - stretch.start) as usize;
-                    asked.push((mover, codes, stretch));
+                    looks.push(Look { mover, codes, stretch });
                 });
             }
         }
-        starts.clear();
-        starts.extend((0..).zip(&*asked).map(|(which, (.., stretch))| PairId { a: stretch.start, b: which }));
-        let most = columns.entries().len().max(starts.len());
-        order.sort_by_first(starts, most + 1);
+        true
+    }
+}
+
+/// Looks for boxes at rest, in the order of the columns: what one mover has brought from far memory, the next one finds
+/// at hand. False if it was told to stop.
+struct Asking<'a, 'g, B> {
+    packs: &'a [Pack],
+    boxes: &'a [B],
+    states: &'a [State],
+    looks: &'a [Look],
+    starts: &'a [PairId],
+    found: &'a mut Gathered<'g>,
+}
+
+impl<B: Bounds> Kernel for Asking<'_, '_, B> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<W: Width>(self, width: W) -> bool {
+        let Self { packs, boxes, states, looks, starts, found } = self;
         let mut goes_on = true;
-        for start in &*starts {
-            let (mover, codes, stretch) = asked[start.b as usize];
-            let entries = columns.entries();
+        for start in starts {
+            let Look { mover, codes, stretch } = looks[start.b as usize];
             let range = stretch.start as usize..stretch.end as usize;
-            strips.meet(width, &codes, range, |index, is_close| {
-                let (place, _, is_ours) = owned(entries[index].place, stretch.home);
+            Pack::meet(packs, width, &codes, range, |place, is_close| {
+                let (place, _, is_ours) = owned(place, stretch.home);
                 if is_ours && states[place as usize] == State::Rests && goes_on {
                     let overlap = !is_close || boxes[mover as usize].overlaps(&boxes[place as usize]);
                     goes_on = !overlap || found.take(PairId::new(mover, place));
@@ -232,6 +248,46 @@ impl<B: Bounds> Kernel for Asking<'_, '_, B> {
                 break;
             }
         }
-        if goes_on { Looked::AtAll } else { Looked::UntilTold }
+        goes_on
     }
+}
+
+/// Hands over the pairs of movers, which meet in the columns in which both look for others: those that look from one cell
+/// on are side by side. False, and none handed over, where that is so much that a sweep of the movers costs less.
+fn each_other<B: Bounds>(looks: &[Look], starts: &[PairId], boxes: &[B], found: &mut Gathered) -> bool {
+    let (mut tests, most) = (0, MOST_A_LOOK * looks.len());
+    let first = found.pairs.len();
+    for (after, start) in (1..).zip(starts) {
+        let one = &looks[start.b as usize];
+        for start in starts[after..].iter().take_while(|start| start.a <= one.stretch.cells[1]) {
+            let other = &looks[start.b as usize];
+            let gap = gap(&one.codes, &other.codes);
+            if gap <= 0 && owned(one.stretch.home, other.stretch.home).2 {
+                let [a, b] = [one.mover, other.mover];
+                if gap < 0 || boxes[a as usize].overlaps(&boxes[b as usize]) {
+                    found.pairs.push(PairId::new(a, b));
+                }
+            }
+            tests += 1;
+            if tests > most {
+                found.pairs.truncate(first);
+                break;
+            }
+        }
+        if tests > most {
+            break;
+        }
+    }
+    note(tests);
+    tests <= most
+}
+
+/// The widest gap between two boxes, as far as codes can tell: below zero they overlap, at zero codes cannot tell.
+#[inline(always)]
+fn gap(one: &Codes, other: &Codes) -> i16 {
+    let on = |axis: usize| {
+        let before = one[axis].saturating_sub(other[axis + 3]);
+        before.max(other[axis].saturating_sub(one[axis + 3]))
+    };
+    on(0).max(on(1)).max(on(2))
 }

@@ -104,6 +104,33 @@ fn limits_hold_wherever_they_are_passed() {
     }
 }
 
+/// Movers that go among boxes at rest, to one place, far from all that the columns were laid out for, and some of each.
+#[test]
+fn movers_meet_each_other_where_they_look_or_are_swept() {
+    let many = MOVERS as f32;
+    let ways: [(&dyn Fn(f32) -> Vec3, bool); 4] = [
+        (&|i| Vec3::X * 0.4 * i, false),
+        (&|i| Vec3::X * 1e-3 * i, true),
+        (&|i| Vec3::splat(1e6 + 3.0 * i), true),
+        (&|i| if i < 0.9 * many { Vec3::X * 0.4 * i } else { Vec3::splat(1e6 + 0.25 * i) }, false),
+    ];
+    for (way, are_swept) in ways {
+        let (mut sweep, mut boxes, moved) = crowd();
+        for (i, &mover) in moved.iter().enumerate() {
+            let low = way(i as f32);
+            boxes[mover as usize] = Aabb3::new(low, low + Vec3::ONE);
+        }
+        let mut pairs = Vec::new();
+        sweep.update(&boxes, &moved, |_, _| true, usize::MAX, &mut pairs).unwrap();
+        let expected = all_of(&boxes, |_, _| true);
+        assert!(pairs == expected, "{} pairs of {}", pairs.len(), expected.len());
+        assert!(sweep.is_kept && sweep.movers == moved);
+        assert_eq!(!sweep.moving.is_empty(), are_swept);
+        let are_all_at_rest = expected.iter().all(|pair| pair.a < RESTING);
+        assert!(!are_all_at_rest || way(1.0).x > 1e5, "movers meet");
+    }
+}
+
 /// Sweeps of every kind, with a past.
 struct Past {
     moving: MovingBoxes,

@@ -49,12 +49,13 @@ impl Columns {
     pub(crate) fn stretches(&self, grid: &Grid, codes: &Codes, longest: u32, mut visit: impl FnMut(Stretch)) {
         let Reach { bin, y, z } = grid.reach(codes);
         let last = grid.bin(codes[grid.sweep + 3]) as u32;
+        let early = |bin: u32| bin.saturating_sub(longest);
         for row in y.0..=y.1 {
             for column in z.0..=z.1 {
-                let first = grid.cell(row, column, bin.saturating_sub(longest)) as usize;
-                let start = if first == 0 { 0 } else { self.ends[first - 1] };
+                let cells = [early(bin), early(last)].map(|bin| grid.cell(row, column, bin));
+                let start = (cells[0] as usize).checked_sub(1).map_or(0, |before| self.ends[before]);
                 let end = self.ends[grid.cell(row, column, last) as usize];
-                visit(Stretch { start, end, home: home(row == y.0, column == z.0) });
+                visit(Stretch { start, end, cells, home: home(row == y.0, column == z.0) });
             }
         }
     }
@@ -237,6 +238,8 @@ const fn home(on_y: bool, on_z: bool) -> u32 {
 pub(crate) struct Stretch {
     pub(crate) start: u32,
     pub(crate) end: u32,
+    /// The cell that it starts with; and with which the stretch starts of the last one that this box may overlap.
+    pub(crate) cells: [u32; 2],
     /// Where the box begins, as a place has it.
     pub(crate) home: u32,
 }

@@ -41,11 +41,18 @@ impl Order {
 
     /// By the bits of both numbers from this one on.
     fn sort_from(&mut self, from: u32, pairs: &mut [PairId], count: usize) {
+        let bits = bits_below(count);
         if pairs.len() < FEW {
-            pairs.sort_unstable();
+            let keys = &mut self.keys[0];
+            keys.clear();
+            keys.extend(pairs.iter().map(|pair| u64::from(pair.a) << bits | u64::from(pair.b)));
+            keys.sort_unstable();
+            let low = (1 << bits) - 1;
+            for (pair, key) in pairs.iter_mut().zip(keys) {
+                *pair = PairId { a: (*key >> bits) as u32, b: (*key & low) as u32 };
+            }
             return;
         }
-        let bits = bits_below(count);
         let passes = passes(2 * bits - from, pairs.len());
         let digit = (2 * bits - from).div_ceil(passes);
         let size = 1 << digit;

@@ -123,25 +123,53 @@ impl Strips {
     }
 }
 
-impl Strips {
-    /// Hands over the boxes from `start` to `end` that codes do not part from a box, and whether codes cannot tell.
+/// Sixteen boxes that stand beside each other in their columns, all that is known of them in one place: who looks here and
+/// there, as movers do, finds four lines of memory side by side, where strips and entries have some fourteen.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(crate) struct Pack {
+    codes: [[i16; LANES]; 6],
+    /// As the entries have them.
+    places: [u32; LANES],
+}
+
+impl Pack {
+    /// Replaces `packs` by all entries, sixteen each.
+    pub(crate) fn fill(packs: &mut Vec<Self>, entries: &[Entry]) {
+        packs.clear();
+        packs.extend(entries.chunks(LANES).map(|entries| {
+            // Behind the last box stand boxes that overlap nothing.
+            let mut pack = Self { codes: [[i16::MIN; LANES]; 6], places: [0; LANES] };
+            pack.codes[..3].fill([i16::MAX; LANES]);
+            for (lane, entry) in entries.iter().enumerate() {
+                pack.places[lane] = entry.place;
+                for (strip, code) in pack.codes.iter_mut().zip(entry.codes) {
+                    strip[lane] = code;
+                }
+            }
+            pack
+        }));
+    }
+
+    /// Hands over the places of entries in `range` that codes do not part from a box, and whether codes cannot tell.
     #[inline(always)]
     pub(crate) fn meet<W: Width>(
-        &self,
+        packs: &[Self],
         width: W,
         codes: &Codes,
         range: Range<usize>,
-        mut visit: impl FnMut(usize, bool),
+        mut visit: impl FnMut(u32, bool),
     ) {
-        let [a, b, c, d, e, f] = &self.strips;
-        note(range.len().div_ceil(LANES));
-        for first in range.clone().step_by(LANES) {
-            let Some(strips) = lanes([a, b, c, d, e, f], first) else { break };
-            let mut hit = Hit { row: 0, first: first as u32, lanes: overlapping(width, codes, strips) };
+        let first = range.start / LANES;
+        let Some(packs) = packs.get(first..range.end.div_ceil(LANES)) else { return };
+        note(packs.len());
+        for (pack, number) in packs.iter().zip(first..) {
+            let first = number * LANES;
+            let mut hit = Hit { row: 0, first: 0, lanes: overlapping(width, codes, pack.codes.each_ref()) };
             while !hit.is_done() {
-                let (index, is_close, rest) = hit.next();
-                if (index as usize) < range.end {
-                    visit(index as usize, is_close);
+                let (lane, is_close, rest) = hit.next();
+                if range.contains(&(first + lane as usize)) {
+                    visit(pack.places[lane as usize & (LANES - 1)], is_close);
                 }
                 hit = rest;
             }
