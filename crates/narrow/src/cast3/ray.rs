@@ -36,13 +36,14 @@ use crate::among::many3;
 use crate::exact::{self, Site3};
 use crate::impact3::RayHit3;
 use crate::pair3::{Pair3, Part, for_parts};
-use asunder_geometry::glam::{DVec3, Vec3};
-use asunder_geometry::{Basis3, Ground, Hull, Pose3, Ray3, Shape3};
-use std::sync::LazyLock;
+use asunder_geometry::glam::DVec3;
+use asunder_geometry::{Basis3, Ground, Pose3, Ray3, Shape3, Sphere};
 
 /// What the ray's origin is as a shape.
-static POINT: LazyLock<Option<Shape3>> =
-    LazyLock::new(|| Hull::of_any_dimension(&[Vec3::ZERO]).ok().map(Shape3::from));
+///
+/// No hull of one vertex: such a one is told as a micrometre in radius, and what casts of small bodies allow for would be
+/// that of a larger pair.
+static POINT: Shape3 = Shape3::Sphere(Sphere::POINT);
 
 /// A ray seen from a part's origin, in world axes.
 #[derive(Clone, Copy, Debug)]
@@ -255,8 +256,8 @@ impl<'a> Cast<'a> {
 
     /// Whether the ray's origin is in a part, exactly.
     fn is_inside(&self, part: &Part) -> bool {
-        let (Some(point), Ok(origin)) = (&*POINT, Pose3::at(self.ray.origin())) else { return false };
-        exact::overlaps3([&part.site(self.pose), &Site3 { shape: point, body: origin, part: None }], &[])
+        let Ok(origin) = Pose3::at(self.ray.origin()) else { return false };
+        exact::overlaps3([&part.site(self.pose), &Site3 { shape: &POINT, body: origin, part: None }], &[])
     }
 
     /// The ray as a point that moves until it touches.
@@ -265,17 +266,17 @@ impl<'a> Cast<'a> {
         if is_unclear && self.is_inside(part) {
             return Some(self.inside());
         }
-        let (Some(point), Ok(origin)) = (&*POINT, Pose3::at(self.ray.origin())) else { return None };
+        let Ok(origin) = Pose3::at(self.ray.origin()) else { return None };
         let (pace, radius) = (self.squared.sqrt(), f64::from(part.shape.outer_radius()));
         let unit = self.way / pace;
         let beyond = length(part.center - self.from) + radius;
         // Whatever the limit is, so that it changes no answer. A half-space is here only where the ray starts on
         // its surface.
         let far = if radius.is_finite() { beyond * 1.0625 } else { 1.0 };
-        let pair = Pair3::new(point, &origin, self.shape, self.pose);
+        let pair = Pair3::new(&POINT, &origin, self.shape, self.pose);
         let passage = Passage { rounding: 0.0, ..Passage::straight(&pair, unit * far) };
-        let (core_point, core) = (point.core(), part.shape.core());
-        let parts = [Part::whole(point, &passage.bases[0]), *part];
+        let (core_point, core) = (POINT.core(), part.shape.core());
+        let parts = [Part::whole(&POINT, &passage.bases[0]), *part];
         let course = Course::new(&passage, parts, [&core_point, &core]).refined_to(Fineness::FINEST);
         let met = match advance(&course, 1.0) {
             End::Apart => return None,

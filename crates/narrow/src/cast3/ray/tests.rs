@@ -88,7 +88,7 @@ fn what_is_hit_of_thin_hulls_is_there_and_what_is_crossed_is_hit() {
             };
             counts[kind as usize][if is_aimed { 1 } else { 2 }] += 1;
             let at = Pose3::at(ray.at(hit.distance)).unwrap();
-            let beside = Pair3::new(POINT.as_ref().unwrap(), &at, &shape, &Pose3::IDENTITY).distance();
+            let beside = Pair3::new(&POINT, &at, &shape, &Pose3::IDENTITY).distance();
             let rounding = 1e-14 * (origin.length() + outer);
             let beside = beside.map_or(0.0, |closest| f64::from(closest.distance - closest.error));
             assert!(beside <= f64::from(hit.error) + rounding, "{beside} {told}");
