@@ -15,6 +15,7 @@ mod rays;
 mod ridges;
 mod rims;
 mod shapes;
+mod skins;
 mod stale;
 mod turned;
 mod wheels;

@@ -1,0 +1,60 @@
+//! Bodies that come to rest a hair off what they met, and go on along it.
+
+use asunder::glam::{DVec3, Quat, Vec3};
+use asunder::{Collider3, Cuboid, HalfSpace, Motion3, Pose3, Shape3, Sphere, TriMesh, World3};
+
+/// How far a bullet rolls at 5 m/s over a floor, frame by frame as the guide says (game loops), if after each impact it
+/// is put so far off what it met.
+fn rolled(floor: Shape3, top: f64, turn: Quat, (frames, skin): (u32, f64)) -> f64 {
+    let base = Pose3::new([3.0, 4.0, 5.0], turn).unwrap();
+    let mut world = World3::new();
+    world.insert(Collider3::new(floor).fixed().at(base));
+    let start = base.compose(&Pose3::at([-450.0, top + 0.3, 0.0]).unwrap()).unwrap();
+    let ball = Collider3::new(Sphere::new(0.25).unwrap()).margin(0.005).unwrap().bullet();
+    let ball = world.insert(ball.at(start));
+    // What pulls it pulls straight into the floor, so that it rolls on evenly.
+    let (mut speed, pull, time) = (base.turn(DVec3::X * 5.0), base.turn(DVec3::Y * -9.81), 1.0 / 60.0);
+    for _ in 0..frames {
+        speed += pull * time;
+        for contact in world.contacts_of(ball) {
+            for manifold in contact.manifolds.iter().filter(|manifold| manifold.separation <= 0.005) {
+                let normal = (manifold.normal * contact.sign(ball)).as_dvec3();
+                speed -= normal * speed.dot(normal).max(0.0);
+            }
+        }
+        let (here, motion) = (*world.pose(ball).unwrap(), Motion3::shift(speed * time).unwrap());
+        world.set_motion(ball, motion).unwrap();
+        world.update();
+        let stop = world.impacts_of(ball).next().copied();
+        let mut there = motion.pose_at(&here, stop.map_or(1.0, |hit| hit.impact.fraction));
+        if let Some(hit) = stop {
+            let normal = hit.impact.normal.as_dvec3();
+            speed -= normal * speed.dot(normal).max(0.0);
+            there = there.shifted(normal * -skin).unwrap();
+        }
+        world.set_pose(ball, there).unwrap();
+    }
+    (world.pose(ball).unwrap().position() - start.position()).length()
+}
+
+/// Symptom: a ball that rolled as in the guide stood still for good: on half of all tilted half-spaces at once, on
+/// cuboids and meshes after a minute. Cause: an impact ends a hair off the floor, and of a speed that a normal of f32
+/// was taken out of, a ten-millionth still leads into it; so the next impact came at once, in each frame. The guide
+/// told of no skin there.
+#[test]
+fn a_bullet_with_a_skin_rolls_on_over_tilted_floors() {
+    let corners =
+        [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]].map(|[x, z]| Vec3::new(x, 0.0, z) * 500.0);
+    let floors: [(Shape3, f64, u32); 3] = [
+        (HalfSpace::new(Vec3::Y).unwrap().into(), 0.0, 600),
+        (Cuboid::from_half_extents(Vec3::new(500.0, 0.5, 500.0)).unwrap().into(), 0.5, 3_000),
+        (TriMesh::new(corners, [[0, 1, 2], [0, 2, 3]]).unwrap().into(), 0.0, 3_000),
+    ];
+    for (x, y, z) in [(-0.12, 0.16, 0.13), (0.1, 0.3, -0.05), (0.03, -0.2, 0.14), (-0.07, 0.01, -0.11)] {
+        for (floor, top, frames) in &floors {
+            let turn = Quat::from_xyzw(x, y, z, 1.0);
+            let way = rolled(floor.clone(), *top, turn, (*frames, 1e-4));
+            assert!(way > 0.99 * 5.0 / 60.0 * f64::from(*frames), "{way} m in {frames} frames on {floor:?}");
+        }
+    }
+}
