@@ -167,8 +167,8 @@ impl<B: Bounds> CoherentSweep<B> {
         self.sweep.columns()
     }
 
-    /// Memory that is held for the next call, in bytes: some 80 a box (30 to 60 more where several threads sort them)
-    /// and 16 a pair, and 28 for every column that a mover reaches, of which there are about four for every box at
+    /// Memory that is held for the next call, in bytes: some 85 a box (30 to 60 more where several threads sort them)
+    /// and 16 a pair, and 44 for every column that a mover reaches, of which there are about four for every box at
     /// most; where columns are of no use, 64 a box more, and for each thread.
     ///
     /// ```
