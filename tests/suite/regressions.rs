@@ -3,6 +3,7 @@
 mod bends;
 mod blades;
 mod close;
+mod cuts;
 mod grids;
 mod hooks;
 mod leaves;

@@ -78,8 +78,10 @@ impl Pair2<'_> {
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
     ///   by how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.
-    /// - A one-sided chain is met from its front alone: what is behind a segment when it comes to touch it passes. What
-    ///   turns may come to touch it again, from its front, once the two are apart.
+    /// - A one-sided chain is met from its front alone: what is behind a straight [run](asunder_geometry::Run) of it
+    ///   when it comes to touch that passes all of the run, also where its middle comes through on the way; contacts
+    ///   begin then. What turns may come to touch the run again, from its front, once the two have been apart for a
+    ///   32nd of the motion; a shorter time between may be missed, and the touch after it.
     ///   Inner vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the
     ///   first segment of the straight run that is met.
     /// - A displacement that is not finite counts as none: who touches is told so, unlike by a world's `cast_shape`.

@@ -38,8 +38,9 @@ use tree::Tree;
 /// # Sides
 /// A chain has two sides, and pushes what touches it to the side that the centre of its bounding circle is on.
 /// [`one_sided`](Self::one_sided) leaves one, on the *right* of the way from vertex to vertex: contacts, casts and rays
-/// see a segment only from there, and motions pass through from behind: what comes through is met, and pushed out to
-/// the front, as soon as its centre is there. So a closed chain that winds counter-clockwise is solid, as a polygon is;
+/// see a segment only from there, and motions pass through from behind: what comes through has contacts, and is pushed
+/// out to the front, as soon as its centre is there; a cast or an impact with that straight run there is only once the
+/// two have been apart. So a closed chain that winds counter-clockwise is solid, as a polygon is;
 /// and ground drawn from right to left looks up. One that leads straight back along itself is there a wall of no width,
 /// with a tip.
 ///

@@ -13,7 +13,7 @@ use crate::ground2::{Surface, Told};
 use crate::impact2::Impact2;
 use crate::pair2::Pair2;
 use asunder_geometry::glam::DVec2;
-use asunder_geometry::{Aabb2, Chain, Run, Shape2};
+use asunder_geometry::{Aabb2, Chain, Run, Segment2, Shape2};
 
 impl Pair2<'_> {
     /// The contact with ground that sees the other from the start, if there is one.
@@ -104,7 +104,8 @@ impl First<'_> {
         });
     }
 
-    /// Where a segment of a chain is met first: one-sided ground that is passed may be met later, from its front.
+    /// Where a segment of a chain is met first: one-sided ground that is passed may be met later, from its front, once
+    /// the two are apart; and of a straight run, all of it.
     fn met_first(&self, chain: &Chain, pieces: [&Piece; 2], side: usize) -> Option<(Met, Touching)> {
         let mut course = Course::new(self.stretch, pieces, self.end)?;
         loop {
@@ -115,6 +116,7 @@ impl First<'_> {
                 before => is_passed(before, pieces),
             };
             let met = met.filter(|_| touching.at > 0.0 || !is_passed());
+            let met = met.filter(|met| !self.has_passed((chain, &met.run), pieces, &touching, side));
             if let Some(met) = met {
                 return Some((met, touching));
             }
@@ -124,18 +126,61 @@ impl First<'_> {
             course = course.once_apart(&touching)?;
         }
     }
+
+    /// Whether a part that comes to touch a segment has come to touch other segments of its straight run before, which
+    /// was no impact, and has not been apart from the run since: it passes all of that. One that does not turn, and
+    /// has come through from behind, moves away from the front of each segment.
+    fn has_passed(
+        &self,
+        (chain, run): (&Chain, &Run),
+        pieces: [&Piece; 2],
+        touching: &Touching,
+        side: usize,
+    ) -> bool {
+        let segment = pieces[side];
+        if !chain.is_one_sided() || !self.stretch.is_turning() || pieces[1 - side].is_line() {
+            return false;
+        }
+        let Some(chord) = chain.chord(run).filter(|&chord| Some(chord) != chain.segment(segment.index))
+        else {
+            return false;
+        };
+        let shape = Shape2::Segment(chord);
+        let whole = Piece::segment(&shape, segment.index);
+        let pieces = if side == 0 { [&whole, pieces[1]] } else { [pieces[0], &whole] };
+        let is_now_alone =
+            Course::over(self.stretch, pieces, [0.0, touching.at]).is_no_deeper(touching, run.unevenness());
+        if is_now_alone {
+            return false;
+        }
+        let is_passing = |stretch: &Stretch, after: Option<&Stretch>, first: &Touching| {
+            let course = Course::over(stretch, pieces, [0.0, 1.0]);
+            surface_met((chain, segment.index), (&course, after), first, side).is_none()
+        };
+        match (last_touch(self.stretch, pieces, touching.at), self.before) {
+            (Some(first), Some(before)) if first.at <= 0.0 => last_touch(before, pieces, 1.0)
+                .is_some_and(|first| is_passing(before, Some(self.stretch), &first)),
+            (Some(first), _) => is_passing(self.stretch, self.after, &first),
+            (None, _) => false,
+        }
+    }
 }
 
 /// Whether two parts came to touch in the stretch before, which was no impact, and have not been apart since.
 fn is_passed_still(before: &Stretch, pieces: [&Piece; 2]) -> bool {
-    let mut rest = Course::new(before, pieces, 1.0);
+    last_touch(before, pieces, 1.0).is_some()
+}
+
+/// Where two parts that touch at a time of a stretch have come to touch, and have not been apart since.
+fn last_touch(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Option<Touching> {
+    let mut rest = Course::new(stretch, pieces, end);
     while let Some((course, touching)) = rest.and_then(|course| course.first_touch().map(|it| (course, it))) {
         rest = course.once_apart(&touching);
         if rest.is_none() {
-            return true;
+            return Some(touching);
         }
     }
-    false
+    None
 }
 
 /// Ground where it is met.
@@ -177,6 +222,7 @@ fn surface_met(
         return along(axis, run);
     }
     let level = if course.is_turning() { axis } else { touching.axis };
-    let passes = chain.is_one_sided() && !course.falls_through(side, touching, after);
+    let falls_through = |chord: Segment2| course.falls_through((side, chord), touching, after);
+    let passes = chain.is_one_sided() && !chain.chord(&run).is_some_and(falls_through);
     (!passes).then_some(Met { axis: touching.axis, level, run })
 }

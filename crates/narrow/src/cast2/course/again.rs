@@ -2,10 +2,11 @@
 //! touches a segment once.
 
 use super::super::beyond::MOMENTS;
+use super::super::piece::Piece;
 use super::super::stretch::Stretch;
 use super::{Course, Touching};
-use asunder_geometry::Shape2;
 use asunder_geometry::glam::DVec2;
+use asunder_geometry::{Segment2, Shape2};
 
 /// Halvings of the time between two moments until the middle's crossing of a line is as sharp as f64 has it.
 const HALVINGS: u32 = 48;
@@ -31,29 +32,32 @@ impl<'a> Course<'a> {
         Some(Self::over(self.stretch, self.pieces, [from, self.times[1]]))
     }
 
-    /// Whether what touches a segment of ground, one of the two, and is in front of it, has its middle go through that
-    /// front before they are apart; in the stretch after this one, perhaps.
+    /// Whether what touches a segment of ground, one of the two, and is in front of it, has its middle go through the
+    /// front of the straight run of it before it is apart from that; in the stretch after this one, perhaps.
     pub(in super::super) fn falls_through(
         &self,
-        ground: usize,
+        (ground, chord): (usize, Segment2),
         touching: &Touching,
         after: Option<&Stretch>,
     ) -> bool {
         if !self.is_turning() {
             return false;
         }
-        match self.fate(ground, touching.axis, touching.at) {
-            Fate::Stays if self.times[1] >= 1.0 => after.is_some_and(|after| {
-                let next = Course::over(after, self.pieces, [0.0, 1.0]);
-                next.fate(ground, touching.axis, 0.0) == Fate::Through
-            }),
+        let shape = Shape2::Segment(chord);
+        let whole = Piece::segment(&shape, 0);
+        let mut pieces = self.pieces;
+        pieces[ground] = &whole;
+        let along = |stretch: &Stretch, from: f64| {
+            Course::over(stretch, pieces, [from, 1.0]).fate((ground, chord), touching.axis, from)
+        };
+        match along(self.stretch, touching.at) {
+            Fate::Stays => after.is_some_and(|after| along(after, 0.0) == Fate::Through),
             fate => fate == Fate::Through,
         }
     }
 
-    fn fate(&self, ground: usize, axis: DVec2, from: f64) -> Fate {
-        let Shape2::Segment(segment) = self.pieces[ground].shape else { return Fate::Stays };
-        let [start, end] = segment.ends().map(|end| end.as_dvec2());
+    fn fate(&self, (ground, chord): (usize, Segment2), axis: DVec2, from: f64) -> Fate {
+        let [start, end] = chord.ends().map(|end| end.as_dvec2());
         let (along, slack) = (end - start, self.nearness());
         let right = -along.perp();
         let is_in_front = |at: f64| right.dot(self.middle_from(ground, at) - start) >= 0.0;
@@ -83,6 +87,11 @@ impl<'a> Course<'a> {
         let end = self.times[1];
         let moments = (1..MOMENTS).map(|i| f64::from(i) / f64::from(MOMENTS));
         moments.take_while(move |&at| at < end).chain([end]).filter(move |&at| at > after)
+    }
+
+    /// Whether the two, where they touch, touch by no more than so far, and what counts as touching.
+    pub(in super::super) fn is_no_deeper(&self, touching: &Touching, deep: f64) -> bool {
+        self.look(touching.at, touching.axis).is_some_and(|look| look.most >= -deep - self.nearness())
     }
 
     fn is_apart(&self, axis: DVec2, at: f64) -> bool {

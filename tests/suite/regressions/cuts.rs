@@ -1,0 +1,80 @@
+//! Straight ground that is cut into pieces: where it is cut makes no difference.
+
+use asunder::glam::{DVec2, Vec2};
+use asunder::{Chain, Circle, Collider2, Compound2, Motion2, Pair2, Pose2, Rect, Rotation2, Shape2, World2};
+
+/// A chain that sees one side, each straight piece of it cut into so many; mirrored, and numbered so that it sees the
+/// same side.
+fn ground(vertices: &[[f32; 2]], pieces: u32, is_mirrored: bool) -> Shape2 {
+    let sign = if is_mirrored { -1.0 } else { 1.0 };
+    let vertices: Vec<Vec2> = vertices.iter().map(|&[x, y]| Vec2::new(x * sign, y)).collect();
+    let mut cut = vec![vertices[0]];
+    for ends in vertices.windows(2) {
+        cut.extend((1..=pieces).map(|i| ends[0] + (ends[1] - ends[0]) * (i as f32 / pieces as f32)));
+    }
+    if is_mirrored {
+        cut.reverse();
+    }
+    Chain::open(cut).unwrap().one_sided().into()
+}
+
+/// Symptom: a ball on an arm that swings up through a floor of one side, and on over it, ran into the floor from which
+/// it had not come out yet; and where in its way, hung on where the floor was cut, and on which end it was numbered
+/// from. Cause: each segment told on its own which side the ball came from. What it had come through was passed, and
+/// the next one, that it came to with its middle above, was met.
+#[test]
+fn what_comes_through_a_floor_from_behind_passes_all_of_it() {
+    let ball = Shape2::from(Circle::new(0.5).unwrap());
+    let turned = |cos: f32, sin: f32| Rotation2::new(cos, sin).unwrap();
+    for pieces in [1, 2, 3, 8, 64] {
+        for sign in [1.0_f32, -1.0] {
+            let floor = ground(&[[4.0, 0.0], [-4.0, 0.0]], pieces, sign < 0.0);
+            // Its middle is 0.3 m above the floor at the top, and 1 m below it at either end.
+            let arm = Pose2::at([2.0 * f64::from(sign), 0.0]).unwrap();
+            let body = Shape2::from(Compound2::new([(arm, ball.clone())]).unwrap());
+            let from = Pose2::new([0.0, -1.7], turned(0.94, 0.34 * sign)).unwrap();
+            let (swing, still) =
+                (Motion2::new([0.0; 2], turned(-0.94, 0.34 * sign)).unwrap(), Motion2::STILL);
+            let pair = Pair2::new(&body, &from, &floor, &Pose2::IDENTITY);
+            assert_eq!(pair.impact(&swing, &still), None, "{pieces} {sign}");
+            let back = Pair2::new(&floor, &Pose2::IDENTITY, &body, &from);
+            assert_eq!(back.next_impact(&still, &swing), None, "{pieces} {sign}");
+            // The contacts that it has on the way are those of who is sunk in.
+            let top = swing.pose_at(&from, 0.5);
+            assert!(Pair2::new(&body, &top, &floor, &Pose2::IDENTITY).overlaps_front());
+            let mut world = World2::new();
+            world.insert(Collider2::new(floor.clone()));
+            let bullet = world.insert(Collider2::new(body.clone()).at(from).bullet());
+            world.set_motion(bullet, swing).unwrap();
+            world.update();
+            assert!(world.impacts().is_empty(), "{pieces} {sign}");
+            // Half a metre higher it comes out of the floor, and down on it again.
+            let higher = from.with_position(DVec2::new(0.0, -1.2)).unwrap();
+            let met = Pair2::new(&body, &higher, &floor, &Pose2::IDENTITY).impact(&swing, &still).unwrap();
+            let at = swing.pose_at(&higher, met.fraction).transform(DVec2::new(2.0 * f64::from(sign), 0.0));
+            assert!(met.fraction > 0.5 && (at.y - 0.5).abs() < 1e-4, "{pieces} {sign} {at} {met:?}");
+        }
+    }
+}
+
+/// Symptom: a box that comes up through one slope of a hollow of one side, and turns on into the other, ran into that
+/// one, where each slope was one piece; cut in two, or in eight, it passed until later. Cause: whether what leaves a
+/// face falls back through it was asked of the one segment that was touched, and not of the slope.
+#[test]
+fn what_falls_through_another_piece_of_a_slope_is_met_by_the_slope() {
+    let valley = [[4.0, -0.453125], [1.6875, 0.640625], [0.734375, 0.125], [-1.0, 0.828125]];
+    let turned = |cos: f32, sin: f32| Rotation2::new(cos, sin).unwrap();
+    let part = Shape2::from(Rect::from_half_extents(Vec2::new(0.29056, 0.43366)).unwrap());
+    let body = Compound2::new([(Pose2::at([-0.5623, -0.70527]).unwrap(), part)]).map(Shape2::from).unwrap();
+    let from = Pose2::new([-1.11094, -0.86373], turned(-0.99975, -0.02234)).unwrap();
+    let ground_from = Pose2::new([0.0; 2], turned(0.27877, -0.96036)).unwrap();
+    let shift = Motion2::shift([2.60022, 2.31395]).unwrap();
+    let ground_turns = Motion2::new([-2.05019, 2.62674], turned(0.96152, 0.27473)).unwrap();
+    for pieces in [1, 2, 8] {
+        let slopes = ground(&valley, pieces, false);
+        let pair = Pair2::new(&slopes, &ground_from, &body, &from);
+        let met = pair.impact(&ground_turns, &shift).unwrap();
+        assert!((met.fraction - 0.1596).abs() < 1e-4, "{pieces} {met:?}");
+        assert_eq!(met.part_a, pieces, "the second slope: {met:?}");
+    }
+}
