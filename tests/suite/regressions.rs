@@ -4,6 +4,7 @@ mod bends;
 mod blades;
 mod close;
 mod cuts;
+mod floors;
 mod grids;
 mod hooks;
 mod leaves;

@@ -74,7 +74,7 @@ impl Pair2<'_> {
     /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin; further out some 8
     ///   units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, but where A
     ///   parts from it; `overlapping` says no, and `error` how far apart they may be. So what a cast has brought to
-    ///   another may leave it.
+    ///   another may leave it; save, now and then, where that is some thousand times as large.
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
     ///   by how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.
@@ -175,9 +175,11 @@ impl Pair2<'_> {
     /// no such seams.
     ///
     /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
-    /// never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
-    /// Half-spaces are never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where
-    /// there is one, another search.
+    /// never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual. This
+    /// is asked of where the two stand at the start, and what B does after that counts as sinking: one that was flush
+    /// and swings or rises into A, by less than that half, is no impact, but a contact once it is there. Half-spaces
+    /// are never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where there is
+    /// one, another search.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rect, Shape2, glam::Vec2};

@@ -57,7 +57,9 @@ impl Pair3<'_> {
     /// of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds, save where
     /// the displacement is so long or the bodies so far from the origin that f64 has no nearer place. A miss is certain
     /// too. Shapes that pass each other within `error` may be told as an impact; those that part from each other are
-    /// not, however near they are, so that what a cast has brought to another may leave it.
+    /// not, however near they are, so that what a cast has brought to another may leave it: save, now and then, what
+    /// leaves an edge or a corner that is less than 1e-12 of the larger size away, or anything some ten thousand times
+    /// as large as itself.
     ///
     /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal
     /// with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own,
@@ -173,9 +175,11 @@ impl Pair3<'_> {
     /// no such seams.
     ///
     /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
-    /// never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
-    /// Half-spaces are never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where
-    /// there is one, another search.
+    /// never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual. This
+    /// is asked of where the two stand at the start, and what B does after that counts as sinking: one that was flush
+    /// and swings or rises into A, by less than that half, is no impact, but a contact once it is there. Half-spaces
+    /// are never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where there is
+    /// one, another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::Vec3};

@@ -31,6 +31,10 @@
 //! a body that is pressed to a floor runs over its seams and over bends that fall, and into ramps and walls. A body
 //! that passes over ends no deeper in it than that 64th beyond what it does in the touched. What a motion sinks into
 //! the touched by all its thickness, as a coin that falls for a frame while it lies, passes under what stands there.
+//!
+//! Which of the two moves is not asked: a touch has no motion of its own, and the tiles of a lift, each a body, all rise
+//! into who stands on them. So what is flush at the start and swings into A is passed over too, until it would come half
+//! a thickness deep; it is a contact in the next frame.
 
 mod contacts;
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Straight ground that is cut into pieces: where it is cut makes no difference.
 
 use asunder::glam::{DVec2, Vec2};
-use asunder::{Chain, Circle, Collider2, Compound2, Motion2, Pair2, Pose2, Rect, Rotation2, Shape2, World2};
+use asunder::{
+    Chain, Circle, Collider2, Compound2, Motion2, Pair2, Pose2, Rect, Rotation2, Segment2, Shape2, World2,
+};
 
 /// A chain that sees one side, each straight piece of it cut into so many; mirrored, and numbered so that it sees the
 /// same side.
@@ -70,11 +72,21 @@ fn what_falls_through_another_piece_of_a_slope_is_met_by_the_slope() {
     let ground_from = Pose2::new([0.0; 2], turned(0.27877, -0.96036)).unwrap();
     let shift = Motion2::shift([2.60022, 2.31395]).unwrap();
     let ground_turns = Motion2::new([-2.05019, 2.62674], turned(0.96152, 0.27473)).unwrap();
+    let [_, one, other, _] = valley.map(Vec2::from);
+    let slope = Shape2::from(Segment2::new(one, other).unwrap());
     for pieces in [1, 2, 8] {
         let slopes = ground(&valley, pieces, false);
         let pair = Pair2::new(&slopes, &ground_from, &body, &from);
         let met = pair.impact(&ground_turns, &shift).unwrap();
-        assert!((met.fraction - 0.1596).abs() < 1e-4, "{pieces} {met:?}");
         assert_eq!(met.part_a, pieces, "the second slope: {met:?}");
+        let gap = |at: f64| {
+            let (ground, body_at) = (ground_turns.pose_at(&ground_from, at), shift.pose_at(&from, at));
+            let closest = Pair2::new(&slope, &ground, &body, &body_at).distance().unwrap();
+            f64::from(closest.distance)
+        };
+        assert!(
+            gap(met.fraction) < 1e-6 && (1..15).all(|i| gap(f64::from(i) * 0.01) > 1e-3),
+            "{pieces} {met:?}"
+        );
     }
 }

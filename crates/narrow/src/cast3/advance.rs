@@ -31,6 +31,7 @@
 //! what is seen no further than its far corner lets. Where steps are many, an axis that turns along with either body is
 //! tried as well. Cost: a distance and a few support searches a step.
 
+use super::beyond::gap_along;
 use super::passage::{Course, Moment, length};
 use crate::pair3::Part;
 use crate::polyhedron::closest::{Closest, Placed, closest};
@@ -45,6 +46,10 @@ const PATIENT: usize = 16;
 
 /// Chords after which a step is good enough.
 const MAX_CHORDS: usize = 6;
+
+/// Sine of the angle by which an axis between points may be beside one that is square to an edge: far more than
+/// rounding makes of it.
+const TILTED: f64 = 1e-3;
 
 /// How the motion of two parts ends.
 pub(super) enum End {
@@ -101,8 +106,16 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         }
         let here = course.met(&moment, &found, (fraction, gap));
         if found.at_least <= 0.0 {
-            let is_parting = found.at_least > -4.0 * doubt && course.parts_along(found.normal, until);
-            return if fraction == 0.0 { End::Unclear(here, is_parting) } else { End::Met(here) };
+            if fraction > 0.0 {
+                return End::Met(here);
+            }
+            let (least, normal) = (-4.0 * doubt, found.normal);
+            // An overlap by more than an axis may be off needs no look at features.
+            let is_slight =
+                found.at_least > -course.fineness.rest(doubt) || found.at_least == f64::NEG_INFINITY;
+            let is_parting = found.at_least > least && course.parts_along(normal, until)
+                || is_slight && course.features_part(&moment, normal, least, until);
+            return End::Unclear(here, is_parting);
         }
         let carriers: &[Carrier] = if number < PATIENT { &[None] } else { &[None, Some(0), Some(1)] };
         let Some((step, left, carrier)) = course.longest_step(&moment, &found, [fraction, until], carriers)
@@ -144,6 +157,26 @@ impl Course<'_> {
             pace += turn.bounds_within(0.0, until)[0] * arm.from_axis * (1.0 + 64.0 * f64::EPSILON);
         }
         pace <= 0.0
+    }
+
+    /// Whether the normal of a face, or an axis made square to an edge, shows at least such a gap, which gets no less
+    /// before the limit. An axis between the points that are nearest is off by the rounding of the longer lengths over
+    /// the shorter, and may show less than nothing of a small body's gap from a floor some hundred times as large.
+    fn features_part(&self, moment: &Moment, normal: DVec3, least: f64, until: f64) -> bool {
+        let least = least + self.radii + moment.precision.projection();
+        let parts = |axis: DVec3| self.parts_along(axis, until) && gap_along(moment, axis) > least;
+        let of = |placed: &Placed, sign: f64| {
+            let Placed::Core(solid) = placed else { return false };
+            let parts_from_edge = |&edge: &u16| {
+                let along = solid.edge_direction(edge.into());
+                let (off, squared) = (normal.dot(along), along.length_squared());
+                off * off <= TILTED * TILTED * squared
+                    && (normal - along * (off / squared)).try_normalize().is_some_and(parts)
+            };
+            (0..solid.face_count()).any(|face| parts(solid.normal(face) * sign))
+                || solid.topology.edges().iter().any(parts_from_edge)
+        };
+        of(&moment.a, 1.0) || of(&moment.b, -1.0)
     }
 
     /// Whether all that a body may sweep out by turning about its axis stays clear along the axis of a meeting, from

@@ -136,7 +136,7 @@ impl Pair3<'_> {
 }
 
 /// The gap between two cores along an axis.
-fn gap_along(moment: &Moment, axis: DVec3) -> f64 {
+pub(super) fn gap_along(moment: &Moment, axis: DVec3) -> f64 {
     let reach = |placed: &Placed, axis: DVec3, origin: DVec3| match placed {
         Placed::Core(solid) => solid.support(axis).reach,
         Placed::HalfSpace(_) => axis.dot(origin),
