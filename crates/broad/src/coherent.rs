@@ -10,10 +10,11 @@
 //! sweep all again: when a fifth of all boxes has moved by now; when looking up movers that have come to rest has cost as
 //!   much as a sweep; or when movers reach so many boxes at rest that looking them up would cost as much
 //! ```
-//! A frame costs 150 ns a mover among 10,000 boxes, 240 among 100,000 and 840 among a million, and a copy of the kept pairs
-//! (0.3 ns each); boxes that rest cost nothing. With a sweep of the movers, strips that were six lists, and a merge that searched
-//! for each place it was 230, 380 and 1,030 (a hundredth moves; Intel Xeon, 2.5 GHz, 2026-11-28, medians in turns). Tried: asking
-//! memory for what is looked at six looks later: a tenth less from 100,000 boxes on, 3 % more for 10,000, and unsafe.
+//! A frame costs 150 ns a mover among 10,000 boxes, 240 among 100,000 and 840 among a million, and a copy of the kept
+//! pairs (0.3 ns each); boxes that rest cost nothing. It was 230, 380 and 1,030 with a sweep of the movers, strips in six
+//! lists, and a merge that searched for each place (a hundredth moves; Intel Xeon, 2.5 GHz, 2026-11-28, medians in
+//! turns). Tried: asking memory for what is looked at six looks later: a tenth less from 100,000 boxes on, 3 % more for
+//! 10,000, and unsafe.
 //! The list is that of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
 
 mod rest;
@@ -297,7 +298,7 @@ fn merge(kept: &[PairId], fresh: &[PairId], into: &mut Vec<PairId>) {
 /// Writes both lists into one that is as long as they are, in order.
 ///
 /// Whatever is copied is so in pieces of one length, of which the last may be too long: the next piece is written over
-/// what was too much. How many of its pairs come first is counted, so that a pair costs one branch that is taken wrongly.
+/// what was too much. How many of its pairs come first is counted, so that few branches are taken wrongly.
 struct Merging<'a> {
     kept: &'a [PairId],
     fresh: &'a [PairId],

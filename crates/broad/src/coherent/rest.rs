@@ -1,7 +1,7 @@
 //! Boxes at rest, in the columns of the sweep that met them first.
 
 use super::Gathered;
-use crate::columns::codes::Codes;
+use crate::columns::codes::{Codes, gap};
 use crate::columns::grid::Grid;
 use crate::columns::{Columns, Stretch, begins, owned};
 use crate::index::Index;
@@ -252,8 +252,8 @@ impl<B: Bounds> Kernel for Asking<'_, '_, B> {
     }
 }
 
-/// Hands over the pairs of movers, which meet in the columns in which both look for others: those that look from one cell
-/// on are side by side. False, and none handed over, where that is so much that a sweep of the movers costs less.
+/// Hands over the pairs of movers, which meet in the columns in which both look for others: those that look from one
+/// cell on are side by side. False, and none handed over, where that is so much that a sweep of the movers costs less.
 fn each_other<B: Bounds>(looks: &[Look], starts: &[PairId], boxes: &[B], found: &mut Gathered) -> bool {
     let (mut tests, most) = (0, MOST_A_LOOK * looks.len());
     let first = found.pairs.len();
@@ -261,7 +261,7 @@ fn each_other<B: Bounds>(looks: &[Look], starts: &[PairId], boxes: &[B], found: 
         let one = &looks[start.b as usize];
         for start in starts[after..].iter().take_while(|start| start.a <= one.stretch.cells[1]) {
             let other = &looks[start.b as usize];
-            let gap = gap(&one.codes, &other.codes);
+            let gap = widest_gap(&one.codes, &other.codes);
             if gap <= 0 && owned(one.stretch.home, other.stretch.home).2 {
                 let [a, b] = [one.mover, other.mover];
                 if gap < 0 || boxes[a as usize].overlaps(&boxes[b as usize]) {
@@ -271,23 +271,18 @@ fn each_other<B: Bounds>(looks: &[Look], starts: &[PairId], boxes: &[B], found: 
             tests += 1;
             if tests > most {
                 found.pairs.truncate(first);
-                break;
+                note(tests);
+                return false;
             }
-        }
-        if tests > most {
-            break;
         }
     }
     note(tests);
-    tests <= most
+    true
 }
 
-/// The widest gap between two boxes, as far as codes can tell: below zero they overlap, at zero codes cannot tell.
+/// The widest gap between two boxes, as far as codes can tell.
 #[inline(always)]
-fn gap(one: &Codes, other: &Codes) -> i16 {
-    let on = |axis: usize| {
-        let before = one[axis].saturating_sub(other[axis + 3]);
-        before.max(other[axis].saturating_sub(one[axis + 3]))
-    };
+fn widest_gap(one: &Codes, other: &Codes) -> i16 {
+    let on = |axis: usize| gap([one[axis], one[axis + 3]], [other[axis], other[axis + 3]]);
     on(0).max(on(1)).max(on(2))
 }

@@ -3,6 +3,14 @@
 /// The codes of one box: least on the three axes, then greatest.
 pub(crate) type Codes = [i16; 6];
 
+/// The gap between two boxes on an axis, of each its least and greatest code: below zero they overlap there, at zero codes
+/// cannot tell.
+#[inline(always)]
+pub(crate) const fn gap(one: [i16; 2], other: [i16; 2]) -> i16 {
+    let (before, behind) = (one[0].saturating_sub(other[1]), other[0].saturating_sub(one[1]));
+    if before > behind { before } else { behind }
+}
+
 /// A box in a column: 16 bytes, so that four fit a cache line.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(16))]

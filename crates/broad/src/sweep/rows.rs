@@ -2,7 +2,7 @@
 
 use super::trial::note;
 use crate::columns::ColumnEntries;
-use crate::columns::codes::{Codes, Entry};
+use crate::columns::codes::{Codes, Entry, gap};
 use crate::columns::grid::Grid;
 use crate::width::Width;
 use core::ops::Range;
@@ -123,8 +123,8 @@ impl Strips {
     }
 }
 
-/// Sixteen boxes that stand beside each other in their columns, all that is known of them in one place: who looks here and
-/// there, as movers do, finds four lines of memory side by side, where strips and entries have some fourteen.
+/// Sixteen boxes that stand beside each other in their columns, all that is known of them in one place: who looks here
+/// and there, as movers do, finds four lines of memory side by side, where strips and entries have some fourteen.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(crate) struct Pack {
@@ -209,10 +209,7 @@ const BITS: [i16; LANES] = {
 fn overlapping<W: Width>(width: W, one: &Codes, others: [&[i16; LANES]; 6]) -> u32 {
     let mut gaps = [0; LANES];
     for lane in 0..LANES {
-        let on = |axis: usize| {
-            let before = one[axis].saturating_sub(others[axis + 3][lane]);
-            before.max(others[axis][lane].saturating_sub(one[axis + 3]))
-        };
+        let on = |axis: usize| gap([one[axis], one[axis + 3]], [others[axis][lane], others[axis + 3][lane]]);
         gaps[lane] = on(0).max(on(1)).max(on(2));
     }
     width.mask(&gaps)
