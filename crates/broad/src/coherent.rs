@@ -59,9 +59,11 @@ pub struct CoherentSweep<B> {
     kept: Vec<PairId>,
     /// Movers that stood still, summed over frames.
     idle: usize,
+    /// Of movers alone, where too many are in one place: them, and what it found.
     sweep_of_movers: Sweep,
     moving: Vec<B>,
     among: Vec<PairId>,
+    /// Pairs of which one box moved at least.
     fresh: Vec<PairId>,
     order: Order,
 }

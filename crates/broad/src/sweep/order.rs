@@ -42,15 +42,14 @@ impl Order {
     /// By the bits of both numbers from this one on.
     fn sort_from(&mut self, from: u32, pairs: &mut [PairId], count: usize) {
         let bits = bits_below(count);
+        let pack = |pair: &PairId| u64::from(pair.a) << bits | u64::from(pair.b);
+        let unpack = |key: u64| PairId { a: (key >> bits) as u32, b: (key & ((1 << bits) - 1)) as u32 };
         if pairs.len() < FEW {
             let keys = &mut self.keys[0];
             keys.clear();
-            keys.extend(pairs.iter().map(|pair| u64::from(pair.a) << bits | u64::from(pair.b)));
+            keys.extend(pairs.iter().map(pack));
             keys.sort_unstable();
-            let low = (1 << bits) - 1;
-            for (pair, key) in pairs.iter_mut().zip(keys) {
-                *pair = PairId { a: (*key >> bits) as u32, b: (*key & low) as u32 };
-            }
+            pairs.iter_mut().zip(&*keys).for_each(|(pair, &key)| *pair = unpack(key));
             return;
         }
         let passes = passes(2 * bits - from, pairs.len());
@@ -63,7 +62,7 @@ impl Order {
         self.counts.clear();
         self.counts.resize(size * passes as usize, 0);
         for (key, pair) in keys.iter_mut().zip(pairs.iter()) {
-            *key = u64::from(pair.a) << bits | u64::from(pair.b);
+            *key = pack(pair);
             for (pass, counts) in (0..).zip(self.counts.chunks_exact_mut(size)) {
                 counts[(*key >> (from + pass * digit) & mask) as usize] += 1;
             }
@@ -82,10 +81,9 @@ impl Order {
                 }
                 core::mem::swap(keys, others);
             } else {
-                let low = (1 << bits) - 1;
                 for &key in keys.iter() {
                     let to = &mut counts[place(key)];
-                    pairs[*to as usize] = PairId { a: (key >> bits) as u32, b: (key & low) as u32 };
+                    pairs[*to as usize] = unpack(key);
                     *to += 1;
                 }
             }

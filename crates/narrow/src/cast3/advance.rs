@@ -29,9 +29,9 @@
 //! A half-space that turns has an axis that turns with it: the same, with the vertices of the other seen from the
 //! plane. So has any body beside whose face another passes: along a fixed axis, what turns on comes into the way of
 //! what is seen no further than its far corner lets. Where steps are many, an axis that turns along with either body is
-//! tried as well. Cost: a distance and a few support searches a step.
+//! tried as well. Cost: a distance and a few support searches a step; where the two all but touch at the start, and the
+//! axis between their nearest points does not show that they part, a support search for each face and some of the edges.
 
-use super::beyond::gap_along;
 use super::passage::{Course, Moment, length};
 use crate::pair3::Part;
 use crate::polyhedron::closest::{Closest, Placed, closest};
@@ -110,7 +110,7 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
                 return End::Met(here);
             }
             let (least, normal) = (-4.0 * doubt, found.normal);
-            // An overlap by more than an axis may be off needs no look at features.
+            // An overlap by more than an axis may be off needs no look at features; where there is no bound, it does.
             let is_slight =
                 found.at_least > -course.fineness.rest(doubt) || found.at_least == f64::NEG_INFINITY;
             let is_parting = found.at_least > least && course.parts_along(normal, until)
@@ -161,10 +161,10 @@ impl Course<'_> {
 
     /// Whether the normal of a face, or an axis made square to an edge, shows at least such a gap, which gets no less
     /// before the limit. An axis between the points that are nearest is off by the rounding of the longer lengths over
-    /// the shorter, and may show less than nothing of a small body's gap from a floor some hundred times as large.
+    /// the shorter, and may show less than nothing of a small body's gap from a floor some thousand times as large.
     fn features_part(&self, moment: &Moment, normal: DVec3, least: f64, until: f64) -> bool {
         let least = least + self.radii + moment.precision.projection();
-        let parts = |axis: DVec3| self.parts_along(axis, until) && gap_along(moment, axis) > least;
+        let parts = |axis: DVec3| self.parts_along(axis, until) && moment.gap_along(axis) > least;
         let of = |placed: &Placed, sign: f64| {
             let Placed::Core(solid) = placed else { return false };
             let parts_from_edge = |&edge: &u16| {

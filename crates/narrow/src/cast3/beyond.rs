@@ -8,7 +8,6 @@ use crate::impact3::Impact3;
 use crate::level::{Contacts, Lies, Passing, half_through, thickness, thinner};
 use crate::lists::with_manifolds3;
 use crate::pair3::{Pair3, Part, for_parts};
-use crate::polyhedron::closest::Placed;
 use crate::touch::Touch3;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
@@ -52,7 +51,7 @@ impl Touched<'_> {
         let (core_a, core_b) = (parts[0].shape.core(), parts[1].shape.core());
         let course = Course::new(passage, parts, [&core_a, &core_b]);
         let (start, end) = (course.at(0.0), course.at(1.0));
-        let gap = |moment: &Moment, axis: DVec3| gap_along(moment, axis) - course.radii;
+        let gap = |moment: &Moment, axis: DVec3| moment.gap_along(axis) - course.radii;
         // Who turns may be in deepest on the way.
         let between = if passage.is_straight() { 0 } else { MOMENTS };
         let on_the_way = (1..between).map(|i| course.at(f64::from(i) / f64::from(MOMENTS)));
@@ -133,13 +132,4 @@ impl Pair3<'_> {
         };
         with_manifolds3(&later, 0.0, |manifolds| manifolds.iter().find_map(is_across))
     }
-}
-
-/// The gap between two cores along an axis.
-pub(super) fn gap_along(moment: &Moment, axis: DVec3) -> f64 {
-    let reach = |placed: &Placed, axis: DVec3, origin: DVec3| match placed {
-        Placed::Core(solid) => solid.support(axis).reach,
-        Placed::HalfSpace(_) => axis.dot(origin),
-    };
-    -reach(&moment.a, axis, DVec3::ZERO) - reach(&moment.b, -axis, moment.between)
 }

@@ -87,6 +87,17 @@ pub(super) struct Moment<'a> {
     pub(super) spins: [DVec3; 2],
 }
 
+impl Moment<'_> {
+    /// The gap between the two cores along an axis.
+    pub(super) fn gap_along(&self, axis: DVec3) -> f64 {
+        let reach = |placed: &Placed, axis: DVec3, origin: DVec3| match placed {
+            Placed::Core(solid) => solid.support(axis).reach,
+            Placed::HalfSpace(_) => axis.dot(origin),
+        };
+        -reach(&self.a, axis, DVec3::ZERO) - reach(&self.b, -axis, self.between)
+    }
+}
+
 /// A sum of coordinates bounds a length, and needs no root.
 pub(super) fn length(v: DVec3) -> f64 {
     v.abs().element_sum()
