@@ -6,6 +6,7 @@
 
 use asunder_scenes::hard::{FAMILIES2, FAMILIES3};
 use asunder_tests::report::{FaultKind, Row, Scope, Tally, Times, header, shares, tally, weight};
+use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Cases in all.
@@ -14,15 +15,15 @@ const CASES: usize = 100_000;
 /// Separations are judged on every so many-th case of each level: they take the judges the longest.
 const TRUTH_EVERY: usize = 10;
 
-/// Every family's tally, made by whichever test comes first.
+/// Every family's tally, made by whichever test comes first, on all processors: the other tests here wait for it.
 fn tallies() -> &'static [Tally] {
     static TALLIES: OnceLock<Vec<Tally>> = OnceLock::new();
     TALLIES.get_or_init(|| {
         let weights = FAMILIES3.iter().map(weight).chain(FAMILIES2.iter().map(weight));
         let shares = shares(&weights.collect::<Vec<f64>>(), CASES);
         let scope = |cases: &usize| Scope { cases: *cases, truth_every: TRUTH_EVERY, seed: 1, peers: false };
-        let in_space = FAMILIES3.iter().zip(&shares).map(|(family, cases)| tally(family, &scope(cases)));
-        let in_plane = FAMILIES2.iter().zip(&shares[FAMILIES3.len()..]);
+        let in_space = FAMILIES3.par_iter().zip(&shares).map(|(family, cases)| tally(family, &scope(cases)));
+        let in_plane = FAMILIES2.par_iter().zip(&shares[FAMILIES3.len()..]);
         let in_plane = in_plane.map(|(family, cases)| tally(family, &scope(cases)));
         let tallies: Vec<Tally> = in_space.chain(in_plane).collect();
         eprintln!("{}", header(TRUTH_EVERY));
