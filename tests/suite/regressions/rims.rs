@@ -1,8 +1,10 @@
-//! Bodies over the rims of ground: how deep they are told to be in what they leave along its normal.
+//! Bodies over the rims of ground: whether they are in it, and how deep they are told to be in what they leave along its
+//! normal.
 
 use asunder::{Capsule3, Cuboid, Feature, Hull, Manifold3, Pair3, Pose3, Shape3, TriMesh, Triangle3};
-use asunder_geometry::glam::{Vec2, Vec3};
+use asunder_geometry::glam::{DVec3, Vec2, Vec3};
 use asunder_geometry::{Ground, HeightField};
+use asunder_narrow::{Answer, Batch3, Hint, Job3, collide3};
 use asunder_tests::cases::Random;
 
 fn body(random: &mut Random) -> Shape3 {
@@ -91,4 +93,50 @@ fn a_move_by_what_is_told_frees_of_a_flat_patch_and_no_less_does() {
         over_rims += usize::from(is_over_rim);
     }
     assert!(deep > 2_000 && over_rims > 80, "{deep} deep, {over_rims} over rims");
+}
+
+/// Symptom: of boxes that stand 1e-11 m beside the rim of a flat floor, one in thirty overlapped it, as its contact had
+/// it, and exact arithmetic says that they share no point. Cause: triangles of a flat patch share a plane, and with it
+/// what is lost by rounding: what is beside the sides of one of 100 km was told by how little that is on one of half a
+/// metre.
+#[test]
+fn what_is_lost_over_a_small_triangle_says_nothing_of_a_large_one_of_its_patch() {
+    let mut random = Random::new(0x51DE);
+    let (mut overlapping, mut parted) = (0, 0);
+    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.25)).unwrap());
+    for case in 0..1000 {
+        // The rim leads from the origin far away, and the box stands on the other side of it.
+        let (far, slope) = (random.between(1e5, 3e5), random.between(0.5, 2.0));
+        let corners = vec![
+            Vec3::ZERO,
+            Vec3::new(-far as f32, 0.0, (far * slope) as f32),
+            Vec3::new(-0.25, 0.0, -0.25),
+            Vec3::new(0.25, 0.0, -0.5 - (0.25 * slope) as f32),
+        ];
+        let rim = corners[1].as_dvec3().normalize();
+        let floor = TriMesh::new(corners, vec![[0, 3, 2], [0, 2, 1]]).unwrap();
+        let floor = Shape3::from(if case % 2 == 0 { floor } else { floor.one_sided() });
+        let beside = DVec3::new(rim.z, 0.0, -rim.x) * random.between(-1e-11, 1e-11);
+        // Its lowest corner, a trace deep.
+        let corner = rim * random.between(0.01, 0.03) + beside - DVec3::Y * random.between(1e-13, 1e-11);
+        let pose = Pose3::at(corner + 0.25).unwrap();
+        let pair = Pair3::new(&body, &pose, &floor, &Pose3::IDENTITY);
+        let job = Job3 {
+            shape_a: &body,
+            pose_a: &pose,
+            shape_b: &floor,
+            pose_b: &Pose3::IDENTITY,
+            margin: 0.05,
+            hint: Hint::NONE,
+            sensor: false,
+        };
+        let mut batch = Batch3::default();
+        collide3(&[job], &mut batch);
+        let Answer::Contact { overlapping: is_in, .. } = batch.answers[0] else {
+            panic!("{case}: it is near")
+        };
+        assert_eq!(is_in, pair.overlaps(), "{case}: {floor:?} {pose:?}");
+        *(if is_in { &mut overlapping } else { &mut parted }) += 1;
+    }
+    assert!(overlapping > 300 && parted > 300, "{overlapping} overlap, {parted} do not");
 }

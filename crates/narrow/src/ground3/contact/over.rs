@@ -21,13 +21,15 @@ impl Seen<'_> {
     /// before; whether not all of the part is further from it than is wanted, on whichever side. In place: it is large.
     pub(super) fn is_within(&self, near: &NearTriangle, plane: &mut Option<Plane>) -> bool {
         let (ground, standing, patch) = (self.asking.on.ground, self.standing, near.patch);
+        // Beside the sides of a triangle that is larger by far more is lost than over the plane of the one before.
         if let Some(plane) = plane.as_mut().filter(|plane| plane.patch == patch)
             && plane.facet.move_on(ground, near.number, 0.25 * plane.doubt, standing.center)
+            && self.doubt_over(&plane.facet) <= 0.75 * plane.doubt
         {
             return true;
         }
         let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return false };
-        // Twice: `move_on` lets others of the patch lie off the plane by a quarter of it.
+        // Twice: others of the patch may lie off the plane by a quarter of it, which leaves three for what is rounded.
         let doubt = 2.0 * self.doubt_over(&facet);
         let beyond = self.asking.reach + standing.radius + doubt;
         // Most are out of reach by the box around the part: its vertices need not be looked at.
