@@ -101,6 +101,7 @@ mod protrusion;
 mod refused;
 mod rim;
 mod round;
+mod side;
 mod standing;
 mod unsaid;
 mod whole;

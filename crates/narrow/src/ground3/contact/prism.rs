@@ -15,8 +15,9 @@
 //! every step.
 
 use super::ball::nearest_to;
-use super::facet::{Facet, Rim, edge_number};
+use super::facet::{Facet, edge_number};
 use super::groups::{Base, Groups, Pin};
+use super::side::Rim;
 use super::standing::{Extent, Standing};
 use crate::feature::Feature;
 use crate::polyhedron::manifold::opposed_face;
