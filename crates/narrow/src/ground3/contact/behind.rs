@@ -40,8 +40,9 @@ impl Seen<'_> {
             return;
         }
         let heard = known.heard();
-        for near in core::mem::take(&mut known.behind) {
-            let mut plane = None;
+        // By their places: taken out, the list would be copied, blanks and all.
+        for place in 0..known.behind.len() {
+            let (near, mut plane) = (known.behind[place], None);
             if !self.is_within(&near, &mut plane) {
                 continue;
             }

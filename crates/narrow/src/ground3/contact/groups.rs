@@ -128,8 +128,8 @@ impl Groups {
         Some((nearest.base.normal, nearest.pins[deepest].on_body))
     }
 
-    /// Notes that ground with this normal may be as near as a bound says, for the groups of the same normal: `most` of
-    /// their own normal and of how much nearer that is.
+    /// Notes that ground with this normal may be as near as a bound says: from each group of the same normal it hides what
+    /// `most` makes of the group's own normal and of how much nearer the bound is.
     pub(super) fn hide(&mut self, normal: DVec3, bound: f64, most: impl Fn(DVec3, f64) -> f64) {
         for group in self.groups.iter_mut().filter(|group| is_same(group.base.normal, normal)) {
             group.hidden = group.hidden.max(most(group.base.normal, group.found() - bound));
@@ -141,7 +141,7 @@ impl Groups {
         self.along(normal).map_or(f64::INFINITY, Group::found)
     }
 
-    /// That of a normal.
+    /// The group of a normal.
     pub(super) fn along(&self, normal: DVec3) -> Option<&Group> {
         self.groups.iter().find(|group| is_same(group.base.normal, normal))
     }
@@ -305,9 +305,10 @@ impl Group {
             return;
         }
         if self.pins.is_full() {
-            let mut around = self.around(slack);
+            let places = self.places();
+            let mut around = self.around(&places, slack);
             if around.len() > MOST_POINTS / 2 {
-                around = self.four_of(&around, even);
+                around = self.four_of(&around, &places, even);
             }
             // There is room for the deepest beside them, which is told whatever is kept at last.
             if let Some(deepest) = self.deepest().filter(|deepest| !around.contains(deepest)) {
@@ -337,9 +338,10 @@ impl Group {
         if self.pins.len() < 3 {
             return;
         }
-        let mut around = self.around(slack);
+        let places = self.places();
+        let mut around = self.around(&places, slack);
         if around.len() > 4 {
-            around = self.four_of(&around, even);
+            around = self.four_of(&around, &places, even);
         }
         let least = self.least() + even;
         if !around.iter().any(|&i| self.pins[i].separation <= least)
@@ -373,6 +375,7 @@ impl Group {
         self.pins.truncate(kept.len());
     }
 
+    /// Where the points are in the plane of the normal, from the first of them.
     fn places(&self) -> ArrayVec<[f64; 2], MOST_POINTS> {
         let (x, y) = self.base.normal.any_orthonormal_pair();
         let from = self.pins.first().map_or(DVec3::ZERO, |pin| pin.on_ground);
@@ -382,8 +385,7 @@ impl Group {
     /// The points around what the group covers, clockwise; what lies on the line between two others is left out.
     ///
     /// Andrew, "Another efficient algorithm for convex hulls in two dimensions" (1979).
-    fn around(&self, slack: f64) -> ArrayVec<usize, MOST_POINTS> {
-        let places = self.places();
+    fn around(&self, places: &[[f64; 2]], slack: f64) -> ArrayVec<usize, MOST_POINTS> {
         let mut order: ArrayVec<usize, MOST_POINTS> = (0..places.len()).collect();
         let along = |i: usize, j: usize| {
             let ([xi, yi], [xj, yj]) = (places[i], places[j]);
@@ -391,9 +393,9 @@ impl Group {
         };
         order.sort_unstable_by(|&i, &j| along(i, j));
         let mut around = ArrayVec::new();
-        self.half(order.iter().copied(), &places, slack, &mut around);
+        half(order.iter().copied(), places, slack, &mut around);
         let halfway = around.len();
-        self.half(order.iter().rev().copied(), &places, slack, &mut around);
+        half(order.iter().rev().copied(), places, slack, &mut around);
         // By rounding, one may be beside a line on both its sides; it is one corner all the same.
         for place in (halfway..around.len()).rev() {
             if around[..halfway].contains(&around[place]) {
@@ -403,38 +405,37 @@ impl Group {
         around
     }
 
-    /// One half of the way around, its last point left for the other.
-    fn half(
-        &self,
-        order: impl Iterator<Item = usize>,
-        places: &[[f64; 2]],
-        slack: f64,
-        around: &mut ArrayVec<usize, MOST_POINTS>,
-    ) {
-        let first = around.len();
-        for next in order {
-            while let [.., one, other] = around[first..] {
-                let ([ax, ay], [bx, by], [cx, cy]) = (places[one], places[other], places[next]);
-                let (dx, dy) = (cx - ax, cy - ay);
-                let aside = dx * (by - ay) - dy * (bx - ax);
-                // Beside the line by more than the slack: it stays.
-                if aside > slack * (dx.abs() + dy.abs()) {
-                    break;
-                }
-                around.pop();
-            }
-            if around.try_push(next).is_err() {
-                return;
-            }
-        }
-        around.pop();
-    }
-
     /// Four of those around.
-    fn four_of(&self, around: &[usize], even: f64) -> ArrayVec<usize, MOST_POINTS> {
-        let places = self.places();
+    fn four_of(&self, around: &[usize], places: &[[f64; 2]], even: f64) -> ArrayVec<usize, MOST_POINTS> {
         let spot = |i: usize| Spot { at: places[around[i]], separation: self.pins[around[i]].separation };
         let four = pick_four(around.len(), spot, |i| self.pins[around[i]].id(), even);
         four.into_iter().map(|i| around[i]).collect()
     }
+}
+
+/// One half of the way around, its last point left for the other.
+fn half(
+    order: impl Iterator<Item = usize>,
+    places: &[[f64; 2]],
+    slack: f64,
+    around: &mut ArrayVec<usize, MOST_POINTS>,
+) {
+    let first = around.len();
+    for next in order {
+        while let [.., one, other] = around[first..] {
+            let ([ax, ay], [bx, by], [cx, cy]) = (places[one], places[other], places[next]);
+            let (dx, dy) = (cx - ax, cy - ay);
+            let aside = dx * (by - ay) - dy * (bx - ax);
+            // Beside the line by more than the slack: it stays.
+            if aside > slack * (dx.abs() + dy.abs()) {
+                break;
+            }
+            around.pop();
+        }
+        // Full with all points there are, of which this is one: it ends the way, and would be left for the other half.
+        if around.try_push(next).is_err() {
+            return;
+        }
+    }
+    around.pop();
 }

@@ -78,6 +78,8 @@ impl Seen<'_> {
     ) -> Option<Explained> {
         let Prism { ground, standing, facet, doubt, .. } = *prism;
         let numbers = ground.vertex_numbers(facet.number);
+        // Looked up once, and only where a point is on an edge.
+        let mut edges = None;
         let (is_behind, mut is_where_deep) = (self.is_behind(prism), false);
         let is_apart = || standing.is_apart((facet, axes), touching() + 2.0 * doubt);
         let wholly = known.groups.find_on(|base, pin| {
@@ -85,7 +87,9 @@ impl Seen<'_> {
             let (first, count) = match pin.of_ground {
                 Feature::Vertex(vertex) => (numbers.iter().position(|&number| number == vertex), 1),
                 Feature::Edge(edge) => {
-                    ((0..3).find(|&own| edge_number(ground, facet.number, own) == edge), 2)
+                    let edges = edges
+                        .get_or_insert_with(|| [0, 1, 2].map(|own| edge_number(ground, facet.number, own)));
+                    (edges.iter().position(|&own| own == edge), 2)
                 }
                 Feature::Face(_) => return None,
             };

@@ -24,7 +24,7 @@ pub(super) struct Place {
 /// Vertices eight by eight: large, and filled where they stay.
 pub(super) type Octets = ArrayVec<[[f64; 8]; 3], { MAX_HULL_VERTICES / 8 }>;
 
-/// A part that has vertices.
+/// A part, with its vertices; a half-space has none.
 pub(super) struct Standing<'s> {
     pub(super) part: Part<'s>,
     pub(super) place: Place,
@@ -302,7 +302,8 @@ fn is_apart_across(corners: &[DVec3; 3], [low, high]: [DVec3; 2], beyond: f64) -
         ];
         for axis in axes {
             let (one, other) = (axis.dot(corners[edge]), axis.dot(corners[third]));
-            let nearest = if one.min(other) > 0.0 { one.min(other) } else { -one.max(other) };
+            let (nearer, further) = if one < other { (one, other) } else { (other, one) };
+            let nearest = if nearer > 0.0 { nearer } else { -further };
             let gap = nearest - half.dot(axis.abs());
             if gap > 0.0 && gap * gap > beyond * beyond * axis.length_squared() {
                 return true;

@@ -122,7 +122,9 @@ impl Seen<'_> {
         let slack = self.standing.slack;
         let least = known.groups.least();
         known.tell_unsaid(slack);
-        for unsaid in core::mem::take(&mut known.unsaid) {
+        // By their places: taken out, the list would be copied, blanks and all.
+        for place in 0..known.unsaid.len() {
+            let unsaid = known.unsaid[place];
             let along = known.groups.least_along(unsaid.normal);
             if unsaid.is_own && (along - slack..along).contains(&unsaid.separation) {
                 // The same place up to the slack: the points stay.
@@ -159,7 +161,8 @@ impl Seen<'_> {
         if ground.is_one_sided() || known.unclear.is_empty() {
             return;
         }
-        for Unclear { separation, number, .. } in core::mem::take(&mut known.unclear) {
+        for place in 0..known.unclear.len() {
+            let Unclear { separation, number, .. } = known.unclear[place];
             if separation < -standing.slack
                 && let Some(facet) = Facet::seen(ground, number, standing.center)
                 && let Some(gap) = self.meeting.gap((ground, &facet), &standing.place, self.asking)
