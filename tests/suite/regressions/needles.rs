@@ -1,10 +1,11 @@
 //! Needles and knife edges: where a normal is the small difference of large numbers.
 
-use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, Triangle3};
+use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, TriMesh, Triangle3};
 use asunder_narrow::{Pair3, Separation3};
+use asunder_tests::cases::Random;
 use asunder_tests::exact_overlap::exact_overlap3;
 use asunder_tests::precise::separation3;
-use glam::{Quat, Vec3};
+use glam::{DVec3, Quat, Vec3};
 
 fn vector(bits: [u32; 3]) -> Vec3 {
     Vec3::from_array(bits.map(f32::from_bits))
@@ -157,4 +158,36 @@ fn what_is_reported_within_the_margin_has_a_manifold() {
         rounded_down += usize::from(f64::from(found.separation) < there.position().x - 1.0);
     }
     assert!(rounded_down > 50, "{rounded_down}");
+}
+
+/// Symptom: of boxes beside the rim of one-sided ground, within the margin, nothing was told where the triangle there is
+/// longer than some thousand times its width. Cause: the way from the rim to the box was level to both long sides, and so
+/// given by neither; two-sided ground keeps such ways, one-sided ground did only where they lead up.
+#[test]
+fn the_rim_of_a_needle_with_one_side_is_there() {
+    let mut random = Random::new(0x4EED);
+    let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.25)).unwrap());
+    for case in 0..400 {
+        let far = [1e2, 1e3, 1e4, 1e5][case % 4] * random.between(1.0, 2.0);
+        let tip = Vec3::new(-far as f32, 0.0, (far * random.between(0.5, 2.0)) as f32);
+        let needle =
+            TriMesh::new(vec![Vec3::ZERO, tip, Vec3::new(-0.25, 0.0, -0.25)], vec![[0, 2, 1]]).unwrap();
+        let floor = Shape3::from(needle.one_sided());
+        let along = tip.as_dvec3().normalize();
+        let out = DVec3::new(along.z, 0.0, -along.x);
+        let gap = [1e-7, 1e-5, 1e-3, 1e-2][case / 4 % 4] * random.between(1.0, 4.0);
+        // The box's upright edge is beside the rim.
+        let corner = along * random.between(0.1, 0.3) + out * gap - DVec3::Y * random.between(0.01, 0.2);
+        let pose = Pose3::at(corner + 0.25).unwrap();
+        let told = Pair3::new(&body, &pose, &floor, &Pose3::IDENTITY).manifolds(0.05);
+        let [manifold] = &told[..] else { panic!("{case}, {gap} beside: {told:?}") };
+        assert!(
+            (f64::from(manifold.separation) - gap).abs() <= f64::from(manifold.error),
+            "{case}: {told:?}"
+        );
+        assert!(
+            (manifold.normal.as_dvec3() + out).length() < 1e-6 && manifold.error < 1e-6,
+            "{case}: {told:?}"
+        );
+    }
 }

@@ -277,11 +277,7 @@ impl Facet {
 
     /// The feature that reaches furthest in a unit direction; corners within the tolerance of it count as far.
     pub(super) fn furthest(&self, towards: DVec3) -> Furthest {
-        let is_level = |edge: usize| {
-            let (_, along) = self.edge(edge);
-            let rise = towards.dot(along);
-            rise * rise <= SAME_NORMAL * SAME_NORMAL * along.length_squared()
-        };
+        let is_level = |edge: usize| self.is_level(edge, towards);
         let reach = |corner: usize| towards.dot(self.corners[corner] - self.origin);
         let reaches = [reach(0), reach(1), reach(2)];
         let top = if reaches[0] >= reaches[1] && reaches[0] >= reaches[2] {
@@ -321,6 +317,19 @@ impl Facet {
     /// same way.
     pub(super) fn is_nearly_own(&self, towards: DVec3) -> bool {
         self.normal.dot(towards) >= NEARLY
+    }
+
+    /// Whether a side is level in a unit direction, up to the tolerance.
+    fn is_level(&self, edge: usize, towards: DVec3) -> bool {
+        let (_, along) = self.edge(edge);
+        let rise = towards.dot(along);
+        rise * rise <= SAME_NORMAL * SAME_NORMAL * along.length_squared()
+    }
+
+    /// Whether a side gives a unit direction to which all of a needle is level: the one that looks there.
+    pub(super) fn may_give_across(&self, ground: Ground, towards: DVec3) -> bool {
+        (0..3)
+            .any(|edge| self.is_level(edge, towards) && self.may_give(ground, Furthest::Edge(edge), towards))
     }
 
     /// Whether ground around a feature lets it give this unit direction, from the ground to the body.

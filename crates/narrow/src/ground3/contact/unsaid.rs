@@ -58,7 +58,7 @@ impl Unsaid {
         // level: with none but its own, bodies beside the rim of a strip of needles were told to be further away than
         // they are.
         let is_given = || match facet.furthest(towards) {
-            Furthest::Face => facet.normal.dot(towards) > 0.0,
+            Furthest::Face => facet.normal.dot(towards) > 0.0 || facet.may_give_across(ground, towards),
             furthest => facet.may_give(ground, furthest, towards),
         };
         let is_meant = is_own || !ground.is_one_sided() || is_given();
