@@ -3,6 +3,7 @@
 pub(crate) mod codes;
 pub(crate) mod grid;
 mod parts;
+mod scatter;
 mod shown;
 
 pub use shown::Column;
@@ -28,9 +29,11 @@ pub(crate) struct Columns {
     entries: Vec<Entry>,
     /// Entries that were counted, boxes that are none among them.
     counted: usize,
+    /// Some of the entries, on their way into their bins.
+    group: Vec<Entry>,
 }
 
-asunder_geometry::copied!(Columns, { records, straddlers, ends, entries, counted } but {});
+asunder_geometry::copied!(Columns, { records, straddlers, ends, entries, counted } but { group });
 
 impl Columns {
     /// The entries of a column, and where its bins end, counted from `start`.
@@ -84,7 +87,7 @@ impl Columns {
 
     /// Memory that is held, in bytes.
     pub(crate) fn bytes(&self) -> usize {
-        (self.records.capacity() + self.entries.capacity()) * size_of::<Entry>()
+        (self.records.capacity() + self.entries.capacity() + self.group.capacity()) * size_of::<Entry>()
             + (self.ends.capacity() + self.straddlers.iter().map(Vec::capacity).sum::<usize>()) * 4
     }
 
@@ -151,41 +154,6 @@ impl Columns {
         }
         note(total);
         self.counted = total;
-    }
-
-    /// The second half: puts every entry into its bin. The places are counted from `first`.
-    #[inline(always)]
-    pub(crate) fn scatter(&mut self, grid: &Grid, first: u32) {
-        let mut sum = 0;
-        for end in &mut self.ends {
-            sum += core::mem::replace(end, sum);
-        }
-        if self.entries.len() < self.counted {
-            self.entries.resize(self.counted, Entry::default());
-        }
-        for (record, place) in self.records.iter().zip(first..) {
-            let end = &mut self.ends[record.place as usize];
-            self.entries[*end as usize] = Entry { codes: record.codes, place: place | HOME_Y | HOME_Z };
-            *end += 1;
-        }
-        let [over_y, over_z, over_more] = &self.straddlers;
-        let (step_y, step_z) = grid.steps();
-        for (list, step, home) in [(over_y, step_y, HOME_Z), (over_z, step_z, HOME_Y)] {
-            for &place in list {
-                let record = &self.records[place as usize];
-                let end = &mut self.ends[(record.place + step) as usize];
-                self.entries[*end as usize] = Entry { codes: record.codes, place: (first + place) | home };
-                *end += 1;
-            }
-        }
-        for &place in over_more {
-            let codes = self.records[place as usize].codes;
-            for_others(&codes, grid, |cell, home| {
-                let end = &mut self.ends[cell as usize];
-                self.entries[*end as usize] = Entry { codes, place: (first + place) | home };
-                *end += 1;
-            });
-        }
     }
 }
 

@@ -64,6 +64,12 @@
 //! Needles stay beyond their budget: a logarithm an axis is what they cost. The machine was under load, both ways in
 //! turns.
 
+//!
+//! 9. Where entries or pairs are many, more than fit a near cache: entries into groups of bins before each into its bin,
+//!    and pairs into buckets before they are sorted by digits. Of a million boxes of `gas` 112 ns per box in place of
+//!    182, of `pile` 241 in place of 334, of 100,000 of `pile` 184 in place of 221 (Intel Xeon, family 6 model 85, 2
+//!    virtual cores, one thread, 2026-11-28, medians in turns).
+
 mod compiled;
 mod crowd;
 pub(crate) mod level;

@@ -1,18 +1,27 @@
-//! Pairs in order: a radix sort, least digit first, over no more bits than the numbers have.
+//! Pairs in order: a radix sort, least digit first, over no more bits than the numbers have. More pairs than fit a near
+//! cache are thrown into buckets by the top of the first number before, and each bucket is sorted so.
 //!
 //! A digit costs 2 to 3.5 ns per pair, whatever its size, as long as its counters are near. Of 10,000 boxes two digits
 //! of 14 bits take 5.9 ns per pair in place of 6.8 for three of 10 (AMD EPYC, Zen 4, 2026-11-22, medians in turns).
-//! Tried: digits of 14 and 17 bits for a million boxes (20 to 22 ns in place of 14.5: counters out of reach); pairs
-//! thrown into buckets that fit a cache by the top of the first number, then each bucket by digits (14.5 in place of
-//! 15.0 for a million boxes, 10.5 in place of 12 for 100,000 of `pile`, but 9 in place of 6.8 for those of `gas`).
+//! Buckets: 16.5 ns per pair in place of 26 for 400,000 pairs of 100,000 boxes, 24 in place of 37 for 4 million pairs of a
+//! million (Intel Xeon, family 6 model 85, 2026-11-28; on the Zen 4 10.5 in place of 12, and 14.5 in place of 15.0). Of
+//! 50,000 pairs they cost more: 9 ns in place of 6.8 (Zen 4).
+//!
+//! Tried: digits of 14 and 17 bits for a million boxes (20 to 22 ns in place of 14.5: counters out of reach; Zen 4); digits
+//! of 8 and of 9 bits, without buckets (37 and 29 ns in place of 26, Xeon); keys of 32 bits in buckets (the same); pairs
+//! counted by their first number, and each run of them sorted by comparing (16 ns for 400,000 pairs, 43 for 4 million,
+//! Xeon).
 
 use crate::pair::PairId;
+use core::ops::Range;
 
 /// Scratch memory of the sort.
 #[derive(Debug, Default)]
 pub(crate) struct Order {
     keys: [Vec<u64>; 2],
     counts: Vec<u32>,
+    /// Where each bucket ends.
+    ends: Vec<u32>,
 }
 
 /// Most bits of a digit: its counters fit the nearest cache.
@@ -26,6 +35,15 @@ const A_PAIR: usize = 5;
 
 /// Fewer pairs than that are sorted by comparing.
 const FEW: usize = 64;
+
+/// So many pairs are thrown into buckets,
+const MANY: usize = 1 << 17;
+
+/// each of about so many pairs, or up to twice as many: their keys fit a near cache,
+const A_BUCKET: usize = 1 << 12;
+
+/// by so many bits of the first number at most.
+const MOST_TOP: u32 = 8;
 
 impl Order {
     /// Puts `pairs` in order. Numbers are below `count`.
@@ -52,46 +70,102 @@ impl Order {
             pairs.iter_mut().zip(&*keys).for_each(|(pair, &key)| *pair = unpack(key));
             return;
         }
-        let passes = passes(2 * bits - from, pairs.len());
-        let digit = (2 * bits - from).div_ceil(passes);
-        let size = 1 << digit;
-        let mask = size as u64 - 1;
         let [keys, others] = &mut self.keys;
         keys.resize(pairs.len(), 0);
-        others.resize(pairs.len(), 0);
-        self.counts.clear();
-        self.counts.resize(size * passes as usize, 0);
-        for (key, pair) in keys.iter_mut().zip(pairs.iter()) {
-            *key = pack(pair);
-            for (pass, counts) in (0..).zip(self.counts.chunks_exact_mut(size)) {
-                counts[(*key >> (from + pass * digit) & mask) as usize] += 1;
-            }
+        if pairs.len() < MANY {
+            others.resize(pairs.len(), 0);
+            keys.iter_mut().zip(pairs.iter()).for_each(|(key, pair)| *key = pack(pair));
+            return by_digits((keys, others), from..2 * bits, &mut self.counts, (pairs, unpack));
         }
-        for (pass, counts) in (0..).zip(self.counts.chunks_exact_mut(size)) {
-            let mut sum = 0;
-            for count in counts.iter_mut() {
-                sum += core::mem::replace(count, sum);
-            }
-            let place = |key: u64| (key >> (from + pass * digit) & mask) as usize;
-            if pass + 1 < passes {
-                for &key in keys.iter() {
-                    let to = &mut counts[place(key)];
-                    others[*to as usize] = key;
-                    *to += 1;
-                }
-                core::mem::swap(keys, others);
-            } else {
-                for &key in keys.iter() {
-                    let to = &mut counts[place(key)];
-                    pairs[*to as usize] = unpack(key);
-                    *to += 1;
-                }
-            }
+        let top = (pairs.len() / A_BUCKET).ilog2().min(MOST_TOP).min(bits);
+        let longest = throw(pairs, (bits - top, pack), &mut self.ends, keys);
+        others.resize(longest, 0);
+        let mut rest = (&mut keys[..], pairs);
+        let mut start = 0;
+        for &end in &self.ends {
+            let (keys, later_keys) = rest.0.split_at_mut((end - start) as usize);
+            let (pairs, later_pairs) = rest.1.split_at_mut((end - start) as usize);
+            (rest, start) = ((later_keys, later_pairs), end);
+            let others = &mut others[..keys.len()];
+            by_digits((keys, others), from..2 * bits - top, &mut self.counts, (pairs, unpack));
         }
     }
 
     pub(crate) fn bytes(&self) -> usize {
-        self.keys.iter().map(|keys| keys.capacity() * 8).sum::<usize>() + self.counts.capacity() * 4
+        self.keys.iter().map(|keys| keys.capacity() * 8).sum::<usize>()
+            + (self.counts.capacity() + self.ends.capacity()) * 4
+    }
+}
+
+/// Throws the keys of pairs into buckets by the first number, without so many of its low bits; tells where each ends,
+/// and how many the fullest holds.
+fn throw(
+    pairs: &[PairId],
+    (low, pack): (u32, impl Fn(&PairId) -> u64),
+    ends: &mut Vec<u32>,
+    keys: &mut [u64],
+) -> usize {
+    ends.clear();
+    for pair in pairs {
+        let bucket = (pair.a >> low) as usize;
+        if bucket >= ends.len() {
+            ends.resize(bucket + 1, 0);
+        }
+        ends[bucket] += 1;
+    }
+    let (mut sum, mut longest) = (0, 0);
+    for end in ends.iter_mut() {
+        longest = longest.max(*end);
+        sum += core::mem::replace(end, sum);
+    }
+    for pair in pairs {
+        let end = &mut ends[(pair.a >> low) as usize];
+        keys[*end as usize] = pack(pair);
+        *end += 1;
+    }
+    longest as usize
+}
+
+/// Sorts keys by some of their bits, and unpacks them; both lists are as long as there are pairs.
+#[inline(always)]
+fn by_digits<'k>(
+    (mut keys, mut others): (&'k mut [u64], &'k mut [u64]),
+    bits: Range<u32>,
+    counts: &mut Vec<u32>,
+    (pairs, unpack): (&mut [PairId], impl Fn(u64) -> PairId),
+) {
+    let (from, bits) = (bits.start, bits.end - bits.start);
+    let passes = passes(bits, keys.len());
+    let digit = bits.div_ceil(passes);
+    let size = 1 << digit;
+    let mask = size as u64 - 1;
+    counts.clear();
+    counts.resize(size * passes as usize, 0);
+    for &mut key in &mut *keys {
+        for (pass, counts) in (0..).zip(counts.chunks_exact_mut(size)) {
+            counts[(key >> (from + pass * digit) & mask) as usize] += 1;
+        }
+    }
+    for (pass, counts) in (0..).zip(counts.chunks_exact_mut(size)) {
+        let mut sum = 0;
+        for count in counts.iter_mut() {
+            sum += core::mem::replace(count, sum);
+        }
+        let place = |key: u64| (key >> (from + pass * digit) & mask) as usize;
+        if pass + 1 < passes {
+            for &mut key in &mut *keys {
+                let to = &mut counts[place(key)];
+                others[*to as usize] = key;
+                *to += 1;
+            }
+            core::mem::swap(&mut keys, &mut others);
+        } else {
+            for &mut key in &mut *keys {
+                let to = &mut counts[place(key)];
+                pairs[*to as usize] = unpack(key);
+                *to += 1;
+            }
+        }
     }
 }
 
@@ -117,7 +191,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn digits_and_comparisons_give_the_same_order() {
+    fn digits_buckets_and_comparisons_give_the_same_order() {
         let mut order = Order::default();
         let mut state = 1_u64;
         let mut random = |below: u64| {
@@ -125,7 +199,7 @@ mod tests {
             ((state >> 33) % below) as u32
         };
         for count in [2, 3, 63, 64, 65, 1000, 4096, 70_000, 1 << 29] {
-            for pairs in [0, 1, FEW - 1, FEW, 1000, 5000] {
+            for pairs in [0, 1, FEW - 1, FEW, 1000, 5000, MANY - 1, MANY + 1000] {
                 let mut pairs: Vec<PairId> = (0..pairs)
                     .map(|_| PairId { a: random(count), b: random(count) })
                     .chain([PairId { a: count as u32 - 2, b: count as u32 - 1 }])
