@@ -127,8 +127,8 @@ fn put(entries: &mut [Entry], end: &mut u32, entry: Entry) {
 
 #[cfg(test)]
 mod tests {
-    use crate::columns::Columns;
     use crate::columns::grid::{Grid, Over};
+    use crate::columns::{Columns, IN_ORDER};
     use asunder_geometry::{Aabb3, glam::Vec3};
 
     /// Boxes on a lattice, out of order, some of them large or none; so many of these.
@@ -150,7 +150,7 @@ mod tests {
         let grid = Grid::for_boxes(boxes.len(), Over::All, pick);
         let sorted = |many: usize| {
             let mut columns = Columns::default();
-            columns.count(&grid, (0..boxes.len(), usize::MAX), pick);
+            columns.count::<_, IN_ORDER>(&grid, (0..boxes.len(), usize::MAX), pick);
             columns.scatter_if(&grid, 5, many);
             let entries: Vec<_> = columns.entries().iter().map(|entry| (entry.codes, entry.place)).collect();
             (columns.ends, entries)

@@ -6,7 +6,7 @@ use super::settle::{NO_PAIRS, Names, Question, outermost};
 use super::trial::{Way, way};
 use crate::columns::codes::{Entry, may_overlap};
 use crate::columns::grid::{Grid, Over};
-use crate::columns::{ColumnEntries, Columns, Fill, PLACE};
+use crate::columns::{ColumnEntries, Columns, Fill, PLACE, SCATTERED};
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::{ControlFlow, Range};
@@ -201,7 +201,7 @@ impl Nested {
             return None;
         }
         let pick = |place: usize| pick(&column.entries[place]);
-        let grid = widest(Fill { columns, grid, count: column.entries.len(), pick });
+        let grid = widest(Fill::<_, SCATTERED> { columns, grid, count: column.entries.len(), pick });
         let (before, after) = (column.entries.len(), columns.len());
         // Unless many straddle, what is a heap still is told apart further down.
         let straddle = after > before + before / 2;

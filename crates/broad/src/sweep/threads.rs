@@ -19,8 +19,8 @@ use super::level::{Level, Scratch};
 use super::order::Order;
 use super::segments::{Item, Key, Slab, axes_from, in_order};
 use super::settle::Question;
-use crate::columns::Columns;
 use crate::columns::grid::{Grid, Over};
+use crate::columns::{Columns, IN_ORDER};
 use crate::pair::{PairId, TooManyPairs};
 use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
@@ -195,7 +195,7 @@ impl<B: Bounds> Kernel for Count<'_, B> {
     #[inline(always)]
     fn run<W: Width>(self, _: W) {
         let most = self.grid.most_entries(self.boxes.len());
-        self.part.count(self.grid, (self.places, most), |place| self.boxes[place]);
+        self.part.count::<_, IN_ORDER>(self.grid, (self.places, most), |place| self.boxes[place]);
     }
 }
 
