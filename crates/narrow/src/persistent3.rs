@@ -131,10 +131,10 @@ impl Spare3 {
 impl Persistent3 {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
-    /// Nothing where the bodies are apart, or so close to it or to the margin that rounding may have decided; where
-    /// solids touch in several parts; where points are neither on a face, nor where two edges cross, nor, of single
-    /// solids, across a gap from each other. Of bodies on ground, nothing of compounds and half-spaces, nor where a
-    /// point is between corners, or a corner and an edge. Cost: some square roots, and linear in the vertices of a
+    /// Nothing where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
+    /// where solids touch in several parts; where points are neither on a face, nor where two edges cross, nor, of
+    /// single solids, across a gap from each other. Of bodies on ground, nothing of compounds and half-spaces, nor where
+    /// a point is between corners, or a corner and an edge. Cost: some square roots, and linear in the vertices of a
     /// face; on ground that of finding the triangles near the points.
     pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         Self::made((job, answer, manifolds), &mut Spare3::default())

@@ -21,7 +21,7 @@ use asunder_geometry::glam::DVec3;
 pub(super) const MOST_GROUPS: usize = 16;
 
 /// Most points of a group before only its corners are kept.
-const MOST_POINTS: usize = 24;
+pub(super) const MOST_POINTS: usize = 24;
 
 /// A contact point in the ground's axes.
 #[derive(Clone, Copy, Debug)]

@@ -173,7 +173,7 @@ impl Seen<'_> {
         let is_left_out = Cell::new(false);
         let is_in_others = || {
             let Facet { number, normal, .. } = *prism.facet;
-            self.may_meet(prism) && known.groups.is_deep_in((prism.ground, number), normal)
+            self.may_meet(prism) && known.groups.deep_along(prism.ground, normal).holds(prism.ground, number)
         };
         let is_beside = refusal.is_apart && self.is_behind(prism) && !is_in_others();
         let gate = is_beside.then_some((self.deep_below(prism), &is_left_out));
