@@ -70,7 +70,7 @@
 //!    182, of `pile` 241 in place of 334, of 100,000 of `pile` 184 in place of 221 (Intel Xeon, family 6 model 85, 2
 //!    virtual cores, one thread, 2026-11-28, medians in turns).
 //! 10. Where a column is swept in columns of its own, its boxes, which lie all over memory, are read some ahead of the
-//!    work on them: of a million boxes of `islands` 157 ns per box in place of 254 (the same machine and day).
+//!     work on them: of a million boxes of `islands` 157 ns per box in place of 254 (the same machine and day).
 
 mod compiled;
 mod crowd;
