@@ -54,7 +54,8 @@ impl Persistent2 {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
     /// Nothing where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
-    /// where they touch in several parts; and where a point is on no edge, as of corners across a gap. Cost: a square root.
+    /// where they touch in several parts; and where a point is on no edge, as of corners across a gap. Cost: a square
+    /// root.
     pub fn of(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let edge = measured_from(hint)?;

@@ -161,8 +161,8 @@ fn what_is_reported_within_the_margin_has_a_manifold() {
 }
 
 /// Symptom: of boxes beside the rim of one-sided ground, within the margin, nothing was told where the triangle there is
-/// longer than some thousand times its width. Cause: the way from the rim to the box was level to both long sides, and so
-/// given by neither; two-sided ground keeps such ways, one-sided ground did only where they lead up.
+/// longer than some thousand times its width. Cause: the way from the rim to the box was level to both long sides, and
+/// so given by neither; two-sided ground keeps such ways, one-sided ground did only where they lead up.
 #[test]
 fn the_rim_of_a_needle_with_one_side_is_there() {
     let mut random = Random::new(0x4EED);

@@ -54,12 +54,12 @@ fn patch_of(ground: &Shape3, told: &Manifold3) -> Vec<Triangle3> {
         .collect()
 }
 
-/// Symptom: of 100,000 random bodies on ground, 101 that were told of one normal, that of a flat patch, were still in the
-/// patch after a move by the depth they were told, by up to 0.48 m, and 190 were told to be deeper, by up to 1.3 m, than
-/// anything of them is over the ground. Causes: points over the rim were those of one face, the one that looks against
-/// the normal the most, and of rounds those over their lowest lines, while other faces and the flanks of the rounds may
-/// be deeper there; beside bends a patch was left out where it is seen from its other side; and where no point was left,
-/// what is lowest of the body was told, wherever it is.
+/// Symptom: of 100,000 random bodies on ground, 101 that were told of one normal, that of a flat patch, were still in
+/// the patch after a move by the depth they were told, by up to 0.48 m, and 190 were told to be deeper, by up to 1.3 m,
+/// than anything of them is over the ground. Causes: points over the rim were those of one face, the one that looks
+/// against the normal the most, and of rounds those over their lowest lines, while other faces and the flanks of the
+/// rounds may be deeper there; beside bends a patch was left out where it is seen from its other side; and where no
+/// point was left, what is lowest of the body was told, wherever it is.
 #[test]
 fn a_move_by_what_is_told_frees_of_a_flat_patch_and_no_less_does() {
     let mut random = Random::new(0x21A5);

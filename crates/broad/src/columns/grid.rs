@@ -1,7 +1,6 @@
 //! Where columns go: a guess from a few boxes. Only speed depends on it.
 
-use super::codes::{Codes, Entry, Quantiser, rank};
-use super::{HOME_Y, HOME_Z};
+use super::codes::{Codes, Quantiser, rank};
 use asunder_geometry::Bounds;
 
 /// Columns over two axes, and the axis that is swept in each.
@@ -110,14 +109,6 @@ impl Grid {
     #[inline(always)]
     pub(crate) const fn cell(&self, y: u32, z: u32, bin: u32) -> u32 {
         ((y * self.columns[1] + z) << self.bin_bits) + bin
-    }
-
-    /// The bin of an entry that is in the first column of its box, or in the next on one axis.
-    #[inline(always)]
-    pub(super) fn cell_of(&self, entry: &Entry) -> u32 {
-        let Reach { bin, y, z } = self.reach(&entry.codes);
-        let next = |home: u32| u32::from(entry.place & home == 0);
-        self.cell(y.0 + next(HOME_Y), z.0 + next(HOME_Z), bin)
     }
 
     /// From a bin to the same in the next column, on both axes.

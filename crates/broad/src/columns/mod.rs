@@ -148,14 +148,21 @@ impl Columns {
         over_y.truncate(count_y);
         over_z.truncate(count_z);
         over_more.truncate(count_more);
+        self.count_others(grid, most);
+    }
+
+    /// Counts the entries of boxes in all columns that they reach but the first.
+    #[inline(always)]
+    fn count_others(&mut self, grid: &Grid, most: usize) {
+        let [over_y, over_z, over_more] = &self.straddlers;
         let (step_y, step_z) = grid.steps();
-        let mut total = self.records.len() + count_y + count_z;
-        for (list, step) in [(&*over_y, step_y), (&*over_z, step_z)] {
+        let mut total = self.records.len() + over_y.len() + over_z.len();
+        for (list, step) in [(over_y, step_y), (over_z, step_z)] {
             for &place in list {
                 self.ends[(self.records[place as usize].place + step) as usize] += 1;
             }
         }
-        for &place in &*over_more {
+        for &place in over_more {
             if total > most {
                 break;
             }

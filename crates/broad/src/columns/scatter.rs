@@ -10,12 +10,12 @@
 //! own. Groups are few enough for one line of each to stay near. Both ways keep the order in which entries come, and so
 //! give the same.
 //!
-//! A whole sweep of a million boxes, pairs sorted, takes 0.69 of the time for `gas`, 0.7 for `sizes` and `tower`, 0.9 for
-//! `pile` (Intel Xeon, family 6 model 85, 2 virtual cores, one thread, 2026-11-28, medians in turns). Of 100,000 boxes
-//! nothing is gained, and of 50,000 some percent are lost. Groups of half or twice as many entries: the same.
+//! A whole sweep of a million boxes, pairs sorted, takes 0.69 of the time for `gas`, 0.7 for `sizes` and `tower`, 0.9
+//! for `pile` (Intel Xeon, family 6 model 85, 2 virtual cores, one thread, 2026-11-28, medians in turns). Of 100,000
+//! boxes nothing is gained, and of 50,000 some percent are lost. Groups of half or twice as many entries: the same.
 
 use super::codes::Entry;
-use super::grid::Grid;
+use super::grid::{Grid, Reach};
 use super::{Columns, HOME_Y, HOME_Z, for_others};
 
 /// Entries that a group holds, about: 128 KiB of them.
@@ -90,7 +90,7 @@ impl Columns {
             group.clear();
             group.extend_from_slice(&entries[start as usize..end as usize]);
             for entry in &*group {
-                put(entries, &mut ends[grid.cell_of(entry) as usize], *entry);
+                put(entries, &mut ends[cell_of(entry, grid) as usize], *entry);
             }
         }
         ends[no_box as usize] += none;
@@ -116,6 +116,14 @@ fn for_entries(
             visit(record.place + step, Entry { codes: record.codes, place: (first + place) | home });
         }
     }
+}
+
+/// The bin of an entry that is in the first column of its box, or in the next on one axis.
+#[inline(always)]
+fn cell_of(entry: &Entry, grid: &Grid) -> u32 {
+    let Reach { bin, y, z } = grid.reach(&entry.codes);
+    let next = |home: u32| u32::from(entry.place & home == 0);
+    grid.cell(y.0 + next(HOME_Y), z.0 + next(HOME_Z), bin)
 }
 
 /// Puts an entry where others end.

@@ -3,14 +3,14 @@
 //!
 //! A digit costs 2 to 3.5 ns per pair, whatever its size, as long as its counters are near. Of 10,000 boxes two digits
 //! of 14 bits take 5.9 ns per pair in place of 6.8 for three of 10 (AMD EPYC, Zen 4, 2026-11-22, medians in turns).
-//! Buckets: 16.5 ns per pair in place of 26 for 400,000 pairs of 100,000 boxes, 24 in place of 37 for 4 million pairs of a
-//! million (Intel Xeon, family 6 model 85, 2026-11-28; on the Zen 4 10.5 in place of 12, and 14.5 in place of 15.0). Of
-//! 50,000 pairs they cost more: 9 ns in place of 6.8 (Zen 4).
+//! Buckets: 16.5 ns per pair in place of 26 for 400,000 pairs of 100,000 boxes, 24 in place of 37 for 4 million pairs
+//! of a million (Intel Xeon, family 6 model 85, 2026-11-28; on the Zen 4 10.5 in place of 12, and 14.5 in place of
+//! 15.0). Of 50,000 pairs they cost more: 9 ns in place of 6.8 (Zen 4).
 //!
-//! Tried: digits of 14 and 17 bits for a million boxes (20 to 22 ns in place of 14.5: counters out of reach; Zen 4); digits
-//! of 8 and of 9 bits, without buckets (37 and 29 ns in place of 26, Xeon); keys of 32 bits in buckets (the same); pairs
-//! counted by their first number, and each run of them sorted by comparing (16 ns for 400,000 pairs, 43 for 4 million,
-//! Xeon).
+//! Tried: digits of 14 and 17 bits for a million boxes (20 to 22 ns in place of 14.5: counters out of reach; Zen 4);
+//! digits of 8 and of 9 bits, without buckets (37 and 29 ns in place of 26, Xeon); keys of 32 bits in buckets (the
+//! same); pairs counted by their first number, and each run of them sorted by comparing (16 ns for 400,000 pairs, 43
+//! for 4 million, Xeon).
 
 use crate::pair::PairId;
 use core::ops::Range;
@@ -141,7 +141,7 @@ fn by_digits<'k>(
     let mask = size as u64 - 1;
     counts.clear();
     counts.resize(size * passes as usize, 0);
-    for &mut key in &mut *keys {
+    for &key in keys.iter() {
         for (pass, counts) in (0..).zip(counts.chunks_exact_mut(size)) {
             counts[(key >> (from + pass * digit) & mask) as usize] += 1;
         }
@@ -153,14 +153,14 @@ fn by_digits<'k>(
         }
         let place = |key: u64| (key >> (from + pass * digit) & mask) as usize;
         if pass + 1 < passes {
-            for &mut key in &mut *keys {
+            for &key in keys.iter() {
                 let to = &mut counts[place(key)];
                 others[*to as usize] = key;
                 *to += 1;
             }
             core::mem::swap(&mut keys, &mut others);
         } else {
-            for &mut key in &mut *keys {
+            for &key in keys.iter() {
                 let to = &mut counts[place(key)];
                 pairs[*to as usize] = unpack(key);
                 *to += 1;

@@ -57,8 +57,8 @@ impl Solids {
     /// What can be kept of an answer to a job, of the batch that these manifolds are from.
     ///
     /// Nothing where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
-    /// where they touch in several parts; and where points are neither on a face, nor where two edges cross, nor, of single
-    /// solids, across a gap from each other. Cost: some square roots, and linear in the vertices of a face.
+    /// where they touch in several parts; and where points are neither on a face, nor where two edges cross, nor, of
+    /// single solids, across a gap from each other. Cost: some square roots, and linear in the vertices of a face.
     pub(super) fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;

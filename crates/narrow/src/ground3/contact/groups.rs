@@ -128,8 +128,8 @@ impl Groups {
         Some((nearest.base.normal, nearest.pins[deepest].on_body))
     }
 
-    /// Notes that ground with this normal may be as near as a bound says: from each group of the same normal it hides what
-    /// `most` makes of the group's own normal and of how much nearer the bound is.
+    /// Notes that ground with this normal may be as near as a bound says: from each group of the same normal it hides
+    /// what `most` makes of the group's own normal and of how much nearer the bound is.
     pub(super) fn hide(&mut self, normal: DVec3, bound: f64, most: impl Fn(DVec3, f64) -> f64) {
         for group in self.groups.iter_mut().filter(|group| is_same(group.base.normal, normal)) {
             group.hidden = group.hidden.max(most(group.base.normal, group.found() - bound));

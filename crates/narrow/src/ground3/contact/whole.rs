@@ -22,7 +22,7 @@
 
 use super::ball::nearest_to;
 use super::facet::{front_of, is_same};
-use super::groups::{Group, Groups, MOST_GROUPS, MOST_POINTS};
+use super::groups::{Group, Groups, MOST_GROUPS, MOST_POINTS, Pin};
 use super::prism::Prism;
 use super::refused::Heard;
 use super::standing::Standing;
@@ -155,11 +155,14 @@ impl Seen<'_> {
     }
 }
 
-/// Whether a triangle's own normal, of whichever side, may be a unit normal: it is within some degrees of it.
+/// The square of the cosine of an angle far wider than the tolerance of normals that are the same: 8 degrees.
+const ROUGHLY: f64 = 0.98;
+
+/// Whether a triangle's own normal, of whichever side, may be a unit normal.
 fn is_along(near: &NearTriangle, normal: DVec3) -> bool {
     let front = front_of(near.corners);
     let along = front.dot(normal);
-    along * along >= 0.98 * front.length_squared()
+    along * along >= ROUGHLY * front.length_squared()
 }
 
 /// Where a part is deep along a normal: made once for all triangles that are asked about.
@@ -171,8 +174,8 @@ pub(super) struct DeepIn {
 }
 
 impl DeepIn {
-    /// Whether it is the flat patch of a triangle, an edge of that, or a corner of the triangle itself: which others meet
-    /// there, a corner does not say.
+    /// Whether it is the flat patch of a triangle, an edge of that, or a corner of the triangle itself: which others
+    /// meet there, a corner does not say.
     pub(super) fn holds(&self, ground: Ground, number: u32) -> bool {
         self.patches.contains(&ground.patch(number))
             || !self.corners.is_empty()
@@ -181,17 +184,19 @@ impl DeepIn {
 }
 
 impl Groups {
+    fn pins_along(&self, normal: DVec3) -> impl Iterator<Item = &Pin> {
+        self.along(normal).into_iter().flat_map(|group| &group.pins)
+    }
+
     /// Whether a point along a normal is on a corner of the ground.
     fn has_corner_along(&self, normal: DVec3) -> bool {
-        let mut pins = self.along(normal).into_iter().flat_map(|group| &group.pins);
-        pins.any(|pin| matches!(pin.of_ground, Feature::Vertex(_)))
+        self.pins_along(normal).any(|pin| matches!(pin.of_ground, Feature::Vertex(_)))
     }
 
     /// Where points along a normal are deeper than the slack.
     pub(super) fn deep_along(&self, ground: Ground, normal: DVec3) -> DeepIn {
         let (mut patches, mut corners) = (ArrayVec::new(), ArrayVec::new());
-        let pins = self.along(normal).into_iter().flat_map(|group| &group.pins);
-        for pin in pins.filter(|pin| pin.separation < -self.slack()) {
+        for pin in self.pins_along(normal).filter(|pin| pin.separation < -self.slack()) {
             // There is room for all points of a group, and for two patches beside each edge.
             match pin.of_ground {
                 Feature::Face(of) => patches.push(of),
