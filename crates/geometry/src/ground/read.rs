@@ -7,6 +7,7 @@
 
 use super::{Ground, Prominent};
 use crate::aabb::Aabb3;
+use arrayvec::ArrayVec;
 use core::ops::ControlFlow;
 use glam::Vec3;
 
@@ -80,19 +81,17 @@ impl Ground<'_> {
         is_wanted: impl Fn(&[Vec3; 3]) -> bool,
         mut visitor: impl FnMut(&NearTriangle) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let mut batch = Batch { numbers: [0; AT_ONCE], corners: [[Vec3::ZERO; 3]; AT_ONCE], count: 0 };
+        let mut batch = Batch::new_const();
         self.meet_near(bounds, |number, corners| {
             if !is_wanted(&corners) {
                 return ControlFlow::Continue(());
             }
-            let place = batch.count % AT_ONCE;
-            (batch.numbers[place], batch.corners[place]) = (number, corners);
-            batch.count += 1;
-            if batch.count < AT_ONCE {
+            batch.push((number, corners));
+            if !batch.is_full() {
                 return ControlFlow::Continue(());
             }
             let flow = self.read_all(&batch, &mut visitor);
-            batch.count = 0;
+            batch.clear();
             flow
         })?;
         self.read_all(&batch, &mut visitor)
@@ -120,20 +119,14 @@ impl Ground<'_> {
         visitor: &mut impl FnMut(&NearTriangle) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let (mut patches, mut prominent) = ([0; AT_ONCE], [Prominent::NONE; AT_ONCE]);
-        let count = batch.count.min(AT_ONCE);
-        for (i, &number) in batch.numbers[..count].iter().enumerate() {
+        for (i, &(number, _)) in batch.iter().enumerate() {
             (patches[i], prominent[i]) = (self.patch(number), self.prominent(number));
         }
-        (0..count).try_for_each(|i| {
-            let (number, corners) = (batch.numbers[i], batch.corners[i]);
+        batch.iter().enumerate().try_for_each(|(i, &(number, corners))| {
             visitor(&NearTriangle { number, corners, patch: patches[i], prominent: prominent[i] })
         })
     }
 }
 
-/// Triangles to be read together.
-struct Batch {
-    numbers: [u32; AT_ONCE],
-    corners: [[Vec3; 3]; AT_ONCE],
-    count: usize,
-}
+/// Triangles to be read together, with their corners.
+type Batch = ArrayVec<(u32, [Vec3; 3]), AT_ONCE>;
