@@ -273,9 +273,8 @@ fn check(stand: &Stand, kept: &Persistent3, now: &Pose3, story: &str, tally: &mu
     let errors = |one: &Manifold3, other: &Manifold3| f64::from(one.error + other.error) + even;
     let made = kept.manifolds().map(|manifold| manifold.error).fold(0.0, f32::max);
     for manifold in &found {
-        // What it was, and twice a drift of 2^-15 of how far the body reaches, and rounding.
-        let arm = stand.size() + f64::from(stand.body.center().length());
-        let most = f64::from(made) + 6.2e-5 * arm;
+        // What it was, and twice a drift of 2^-15 of the radius, and rounding.
+        let most = f64::from(made) + 6.2e-5 * stand.size();
         assert!(f64::from(manifold.error) <= most, "{story}: {manifold:?}");
         check_heights(stand, now, manifold, story);
         tally.manifolds += 1;

@@ -1,7 +1,8 @@
-//! A crate on a floor cut into triangles: how far it is moved along, and when its contacts are made anew.
+//! A crate on a floor cut into triangles, and hulls far from their positions: how far they are moved along, and when
+//! their contacts are made anew.
 
-use super::{Stand, moved};
-use asunder_geometry::{Cuboid, Pose3, Shape3, TriMesh};
+use super::{Stand, moved, roof};
+use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, TriMesh};
 use asunder_narrow::{Batch3, Manifold3, Persistent3, collide3};
 use asunder_scenes::terrain::Terrain;
 use glam::{DVec3, Vec3};
@@ -105,4 +106,40 @@ fn without_a_margin_nothing_slides_far() {
     assert!((reach(0.02) - radius / 256.0).abs() < 1e-9);
     assert_eq!(reach(1e-3), 1e-3);
     assert!(reach(0.0) > 0.0 && reach(0.0) <= 3.1e-5 * radius);
+}
+
+/// Symptom: a hull a thousand times its size from its own position was moved along until its contacts could be a
+/// hundredth of its size off.
+/// Cause: what the error may grow by was a share of how far the body reaches from its position.
+#[test]
+fn a_hull_far_from_its_position_is_told_as_well_as_one_about_it() {
+    let ground = roof(0.0);
+    for far in [0.0, 64.0, 1024.0] {
+        let corner = |i: u8| DVec3::from([0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -0.5 } else { 0.5 }));
+        let middle = DVec3::new(far, 0.0, 0.0);
+        let corners: Vec<Vec3> = (0..8).map(|i| (middle + corner(i)).as_vec3()).collect();
+        let body = Shape3::from(Hull::from_points(&corners).unwrap());
+        let pose = Pose3::at(DVec3::new(2.0, 0.5 - 1e-3, 1.0) - middle).unwrap();
+        let stand = Stand { body, pose, ground: ground.clone(), field: Pose3::IDENTITY, is_turned: false };
+        let (Some(true), made, Some(kept)) = stand.made(&pose) else { panic!("it rests, {far} m away") };
+        let arm = far + stand.size();
+        let (mut carried, mut spin) = (0, DVec3::Y * f64::from(kept.reach()) / arm);
+        for round in 0..60 {
+            spin *= 0.85;
+            // About its middle.
+            let turned = moved(&pose, DVec3::ZERO, spin);
+            let back = pose.transform(middle) - turned.transform(middle);
+            let now = moved(&turned, back, DVec3::ZERO);
+            let Some(found) = stand.carried(&kept, &now) else { continue };
+            carried += 1;
+            let grown = f64::from(found[0].error - made[0].error);
+            // Twice a drift of 2^-15, and rounding.
+            let most = stand.size() * (2.0 / 32_768.0) * (1.0 + 1e-6);
+            assert!(grown <= most, "{far} m away, round {round}: {grown} m of {most}");
+            let lowest = corners.iter().map(|&corner| now.transform(corner).y);
+            let off = lowest.fold(f64::INFINITY, f64::min) - f64::from(found[0].separation);
+            assert!(off.abs() <= found[0].error.into(), "{far} m away, round {round}: off by {off} m");
+        }
+        assert!(carried > 10, "{far} m away: {carried}");
+    }
 }

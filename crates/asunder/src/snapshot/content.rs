@@ -15,7 +15,7 @@ use asunder_narrow::Hint;
 use serde::{Deserialize, Serialize};
 
 /// The number of this format: another one whenever a field comes, goes or changes its meaning.
-pub(super) const FORMAT: u32 = 5;
+pub(super) const FORMAT: u32 = 6;
 
 /// A world, but for what can be worked out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -44,7 +44,7 @@ use asunder_geometry::{Basis3, Ground, Pose3, Shape3};
 /// Share of the bounding radius by which a body may slide on ground, 2^-8.
 const SLIDE: f32 = 1.0 / 256.0;
 
-/// Most that an error may grow by, in metres: as much as that of two solids.
+/// Most that an error of a body of this bounding radius may grow by, in metres: as much as that of two solids.
 fn most_loss(radius: f32) -> f32 {
     2.0 * reach_of([radius; 2])
 }
@@ -63,6 +63,8 @@ pub(super) struct Grounded {
     margin: f32,
     /// Up to which drift they hold, in metres.
     reach: f32,
+    /// Most that an error may grow by, in metres.
+    most_loss: f32,
     /// How far the body reaches from its position, in metres.
     arm: f32,
     /// Where the bodies were.
@@ -86,7 +88,7 @@ const MOST_SEAMS: usize = 80;
 /// Manifolds of most bodies: for so many there is room from the start.
 const MANY: usize = 6;
 
-asunder_geometry::copied!(Grounded, { memory, is_ground_b, is_ball, cost, margin, reach, arm, poses } but {});
+asunder_geometry::copied!(Grounded, { memory, is_ground_b, is_ball, cost, margin, reach, most_loss, arm, poses } but {});
 
 asunder_geometry::copied!(Memory, { manifolds, grips, witness } but {});
 
@@ -165,8 +167,8 @@ impl Grounded {
             memory.grips.push(grips);
         }
         // As far as no point leaves its features, or as what it costs is bearable.
-        let most = most_loss(body.outer_radius()).into();
-        let furthest = seams.iter().map(|seam| seam.reach(most)).fold(f64::INFINITY, f64::min);
+        let most_loss = most_loss(body.outer_radius());
+        let furthest = seams.iter().map(|seam| seam.reach(most_loss.into())).fold(f64::INFINITY, f64::min);
         reach = reach.min((furthest as f32).next_down());
         let left = seams.iter().filter(|seam| seam.free < reach.into());
         let cost = left.map(|seam| seam.cost).fold(0.0, f64::max);
@@ -178,7 +180,7 @@ impl Grounded {
         let (is_ball, margin) = (matches!(body, Shape3::Sphere(_)), job.margin);
         let poses = [*job.pose_a, *job.pose_b];
         let memory = core::mem::take(memory);
-        Some(Self { memory, is_ground_b, is_ball, cost, margin, reach, arm, poses })
+        Some(Self { memory, is_ground_b, is_ball, cost, margin, reach, most_loss, arm, poses })
     }
 
     /// Its memory, for what comes after it. What is left carries nothing on.
@@ -210,6 +212,7 @@ impl Grounded {
             && manifolds.iter().all(|of| are_lengths(&[of.separation, of.error]))
             && are_lengths(&[self.margin, self.arm])
             && (0.0..=self.arm).contains(&self.reach)
+            && (0.0..=most_loss(self.arm)).contains(&self.most_loss)
             && (0.0..=UNKNOWN as f32 * 1.001).contains(&self.cost)
             && grips.iter().flatten().all(Grip::is_sound)
             && witness.len() <= 1
@@ -252,10 +255,9 @@ impl Grounded {
     /// Appends all of them as they are now; or nothing, where they would be off by too much.
     fn move_along(&self, moved: &Moved, to: &mut Vec<Manifold3>) -> bool {
         let start = to.len();
-        let most = f64::from(most_loss(self.arm));
         for (of, grips) in self.memory.manifolds.iter().zip(&self.memory.grips) {
             let loss = self.loss(of, grips, moved);
-            let is_told = loss <= most;
+            let is_told = loss <= f64::from(self.most_loss);
             if !is_told {
                 to.truncate(start);
                 return false;
