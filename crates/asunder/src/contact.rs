@@ -42,8 +42,11 @@ pub struct Contact<'a, K, M> {
     /// One manifold for each pair of convex parts within the margins; on ground, one for each normal of each part.
     /// Where the bodies have motions, also manifolds of parts that these may bring together, even if other parts touch:
     /// a solver that does not handle speculative points leaves out those whose separation is more than both margins.
-    /// Normals point from `a` to `b`. Empty for a sensor, and for two half-spaces that overlap without end: make all of
-    /// those fixed, as a level's are, and they never pair.
+    /// Each tells how deep its own two parts are; on ground, how deep along its own normal. The least separation of all
+    /// is at most zero exactly when the bodies overlap. In overlap it is no way out for the whole: a body in a corner,
+    /// or over a bend of a chain, is free only once it has left every manifold along that one's normal. Normals point
+    /// from `a` to `b`. Empty for a sensor, and for two half-spaces that overlap without end: make all of those fixed,
+    /// as a level's are, and they never pair.
     pub manifolds: &'a [M],
 }
 

@@ -110,6 +110,10 @@ impl World<Plane> {
     /// [`next_impact_beside`](crate::Pair2::next_impact_beside). A displacement of zero, or that is not finite, leads
     /// into nothing: `None`.
     ///
+    /// A [bullet](crate::Collider2::bullet) with this displacement for its motion is told as much, but not bit for bit.
+    /// Both stop a little before they touch, within the error that [`Pair2::cast`](crate::Pair2::cast) states; where
+    /// the shape grazes what it meets, that is a longer way, and the fractions differ by as much.
+    ///
     /// ```
     /// use asunder::{Chain, Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
     /// let mut world = World2::new();

@@ -110,6 +110,10 @@ impl World<Volume> {
     /// [`next_impact_beside`](crate::Pair3::next_impact_beside). A displacement of zero, or that is not finite, leads
     /// into nothing: `None`.
     ///
+    /// A [bullet](crate::Collider3::bullet) with this displacement for its motion is told as much, but not bit for bit.
+    /// Both stop a little before they touch, within the error that [`Pair3::cast`](crate::Pair3::cast) states; where
+    /// the shape grazes what it meets, that is a longer way, and the fractions differ by as much.
+    ///
     /// ```
     /// use asunder::{Collider3, Filter3, Pose3, Shape3, Sphere, TriMesh, World3, glam::Vec3};
     /// let mut world = World3::new();
