@@ -343,8 +343,8 @@ pub struct ContactPoint3 {
 ///
 /// Of a chain, the part is the first segment of the straight run that is touched, or the least of those that share the
 /// normal; and the error holds how far its vertices lie beside that.
-/// Where there are several, each has the depth along its own normal: the least separation of all says whether the shapes
-/// overlap, and not how far they have to move to be free of each other.
+/// Where there are several, each has the depth along its own normal: the least separation of all says whether the
+/// shapes overlap, and not how far they have to move to be free of each other.
 ///
 /// ```
 /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
