@@ -8,6 +8,7 @@ mod edges;
 mod fields;
 mod large;
 mod low_bends;
+mod needles;
 mod normals;
 mod order;
 mod rims;

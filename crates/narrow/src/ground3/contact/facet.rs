@@ -301,10 +301,24 @@ impl Facet {
     /// Whether a unit direction from the ground to the body is not the triangle's own, and ground around what reaches
     /// furthest there lets it through.
     pub(super) fn lets_through(&self, ground: Ground, towards: DVec3) -> bool {
-        let furthest = self.furthest(towards);
-        furthest != Furthest::Face
-            && !is_same(self.normal, towards)
-            && self.may_give(ground, furthest, towards)
+        !is_same(self.normal, towards)
+            && match self.furthest(towards) {
+                // A triangle of any kind is level to what leads all but its own way, or against it.
+                Furthest::Face => {
+                    self.normal.dot(towards).abs() < NEARLY && self.may_rim_give_across(ground, towards)
+                }
+                furthest => self.may_give(ground, furthest, towards),
+            }
+    }
+
+    /// Whether a side where ground ends gives a unit direction to which all of a needle is level. Sides within ground
+    /// are left out: of needles in a floor, whose normals are rounding, they would give directions that are no bends.
+    fn may_rim_give_across(&self, ground: Ground, towards: DVec3) -> bool {
+        (0..3).any(|edge| {
+            ground.neighbor(self.number, edge).is_none()
+                && self.is_level(edge, towards)
+                && self.may_give(ground, Furthest::Edge(edge), towards)
+        })
     }
 
     /// Whether all of a triangle counts as level in a unit direction that is not its own normal: a needle's sides do,
