@@ -26,7 +26,7 @@ pub(in crate::polyhedron) struct Rim<P> {
 }
 
 /// A feature of a face: the vertex that a half-edge starts from, its edge, or the face itself.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(in crate::polyhedron) enum LiesOn {
     Vertex(u16),
     Edge(u16),

@@ -167,7 +167,6 @@ impl<'a> Faces<'a> {
         points: &mut Points,
     ) {
         let id = |i: usize| self.id(lies_on(spots[i].name));
-        let id_near = |i: usize| self.id_near((polygon, places), &spots[i], depths.near);
         let mut kept: ArrayVec<(FeatureId, usize), 4> = ArrayVec::new();
         if spots.len() <= 4 {
             kept.extend((0..spots.len()).map(|i| (id(i), i)));
@@ -179,12 +178,10 @@ impl<'a> Faces<'a> {
         // Sides shorter than the slack can give two corners one name.
         let mut last = None;
         kept.retain(|&mut (feature, _)| last.replace(feature) != Some(feature));
-        let near: ArrayVec<FeatureId, 4> = kept.iter().map(|&(_, i)| id_near(i)).collect();
-        let is_alone = |name: &FeatureId| near.iter().filter(|other| *other == name).count() == 1;
-        for ((feature, _), name) in kept.iter_mut().zip(&near) {
-            *feature = if is_alone(name) { *name } else { *feature };
+        let is_renamed = self.rename(&mut kept, |i| &spots[i], (polygon, places), depths.near);
+        if is_renamed {
+            kept.sort_unstable();
         }
-        kept.sort_unstable();
         points.extend(kept.iter().map(|&(feature, i)| self.contact(frame, &spots[i], feature)));
     }
 
@@ -196,20 +193,37 @@ impl<'a> Faces<'a> {
         Point { separation, on_a, on_b, feature }
     }
 
-    /// What a spot is named after: see `super::near`.
-    fn id_near<const N: usize>(
+    /// Names spots after what is near them, where that gives no two of them one name: see `super::near`. Whether any got
+    /// another name than that of what it lies on; most often none does.
+    fn rename<'s, const N: usize>(
         &self,
+        kept: &mut [(FeatureId, usize)],
+        spot: impl Fn(usize) -> &'s NamedSpot,
         (polygon, places): (&Polygon<N>, &[[f64; 2]]),
-        &NamedSpot { spot: Spot { at, .. }, name, .. }: &NamedSpot,
         near: f64,
-    ) -> FeatureId {
+    ) -> bool {
         let [first, of_incident] =
             [self.reference, self.incident].map(|(solid, face)| solid.topology.face_half_edges(face));
         let rim = Rim { place: |i: usize| places[i], count: places.len(), first: first.start as u16 };
         let count = ExactSizeIterator::len(&of_incident);
         let other = Rim { place: |i: usize| polygon.vertex(i), count, first: of_incident.start as u16 };
-        let [of_reference, of_incident] = lies_on(name);
-        self.id([rim.near(at, of_reference, near), other.near(at, of_incident, near)])
+        let mut is_any = false;
+        let mut names: ArrayVec<FeatureId, 4> = ArrayVec::new_const();
+        for &(feature, i) in &*kept {
+            let NamedSpot { spot: Spot { at, .. }, name, .. } = *spot(i);
+            let [of_reference, of_incident] = lies_on(name);
+            let is_near = [rim.near(at, of_reference, near), other.near(at, of_incident, near)];
+            let is_other = is_near != [of_reference, of_incident];
+            is_any |= is_other;
+            names.push(if is_other { self.id(is_near) } else { feature });
+        }
+        if is_any {
+            let is_alone = |name: &FeatureId| names.iter().filter(|other| *other == name).count() == 1;
+            for ((feature, _), name) in kept.iter_mut().zip(&names) {
+                *feature = if is_alone(name) { *name } else { *feature };
+            }
+        }
+        is_any
     }
 
     /// The id of a feature of the reference face that meets one of the incident face.
