@@ -1,14 +1,15 @@
 //! The second half of sorting boxes into columns: every entry into its bin.
 //!
 //! ```text
-//! few entries:   each into its bin
-//! many:          the bins in groups of as many, each of which fits a near cache:
-//!                each entry into its group, in the order in which it comes
-//!                of each group, each entry into its bin
+//! few boxes:   each entry into its bin, which were counted
+//! many:        the bins in groups of as many, each of which fits a near cache; the groups were counted:
+//!              each entry into its group, in the order in which it comes
+//!              of each group, entries are counted into bins, and each goes into its bin
+//! in the end:  what reaches more than two columns, each entry into its bin
 //! ```
 //! Boxes come in any order, and where many are spread over much memory, each entry waits for a line and a page of its
-//! own. Groups are few enough for one line of each to stay near. Both ways keep the order in which entries come, and so
-//! give the same.
+//! own, and so does the counter of its bin. Groups are few enough for one line of each to stay near. Both ways keep the
+//! order in which entries come, and so give the same.
 //!
 //! A whole sweep of a million boxes, pairs sorted, takes 0.69 of the time for `gas`, 0.7 for `sizes` and `tower`, 0.9
 //! for `pile` (Intel Xeon, family 6 model 85, 2 virtual cores, one thread, 2026-11-28, medians in turns). Of 100,000
@@ -18,33 +19,67 @@ use super::codes::Entry;
 use super::grid::{Grid, Reach};
 use super::{Columns, HOME_Y, HOME_Z, for_others};
 
-/// Entries that a group holds, about: 128 KiB of them.
+/// Boxes to a group, about: 128 KiB of entries, and what they have in other columns.
 const A_GROUP: usize = 1 << 13;
 
 /// Most groups.
 const MOST_GROUPS: usize = 256;
 
-/// Fewest entries that are worth groups.
-const MANY: usize = 1 << 17;
+/// Fewest boxes that are worth groups.
+pub(super) const MANY: usize = 1 << 17;
+
+/// Groups of bins, each of a power of two.
+#[derive(Debug, Default)]
+pub(super) struct Groups {
+    /// Bins to a group, as a power of two.
+    shift: u32,
+    /// Entries in each group; none where bins are counted themselves.
+    counts: Vec<u32>,
+    /// Entries of one group on their way into their bins, and these.
+    entries: Vec<Entry>,
+    cells: Vec<u32>,
+}
+
+impl Groups {
+    /// Of so many bins, the one for boxes that are none among them, where there are boxes enough.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, bins: usize, boxes: usize, many: usize) {
+        self.counts.clear();
+        if boxes >= many {
+            let groups = (boxes / A_GROUP).clamp(1, MOST_GROUPS);
+            self.shift = bins.div_ceil(groups).next_power_of_two().trailing_zeros();
+            self.counts.resize(bins.div_ceil(1 << self.shift), 0);
+        }
+    }
+
+    /// Where entries are counted, and what of a bin's number tells where: groups, or else bins.
+    #[inline(always)]
+    pub(super) fn counts<'c>(&'c mut self, bins: &'c mut [u32]) -> (&'c mut [u32], u32) {
+        if self.counts.is_empty() { (bins, 0) } else { (&mut self.counts, self.shift) }
+    }
+
+    /// Counts an entry that comes last.
+    #[inline(always)]
+    pub(super) fn keep_room(&mut self, cell: u32) {
+        if let Some(count) = self.counts.get_mut((cell >> self.shift) as usize) {
+            *count += 1;
+        }
+    }
+
+    /// Memory that is held, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.entries.capacity() * size_of::<Entry>() + (self.counts.capacity() + self.cells.capacity()) * 4
+    }
+}
 
 impl Columns {
     /// Puts every entry into its bin. The places are counted from `first`.
     #[inline(always)]
     pub(crate) fn scatter(&mut self, grid: &Grid, first: u32) {
-        self.scatter_if(grid, first, MANY);
-    }
-
-    /// The same, where so many entries are worth groups.
-    #[inline(always)]
-    fn scatter_if(&mut self, grid: &Grid, first: u32, many: usize) {
-        let mut sum = 0;
-        for end in &mut self.ends {
-            sum += core::mem::replace(end, sum);
-        }
         if self.entries.len() < self.counted {
             self.entries.resize(self.counted, Entry::default());
         }
-        if self.counted < many {
+        if self.groups.counts.is_empty() {
             self.scatter_each(grid, first);
         } else {
             self.scatter_in_groups(grid, first);
@@ -62,6 +97,7 @@ impl Columns {
     #[inline(always)]
     fn scatter_each(&mut self, grid: &Grid, first: u32) {
         let Self { records, straddlers, ends, entries, .. } = self;
+        add_up(ends, 0);
         for_entries(records, straddlers, (grid, first), |cell, entry| {
             put(entries, &mut ends[cell as usize], entry);
         });
@@ -70,30 +106,45 @@ impl Columns {
     /// The same in groups of bins.
     #[inline(always)]
     fn scatter_in_groups(&mut self, grid: &Grid, first: u32) {
-        let Self { records, straddlers, ends, entries, counted, group } = self;
-        let groups = (*counted / A_GROUP).clamp(1, MOST_GROUPS);
-        let shift = ends.len().div_ceil(groups).next_power_of_two().trailing_zeros();
+        let Self { records, straddlers, ends, entries, counted, groups } = self;
+        let Groups { shift, counts: next, entries: group, cells } = groups;
+        add_up(next, 0);
         let mut starts = [0; MOST_GROUPS];
-        for (start, first) in starts.iter_mut().zip(ends.iter().step_by(1 << shift)) {
-            *start = *first;
-        }
-        let (mut next, no_box, mut none) = (starts, ends.len() as u32 - 1, 0);
+        starts[..next.len()].copy_from_slice(next);
+        let no_box = ends.len() as u32 - 1;
         for_entries(records, straddlers, (grid, first), |cell, entry| {
             // No codes tell that a box is none. They stand behind all others, where nobody looks.
-            if cell == no_box {
-                none += 1;
-            } else {
-                put(entries, &mut next[(cell >> shift) as usize], entry);
+            if cell != no_box {
+                put(entries, &mut next[(cell >> *shift) as usize], entry);
             }
         });
-        for (&start, &end) in starts.iter().zip(&next) {
+        let (bins, none) = ends.split_at_mut(no_box as usize);
+        let all = bins.chunks_mut(1 << *shift).zip(starts.iter().zip(&*next));
+        for ((bins, (&start, &end)), group_number) in all.zip(0..) {
+            let bin = |cell: u32| (cell - (group_number << *shift)) as usize;
             group.clear();
-            group.extend_from_slice(&entries[start as usize..end as usize]);
-            for entry in &*group {
-                put(entries, &mut ends[cell_of(entry, grid) as usize], *entry);
+            cells.clear();
+            for entry in &entries[start as usize..end as usize] {
+                let cell = cell_of(entry, grid);
+                group.push(*entry);
+                cells.push(cell);
+                bins[bin(cell)] += 1;
+            }
+            add_up(bins, start);
+            for (entry, &cell) in group.iter().zip(&*cells) {
+                put(entries, &mut bins[bin(cell)], *entry);
             }
         }
-        ends[no_box as usize] += none;
+        none[0] = *counted as u32;
+    }
+}
+
+/// From how many there are of each to where each begins, the first at `start`.
+#[inline(always)]
+fn add_up(counts: &mut [u32], start: u32) {
+    let mut sum = start;
+    for count in counts {
+        sum += core::mem::replace(count, sum);
     }
 }
 
@@ -158,15 +209,15 @@ mod tests {
         let grid = Grid::for_boxes(boxes.len(), Over::All, pick);
         let sorted = |many: usize| {
             let mut columns = Columns::default();
-            columns.count::<_, IN_ORDER>(&grid, (0..boxes.len(), usize::MAX), pick);
-            columns.scatter_if(&grid, 5, many);
+            columns.count_from::<_, IN_ORDER>(many, &grid, (0..boxes.len(), usize::MAX), pick);
+            columns.scatter(&grid, 5);
             let entries: Vec<_> = columns.entries().iter().map(|entry| (entry.codes, entry.place)).collect();
             (columns.ends, entries)
         };
         let (one_by_one, by_groups) = (sorted(usize::MAX), sorted(0));
         let entries = one_by_one.1.len();
         assert!(
-            grid.count() > 30 && entries > boxes.len() && entries > 4 * super::A_GROUP,
+            grid.count() > 30 && entries > boxes.len() && boxes.len() > 3 * super::A_GROUP,
             "{entries} in {:?}",
             grid.columns
         );
