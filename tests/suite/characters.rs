@@ -3,6 +3,7 @@
 
 mod edges;
 mod freeing;
+mod orders;
 mod parts;
 mod plane;
 mod pressed;

@@ -34,6 +34,7 @@ use crate::space::{BodyKey2, BodyKey3};
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder_geometry::{Pose2, Pose3};
 use asunder_narrow::ArrayVec;
+use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 
 /// How a character walks: what is up, what it can stand on and climb. `N` is a vector of f32; use it as [`Walk2`]
@@ -191,6 +192,8 @@ pub(crate) trait Linear:
 {
     const ZERO: Self;
     fn dot(self, other: Self) -> f64;
+    /// Which of two comes first, by x, then y, then z: no better than another order, but always the same.
+    fn rank(self, other: Self) -> Ordering;
 
     fn length(self) -> f64 {
         self.dot(self).sqrt()

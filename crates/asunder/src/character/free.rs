@@ -6,6 +6,7 @@ use crate::query::{Filter, bodies_along_ray, visit_bodies_in};
 use crate::space::Space;
 use crate::world::{World, slot_of};
 use asunder_narrow::ArrayVec;
+use core::cmp::Ordering;
 use core::ops::ControlFlow;
 
 /// How often the shape is pushed before it counts as wedged.
@@ -38,11 +39,14 @@ pub(super) struct Near<S: Walks> {
 }
 
 impl<S: Walks> Near<S> {
-    /// Whether it comes before another: in no other order than this does anything depend on which bodies were found
-    /// first.
-    fn is_before(&self, other: &Self) -> bool {
-        let rank = |near: &Self| (near.plane.gap, slot_of(near.body), near.order);
-        rank(self) < rank(other)
+    /// Which comes first: the nearer, or deeper, and of those as near one by its normal. Only what is one plane goes by
+    /// slots, and there it is nothing to the way out which is first.
+    pub(super) fn rank(&self, other: &Self) -> Ordering {
+        let of_body = |near: &Self| (slot_of(near.body), near.order);
+        let by_gap = self.plane.gap.total_cmp(&other.plane.gap);
+        by_gap
+            .then_with(|| self.plane.away.rank(other.plane.away))
+            .then_with(|| of_body(self).cmp(&of_body(other)))
     }
 }
 
@@ -206,6 +210,8 @@ impl<S: Walks> Freeing<'_, S> {
 }
 
 /// The shortest way to be `target` metres clear of all planes, nearly; somewhere in between where there is none.
+///
+/// In acute corners sweeps end before they are through: then it is clear of the last plane, and of the others less.
 pub(super) fn push<S: Walks>(near: &[Near<S>], target: f64) -> S::Point {
     let (mut way, mut pushes) = (S::Point::ZERO, [0.0; MOST_NEAR]);
     for _ in 0..SWEEPS {
@@ -242,8 +248,8 @@ pub(super) fn near<S: Walks>(
             order += 1;
             if found.is_full() {
                 // Bodies come in no promised order: which of them stay must not depend on it.
-                let furthest = found.iter_mut().reduce(|a, b| if a.is_before(b) { b } else { a });
-                if let Some(furthest) = furthest.filter(|furthest| next.is_before(furthest)) {
+                let furthest = found.iter_mut().max_by(|a, b| a.rank(b));
+                if let Some(furthest) = furthest.filter(|furthest| next.rank(furthest).is_lt()) {
                     *furthest = next;
                 }
             } else {

@@ -11,6 +11,7 @@ use crate::world::World;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Aabb2, DirectionError, HalfPlane, Pose2, Ray2, Shape2};
 use asunder_narrow::cast_ray2;
+use core::cmp::Ordering;
 use core::ops::ControlFlow;
 
 impl Linear for DVec2 {
@@ -18,6 +19,10 @@ impl Linear for DVec2 {
 
     fn dot(self, other: Self) -> f64 {
         Self::dot(self, other)
+    }
+
+    fn rank(self, other: Self) -> Ordering {
+        self.x.total_cmp(&other.x).then_with(|| self.y.total_cmp(&other.y))
     }
 }
 
@@ -100,6 +105,9 @@ impl World<Plane> {
     ///   took to free it, or to move it back to its skin's distance out of an acute corner.
     /// - A displacement that is not finite counts as none. Beyond 1e9 m nobody goes: of one that leads there, what would
     ///   end there is left out, and so all of it where nothing is in the way. Half-spaces do not move.
+    /// - From a free start, where it ends depends on where the bodies are, and not on the order in which they were
+    ///   inserted; but of bodies met at exactly the same distance, the one in the lowest slot counts as met first, as
+    ///   in all casts. Who starts in several bodies at once may be freed elsewhere, or not, if their order was another.
     ///
     /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a
     /// wall that may be a step.

@@ -155,7 +155,7 @@ impl<S: Walks> Mover<'_, S> {
     /// wall is noted.
     fn keep_away(&mut self, displacement: S::Point, slid: &mut Slid<S>) -> S::Pose {
         let skin = self.gait.skin;
-        let near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
+        let mut near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
         let least = near.iter().fold(f64::INFINITY, |least, near| least.min(near.plane.gap));
         if least <= 0.0 {
             let (world, shape, start, filter) = (self.world, self.shape, &self.pose, &self.filter);
@@ -169,6 +169,9 @@ impl<S: Walks> Mover<'_, S> {
         let start = self.pose;
         let is_close = |near: &&Near<S>| near.plane.gap < skin * (1.0 - SKIN_SLACK);
         if near.iter().any(|near| is_close(&near)) {
+            // By geometry, so that slots say nothing here; and the furthest last: of a way that leads into what is a
+            // skin away, by however little, nothing can be gone.
+            near.sort_unstable_by(Near::rank);
             self.go(push::<S>(&near, skin));
         }
         for Near { body, plane, .. } in near.iter().filter(is_close) {

@@ -12,12 +12,20 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::STANDSTILL;
 use asunder_geometry::{DirectionError, Ground, HalfSpace, Pose3, Ray3, Shape3};
 use asunder_narrow::cast_ray3;
+use core::cmp::Ordering;
 
 impl Linear for DVec3 {
     const ZERO: Self = Self::ZERO;
 
     fn dot(self, other: Self) -> f64 {
         Self::dot(self, other)
+    }
+
+    fn rank(self, other: Self) -> Ordering {
+        self.x
+            .total_cmp(&other.x)
+            .then_with(|| self.y.total_cmp(&other.y))
+            .then_with(|| self.z.total_cmp(&other.z))
     }
 }
 
@@ -100,6 +108,9 @@ impl World<Volume> {
     ///   took to free it, or to move it back to its skin's distance out of an acute corner.
     /// - A displacement that is not finite counts as none. Beyond 1e9 m nobody goes: of one that leads there, what would
     ///   end there is left out, and so all of it where nothing is in the way. Half-spaces do not move.
+    /// - From a free start, where it ends depends on where the bodies are, and not on the order in which they were
+    ///   inserted; but of bodies met at exactly the same distance, the one in the lowest slot counts as met first, as
+    ///   in all casts. Who starts in several bodies at once may be freed elsewhere, or not, if their order was another.
     ///
     /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a
     /// wall that may be a step.
