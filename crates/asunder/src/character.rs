@@ -165,7 +165,9 @@ pub struct Slide<K, O, N, P> {
     pub pose: O,
     /// How it came there, as one vector, in metres.
     pub moved: P,
-    /// What it stands on at the end, if it does: ground no steeper than it can walk on, or the edge of a step.
+    /// What it stands on at the end, if it does: ground no steeper than it can walk on, or the edge of a step. Of a
+    /// round foot beside an edge the normal is the foot's own and may be nearly horizontal, the gap may be some skins,
+    /// and the lowest point up to a step below the edge.
     pub ground: Option<Obstacle<K, N, P>>,
     /// What it met that it cannot stand on or does not get up on, walls, ceilings and kerbs, in the order in which it
     /// met them; first upright walls that it was closer to than its skin, and goes into. No more than eight. Whoever

@@ -94,8 +94,11 @@ impl World<Plane> {
     /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a
     /// frame, by its velocity times the time, gravity included.
     ///
-    /// - Where it overlaps solids, it is freed first, by pushes as [`depenetrate`](World::depenetrate) does. From then
-    ///   on it moves by casts alone: it never enters anything, nor passes through, however far it goes.
+    /// - Where it overlaps solids, it is freed first, by the pushes of [`depenetrate`](World::depenetrate), and not by
+    ///   its straight ways all around: they would throw out sideways who is crushed between a floor and what comes
+    ///   down on it. Where pushes lead nowhere it does not move on: `is_free` is false, and `pose` is the one tried
+    ///   whose deepest overlap was shallowest, even if `depenetrate` finds a way out.
+    /// - Who is free moves by casts alone: it never enters anything, nor passes through, however far it goes.
     /// - On ground that it can walk on, downward motion is cancelled, so it does not slide off. Steeper ground is a
     ///   wall when walked into, and a slope to slide down when falling.
     /// - Standing on ground, it climbs at most one step per call and follows the ground downwards. A displacement that
