@@ -36,7 +36,7 @@ fn the_rim_of_a_needle_gives_what_that_of_a_stocky_triangle_does() {
         let deepest = |ground: &Shape3| {
             let pair = Pair3::new(ground, &Pose3::IDENTITY, body, &pose);
             let mut all = Vec::new();
-            let _ = pair.visit_manifolds(0.0, |manifold| all.push(*manifold));
+            pair.visit_manifolds(0.0, |manifold| all.push(*manifold));
             assert!(pair.overlaps(), "case {case}");
             all.into_iter()
                 .min_by(|one, other| one.separation.total_cmp(&other.separation))
