@@ -41,7 +41,9 @@ impl Pair3<'_> {
     #[inline(always)]
     fn with_closed_form(&self) -> Option<&Self> {
         let may_have = |shape: &Shape3| matches!(shape, Shape3::Sphere(_) | Shape3::HalfSpace(_));
-        (may_have(self.shape_a) || may_have(self.shape_b) || self.are_rods()).then_some(self)
+        let is_ground = || self.shape_a.is_ground() || self.shape_b.is_ground();
+        let may = (may_have(self.shape_a) || may_have(self.shape_b)) && !is_ground() || self.are_rods();
+        may.then_some(self)
     }
 
     #[inline]
