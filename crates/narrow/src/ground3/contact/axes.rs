@@ -15,23 +15,25 @@ use super::facet::Facet;
 use super::prism::Prism;
 use super::standing::Standing;
 use asunder_geometry::Shape3;
-use asunder_geometry::glam::DVec3;
+use asunder_geometry::glam::{DVec2, DVec3, Vec3Swizzles};
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 
 /// The axes of a cuboid and a triangle.
 pub(super) struct Axes {
     /// The triangle's corners in the cuboid's axes.
     pub(super) corners: [DVec3; 3],
-    all: [Axis; 13],
-    count: usize,
-    /// The greatest separation of the cores along any, in metres.
+    /// Its unit normal there.
+    normal: DVec3,
+    /// How far the cores are apart along each, in metres: three of the cuboid, the normal, three across each edge. The
+    /// few directions that are asked for are made then.
+    gaps: [f64; 13],
+    /// Whether it is against the axis as it is made that the cuboid is beside the triangle.
+    is_turned: [bool; 13],
+    /// The greatest of the gaps.
     pub(super) best: f64,
     /// By how much an axis that is left out, across edges that are all but parallel, may be better, in metres.
     left_out: f64,
 }
-
-/// A direction from the triangle to the cuboid, in the cuboid's axes, and how far they are apart along it, in metres.
-type Axis = (f64, DVec3);
 
 /// Sine of an angle between edges up to which what is across them is left out: a turn by as much makes them parallel,
 /// and then it is across faces, too.
@@ -55,23 +57,23 @@ impl Prism<'_> {
         let (standing, facet) = (self.standing, self.facet);
         let size = 2.0 * (standing.outer_radius + facet.corners[0].distance(facet.corners[1]));
         let slack = self.doubt + 2.0 * FACE_PREFERENCE * size;
-        let mut rivals = axes.all[..axes.count].iter().filter(|axis| axis.0 >= axes.best - slack);
-        rivals.all(|axis| !facet.lets_through(self.ground, standing.place.axes.turn(axis.1)))
+        let mut rivals = axes.as_good_as(axes.best - slack);
+        rivals.all(|axis| !facet.lets_through(self.ground, standing.place.axes.turn(axis)))
     }
 
     /// Whether an axis along which overlapping cores are the least deep is nearly the triangle's own normal.
     pub(super) fn is_own(&self, axes: &Axes) -> bool {
         let standing = self.standing;
-        let mut best = axes.all[..axes.count].iter().filter(|axis| axis.0 == axes.best);
-        best.any(|axis| self.facet.is_nearly_own(standing.place.axes.turn(axis.1)))
+        let mut best = axes.as_good_as(axes.best);
+        best.any(|axis| self.facet.is_nearly_own(standing.place.axes.turn(axis)))
     }
 
     /// How deep a cuboid is in a triangle to which the axis along which it is the least deep is level, and how far that
     /// may be off, in metres.
     pub(super) fn told_by(&self, axes: &Axes) -> Option<[f64; 2]> {
         let (standing, facet) = (self.standing, self.facet);
-        let mut all = axes.all[..axes.count].iter().filter(|axis| axis.0 == axes.best);
-        let is_level = all.any(|axis| facet.is_level_to(standing.place.axes.turn(axis.1)));
+        let mut best = axes.as_good_as(axes.best);
+        let is_level = best.any(|axis| facet.is_level_to(standing.place.axes.turn(axis)));
         is_level.then_some([axes.best - standing.radius, self.doubt + axes.left_out])
     }
 }
@@ -91,7 +93,7 @@ impl Standing<'_> {
     pub(super) fn is_clear_of(&self, facet: &Facet, moved: DVec3) -> bool {
         let Shape3::Cuboid(cuboid) = self.part.shape else { return false };
         let least = self.radius - self.slack;
-        let mut axes = Axes::NONE;
+        let mut axes = Axes::new();
         let normal = self.own(facet, moved, &mut axes);
         // An axis across edges that are nearly parallel shows what it shows.
         axes.fill(normal, (cuboid.half_extents().as_dvec3(), least), PARALLEL);
@@ -100,71 +102,117 @@ impl Standing<'_> {
 }
 
 impl Axes {
-    pub(super) const NONE: Self = Self {
-        corners: [DVec3::ZERO; 3],
-        all: [(0.0, DVec3::ZERO); 13],
-        count: 0,
-        best: f64::NEG_INFINITY,
-        left_out: 0.0,
-    };
+    /// Not a constant: that would be copied, blanks and all.
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self {
+            corners: [DVec3::ZERO; 3],
+            normal: DVec3::ZERO,
+            gaps: [f64::NEG_INFINITY; 13],
+            is_turned: [false; 13],
+            best: f64::NEG_INFINITY,
+            left_out: 0.0,
+        }
+    }
 
     /// Whether the cores overlap by more than so many metres for certain.
     pub(super) fn do_overlap(&self, doubt: f64) -> bool {
         self.best < -(doubt + self.left_out)
     }
 
+    /// The axes along which the cores are no less apart: unit directions from the triangle to the cuboid, in the
+    /// cuboid's axes.
+    fn as_good_as(&self, gap: f64) -> impl Iterator<Item = DVec3> + '_ {
+        (0..self.gaps.len()).filter(move |&number| self.gaps[number] >= gap).map(|number| {
+            let axis = self.axis(number);
+            if self.is_turned[number] { -axis } else { axis }
+        })
+    }
+
+    /// An axis by its number, of whichever direction.
+    fn axis(&self, number: usize) -> DVec3 {
+        let (edge, own) = match number {
+            0..3 => return DVec3::AXES[number],
+            3 => return self.normal,
+            _ => ((number - 4) / 3, (number - 4) % 3),
+        };
+        let along = self.corners[(edge + 1) % 3] - self.corners[edge];
+        let across = match own {
+            0 => DVec3::new(0.0, -along.z, along.y),
+            1 => DVec3::new(along.z, 0.0, -along.x),
+            _ => DVec3::new(-along.y, along.x, 0.0),
+        };
+        across * (1.0 / across.length_squared().sqrt())
+    }
+
     /// The thirteen axes, less those across edges that are parallel, and those after the first that shows a gap beyond
     /// what is wanted; whether the sine between no other edges is below `crossed`.
     fn fill(&mut self, normal: DVec3, (half, beyond): (DVec3, f64), crossed: f64) -> bool {
+        self.normal = normal;
         let corners = self.corners;
         let (low, high) =
             (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
-        self.offer(DVec3::X, (low.x, high.x), half.x);
-        self.offer(DVec3::Y, (low.y, high.y), half.y);
-        self.offer(DVec3::Z, (low.z, high.z), half.z);
+        self.offer(0, [low.x, high.x], half.x);
+        self.offer(1, [low.y, high.y], half.y);
+        self.offer(2, [low.z, high.z], half.z);
         let height = normal.dot(corners[0]);
-        self.offer(normal, (height, height), half.dot(normal.abs()));
+        self.offer(3, [height, height], half.dot(normal.abs()));
         for (edge, third) in [(0, 2), (1, 0), (2, 1)] {
             if self.best > beyond {
                 return true;
             }
             let along = corners[(edge + 1) % 3] - corners[edge];
-            let across = [
-                DVec3::new(0.0, -along.z, along.y),
-                DVec3::new(along.z, 0.0, -along.x),
-                DVec3::new(-along.y, along.x, 0.0),
-            ];
-            let square = along.length_squared();
-            for axis in across {
-                let length = axis.length_squared();
-                if length <= PARALLEL * PARALLEL * square {
-                    // A turn about the cuboid's centre moves no corner further.
-                    let reach = low.abs().max(high.abs()).length();
-                    self.left_out = if length > 0.0 { 2.0 * PARALLEL * reach } else { self.left_out };
-                    continue;
-                }
-                if length < crossed * crossed * square {
-                    return false;
-                }
-                let axis = axis * (1.0 / length.sqrt());
-                let (one, other) = (axis.dot(corners[edge]), axis.dot(corners[third]));
-                let ends = if one < other { (one, other) } else { (other, one) };
-                self.offer(axis, ends, half.dot(axis.abs()));
+            let least = [PARALLEL, crossed].map(|sine| sine * sine * along.length_squared());
+            // An axis across one of the cuboid's own, and all that it is multiplied by, without what is zero.
+            let (one, other, number) = (corners[edge], corners[third], 4 + 3 * edge);
+            let x = (DVec2::new(-along.z, along.y), [one.yz(), other.yz()], half.yz());
+            let y = (DVec2::new(along.z, -along.x), [one.xz(), other.xz()], half.xz());
+            let z = (DVec2::new(-along.y, along.x), [one.xy(), other.xy()], half.xy());
+            if !(self.offer_across(number, x, least)
+                && self.offer_across(number + 1, y, least)
+                && self.offer_across(number + 2, z, least))
+            {
+                return false;
             }
         }
         true
     }
 
+    /// Takes an axis across two edges, with two corners and the half extents, in the plane that it lies in; whether its
+    /// length is to be trusted.
+    #[inline(always)]
+    fn offer_across(
+        &mut self,
+        number: usize,
+        (axis, [one, other], half): (DVec2, [DVec2; 2], DVec2),
+        [parallel, crossed]: [f64; 2],
+    ) -> bool {
+        let square = axis.length_squared();
+        if square <= parallel {
+            if square > 0.0 {
+                // A turn about the cuboid's centre moves no corner further.
+                let [a, b, c] = self.corners.map(DVec3::abs);
+                self.left_out = 2.0 * PARALLEL * a.max(b).max(c).length();
+            }
+            return true;
+        }
+        if square < crossed {
+            return false;
+        }
+        let axis = axis * (1.0 / square.sqrt());
+        let (one, other) = (axis.dot(one), axis.dot(other));
+        let ends = if one < other { [one, other] } else { [other, one] };
+        self.offer(number, ends, half.dot(axis.abs()));
+        true
+    }
+
     /// Of both directions of an axis takes the one in which the triangle has less to pass.
     #[inline(always)]
-    fn offer(&mut self, axis: DVec3, (low, high): (f64, f64), half: f64) {
-        let axis = if low + high > 0.0 { (low - half, -axis) } else { (-high - half, axis) };
-        self.best = if axis.0 > self.best { axis.0 } else { self.best };
-        // A list's own way to push is a call.
-        if let Some(place) = self.all.get_mut(self.count) {
-            *place = axis;
-            self.count += 1;
-        }
+    fn offer(&mut self, number: usize, [low, high]: [f64; 2], half: f64) {
+        let is_turned = low > -high;
+        let gap = if is_turned { low } else { -high } - half;
+        self.best = if gap > self.best { gap } else { self.best };
+        (self.gaps[number], self.is_turned[number]) = (gap, is_turned);
     }
 }
 
@@ -176,7 +224,7 @@ mod tests {
     fn is_certain(depth: f64, turn: f64) -> bool {
         let (half, height) = (DVec3::new(1.0, 0.3, 0.3), 0.3 - depth);
         let corners = [[-1.0, height, -turn], [1.0, height, turn], [0.0, height, 2.0]].map(DVec3::from);
-        let mut axes = Axes { corners, ..Axes::NONE };
+        let mut axes = Axes { corners, ..Axes::new() };
         assert!(
             axes.fill(DVec3::Y, (half, f64::INFINITY), CROSSED),
             "no edges too near to parallel to be trusted"

@@ -47,7 +47,7 @@ impl Seen<'_> {
     fn look_closer(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
         let Prism { standing, facet, extent, doubt, .. } = *prism;
         let beyond = self.asking.reach + 2.0 * doubt;
-        let mut axes = Axes::NONE;
+        let mut axes = Axes::new();
         let has_axes = !self.asking.is_plain && prism.fill(&mut axes, beyond + standing.radius);
         let axes = has_axes.then_some(&axes);
         if standing.is_apart((facet, axes), beyond) {
