@@ -95,7 +95,7 @@ impl Seen<'_> {
             };
             let first = first?;
             let at = facet.corners[first];
-            let low = standing.extent(base.normal, at).low - standing.radius;
+            let low = standing.low(base.normal, at) - standing.radius;
             let height = |next: usize| base.normal.dot(facet.corners[(first + next) % 3] - at);
             let is_rest_beyond =
                 |reach: f64| (count..3).all(|next| height(next) < 0.0 && low - height(next) > reach);

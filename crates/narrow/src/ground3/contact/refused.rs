@@ -143,7 +143,7 @@ impl Seen<'_> {
         let [a, b, c] = facet.corners;
         let height = |corner: DVec3| normal.dot(corner - facet.origin());
         let top = height(a).max(height(b)).max(height(c));
-        let low = standing.extent(normal, facet.origin()).low - standing.radius;
+        let low = standing.low(normal, facet.origin()) - standing.radius;
         low - top >= least - standing.slack
     }
 

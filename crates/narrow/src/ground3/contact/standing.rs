@@ -188,7 +188,7 @@ impl<'s> Standing<'s> {
         let near = nearest_to(facet, point - facet.normal * facet.height(point)).1;
         let Some(towards) = (point - near).try_normalize() else { return false };
         let top = |corner: usize| towards.dot(facet.corners[corner] - near);
-        let low = self.extent(towards, near).low - top(0).max(top(1)).max(top(2));
+        let low = self.low(towards, near) - top(0).max(top(1)).max(top(2));
         low > beyond + self.radius
     }
 
@@ -214,6 +214,18 @@ impl<'s> Standing<'s> {
         }
     }
 
+    /// How low the vertices of the core are over a plane through `origin`.
+    pub(super) fn low(&self, normal: DVec3, origin: DVec3) -> f64 {
+        let mut low = f64::INFINITY;
+        for octet in self.octets {
+            let mut heights = [0.0; 8];
+            note_heights(octet, [&normal, &origin], &mut heights);
+            let least = fold(&heights, |a, b| a < b);
+            low = if least < low { least } else { low };
+        }
+        low
+    }
+
     /// How high the vertices of the core are over a plane through `origin`; of equals, the first. Cost: linear in the
     /// vertices, eight at a time.
     #[inline]
@@ -221,13 +233,8 @@ impl<'s> Standing<'s> {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut low_at, mut high_at) = (0, 0);
         for (octet, number) in self.octets.iter().zip(0..) {
-            let [x, y, z] = octet;
             let mut heights = [0.0; 8];
-            for i in 0..8 {
-                heights[i] = normal.x * (x[i] - origin.x)
-                    + normal.y * (y[i] - origin.y)
-                    + normal.z * (z[i] - origin.z);
-            }
+            note_heights(octet, [&normal, &origin], &mut heights);
             let (least, most) = (fold(&heights, |a, b| a < b), fold(&heights, |a, b| a > b));
             if least < low {
                 (low, low_at) = (least, 8 * number + first(&heights, least));
@@ -237,6 +244,15 @@ impl<'s> Standing<'s> {
             }
         }
         Extent { low, lowest: low_at, high, highest: high_at }
+    }
+}
+
+/// How high eight vertices are over a plane. In a call of its own: as part of what compares them, lanes are taken apart.
+#[inline(never)]
+fn note_heights([x, y, z]: &[[f64; 8]; 3], [normal, origin]: [&DVec3; 2], heights: &mut [f64; 8]) {
+    for i in 0..8 {
+        heights[i] =
+            normal.x * (x[i] - origin.x) + normal.y * (y[i] - origin.y) + normal.z * (z[i] - origin.z);
     }
 }
 
@@ -270,7 +286,12 @@ fn fold<T: Copy>(of: &[T; 8], is_before: impl Fn(T, T) -> bool) -> T {
 /// it.
 #[inline(always)]
 fn first(of: &[f64; 8], number: f64) -> usize {
-    (0..8).fold(0, |bits, i| bits | usize::from(of[i] == number) << i).trailing_zeros() as usize % 8
+    // In lanes of f64, as what is compared.
+    let mut from_end = [0.0; 8];
+    for i in 0..8 {
+        from_end[i] = if of[i] == number { (8 - i) as f64 } else { 0.0 };
+    }
+    (8 - usize::from(fold(&from_end, |a, b| a > b) as u8)) % 8
 }
 
 /// How far out a triangle's corners lie along each axis, in metres.
