@@ -158,9 +158,12 @@ impl Prism<'_> {
     /// The sides of a face of the part, as they cut lines in the triangle's plane.
     pub(super) fn cuts(&self, face: usize) -> impl Iterator<Item = Cut> + '_ {
         let (standing, topology) = (self.standing, self.standing.solid.topology);
-        topology.face_half_edges(face).map(|half_edge| {
-            let (start, stop) = topology.ends(half_edge);
-            let (start, stop) = (standing.point(start), standing.point(stop));
+        let first = topology.face_vertices(face).next();
+        let mut from = first.map_or(standing.center, |vertex| standing.point(vertex));
+        topology.face_half_edges(face).map(move |half_edge| {
+            // A side starts where the one before stops.
+            let (start, stop) = (from, standing.point(topology.ends(half_edge).1));
+            from = stop;
             // A face goes counter-clockwise as seen from outside, which is against the normal.
             Cut { half_edge, start, into: (stop - start).cross(self.facet.normal) }
         })
@@ -276,7 +279,7 @@ impl Prism<'_> {
         is_any
     }
 
-    #[inline]
+    #[inline(always)]
     fn add_corner(
         &self,
         vertex: usize,
@@ -284,7 +287,20 @@ impl Prism<'_> {
         base: &Base,
         groups: &mut Groups,
     ) -> bool {
-        let Some((at, separation, up)) = self.moved_out(vertex, incident) else { return false };
+        match self.moved_out(vertex, incident) {
+            Some(out) if out.1 <= self.reach => self.add_if_over((vertex, out), rims, base, groups),
+            _ => false,
+        }
+    }
+
+    /// Adds a vertex of the part, moved out, if it is over the triangle.
+    fn add_if_over(
+        &self,
+        (vertex, (at, separation, up)): (usize, (DVec3, f64, f64)),
+        rims: &[Rim; 3],
+        base: &Base,
+        groups: &mut Groups,
+    ) -> bool {
         // Above a bend that is too low to give a normal what is nearest may be beside both its triangles, the further
         // the higher it is.
         let up = up.max(0.0);
@@ -292,7 +308,7 @@ impl Prism<'_> {
             let rim: &Rim = &rims[edge];
             rim.holds(at) || rim.holds_by(at, FLAT * up) && self.facet.goes_on(self.ground, edge)
         };
-        if !(separation <= self.reach && is_over(0) && is_over(1) && is_over(2)) {
+        if !(is_over(0) && is_over(1) && is_over(2)) {
             return false;
         }
         let mut pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
@@ -429,14 +445,13 @@ pub(super) fn within(
             continue;
         }
         let share = -inside / change;
-        if change > 0.0 && share > enters.0 {
-            enters = (share, Some(half_edge));
-        }
-        if change < 0.0 && share < leaves.0 {
-            leaves = (share, Some(half_edge));
-        }
-        if enters.0 > leaves.0 {
-            return None;
+        let is_nearer = if change > 0.0 { share > enters.0 } else { share < leaves.0 };
+        if is_nearer {
+            let end = if change > 0.0 { &mut enters } else { &mut leaves };
+            *end = (share, Some(half_edge));
+            if enters.0 > leaves.0 {
+                return None;
+            }
         }
     }
     Some([enters, leaves])
