@@ -70,7 +70,7 @@ impl Facet {
     }
 
     /// A triangle as it is seen from its front. Nothing where it has no normal.
-    #[inline]
+    #[inline(always)]
     pub(super) fn front_of(number: u32, corners: [Vec3; 3]) -> Option<Self> {
         let corners = widened(corners);
         let sides = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
@@ -169,6 +169,7 @@ impl Facet {
         self.plane_of == self.number
     }
 
+    #[inline]
     fn front(&self) -> DVec3 {
         if self.is_front { self.normal } else { -self.normal }
     }
@@ -271,8 +272,7 @@ impl Facet {
     /// From a half-edge into the triangle: square to both, as long as the edge.
     #[inline]
     pub(super) fn inwards(&self, along: DVec3) -> DVec3 {
-        let inwards = self.normal.cross(along);
-        if self.is_front { inwards } else { -inwards }
+        self.front().cross(along)
     }
 
     /// The feature that reaches furthest in a unit direction; corners within the tolerance of it count as far.
