@@ -193,8 +193,8 @@ impl<'a> Faces<'a> {
         Point { separation, on_a, on_b, feature }
     }
 
-    /// Names spots after what is near them, where that gives no two of them one name: see `super::near`. Whether any got
-    /// another name than that of what it lies on; most often none does.
+    /// Names spots after what is near them, where that gives no two of them one name: see `super::near`. Whether any
+    /// got another name than that of what it lies on; most often none does.
     fn rename<'s, const N: usize>(
         &self,
         kept: &mut [(FeatureId, usize)],
