@@ -247,7 +247,7 @@ impl<'s> Standing<'s> {
     }
 }
 
-/// How high eight vertices are over a plane. In a call of its own: as part of what compares them, lanes are taken apart.
+/// How high eight vertices are over a plane. In a call of its own: in what compares them, lanes were taken apart.
 #[inline(never)]
 fn note_heights([x, y, z]: &[[f64; 8]; 3], [normal, origin]: [&DVec3; 2], heights: &mut [f64; 8]) {
     for i in 0..8 {
