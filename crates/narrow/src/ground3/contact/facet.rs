@@ -303,22 +303,14 @@ impl Facet {
     pub(super) fn lets_through(&self, ground: Ground, towards: DVec3) -> bool {
         !is_same(self.normal, towards)
             && match self.furthest(towards) {
-                // A triangle of any kind is level to what leads all but its own way, or against it.
+                // A triangle of any kind is level to what leads all but its own way, or against it. Sides within ground
+                // are left out: of needles in a floor, whose normals are rounding, they would give what is no bend.
                 Furthest::Face => {
-                    self.normal.dot(towards).abs() < NEARLY && self.may_rim_give_across(ground, towards)
+                    let is_rim = |edge: usize| ground.neighbor(self.number, edge).is_none();
+                    self.normal.dot(towards).abs() < NEARLY && self.may_give_across(ground, towards, is_rim)
                 }
                 furthest => self.may_give(ground, furthest, towards),
             }
-    }
-
-    /// Whether a side where ground ends gives a unit direction to which all of a needle is level. Sides within ground
-    /// are left out: of needles in a floor, whose normals are rounding, they would give directions that are no bends.
-    fn may_rim_give_across(&self, ground: Ground, towards: DVec3) -> bool {
-        (0..3).any(|edge| {
-            ground.neighbor(self.number, edge).is_none()
-                && self.is_level(edge, towards)
-                && self.may_give(ground, Furthest::Edge(edge), towards)
-        })
     }
 
     /// Whether all of a triangle counts as level in a unit direction that is not its own normal: a needle's sides do,
@@ -340,10 +332,18 @@ impl Facet {
         rise * rise <= SAME_NORMAL * SAME_NORMAL * along.length_squared()
     }
 
-    /// Whether a side gives a unit direction to which all of a needle is level: the one that looks there.
-    pub(super) fn may_give_across(&self, ground: Ground, towards: DVec3) -> bool {
-        (0..3)
-            .any(|edge| self.is_level(edge, towards) && self.may_give(ground, Furthest::Edge(edge), towards))
+    /// Whether a side, of those that are asked, gives a unit direction to which all of a needle is level: the one that
+    /// looks there.
+    pub(super) fn may_give_across(
+        &self,
+        ground: Ground,
+        towards: DVec3,
+        is_asked: impl Fn(usize) -> bool,
+    ) -> bool {
+        let may_give = |edge: usize| {
+            self.is_level(edge, towards) && self.may_give(ground, Furthest::Edge(edge), towards)
+        };
+        (0..3).any(|edge| is_asked(edge) && may_give(edge))
     }
 
     /// Whether ground around a feature lets it give this unit direction, from the ground to the body.

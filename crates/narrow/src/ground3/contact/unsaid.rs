@@ -58,7 +58,9 @@ impl Unsaid {
         // level: with none but its own, bodies beside the rim of a strip of needles were told to be further away than
         // they are.
         let is_given = || match facet.furthest(towards) {
-            Furthest::Face => facet.normal.dot(towards) > 0.0 || facet.may_give_across(ground, towards),
+            Furthest::Face => {
+                facet.normal.dot(towards) > 0.0 || facet.may_give_across(ground, towards, |_| true)
+            }
             furthest => facet.may_give(ground, furthest, towards),
         };
         let is_meant = is_own || !ground.is_one_sided() || is_given();

@@ -178,7 +178,7 @@ impl<'a> Faces<'a> {
         // Sides shorter than the slack can give two corners one name.
         let mut last = None;
         kept.retain(|&mut (feature, _)| last.replace(feature) != Some(feature));
-        let is_renamed = self.rename(&mut kept, |i| &spots[i], (polygon, places), depths.near);
+        let is_renamed = self.rename(&mut kept, spots, (polygon, places), depths.near);
         if is_renamed {
             kept.sort_unstable();
         }
@@ -195,10 +195,10 @@ impl<'a> Faces<'a> {
 
     /// Names spots after what is near them, where that gives no two of them one name: see `super::near`. Whether any
     /// got another name than that of what it lies on; most often none does.
-    fn rename<'s, const N: usize>(
+    fn rename<const N: usize>(
         &self,
         kept: &mut [(FeatureId, usize)],
-        spot: impl Fn(usize) -> &'s NamedSpot,
+        spots: &[NamedSpot],
         (polygon, places): (&Polygon<N>, &[[f64; 2]]),
         near: f64,
     ) -> bool {
@@ -210,7 +210,7 @@ impl<'a> Faces<'a> {
         let mut is_any = false;
         let mut names: ArrayVec<FeatureId, 4> = ArrayVec::new_const();
         for &(feature, i) in &*kept {
-            let NamedSpot { spot: Spot { at, .. }, name, .. } = *spot(i);
+            let NamedSpot { spot: Spot { at, .. }, name, .. } = spots[i];
             let [of_reference, of_incident] = lies_on(name);
             let is_near = [rim.near(at, of_reference, near), other.near(at, of_incident, near)];
             let is_other = is_near != [of_reference, of_incident];
