@@ -58,7 +58,7 @@ pub trait AnyWorld<S: Space> {
     /// A stale key.
     fn set_pose(&mut self, key: S::Key, pose: S::Pose) -> Result<(), StaleKey>;
 
-    /// Says what a body is about to do in this frame: [`World3::set_motion`](crate::World3::set_motion).
+    /// Tells the next update how a body will move in this frame: [`World3::set_motion`](crate::World3::set_motion).
     ///
     /// # Errors
     /// A stale key.
@@ -70,7 +70,7 @@ pub trait AnyWorld<S: Space> {
     /// A stale key.
     fn sleep(&mut self, key: S::Key) -> Result<(), StaleKey>;
 
-    /// Notes that a body is not at rest any more: [`World3::wake`](crate::World3::wake).
+    /// Notes that a body is no longer at rest: [`World3::wake`](crate::World3::wake).
     ///
     /// # Errors
     /// A stale key.

@@ -86,7 +86,7 @@ impl World<Plane> {
         colliders.into_iter().map(|collider| self.insert(collider)).collect()
     }
 
-    /// Takes a body out and returns it; `None` for a stale key. Contacts of it that had begun end at the next update.
+    /// Removes a body and returns it; `None` for a stale key. Its contacts that had begun end at the next update.
     pub fn remove(&mut self, key: BodyKey2) -> Option<Collider2> {
         self.remove_body(key)
     }
@@ -114,8 +114,10 @@ impl World<Plane> {
         self.move_body(key, pose)
     }
 
-    /// Moves many bodies, in this order. Cost: some 5 to 11 ns per body that is in the cache, 50 of one that must be
-    /// fetched; their boxes, 25 ns each, are made by the next update, in parallel.
+    /// Moves many bodies, in this order.
+    ///
+    /// Cost: some 5 to 11 ns per body that is in the cache, 50 ns for one that must be fetched. Their boxes, 25 ns
+    /// each, are made by the next update, in parallel.
     ///
     /// # Errors
     /// A stale key among them; all the others are moved.
@@ -127,20 +129,19 @@ impl World<Plane> {
         outcome
     }
 
-    /// Says what a body is about to do in this frame: the next update looks ahead that far, and then forgets it.
-    /// Its pose stays.
+    /// Tells the next update how a body will move in this frame.
     ///
-    /// Contacts that the motion may bring are among [`contacts`](Self::contacts), as speculative ones: all pairs whose
-    /// separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer their
-    /// motions can bring them. For a [`bullet`](Collider2::bullet) there are [`impacts`](Self::impacts) too. A pair
-    /// with a sensor has no speculative contact; impacts do include sensors.
+    /// The update looks ahead that far and then forgets the motion; the pose stays. A body that sleeps is woken.
     ///
-    /// One-sided chains have no speculative contact with a part whose middle is behind their front now, before the
-    /// motions. An impact asks for that side where the two first touch: so who comes up beside the tip of a ledge may
-    /// be told an impact with it, and no contact.
-    ///
-    /// A body that sleeps is woken. Of a compound, every part within that reach has a manifold: thousands of parts
-    /// are better put into the world as bodies of their own, with one owner.
+    /// - [`contacts`](Self::contacts) has the contacts that the motion may bring, as speculative ones: all pairs whose
+    ///   separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer their
+    ///   motions can bring them. A pair with a sensor has no speculative contact.
+    /// - For a [`bullet`](Collider2::bullet) there are [`impacts`](Self::impacts) too; these do include sensors.
+    /// - One-sided chains have no speculative contact with a part whose middle is behind their front now, before the
+    ///   motions. For an impact, what counts is the side where the two first touch. So a body that comes up beside the
+    ///   tip of a ledge may have an impact with it, and no contact.
+    /// - Of a compound, every part within that reach has a manifold: thousands of parts are better inserted as bodies
+    ///   of their own, with one owner.
     ///
     /// # Errors
     /// A stale key.
@@ -149,19 +150,22 @@ impl World<Plane> {
     }
 
     /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the way,
-    /// and the first body that is not one. A body that the bullet overlaps at the start is a contact and not listed
-    /// here. If it has several parts (a level in one piece), the parts that the bullet does not touch, such as the
-    /// walls, still count: see [`Pair2::next_impact`](crate::Pair2::next_impact). Whatever is flush with what the
-    /// bullet touches, like the next tile of a floor, is passed over:
-    /// [`next_impact_beside`](crate::Pair2::next_impact_beside). The motions of both count: a ray, which sees bodies
-    /// where they stand, may tell of another place.
-    /// A body removed since is still among them.
+    /// and the first body that is not one.
+    ///
+    /// - A body that the bullet overlaps at the start is a contact and not listed here. If it has several parts (a
+    ///   level in one piece), the parts that the bullet does not touch, such as the walls, still count: see
+    ///   [`Pair2::next_impact`](crate::Pair2::next_impact).
+    /// - Whatever is flush with what the bullet touches, like the next tile of a floor, is passed over: see
+    ///   [`next_impact_beside`](crate::Pair2::next_impact_beside).
+    /// - The motions of both bodies count. A ray, which sees bodies where they stand, may report another place.
+    /// - A body removed since is still listed.
     pub fn impacts(&self) -> &[Hit2] {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update and is still there, by time; nothing for a stale key, or for what is
-    /// no bullet. One that had no motion itself is run into by what had. Cost: the logarithm of all impacts.
+    /// What one bullet ran into at the last update and is still there, by time; nothing for a stale key or for a body
+    /// that is not a bullet. For a bullet that had no motion itself, these are the moving bodies that ran into it.
+    /// Cost: the logarithm of all impacts.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Motion2, Pose2, World2};
@@ -186,8 +190,8 @@ impl World<Plane> {
         self.hits_of(bullet)
     }
 
-    /// When two bodies first touch while both move and turn: conservative, with its error; `None` if they do not.
-    /// What stands gets a motion of zero.
+    /// When two bodies first touch while both move and turn; `None` if they do not. The answer is conservative, and
+    /// comes with its error. For a body that stands still, pass a motion of zero.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Motion2, Pose2, StaleKey, World2, glam::DVec2};
@@ -215,10 +219,12 @@ impl World<Plane> {
         Ok(Pair2::new(&a.shape, &a.pose, &b.shape, &b.pose).impact(motion_a, motion_b))
     }
 
-    /// Gives a body another shape. A contact goes on as long as the bodies are within their margins, as it does when
-    /// they move: what lies on a level that is changed elsewhere does not begin anew. A body that becomes ground
-    /// becomes fixed, and stays so when it gets another shape later: [`set_fixed`](Self::set_fixed) makes it free
-    /// again.
+    /// Gives a body another shape.
+    ///
+    /// - A contact goes on as long as the bodies are within their margins, as it does when they move. So when a level
+    ///   is changed, the contacts of what lies elsewhere on it do not begin anew.
+    /// - A body that becomes ground becomes fixed, and stays fixed when it gets another shape later:
+    ///   [`set_fixed`](Self::set_fixed) makes it free again.
     ///
     /// # Errors
     /// A stale key.
@@ -226,8 +232,8 @@ impl World<Plane> {
         self.reshape_body(key, shape.into())
     }
 
-    /// Changes which groups a body is in and which it meets. Contacts with bodies that it does not meet any more
-    /// end at the next update.
+    /// Changes which groups a body is in and which it meets. Contacts with bodies that it no longer meets end at the
+    /// next update.
     ///
     /// # Errors
     /// A stale key.
@@ -235,8 +241,8 @@ impl World<Plane> {
         self.change_body(key, |body| body.layers = layers)
     }
 
-    /// Attaches another number to a body. Events and contacts of later updates carry it; but an `Ended` carries what
-    /// was attached at the last update at which the contact was there.
+    /// Attaches another number to a body. Events and contacts of later updates carry it, but an `Ended` carries the
+    /// number that was attached at the last update at which the contact was there.
     ///
     /// # Errors
     /// A stale key.
@@ -284,8 +290,8 @@ impl World<Plane> {
         self.change_body(key, |body| body.sensor = sensor)
     }
 
-    /// Makes a body one of the level, or one that moves. Ground is of the level, whatever is said here. Contacts of
-    /// bodies that are both fixed by then end at the next update.
+    /// Makes a body part of the level, or one that moves. Ground is part of the level, whatever is passed here.
+    /// Contacts between bodies that are both fixed by then end at the next update.
     ///
     /// # Errors
     /// A stale key.
@@ -327,10 +333,10 @@ impl World<Plane> {
         self.change_body(key, |body| body.owner = owner)
     }
 
-    /// Gives a body another margin, in metres: [`Collider::margin`](crate::Collider::margin).
+    /// Gives a body another margin, in metres: see [`Collider::margin`](crate::Collider::margin).
     ///
     /// # Errors
-    /// A stale key, or what no body can have as a margin.
+    /// A stale key, or a margin that no body can have.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Pose2, World2};
@@ -349,7 +355,7 @@ impl World<Plane> {
         self.change_body(key, |body| body.margin = margin).map_err(|StaleKey| SetMarginError::Stale)
     }
 
-    /// Says whether the next updates tell what a body runs into in its motions:
+    /// Sets whether the next updates report what a body runs into in its motions: see
     /// [`Collider::bullet`](crate::Collider::bullet).
     ///
     /// # Errors
@@ -401,7 +407,7 @@ impl World<Plane> {
         self.set_asleep(key, true)
     }
 
-    /// Notes that a body is not at rest any more.
+    /// Notes that a body is no longer at rest.
     ///
     /// # Errors
     /// A stale key.
@@ -418,17 +424,19 @@ impl World<Plane> {
         self.replace_body(key, collider)
     }
 
-    /// Pairs whose boxes overlapped and whose filters agreed, in pair order: what the narrow phase was asked.
+    /// Pairs whose boxes overlapped and whose filters agreed, in pair order: those that the narrow phase was asked
+    /// about.
     pub fn candidates(&self) -> impl ExactSizeIterator<Item = (BodyKey2, BodyKey2)> + Clone {
         self.candidates.iter().map(|(_, candidate)| candidate.keys)
     }
 
-    /// The candidate pairs of one body: those whose boxes overlapped and whose filters agreed. Pairs with bodies
-    /// removed since are left out. In order of the other's slot; empty for a stale key. They show whom the body may
-    /// meet next; [`contacts_of`](Self::contacts_of) has only those within their margins.
+    /// The candidate pairs of one body: those whose boxes overlapped and whose filters agreed.
+    ///
+    /// They are in order of the other's slot; empty for a stale key. Pairs with bodies removed since are left out. They
+    /// show whom the body may meet next; [`contacts_of`](Self::contacts_of) has only those within their margins.
     ///
     /// Cost: linear in the candidates of lower slots, some 1 ns each, since no frame makes a list for it. For many
-    /// bodies, rather go through [`candidates`](Self::candidates) once.
+    /// bodies, go through [`candidates`](Self::candidates) once instead.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Pose2, World2};
