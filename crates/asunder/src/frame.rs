@@ -43,19 +43,24 @@ use core::time::Duration;
 impl<S: Space> World<S> {
     /// Brings contacts, candidates and events up to date with the bodies. Cannot fail.
     ///
-    /// Cost: linear in what moved for the boxes; for the sweep, linear in what moved and in the candidates where few
-    /// bodies move, else in all bodies and candidates (see [`Sweep`](asunder_broad::Sweep)); and the narrow phase of
-    /// every candidate of which one body moved, but for those that were apart by more than they went since. While two
-    /// bodies move against each other by no more than 2^-15 of the smaller bounding radius (2^-10 where they rest on a
-    /// broad patch, up to 2^-8 on ground), their contact is moved along for a fraction of the cost of a new one.
+    /// Cost:
+    /// - Boxes: linear in what moved.
+    /// - Sweep: linear in what moved and in the candidates where few bodies move, else in all bodies and candidates
+    ///   (see [`Sweep`](asunder_broad::Sweep)).
+    /// - Narrow phase: every candidate with a body that moved, except those that were apart by more than they have
+    ///   moved since. While two bodies move against each other by no more than 2^-15 of the smaller bounding radius
+    ///   (2^-10 where they rest on a broad patch, up to 2^-8 on ground), their contact is moved along for a fraction of
+    ///   the cost of a new one.
     pub fn update(&mut self) {
         self.update_with(&Hooks::new());
     }
 
-    /// The same, asking these hooks who may pair and what to make of a contact. They are asked in pair order, by
-    /// one thread; what they say must be a function of what they are told, if equal worlds are to have equal futures.
+    /// Like [`update`](Self::update), but asks these hooks who may pair and what to make of a contact.
     ///
-    /// Cost: a call a candidate for [`Hooks::pair`]; a call a contact and a copy of its manifolds for
+    /// They are called in pair order, by one thread. If equal worlds are to have equal futures, what they answer must
+    /// be a function of what they are given.
+    ///
+    /// Cost: a call per candidate for [`Hooks::pair`]; a call per contact, and a copy of its manifolds, for
     /// [`Hooks::contact`].
     pub fn update_with(&mut self, hooks: &Hooks<'_, S>) {
         S::advance(self, hooks);

@@ -41,18 +41,23 @@ impl fmt::Display for StaleKey {
 
 impl core::error::Error for StaleKey {}
 
-/// A world of bodies in one dimension; use it as [`World2`](crate::World2) or [`World3`](crate::World3).
+/// A world of bodies, in the plane or in space; use it as [`World2`](crate::World2) or [`World3`](crate::World3).
 ///
-/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future. No type for serde itself:
-/// what is stored is a snapshot.
+/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future. It has no serde traits
+/// itself: what is stored is a snapshot.
 ///
-/// Memory, not counting the shapes' own data: at most 450 bytes per body and 1,600 per candidate pair in space, 400 and
-/// 1,300 in the plane; and 1,300 for each manifold beyond the first of a pair, as on ground and with compounds. What
-/// counts is the greatest number of bodies, pairs and manifolds so far: a world gives nothing back, but a clone takes
-/// no more than it needs, apart from empty slots of bodies. In a steady scene an update allocates nothing if it is
-/// called inside a thread pool (`rayon::ThreadPool::install`) or if the feature `parallel` is off; from outside, rayon
-/// allocates a block for its queue now and then. Overwriting a world by `clone_from` allocates nothing in such a scene,
-/// either.
+/// # Memory
+/// Not counting the shapes' own data, a world takes at most:
+/// - per body, 450 bytes in space and 400 in the plane;
+/// - per candidate pair, 1,600 bytes in space and 1,300 in the plane;
+/// - 1,300 bytes for each manifold beyond the first of a pair, as on ground and with compounds.
+///
+/// What counts is the greatest number of bodies, pairs and manifolds so far: a world gives nothing back. A clone takes
+/// no more than it needs, apart from empty slots of bodies.
+///
+/// In a steady scene an update allocates nothing if it is called inside a thread pool (`rayon::ThreadPool::install`) or
+/// if the feature `parallel` is off; from outside, rayon allocates a block for its queue now and then. Overwriting a
+/// world by `clone_from` in such a scene allocates nothing either.
 pub struct World<S: Space> {
     pub(crate) bodies: SlotMap<S::Key, Collider<S>>,
     /// Key of the body in each slot; null where the slot is empty.
@@ -157,8 +162,8 @@ impl<S: Space> Clone for World<S> {
         copy
     }
 
-    /// The same in the memory of a world that is no longer wanted: what a game that keeps its last frames, and goes
-    /// back to one of them, does every frame.
+    /// Makes this world equal to another, in the memory that it already has. A game that keeps its last frames, and
+    /// goes back to one of them, does so every frame, into a world that is no longer wanted.
     ///
     /// ```
     /// use asunder::{Collider3, Sphere, World3};
@@ -185,7 +190,7 @@ impl<S: Space> Default for World<S> {
 }
 
 impl<S: Space> fmt::Debug for World<S> {
-    /// How much there is of everything; bodies and contacts print themselves.
+    /// Prints how much there is of everything; bodies and contacts print themselves.
     ///
     /// ```
     /// use asunder::{Collider3, Sphere, World3};
@@ -249,8 +254,9 @@ impl<S: Space> World<S> {
         self.bodies.is_empty()
     }
 
-    /// Sets how many candidate pairs an update may make, hooks aside. 2^24 at first: at about 1,600 bytes each that is
-    /// 27 GB, so set less to bound memory. See [`Stats::overflow`].
+    /// Sets how many candidate pairs an update may make, counted before hooks refuse any. See [`Stats::overflow`].
+    ///
+    /// By default 2^24: at about 1,600 bytes each that is 27 GB, so set less to bound memory.
     ///
     /// Pairs that layers, owners and so on refuse do not count, but they are found, and cost time: see
     /// [`Layers`](crate::Layers).
