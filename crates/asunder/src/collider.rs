@@ -4,12 +4,13 @@ use crate::space::{Plane, Space, Volume};
 use crate::world::StaleKey;
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 
-/// Which groups a body is in, and which it meets. Two bodies pair only if each is in a group that the other meets. A
-/// body that says nothing is in all groups: a coin that meets players alone meets every crate that was given no layers,
-/// too.
+/// Which groups a body is in, and which it meets.
 ///
-/// Boxes that overlap are found before anybody asks for their layers, and cost time: 10,000 bodies in one spot, on a
-/// layer that does not meet itself, take a third of a second when they come.
+/// Two bodies pair only if each is in a group that the other meets. A body that was given no layers is in all groups:
+/// so a coin that meets only players also meets every crate that was given none.
+///
+/// Overlapping boxes are found before layers are checked, and cost time: 10,000 bodies in one spot, on a layer that
+/// does not meet itself, take a third of a second when they come.
 ///
 /// ```
 /// use asunder::Layers;
@@ -247,28 +248,29 @@ impl<S: Space> Collider<S> {
         }
     }
 
-    /// Marks a body of the level: two fixed bodies never pair. It may still be moved by `set_pose`. Ground, which is a
-    /// [`TriMesh`](crate::TriMesh), a [`HeightField`](crate::HeightField) or a [`Chain`](crate::Chain), is fixed
-    /// without being told.
+    /// Makes the body part of the level: two fixed bodies never pair. It may still be moved by `set_pose`. Ground,
+    /// which is a [`TriMesh`](crate::TriMesh), a [`HeightField`](crate::HeightField) or a [`Chain`](crate::Chain), is
+    /// fixed without this call.
     #[must_use]
     pub fn fixed(mut self) -> Self {
         self.fixed = true;
         self
     }
 
-    /// Marks a body that only senses: its contacts have no manifolds. It meets the same bodies as a solid one would,
-    /// and other sensors. If it is fixed it meets nothing fixed, so a sensor that has to notice a fixed lift must not
-    /// be fixed.
+    /// Makes the body a sensor: it only senses, and its contacts have no manifolds. It meets the same bodies as a solid
+    /// one would, and other sensors. A fixed sensor meets nothing fixed, so one that has to notice a fixed lift must
+    /// not be fixed.
     #[must_use]
     pub fn sensor(mut self) -> Self {
         self.sensor = true;
         self
     }
 
-    /// Marks a body that must not pass through things. If it is given a motion
-    /// ([`World3::set_motion`](crate::World3::set_motion)), the update says what it runs into first
-    /// ([`World3::impacts`](crate::World3::impacts)); stopping it there is up to the game. Whatever it touches at the
-    /// start is left out; of ground and compounds, only the parts that it touches.
+    /// Makes the body a bullet, which must not pass through things.
+    ///
+    /// If it is given a motion ([`World3::set_motion`](crate::World3::set_motion)), the update reports what it runs
+    /// into first ([`World3::impacts`](crate::World3::impacts)); stopping it there is up to the game. Whatever it
+    /// touches at the start is left out; of ground and compounds, only the parts that it touches.
     #[must_use]
     pub fn bullet(mut self) -> Self {
         self.bullet = true;
@@ -289,7 +291,7 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Sets an owner: bodies of one owner never pair, as the parts of one character.
+    /// Sets an owner: bodies of one owner never pair, such as the parts of one character.
     #[must_use]
     pub fn owner(mut self, owner: u64) -> Self {
         self.owner = Some(owner);
@@ -304,13 +306,13 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Sets the gap, in metres, at which contacts appear: a pair has a contact while its separation is at most the
-    /// sum of both margins. Also the hysteresis between `Began` and `Ended`.
+    /// Sets the gap, in metres, at which contacts appear: a pair has a contact while its separation is at most the sum
+    /// of both margins. It is also the hysteresis between `Began` and `Ended`.
     ///
     /// (A [`Pair3`](crate::Pair3) takes a margin below zero as zero; a body, which keeps it, refuses it.)
     ///
     /// # Errors
-    /// What is not finite, below zero, or above 1e6.
+    /// A margin that is not finite, below zero, or above 1e6.
     pub fn margin(mut self, margin: f32) -> Result<Self, MarginError> {
         self.margin = checked_margin(margin)?;
         Ok(self)
@@ -326,7 +328,7 @@ impl<S: Space> Collider<S> {
         self.sensor
     }
 
-    /// Whether updates say what it runs into.
+    /// Whether updates report what it runs into.
     ///
     /// ```
     /// use asunder::{Collider2, Layers, Rect, glam::Vec2};
