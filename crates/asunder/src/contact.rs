@@ -40,13 +40,17 @@ pub struct Contact<'a, K, M> {
     /// not count as touching, and has no `Began`, until it overlaps.
     pub speculative: bool,
     /// One manifold for each pair of convex parts within the margins; on ground, one for each normal of each part.
-    /// Where the bodies have motions, also manifolds of parts that these may bring together, even if other parts touch:
-    /// a solver that does not handle speculative points leaves out those whose separation is more than both margins.
-    /// Each tells how deep its own two parts are; on ground, how deep along its own normal. The least separation of all
-    /// is at most zero exactly when the bodies overlap. In overlap it is no way out for the whole: a body in a corner,
-    /// or over a bend of a chain, is free only once it has left every manifold along that one's normal. Normals point
-    /// from `a` to `b`. Empty for a sensor, and for two half-spaces that overlap without end: make all of those fixed,
-    /// as a level's are, and they never pair.
+    /// Normals point from `a` to `b`.
+    ///
+    /// - Where the bodies have motions, there are also manifolds of parts that these may bring together, even if other
+    ///   parts touch. A solver that does not handle speculative points leaves out those whose separation is more than
+    ///   both margins.
+    /// - Each tells how deep its own two parts are; on ground, how deep along its own normal. The least separation of
+    ///   all is at most zero exactly when the bodies overlap.
+    /// - In overlap that least separation is no way out for the whole: a body in a corner, or over a bend of a chain,
+    ///   is free only once it has left every manifold along that one's normal.
+    /// - Empty for a sensor, and for two half-spaces that overlap without end: make all of those fixed, as a level's
+    ///   are, and they never pair.
     pub manifolds: &'a [M],
 }
 
@@ -69,7 +73,7 @@ impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
     }
 
     /// Which way normals point, as this body sees it: 1 for `a`, from which they point to the other body, -1 for `b`,
-    /// and 0 for whoever else.
+    /// and 0 for any other body.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Pose2, World2, glam::Vec2};
