@@ -5,7 +5,7 @@ use crate::space::{BodyKey2, BodyKey3};
 
 /// A contact that began or ended. Each `Began` is followed, at some later update, by exactly one `Ended`.
 ///
-/// From a `Began` to its contact it is one call: `world.contact(a, b)`.
+/// The contact of a `Began` is one call away: `world.contact(a, b)`.
 ///
 /// ```
 /// use asunder::{Collider3, Event3, Sphere, World3};
@@ -95,7 +95,7 @@ impl<K: Copy + PartialEq> Event<K> {
         }
     }
 
-    /// Whether a contact began, and not ended.
+    /// Whether a contact began, rather than ended.
     pub fn is_began(&self) -> bool {
         matches!(self, Self::Began { .. })
     }

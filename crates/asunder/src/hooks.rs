@@ -40,8 +40,8 @@ pub struct Meeting<'a, S: Space> {
     pub is_new: bool,
     /// Whether they are beyond their margins, and only a motion may bring them together.
     pub speculative: bool,
-    /// How they touch: manifolds and points may be changed, taken out and put in. Whether the two touch, and so the
-    /// events, stays as it is.
+    /// How they touch: manifolds and points may be changed, removed and added. Whether the two touch stays as it is,
+    /// and so do the events.
     pub manifolds: &'a mut Vec<S::Manifold>,
 }
 
@@ -100,26 +100,29 @@ impl<'a, S: Space> Hooks<'a, S> {
         Self { pair: None, contact: None }
     }
 
-    /// Asks whether two bodies may meet, of every pair whose boxes overlap and whose layers, owners and so on agree. A
-    /// refused pair is not a candidate: a contact that it had ends, and a bullet of it does not run into the other. It
-    /// still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are asked.
+    /// Sets the hook that decides whether two bodies may meet. It is asked about every pair whose boxes overlap and
+    /// whose layers, owners and so on agree.
     ///
-    /// If a pair hook panics and the game goes on, candidates and contacts stay those of the update before, none of
-    /// them new; there are no events and no impacts, and motions are kept. The next update tells all that has begun and
-    /// ended since.
+    /// - A refused pair is not a candidate: a contact that it had ends, and a bullet of it does not run into the other.
+    /// - A refused pair still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are asked.
+    /// - If the hook panics and the game goes on, candidates and contacts stay those of the update before, none of them
+    ///   new; there are no events and no impacts, and motions are kept. The next update reports all that has begun and
+    ///   ended since.
     #[must_use]
     pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
         self.pair = Some(may_meet);
         self
     }
 
-    /// Hands over every contact that has manifolds, to be edited, speculative ones too. Impacts of bullets are not
-    /// contacts and are not handed over: to let bullets through, refuse the pair in [`pair`](Self::pair). A bullet
-    /// counts as standing only on manifolds that the hook has left: without those of its floor, the next tile may stop
-    /// it.
+    /// Sets the hook that may edit contacts. It is handed every contact that has manifolds, speculative ones too, after
+    /// the update's events have been written.
     ///
-    /// The update's events are already written when the hook runs. If the hook panics and the game goes on, contacts
-    /// are as they were found, there are no impacts, and motions are kept for the next update.
+    /// - Impacts of bullets are not contacts and are not handed over: to let bullets through, refuse the pair in
+    ///   [`pair`](Self::pair).
+    /// - A bullet counts as standing only on manifolds that the hook has left: without those of its floor, the next
+    ///   tile may stop it.
+    /// - If the hook panics and the game goes on, contacts are as they were found, there are no impacts, and motions
+    ///   are kept for the next update.
     #[must_use]
     pub fn contact(mut self, edit: &'a (dyn Fn(Meeting<'_, S>) + Sync)) -> Self {
         self.contact = Some(edit);
