@@ -26,7 +26,7 @@ pub struct RayAnswer<K, N, P> {
     /// Where the ray enters it, in lengths of the ray's direction, as [`Ray3::at`](crate::Ray3::at) takes it; 0
     /// where the ray starts inside.
     pub distance: f64,
-    /// Metres along the ray that the distance may be off by.
+    /// How many metres along the ray the distance may be off by.
     pub error: f32,
     /// The point at that distance, in metres.
     pub point: P,
@@ -34,7 +34,7 @@ pub struct RayAnswer<K, N, P> {
     pub normal: N,
     /// Whether the ray starts in the body; touching counts. Exact.
     pub inside: bool,
-    /// Which part of the body: of a compound its part, of ground the triangle, of a chain the segment; else 0.
+    /// Which part of the body: the part of a compound, the triangle of ground, the segment of a chain; else 0.
     pub part: u32,
 }
 
@@ -65,12 +65,12 @@ pub type RayAnswer3 = RayAnswer<BodyKey3, Vec3, DVec3>;
 pub struct CastAnswer<K, N, P> {
     /// The body.
     pub body: K,
-    /// The share of the displacement after which they touch, 0 to 1. Before it they do not: it is never too great.
-    /// Multiply in f64: rounded to f32 it may be.
+    /// The share of the displacement after which they touch, 0 to 1. Before it they do not touch: it is never too
+    /// great. Multiply in f64: rounded to f32, it may be too great.
     pub fraction: f64,
     /// Metres that they may still be apart then; 0 where they touch at the start.
     pub error: f32,
-    /// Whether they touch at the start. Exact; then the fraction is 0, and the normal that of the least depth.
+    /// Whether they touch at the start. Exact. If so, the fraction is 0, and the normal is that of the least depth.
     pub overlapping: bool,
     /// Unit normal in world axes, from the moved shape to the body.
     pub normal: N,
@@ -78,7 +78,7 @@ pub struct CastAnswer<K, N, P> {
     pub point: P,
     /// Where they meet, on the moved shape, in world axes, relative to its position then, in metres.
     pub anchor: N,
-    /// Which part of the body: of a compound its part, of ground the triangle, of a chain the segment; else 0.
+    /// Which part of the body: the part of a compound, the triangle of ground, the segment of a chain; else 0.
     pub part: u32,
     /// Which part of the moved shape, where that is a compound; else 0.
     pub part_of_moved: u32,
@@ -118,12 +118,13 @@ pub struct NearAnswer<K, N, P> {
     pub normal: N,
     /// The point of what was asked about that is closest to the body, in metres.
     pub from: P,
-    /// The point of the body that is closest to it, in metres. Where a point is in the body, that point; where
-    /// shapes overlap, both points are those of their deepest contact (of two half-spaces, the asked one's position).
+    /// The point of the body that is closest to it, in metres. Where the body holds the point that was asked about,
+    /// that point; where shapes overlap, both points are those of their deepest contact (of two half-spaces, the
+    /// position of the one that was asked about).
     pub point: P,
-    /// Which part of the body that point is of: of a compound its part, of ground the triangle, of a chain the segment;
-    /// else 0, as where the body holds the point that was asked about. Where shapes overlap, as the manifold of their
-    /// deepest contact has it.
+    /// Which part of the body that point is on: the part of a compound, the triangle of ground, the segment of a chain;
+    /// else 0, as where the body holds the point that was asked about. Where shapes overlap, the part that the manifold
+    /// of their deepest contact names.
     pub part: u32,
 }
 

@@ -72,7 +72,7 @@ impl<'a, S: Space> Filter<'a, S> {
         }
     }
 
-    /// Asks as a body of these layers would: only bodies that these meet, where both sides must agree, are found.
+    /// Asks as a body of these layers would: finds only bodies that these layers meet, where both sides must agree.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Layers, Ray3, Sphere, World3, glam::Vec3};
@@ -95,7 +95,7 @@ impl<'a, S: Space> Filter<'a, S> {
     }
 
     /// Leaves out one body, such as the one that asks. A stale key leaves out nobody. Another call replaces the one
-    /// before: several are left out by [`without_all`](Self::without_all), or by their owner.
+    /// before: to leave out several, use [`without_all`](Self::without_all), or their owner.
     #[must_use]
     pub const fn without(mut self, body: S::Key) -> Self {
         self.without = Some(body);
@@ -103,7 +103,7 @@ impl<'a, S: Space> Filter<'a, S> {
     }
 
     /// Leaves out some bodies, such as the one that asks and what it carries. Another call replaces the one before.
-    /// Cost: linear in the bodies that are left out, for each that is met.
+    /// Cost: for each body that is met, linear in the bodies left out.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Sphere, World3, glam::Vec3};
@@ -133,10 +133,12 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out, whole, what a ray starts in and what a moved shape touches at the start: for shots out of a vehicle,
-    /// and cameras that start in somebody's head. Ground that it starts on is left out as well, so start a little off
-    /// that. Of queries without a way, of `cast_shape_onwards`, which passes over parts, and of characters it changes
-    /// nothing.
+    /// Leaves out, as a whole, whatever a ray starts in and whatever a moved shape touches at the start: for shots out
+    /// of a vehicle, and for cameras that start in somebody's head.
+    ///
+    /// - Ground that the query starts on is left out as well, so start a little off it.
+    /// - It changes nothing for queries without a way, for `cast_shape_onwards`, which passes over parts, and for
+    ///   characters.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Pose3, Ray3, Sphere, World3, glam::{DVec3, Vec3}};
@@ -156,8 +158,8 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Finds only bodies of which this says yes. It is asked last, of bodies whose boxes may be met, in no promised
-    /// order; it may ask the world in turn. Another call takes the place of the one before.
+    /// Finds only bodies for which this says yes. It is asked last, about bodies whose boxes may be met, in no promised
+    /// order; it may query the world in turn. Another call replaces the one before.
     #[must_use]
     pub const fn only(mut self, only: &'a (dyn Fn(S::Key, &Collider<S>) -> bool + Sync)) -> Self {
         self.only = Some(only);
