@@ -13,18 +13,19 @@ use asunder_narrow::Manifold2;
 use core::ops::ControlFlow;
 
 /// # Queries
-/// Queries see bodies where they are, also before the next update. Any number of threads may ask at once. What comes in
-/// a list is sorted by distance, then by the bodies' slots (lists without distances by slots), and lists are cleared
-/// first; visitors get answers in no promised order, until they break off. A [`Filter2`] says which bodies a query may
-/// find.
+/// Queries see bodies where they are, even before the next update. Any number of threads may ask at once. A [`Filter2`]
+/// says which bodies a query may find.
 ///
-/// Cost: the first query makes a tree of all boxes, in 50 to 120 ns per body, and it is kept while few bodies move; of
-/// those that have moved since, a second one is made by the first query after an update. Then, a query takes
-/// a walk down both trees, and the narrow phase of every body whose box is met. Once memory is there, nothing
-/// allocates but the caller's lists.
+/// - Lists are cleared first, and sorted by distance, then by the bodies' slots (lists without distances, by slots).
+/// - Visitors get answers in no promised order, until they break off.
+///
+/// Cost: the first query makes a tree of all boxes, in 50 to 120 ns per body, which is kept while few bodies move. For
+/// those that have moved since, the first query after an update makes a second one. Then, a query takes a walk down
+/// both trees, and the narrow phase of every body whose box is met. Once memory is there, nothing allocates but the
+/// caller's lists.
 impl World<Plane> {
-    /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse way to ask what is in a
-    /// region. A body's box is that around its shape as it stands, rounded outwards, without its margin.
+    /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse way to ask what is in a region. A
+    /// body's box is the one around its shape as it stands, rounded outwards, without its margin.
     ///
     /// ```
     /// use asunder::{Aabb2, Circle, Collider2, Filter2, World2, glam::Vec2};
@@ -40,7 +41,7 @@ impl World<Plane> {
         boxes_over(self, bounds, filter).keys(into);
     }
 
-    /// [`World::boxes_overlapping`], one by one in no promised order.
+    /// Like [`World::boxes_overlapping`], but one by one, in no promised order.
     ///
     /// ```
     /// use asunder::{Aabb2, Circle, Collider2, Filter2, Pose2, World2, glam::Vec2};
@@ -68,7 +69,7 @@ impl World<Plane> {
         boxes_over(self, bounds, filter).visit(|Met(body)| visitor(body))
     }
 
-    /// Bodies that hold a point, in metres; the surface counts. Exact. None hold a point that is not finite, or
+    /// Bodies that hold a point, in metres; the surface counts. Exact. No body holds a point that is not finite, or
     /// beyond 1e9 m on an axis.
     ///
     /// ```
@@ -89,7 +90,7 @@ impl World<Plane> {
         }
     }
 
-    /// [`World::overlapping_point`], one by one in no promised order.
+    /// Like [`World::overlapping_point`], but one by one, in no promised order.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, World2};
@@ -133,7 +134,7 @@ impl World<Plane> {
         bodies_over(self, at, filter).keys(into);
     }
 
-    /// [`World::overlapping`], one by one in no promised order.
+    /// Like [`World::overlapping`], but one by one, in no promised order.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2};
@@ -162,13 +163,14 @@ impl World<Plane> {
         bodies_over(self, at, filter).visit(|Met(body)| visitor(body))
     }
 
-    /// How a posed shape touches what is here, as a body there would: one manifold for each pair of convex parts, and
-    /// on ground for each normal, at most `margin` metres apart; with the body, by slot, then in the order of
-    /// [`Pair2::manifolds`](crate::Pair2::manifolds). Normals point from the shape to the body; `a` is the shape, and
-    /// `b` the body.
+    /// How a posed shape touches what is here, as a body there would. For placing something, or for moving a body that
+    /// is in no world; which bodies touch each other is in [`World::contacts`].
     ///
-    /// For who places something, or moves a body that is in no world; what bodies touch each other is in
-    /// [`World::contacts`]. Sensors are found, unless the filter leaves them out. A NaN counts as a margin of 0.
+    /// There is one manifold for each pair of convex parts, and on ground for each normal, at most `margin` metres
+    /// apart. Each comes with its body: by slot, then in the order of [`Pair2::manifolds`](crate::Pair2::manifolds).
+    /// Normals point from the shape to the body; `a` is the shape, and `b` the body.
+    ///
+    /// Sensors are found, unless the filter leaves them out. A NaN counts as a margin of 0.
     ///
     /// ```
     /// use asunder::{Collider2, Filter2, Pose2, Rect, Shape2, World2, glam::Vec2};
@@ -192,8 +194,8 @@ impl World<Plane> {
         manifolds((self, filter), at, margin, into);
     }
 
-    /// [`World::manifolds`], one by one, those of a body in order and together, bodies in no promised order: nothing is
-    /// copied.
+    /// Like [`World::manifolds`], but one by one: those of a body in order and together, bodies in no promised order.
+    /// Nothing is copied.
     ///
     /// ```
     /// use asunder::{Collider2, Filter2, Pose2, Rect, Shape2, World2, glam::Vec2};
@@ -219,11 +221,11 @@ impl World<Plane> {
         visit_manifolds((self, filter), at, margin, visitor)
     }
 
-    /// The body closest to a point, and the closest point on it, if that is within a distance (all in metres); of
+    /// The body closest to a point, and the closest point on it, if that is within a distance (all in metres). Of
     /// bodies equally near, the one in the lowest slot. A body that contains the point is at distance 0.
     ///
-    /// A NaN counts as no limit, and a negative distance as zero. Nothing is near a point that is not finite, or
-    /// beyond 1e9 m on an axis.
+    /// A `within` that is NaN counts as no limit, and a negative one as zero. Nothing is near a point that is not
+    /// finite, or beyond 1e9 m on an axis.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, World2, glam::DVec2};
@@ -241,7 +243,7 @@ impl World<Plane> {
         self.closest_to_shape((&shape, &pose), within, filter)
     }
 
-    /// All bodies within a distance of a point, as [`World::closest`] tells of the first.
+    /// All bodies within a distance of a point, each reported as [`World::closest`] reports the first.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, World2, glam::DVec2};
@@ -269,7 +271,7 @@ impl World<Plane> {
         }
     }
 
-    /// [`World::within`], one by one in no promised order.
+    /// Like [`World::within`], but one by one, in no promised order.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, World2, glam::DVec2};
@@ -297,10 +299,10 @@ impl World<Plane> {
         bodies_near(self, (&shape, &pose), within, filter).visit(visitor)
     }
 
-    /// The body closest to a posed shape, and the closest points of both, if one is within a distance; of bodies
-    /// equally near, that of the lowest slot. One that overlaps the shape is at distance 0.
+    /// The body closest to a posed shape, and the closest points of both, if one is within a distance. Of bodies
+    /// equally near, the one in the lowest slot. A body that overlaps the shape is at distance 0.
     ///
-    /// A NaN counts as no limit, and a negative distance as zero.
+    /// A `within` that is NaN counts as no limit, and a negative one as zero.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::DVec2};
@@ -321,7 +323,7 @@ impl World<Plane> {
         bodies_near(self, at, within, filter).first()
     }
 
-    /// All bodies within a distance of a posed shape, as [`World::closest_to_shape`] tells of the first.
+    /// All bodies within a distance of a posed shape, each reported as [`World::closest_to_shape`] reports the first.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2};
@@ -348,7 +350,7 @@ impl World<Plane> {
         bodies_near(self, at, within, filter).all(into);
     }
 
-    /// [`World::within_shape`], one by one in no promised order.
+    /// Like [`World::within_shape`], but one by one, in no promised order.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2};

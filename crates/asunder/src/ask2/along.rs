@@ -10,12 +10,13 @@ use core::ops::ControlFlow;
 /// # Queries along a way
 /// What rays and moved shapes meet; all else is as with the other queries, above.
 impl World<Plane> {
-    /// The first body that a ray meets no later than at `limit`, which is in lengths of its direction and may be
-    /// infinite; of bodies met at the same distance, that of the lowest slot. A body that the ray starts in is met
-    /// at 0.
+    /// The first body that a ray meets, no later than at `limit`.
     ///
-    /// A NaN counts as no limit, and a negative limit as zero. Looks at bodies in order of their boxes, and at none
-    /// behind the first.
+    /// The limit is in lengths of the ray's direction and may be infinite; a NaN counts as no limit, and a negative
+    /// limit as zero. A body that the ray starts in is met at 0. Of bodies met at the same distance, the one in the
+    /// lowest slot is found.
+    ///
+    /// Cost: looks at bodies in order of their boxes, and at none behind the first.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
@@ -32,7 +33,8 @@ impl World<Plane> {
         bodies_along_ray(self, ray, limit, filter).first()
     }
 
-    /// All bodies that a ray meets, as [`World::cast_ray`] tells of the first: through all that is in the way.
+    /// All bodies that a ray meets, through all that is in the way, each reported as [`World::cast_ray`] reports the
+    /// first.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::DVec2, glam::Vec2};
@@ -52,8 +54,8 @@ impl World<Plane> {
         bodies_along_ray(self, ray, limit, filter).all(into);
     }
 
-    /// [`World::cast_ray_all`], one by one in no promised order: to know whether anything is in the way, break off
-    /// at once.
+    /// Like [`World::cast_ray_all`], but one by one, in no promised order. To know whether anything is in the way,
+    /// break off at once.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
@@ -75,12 +77,14 @@ impl World<Plane> {
         bodies_along_ray(self, ray, limit, filter).visit(visitor)
     }
 
-    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning; of
-    /// bodies met at the same time, that of the lowest slot. One that it touches already is met at fraction 0.
+    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning. Of
+    /// bodies met at the same time, the one in the lowest slot. A body that the shape touches already is met at
+    /// fraction 0.
     ///
-    /// A displacement of zero meets what the shape overlaps, except one-sided ground that it is behind; one that is not
-    /// finite meets nothing. To slide on along what was met, keep a skin of a tenth of a millimetre: normals are f32,
-    /// so a velocity from which the normal was removed still points slightly into the surface.
+    /// - A displacement of zero meets what the shape overlaps, except one-sided ground that it is behind; one that is
+    ///   not finite meets nothing.
+    /// - To slide on along what was met, keep a skin of a tenth of a millimetre: normals are f32, so a velocity from
+    ///   which the normal was removed still points slightly into the surface.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::{DVec2, Vec2}};
@@ -105,14 +109,14 @@ impl World<Plane> {
 
     /// What a moved shape runs into next: like [`World::cast_shape`], but what it touches at the start is passed over,
     /// even if the displacement leads into it. So a ball on a floor finds the wall, even where both are one body.
-    /// Whatever is level with what is touched is passed over, too: by the rule of
-    /// [`Pair2::next_impact`](crate::Pair2::next_impact), and for other bodies, like the tiles of a floor, by that of
-    /// [`next_impact_beside`](crate::Pair2::next_impact_beside). A displacement of zero, or that is not finite, leads
-    /// into nothing: `None`.
     ///
-    /// A [bullet](crate::Collider2::bullet) with this displacement for its motion is told as much, but not bit for bit.
-    /// Both stop a little before they touch, within the error that [`Pair2::cast`](crate::Pair2::cast) states; where
-    /// the shape grazes what it meets, that is a longer way, and the fractions differ by as much.
+    /// - Whatever is level with what is touched is passed over, too: by the rule of
+    ///   [`Pair2::next_impact`](crate::Pair2::next_impact), and for other bodies, like the tiles of a floor, by that of
+    ///   [`next_impact_beside`](crate::Pair2::next_impact_beside).
+    /// - A displacement that is zero, or not finite, leads into nothing: `None`.
+    /// - A [bullet](crate::Collider2::bullet) that has this displacement as its motion is told the same, but not bit
+    ///   for bit. Both stop a little before they touch, within the error that [`Pair2::cast`](crate::Pair2::cast)
+    ///   states; where the shape grazes what it meets, that is a longer way, and the fractions differ by as much.
     ///
     /// ```
     /// use asunder::{Chain, Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
@@ -135,7 +139,7 @@ impl World<Plane> {
         first_ahead(self, from, displacement, filter)
     }
 
-    /// All bodies that a moved shape meets, as [`World::cast_shape`] tells of the first.
+    /// All bodies that a moved shape meets, each reported as [`World::cast_shape`] reports the first.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
@@ -161,7 +165,7 @@ impl World<Plane> {
         bodies_along(self, from, displacement, filter).all(into);
     }
 
-    /// [`World::cast_shape_all`], one by one in no promised order.
+    /// Like [`World::cast_shape_all`], but one by one, in no promised order.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
