@@ -37,11 +37,11 @@ use asunder_narrow::ArrayVec;
 use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 
-/// How a character walks: what is up, what it can stand on and climb. `N` is a vector of f32; use it as [`Walk2`]
-/// or [`Walk3`].
+/// How a character walks: what is up, what it can stand on and climb. `N` is a vector of f32; use it as [`Walk2`] or
+/// [`Walk3`].
 ///
-/// Make one with `new` and change what your game wants otherwise. All lengths are in metres; one that is NaN or
-/// below zero counts as zero, and the skin is never less than 1/4096 of the shape's bounding radius.
+/// Make one with `new` and change the fields that your game wants different. All lengths are in metres; one that is NaN
+/// or below zero counts as zero, and the skin is never less than 1/4096 of the shape's bounding radius.
 ///
 /// ```
 /// use asunder::{Capsule3, Shape3, Walk3, glam::Vec3};
@@ -55,18 +55,18 @@ use core::ops::{Add, Mul, Neg, Sub};
 pub struct Walk<N> {
     /// Which way is up; its length does not matter. Zero for a character that has no ground, such as one that flies.
     pub up: N,
-    /// The gap that is kept to everything. At first a hundredth of the shape's bounding radius.
+    /// The gap that is kept to everything. Default: a hundredth of the shape's bounding radius.
     pub skin: f32,
-    /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: what is steeper is a
-    /// wall. At first 0.7, 45.6 degrees; a NaN counts as that.
+    /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: anything steeper is a wall.
+    /// Default: 0.7, which is 45.6 degrees; a NaN counts as that.
     pub steepest: f32,
-    /// The highest step that is climbed, give or take half a skin; 0 for none. Anything higher is a wall, but for round
-    /// feet of radius r: they walk over an edge up to (1 - `steepest`) r high whatever the step, at first 0.3 r, since
-    /// what they touch of it is no steeper than ground. Default: 0.35 of the shape's bounding radius, a third of a
-    /// metre for a grown-up.
+    /// The highest step that is climbed, give or take half a skin; 0 for none. Anything higher is a wall, except for
+    /// round feet of radius r: whatever the step, they walk over an edge up to (1 - `steepest`) r high, by default 0.3
+    /// r, since what they touch of it is no steeper than ground. Default: 0.35 of the shape's bounding radius, a third
+    /// of a metre for an adult.
     pub step: f32,
     /// How far down a character follows the ground that it stood on, unless it moves up; 0 to switch that off. Default:
-    /// as much as `step`.
+    /// the same as `step`.
     pub snap: f32,
 }
 
@@ -96,8 +96,8 @@ pub struct Freed<O, P> {
     pub pose: O,
     /// How it was moved to be there, in metres. Zero where it was free already.
     pub moved: P,
-    /// Whether it overlaps no solid now; touching counts as overlapping. Exact; one-sided ground
-    /// that it is behind is nothing that it overlaps.
+    /// Whether it overlaps no solid now; touching counts as overlapping. Exact. One-sided ground that it is behind does
+    /// not count as overlapped.
     pub is_free: bool,
 }
 
@@ -131,14 +131,14 @@ pub struct Obstacle<K, N, P> {
     pub normal: N,
     /// Where they would meet, on the body, in metres.
     pub point: P,
-    /// Which part of the body: of a compound its part, of ground the triangle, of a chain the segment; else 0.
+    /// Which part of the body: the part of a compound, the triangle of ground, the segment of a chain; else 0.
     pub part: u32,
 }
 
-/// What a character of the plane stands on, or met.
+/// What a character in the plane stands on, or met.
 pub type Obstacle2 = Obstacle<BodyKey2, Vec2, DVec2>;
 
-/// What a character of space stands on, or met.
+/// What a character in space stands on, or met.
 pub type Obstacle3 = Obstacle<BodyKey3, Vec3, DVec3>;
 
 /// How far a character came, and what it met. `K` is a key, `O` a pose, `N` a vector of f32 and `P` one of f64; use
@@ -165,27 +165,28 @@ pub struct Slide<K, O, N, P> {
     pub pose: O,
     /// How it came there, as one vector, in metres.
     pub moved: P,
-    /// What it stands on at the end, if it does: ground no steeper than it can walk on, or the edge of a step. Of a
-    /// round foot beside an edge the normal is the foot's own and may be nearly horizontal, the gap may be some skins,
+    /// What it stands on at the end, if anything: ground no steeper than it can walk on, or the edge of a step. For a
+    /// round foot beside an edge, the normal is the foot's own and may be nearly horizontal, the gap may be some skins,
     /// and the lowest point up to a step below the edge.
     pub ground: Option<Obstacle<K, N, P>>,
-    /// What it met that it cannot stand on or does not get up on, walls, ceilings and kerbs, in the order in which it
-    /// met them; first upright walls that it was closer to than its skin, and goes into. No more than eight. Whoever
-    /// did not go all of the way is told why here, or by `ground`; but ground that turned a jump aside, and ground that
-    /// broke a fall and was left again within the same displacement, are told nowhere: compare `moved` with what was
-    /// asked for.
+    /// What it met that it cannot stand on or does not get up on (walls, ceilings and kerbs), in the order in which it
+    /// met them; first upright walls that it was closer to than its skin, and goes into. No more than eight.
+    ///
+    /// If it did not go all of the way, the reason is here or in `ground`. But ground that turned a jump aside, and
+    /// ground that broke a fall and was left again within the same displacement, are reported nowhere: compare `moved`
+    /// with what was asked for.
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
     pub blocked: bool,
-    /// Whether it overlaps no solid now, one-sided ground that it came through from behind aside. Always so where it
-    /// overlapped none before; exact.
+    /// Whether it overlaps no solid now, apart from one-sided ground that it came through from behind. Always so where
+    /// it overlapped none before; exact.
     pub is_free: bool,
 }
 
-/// How far a character of the plane came, and what it met.
+/// How far a character in the plane came, and what it met.
 pub type Slide2 = Slide<BodyKey2, Pose2, Vec2, DVec2>;
 
-/// How far a character of space came, and what it met.
+/// How far a character in space came, and what it met.
 pub type Slide3 = Slide<BodyKey3, Pose3, Vec3, DVec3>;
 
 /// A vector of f64, as far as walking goes.
