@@ -16,22 +16,22 @@ use asunder_geometry::tolerance;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DebugOptions {
-    /// The outline of every body that is enabled, where it stands now. On at first.
+    /// The outline of every body that is enabled, where it stands now. On by default.
     pub shapes: bool,
-    /// The boxes of the broad phase, as of the last update; none around half-spaces. A restored world has those around
-    /// bodies where they stand now, until it is updated. Off at first.
+    /// The boxes of the broad phase, as of the last update; none around half-spaces. In a restored world, until it is
+    /// updated, those around bodies where they stand now. Off by default.
     pub boxes: bool,
-    /// The columns that the broad phase last sorted boxes into, those that hold any. How fast it is depends on them,
-    /// and which were last depends on what came before; contacts do not. Off at first.
+    /// The columns that the broad phase last sorted boxes into, those that hold any. Its speed depends on them, and
+    /// which were last depends on what came before; contacts do not. Off by default.
     pub columns: bool,
-    /// A cross at each contact point, half-way between both bodies, as of the last update. On at first.
+    /// A cross at each contact point, half-way between both bodies, as of the last update. On by default.
     pub contacts: bool,
-    /// The normal at each contact point, from there towards the body in the higher slot. On at first.
+    /// The normal at each contact point, from there towards the body in the higher slot. On by default.
     pub normals: bool,
-    /// Length of a normal, in metres, at most 1e6; a cross is a quarter of it. What is no number counts as 0. 0.2 at
-    /// first.
+    /// Length of a normal, in metres, at most 1e6; 0.2 by default. A cross is a quarter of it. A NaN counts as 0.
     pub length: f32,
-    /// Half of the side of the patch that stands for a half-space, in metres, at most 1e6. What is no number counts as 0. 20 at first.
+    /// Half of the side of the patch that stands for a half-space, in metres, at most 1e6; 20 by default. A NaN counts
+    /// as 0.
     pub endless: f32,
 }
 

@@ -10,8 +10,8 @@ impl World<Plane> {
     /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with
     /// what it is about.
     ///
-    /// Always the same lines in the same order for the same world; columns for a world with the same past. Cost: linear
-    /// in what is drawn; nothing is allocated.
+    /// The same world always gives the same lines in the same order; columns are the same for a world with the same
+    /// past. Cost: linear in what is drawn; nothing is allocated.
     ///
     /// ```
     /// use asunder::{Collider2, DebugLine, DebugOptions, Rect, World2, glam::{DVec2, Vec2}};
@@ -27,7 +27,8 @@ impl World<Plane> {
         self.draw(None, options, line);
     }
 
-    /// The same of a region: the lines that reach into it, in the order in which they come of the whole world.
+    /// Hands over only the lines that reach into a region, in the order in which they come for the whole world.
+    ///
     /// Cost: a look at every body, contact and box, and at all that there is of a body that reaches in; nothing is
     /// allocated.
     ///
@@ -119,10 +120,10 @@ impl World<Plane> {
 }
 
 impl DebugOptions {
-    /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost
-    /// of what is to be built. Lengths are those of the options.
+    /// Hands over the outline of a shape, in world coordinates. The shape need be in no world: it may be a query's,
+    /// say, or the ghost of what is to be built. Lengths are those of the options.
     ///
-    /// To draw but a part of a large world: [`debug_lines_in`](World::debug_lines_in).
+    /// To draw only part of a large world, use [`debug_lines_in`](World::debug_lines_in).
     ///
     /// ```
     /// use asunder::{DebugOptions, Pose2, Rect, Shape2, glam::DVec2, glam::Vec2};

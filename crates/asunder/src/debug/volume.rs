@@ -11,8 +11,8 @@ impl World<Volume> {
     /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with
     /// what it is about.
     ///
-    /// Always the same lines in the same order for the same world; columns for a world with the same past. Cost: linear
-    /// in what is drawn; nothing is allocated.
+    /// The same world always gives the same lines in the same order; columns are the same for a world with the same
+    /// past. Cost: linear in what is drawn; nothing is allocated.
     ///
     /// ```
     /// use asunder::{Collider3, Cuboid, DebugLine, DebugOptions, Sphere, World3, glam::Vec3};
@@ -35,7 +35,8 @@ impl World<Volume> {
         self.draw(None, options, line);
     }
 
-    /// The same of a region: the lines that reach into it, in the order in which they come of the whole world.
+    /// Hands over only the lines that reach into a region, in the order in which they come for the whole world.
+    ///
     /// Of ground, only what is there is looked at. Cost: linear in what is drawn, with a look at every body, contact
     /// and box.
     ///
@@ -130,10 +131,10 @@ impl World<Volume> {
 }
 
 impl DebugOptions {
-    /// Hands over the outline of a shape that need be in no world, in world coordinates: a query's, say, or the ghost
-    /// of what is to be built. Lengths are those of the options.
+    /// Hands over the outline of a shape, in world coordinates. The shape need be in no world: it may be a query's,
+    /// say, or the ghost of what is to be built. Lengths are those of the options.
     ///
-    /// To draw but a part of a large world: [`debug_lines_in`](World::debug_lines_in).
+    /// To draw only part of a large world, use [`debug_lines_in`](World::debug_lines_in).
     ///
     /// ```
     /// use asunder::{DebugOptions, Pose3, Cuboid, Shape3, glam::DVec3, glam::Vec3};
