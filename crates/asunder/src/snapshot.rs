@@ -27,10 +27,10 @@ use content::Content;
 use serde::{Deserialize, Serialize};
 use shapes::Saved;
 
-/// All of a world that its future and its present outputs depend on; use it as [`Snapshot2`] or [`Snapshot3`].
+/// Everything that a world's future and its present outputs depend on; use it as [`Snapshot2`] or [`Snapshot3`].
 ///
-/// It is made for save games and for sending a world to somebody who joins. To roll back some frames, keep clones
-/// of the world: that is many times faster, and a clone has an equal future too.
+/// It is made for save games and for sending a world to somebody who joins. To roll back some frames, keep clones of
+/// the world: that is many times faster, and a clone has an equal future too.
 ///
 /// ```
 /// use asunder::{Collider3, Cuboid, Pose3, Snapshot3, World3, glam::Vec3};
@@ -56,7 +56,7 @@ use shapes::Saved;
 ///
 /// # Formats
 /// Any binary format of serde's keeps all numbers. So does RON; serde_json does with its feature `float_roundtrip`,
-/// and without it [`World::restore`] says so by [`SnapshotError::Checksum`].
+/// and without it [`World::restore`] says so with [`SnapshotError::Checksum`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound = "", deny_unknown_fields)]
 pub struct Snapshot<S: Saved> {
@@ -71,30 +71,32 @@ pub type Snapshot2 = Snapshot<Plane>;
 pub type Snapshot3 = Snapshot<Volume>;
 
 impl<S: Saved> Snapshot<S> {
-    /// A number made of every bit of the snapshot: worlds that went through equal operations have equal ones, on
-    /// any machine. Two peers that compare it every now and then find out when they drift apart. It is no
-    /// protection against forgery.
+    /// A number made of every bit of the snapshot. Worlds that went through equal operations have equal ones, on any
+    /// machine: two peers that compare it every now and then find out when they drift apart. It is no protection
+    /// against forgery.
     pub fn checksum(&self) -> u64 {
         self.checksum
     }
 }
 
 impl<S: Saved> World<S> {
-    /// Everything that the world's future depends on, as data for serde: see [`Snapshot`]. Shapes that bodies
-    /// share, and equal ones, are in it once. Cost: a copy of all bodies and contacts, and a pass over all their
-    /// numbers.
+    /// Everything that the world's future depends on, as data for serde: see [`Snapshot`]. Shapes that bodies share,
+    /// and equal ones, are in it once.
+    ///
+    /// Cost: a copy of all bodies and contacts, and a pass over all their numbers.
     pub fn snapshot(&self) -> Snapshot<S> {
         S::save(self)
     }
 
-    /// The world that a snapshot was taken of: equal keys, contacts and events, and an equal future, that of new
-    /// bodies' keys included. Bodies that shared a hull, polygon or compound, or had equal ones, share it. Cost: as
-    /// for a first update, without the narrow phase; hulls are checked.
+    /// The world that a snapshot was taken of: equal keys, contacts and events, and an equal future, including the keys
+    /// of new bodies. Bodies that shared a hull, polygon or compound, or had equal ones, share it.
+    ///
+    /// Cost: as for a first update, without the narrow phase; hulls are checked.
     ///
     /// # Errors
-    /// Data that no snapshot has. A file that was damaged is refused. One that was made up, with a checksum that fits,
-    /// is refused or gives a world that works, but it may hold for apart, until bodies have gone as far as it says,
-    /// what overlaps.
+    /// Data that no snapshot has. A file that was damaged is refused. A file that was made up, with a checksum that
+    /// fits, is refused or gives a world that works; but that world may take bodies that overlap to be apart, until
+    /// they have gone as far as the file says.
     pub fn restore(snapshot: &Snapshot<S>) -> Result<Self, SnapshotError> {
         S::restore(snapshot)
     }

@@ -14,26 +14,26 @@ use crate::collider::MarginError;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// Of another version of the format than this library's.
+    /// The snapshot is of another version of the format than this library's.
     Format {
         /// What was found.
         found: u32,
     },
-    /// A shared shape is none, or a body or a part names one that is not there.
+    /// A shared shape is not a valid one, or a body or a part names one that is not there.
     Shape {
         /// Which shape, counted among those of its kind; or the slot of the body.
         index: usize,
         /// What is wrong with it.
         reason: String,
     },
-    /// The margin of a body.
+    /// A body's margin is not a valid one.
     Margin {
         /// The body's slot.
         slot: usize,
         /// What is wrong with it.
         error: MarginError,
     },
-    /// The version of a slot is even or too great, or how far its body went is no number that can be.
+    /// The version of a slot is even or too great, or the distance that its body went is no possible number.
     Slot {
         /// The slot.
         slot: usize,
@@ -64,7 +64,8 @@ pub enum SnapshotError {
         /// The place of its contact in the list.
         index: usize,
     },
-    /// What is kept of a pair has a number that is not finite, or a manifold as of [`Manifold`](Self::Manifold).
+    /// What is kept of a pair has a number that is not finite, or a manifold that is wrong as in
+    /// [`Manifold`](Self::Manifold).
     Candidate {
         /// Its place in the list.
         index: usize,
