@@ -32,9 +32,9 @@ pub struct Hit<K, I> {
     pub other: K,
     /// Whether either is a sensor, which stops nobody.
     pub sensor: bool,
-    /// When, where, and how sure. The normal points from the bullet to the other. The point in the world is
-    /// `anchor_a` from the bullet's position at that share of its motion; of another that has no motion, `anchor_b`
-    /// from where it stands.
+    /// When, where, and how sure. The normal points from the bullet to the other. The point in the world is `anchor_a`
+    /// from the bullet's position at that share of its motion; on another body that has no motion, it is `anchor_b`
+    /// from where that stands.
     pub impact: I,
 }
 

@@ -2,8 +2,8 @@
 
 use core::time::Duration;
 
-/// Times a stage and counts of the last update. Times are wall clock, zero where the platform has none; everything
-/// else is deterministic.
+/// Times of each stage, and counts, of the last update. Times are wall clock, zero where the platform has none;
+/// everything else is deterministic.
 ///
 /// ```
 /// use asunder::World3;
