@@ -36,32 +36,37 @@
 //! - Two shapes without a world: [`Pair3`].
 //! - The [`guide`] has pages on most of these, with whole examples.
 //!
-//! All of it is there in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
+//! Everything is there in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
 //! `asunder_geometry` or `asunder_narrow`, the crates that this one is built on: what a game needs of them is
 //! re-exported here under the same name (`asunder::Pose3`). To write a world of your own, see the jobs, batches and
 //! hints in `asunder_narrow`.
 //!
 //! # Words
-//! A **candidate** is a pair whose boxes, margins included, overlap, and that may meet; a **contact**, a candidate
-//! within the sum of both margins, or one that this frame's motions may bring there (then it is *speculative*). Two
-//! bodies **overlap** while they share a point, and are **touching** ([`World3::is_touching`]) from then until they are
-//! further apart than their margins: from `Began` to `Ended`. The page on [`events`](guide::events) has this as a
-//! table.
+//! - A **candidate** is a pair whose boxes, margins included, overlap, and that may meet.
+//! - A **contact** is a candidate within the sum of both margins, or one that this frame's motions may bring there
+//!   (then it is *speculative*).
+//! - Two bodies **overlap** while they share a point.
+//! - They are **touching** ([`World3::is_touching`]) from then until they are further apart than their margins: from
+//!   `Began` to `Ended`.
+//!
+//! The page on [`events`](guide::events) has this as a table.
 //!
 //! # Debug builds
 //! A debug build of a game leaves its dependencies unoptimised, which makes this one tens of times slower than it has
 //! to be. Put `[profile.dev.package."*"]` with `opt-level = 3` into the game's Cargo.toml. Updates and queries are
-//! compiled with this crate, so that this covers them, except the `visit_*` calls, which are compiled with your
-//! closure.
+//! compiled with this crate, so this covers them, except the `visit_*` calls, which are compiled with your closure.
 //!
 //! # How sure the answers are
 //! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches
-//! it, and one a rounding away does not. Every separation carries an `error` in metres that the truth lies within.
+//! it, and one a rounding away does not. Every separation carries an `error`, in metres: the truth lies within it.
+//!
 //! Both are about the **true shape**: the convex hull of the stored f32 vertices, grown by the stored radius,
 //! turned by the matrix of the stored rotation (in space M(q)/|q|^2, of whatever length q is) and moved by the f64
-//! position, exactly. The separation is the maximum over unit n of (min over B of n.x - max over A of n.x). Where the
-//! shapes are apart, it is their distance; where they overlap, it is minus the length of the shortest translation that
-//! separates them. It is at most zero exactly when they overlap.
+//! position, exactly.
+//!
+//! The separation is the maximum over unit n of (min over B of n.x - max over A of n.x). Where the shapes are apart, it
+//! is their distance; where they overlap, it is minus the length of the shortest translation that separates them. It is
+//! at most zero exactly when they overlap.
 //!
 //! # Feature flags
 //! - `parallel` (default): refit, sweep, collide and impacts run on rayon's threads. Every output is bit-equal with and
