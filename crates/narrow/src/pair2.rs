@@ -100,17 +100,20 @@ impl<'a> Pair2<'a> {
     /// Whether the shapes share a point, exactly; touching counts.
     ///
     /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which. Cost: constant where circles around or inside the shapes tell, and
-    /// for rectangles; the product of the vertex counts for polygons of up to 16 vertices; above, the logarithm of the
-    /// vertices, and no more than their number however they overlap; for shapes that touch up to rounding some
-    /// microseconds more.
+    /// [`verdict`](Self::verdict) says which.
+    ///
+    /// Cost:
+    /// - Constant where circles around or inside the shapes tell, and for rectangles.
+    /// - Polygons of up to 16 vertices: the product of the vertex counts.
+    /// - Polygons of more: the logarithm of the vertices, and no more than their number however they overlap.
+    /// - Shapes that touch up to rounding: some microseconds more.
     pub fn overlaps(&self) -> bool {
         self.verdict().overlapping
     }
 
     /// Whether the shapes share a point, as contacts and characters see it: [`overlaps`](Self::overlaps), but of a
-    /// one-sided chain only the runs whose front the middle of a part is on. Two chains see each other from all sides.
-    /// Exact, and no more than a yes or no.
+    /// one-sided chain only the runs that have the middle of a part in front of them. Two chains see each other from
+    /// all sides. Exact, and no more than a yes or no.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Circle, Pose2, Shape2, glam::Vec2};
@@ -159,7 +162,7 @@ impl<'a> Pair2<'a> {
         Verdict { overlapping, tier }
     }
 
-    /// What the first tier alone says of the overlap, right or wrong: the sign that its numbers have.
+    /// What the first tier alone says about the overlap, right or wrong: the sign that its numbers have.
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
     ///
@@ -181,11 +184,15 @@ impl<'a> Pair2<'a> {
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
-    /// Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as no
-    /// limit, and a negative limit as zero. Two half-planes have separation -inf unless they look exactly away from
-    /// each other. Cost: the product of the vertex counts for polygons of up to 16 vertices; above, the logarithm of
-    /// the vertices for shapes apart or slightly overlapping, their number for those on one centre; in a gap within the
-    /// limit a few support searches more, for the Euclidean distance.
+    /// - Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as no
+    ///   limit, and a negative limit as zero.
+    /// - Two half-planes have separation -inf unless they look exactly away from each other.
+    ///
+    /// Cost:
+    /// - Polygons of up to 16 vertices: the product of the vertex counts.
+    /// - Polygons of more: the logarithm of the vertices for shapes apart or slightly overlapping, their number for
+    ///   those on one centre.
+    /// - In a gap within the limit: a few support searches more, for the Euclidean distance.
     pub fn separation(&self, limit: f32) -> Separation2 {
         let limit = if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) };
         let measured = |near: &Near| {
@@ -208,8 +215,8 @@ impl<'a> Pair2<'a> {
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
     ///
-    /// A point may lie up to the margin outside. Of compounds, the deepest pair of parts; [`Pair2::manifolds`] has
-    /// them all. Nothing for two half-planes that overlap without end. Cost: as the separation, plus clipping two
+    /// A point may lie up to the margin outside. For compounds this is the deepest pair of parts; [`Pair2::manifolds`]
+    /// has them all. `None` for two half-planes that overlap without end. Cost: as the separation, plus clipping two
     /// edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
         if self.has_ground() {
@@ -255,7 +262,8 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// [`Pair2::manifolds`], one by one: for who asks every frame, and has no list. The thread keeps the memory.
+    /// Like [`Pair2::manifolds`], but one by one: for code that asks every frame and has no list. The thread keeps the
+    /// memory.
     ///
     /// ```
     /// use asunder_geometry::{HalfPlane, Pose2, Shape2, Circle, glam::Vec2};

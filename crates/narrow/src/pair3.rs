@@ -90,20 +90,24 @@ impl<'a> Pair3<'a> {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
 
-    /// Whether the shapes share a point, exactly; touching counts.
+    /// Whether the shapes share a point, exactly; touching counts. Ground knows no sides here.
     ///
     /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which. Cost: fifteen axes for cuboids; else some
-    /// support searches, each linear in the vertices; for shapes that touch up to rounding some microseconds more. Of
-    /// ground, which knows no sides here, that for each triangle whose box a part's box meets; of two grounds, for each
-    /// triangle of one that is near the other.
+    /// [`verdict`](Self::verdict) says which.
+    ///
+    /// Cost:
+    /// - Cuboids: fifteen axes.
+    /// - Others: some support searches, each linear in the vertices.
+    /// - Shapes that touch up to rounding: some microseconds more.
+    /// - Ground: that for each triangle whose box a part's box meets; two grounds: for each triangle of one that is
+    ///   near the other.
     pub fn overlaps(&self) -> bool {
         self.verdict().overlapping
     }
 
     /// Whether the shapes share a point, as contacts and characters see it: [`overlaps`](Self::overlaps), but of
-    /// one-sided ground only the triangles whose front the middle of a part is on. Two grounds see each other from all
-    /// sides. Exact, and no more than a yes or no.
+    /// one-sided ground only the triangles that have the middle of a part in front of them. Two grounds see each other
+    /// from all sides. Exact, and no more than a yes or no.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, Shape3, Sphere, TriMesh, glam::Vec3};
@@ -168,7 +172,7 @@ impl<'a> Pair3<'a> {
         Verdict { overlapping, tier }
     }
 
-    /// What the first tier alone says of the overlap, right or wrong: the sign that its numbers have. By the general
+    /// What the first tier alone says about the overlap, right or wrong: the sign that its numbers have. By the general
     /// kernels, which those of cuboids have overtaken.
     ///
     /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
@@ -191,15 +195,18 @@ impl<'a> Pair3<'a> {
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
-    /// Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as no
-    /// limit, and a negative limit as zero. Two half-spaces have separation -inf unless they look exactly away from
-    /// each other. Cost for two hulls: linear in faces, edges and vertices, plus what culling leaves of them, pair by
-    /// pair; fifteen axes for cuboids; in a gap a few support searches, for the Euclidean distance.
+    /// - Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as no
+    ///   limit, and a negative limit as zero.
+    /// - Two half-spaces have separation -inf unless they look exactly away from each other.
+    /// - Of ground it is the least of all triangles'. In overlap it says how deep the deepest single triangle is, from
+    ///   whichever side is nearer: push out by [`manifolds`](Self::manifolds), which know the ground around it.
     ///
-    /// Of ground it is the least of all triangles', nearest first through the index: logarithmic in them where they are
-    /// apart, linear for a half-space, and of two grounds that for each triangle of one that is near the other. In
-    /// overlap it says how deep the deepest single triangle is, from whichever side is nearer: push out by
-    /// [`manifolds`](Self::manifolds), which know the ground around it.
+    /// Cost:
+    /// - Cuboids: fifteen axes.
+    /// - Two hulls: linear in faces, edges and vertices, plus what culling leaves of them, pair by pair.
+    /// - In a gap: a few support searches, for the Euclidean distance.
+    /// - Ground, nearest first through the index: logarithmic in its triangles where the shapes are apart, linear for a
+    ///   half-space; two grounds: that for each triangle of one that is near the other.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = limit_of(limit);
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
@@ -222,7 +229,7 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    /// The closest points of shapes that do not overlap; nothing where they do. Cost: some support searches, each
+    /// The closest points of shapes that do not overlap; `None` where they do. Cost: some support searches, each
     /// linear in the vertices.
     pub fn distance(&self) -> Option<Closest3> {
         if let Some(found) = self.distance_in_closed_form() {
@@ -251,8 +258,8 @@ impl<'a> Pair3<'a> {
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
     ///
-    /// A point may lie up to the margin outside. Of compounds, the deepest pair of parts; [`Pair3::manifolds`] has
-    /// them all. Nothing for two half-spaces that overlap without end. Cost: as the separation, plus clipping two
+    /// A point may lie up to the margin outside. For compounds this is the deepest pair of parts; [`Pair3::manifolds`]
+    /// has them all. `None` for two half-spaces that overlap without end. Cost: as the separation, plus clipping two
     /// faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
         let mut hint = Hint::NONE;
@@ -291,7 +298,8 @@ impl<'a> Pair3<'a> {
         manifolds
     }
 
-    /// [`Pair3::manifolds`], one by one: for who asks every frame, and has no list. The thread keeps the memory.
+    /// Like [`Pair3::manifolds`], but one by one: for code that asks every frame and has no list. The thread keeps the
+    /// memory.
     ///
     /// ```
     /// use asunder_geometry::{HalfSpace, Pose3, Shape3, Sphere, glam::Vec3};

@@ -9,7 +9,7 @@ use crate::polygon::apart::Apart;
 use crate::polygon::measure::{Asked, Near, Probe};
 
 impl Pair2<'_> {
-    /// The closest points of shapes that do not overlap; nothing where they do. Cost: as [`overlaps`](Self::overlaps),
+    /// The closest points of shapes that do not overlap; `None` where they do. Cost: as [`overlaps`](Self::overlaps),
     /// and where they do not some support searches, each linear in the vertices up to 16, above logarithmic.
     pub fn distance(&self) -> Option<Closest2> {
         // Yes or no is cheap, where the search below would end in an overlap, or in how deep each part is, for nothing.
