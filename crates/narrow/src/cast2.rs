@@ -66,29 +66,30 @@ pub use ray::cast_ray2;
 use stretch::{Stretch, Travel};
 
 impl Pair2<'_> {
-    /// Where A first touches B when it moves by a displacement in metres, in world axes, and B stands; nothing if
+    /// Where A first touches B when it moves by a displacement in metres, in world axes, and B stands still; `None` if
     /// it does not.
     ///
-    /// - Touching at the start, exactly, is an impact at fraction 0, also where A moves away. Its anchors are the
+    /// - Touching at the start, exactly, is an impact at fraction 0, even where A moves away. Its anchors are the
     ///   deepest contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
     /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin; further out some 8
-    ///   units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, but where A
-    ///   parts from it; `overlapping` says no, and `error` how far apart they may be. So what a cast has brought to
-    ///   another may leave it; save, now and then, where that is some thousand times as large.
-    /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says
-    ///   by how much they may miss.
+    ///   units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, unless A parts
+    ///   from it; `overlapping` says no, and `error` how far apart they may be. So what a cast has brought to another
+    ///   may leave it; except, now and then, where that is some thousand times as large.
+    /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says by
+    ///   how much they may miss.
     /// - Of compounds, the pair of parts that touches first; of equals, the first.
     /// - A one-sided chain is met from its front alone: what is behind a straight [run](asunder_geometry::Run) of it
-    ///   when it comes to touch that passes all of the run, also where its middle comes through on the way; contacts
-    ///   begin then. What turns may come to touch the run again, from its front, once the two have been apart for a
-    ///   32nd of the motion; a shorter time between may be missed, and the touch after it.
-    ///   Inner vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the
+    ///   when it comes to touch that run passes all of it, even where its middle comes through on the way; contacts
+    ///   begin then. A shape that turns may come to touch the run again, from its front, once the two have been apart
+    ///   for a 32nd of the motion; a shorter time between may be missed, and the touch after it.
+    /// - Inner vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the
     ///   first segment of the straight run that is met.
-    /// - A displacement that is not finite counts as none: who touches is told so, unlike by a world's `cast_shape`.
+    /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
+    ///   `cast_shape`.
     ///
-    /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap,
-    /// and one distance for each round: one to three rounds for most pairs, some twenty where curves graze. So it
-    /// grows as [`distance`](Self::distance) does: as the logarithm of a polygon's vertices.
+    /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap, and
+    /// one distance for each round: one to three rounds for most pairs, some twenty where curves graze. So it grows as
+    /// [`distance`](Self::distance) does: as the logarithm of a polygon's vertices.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -107,14 +108,15 @@ impl Pair2<'_> {
         self.first_touch(&Travel::shift([&self.pose_a, &self.pose_b], displacement.as_dvec2()))
     }
 
-    /// Where the bodies first touch when both move, and perhaps turn; nothing if they do not. All that
-    /// [`cast`](Self::cast) says holds here too.
+    /// When the bodies first touch if both move, and perhaps turn; `None` if they do not. All that [`cast`](Self::cast)
+    /// says holds here too.
     ///
-    /// The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they touch,
-    /// and there they are at most `error` apart. Where a body turns, and is no ball about its position, that is no less
-    /// than 1.2e-7 of its arm. Where many rounds lead no nearer, as for shapes that graze each other while they turn,
-    /// the fraction is that of the last round, and `error` the gap that is left there. Two half-planes of which one
-    /// turns touch at once.
+    /// - The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they
+    ///   touch, and there they are at most `error` apart. Where a body turns, and is not a ball about its position,
+    ///   that is no less than 1.2e-7 of its arm.
+    /// - Where many rounds lead no nearer, as for shapes that graze each other while they turn, the fraction is that of
+    ///   the last round, and `error` the gap that is left there.
+    /// - Two half-planes of which one turns touch at once.
     ///
     /// Cost: as a cast where nothing turns; else 5 to 20 us, most of it distances, and two supports for every time
     /// tried.
@@ -135,22 +137,27 @@ impl Pair2<'_> {
         self.first_touch(&Travel::of(self, [motion_a, motion_b]))
     }
 
-    /// [`impact`](Self::impact), of bodies that may touch already: what they run into next.
+    /// What bodies that may touch already run into next: like [`impact`](Self::impact), but what they touch at the
+    /// start is passed over.
     ///
-    /// Parts of chains and of compounds that touch at the start are left out, and so is what is level with them. A part
-    /// is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness away at
-    /// the start and the motion leads at most that far into it, not counting what the motion leads into the touched
-    /// parts anyway. Of a body that turns, and is deeper along that normal at the start than in what it touches, since
-    /// another axis parts the two, what it goes into counts from where they meet. A part of a compound is level, too,
-    /// if it is flush with a touched one, as long as the body never sinks deeper below that than half its thickness.
-    /// The thickness is the radius of a ball in the body's middle. So a ball that its weight presses on a level's floor
-    /// crosses the floor's vertices and still runs into the level's walls, steps and ramps. A motion that sinks a body
-    /// into its floor by its whole thickness leads it under what stands there.
+    /// Parts of chains and of compounds that touch at the start are left out, and so is what is level with them. So a
+    /// ball that its weight presses on a level's floor crosses the floor's vertices and still runs into the level's
+    /// walls, steps and ramps.
     ///
-    /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at
-    /// the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as
-    /// half a thickness. Of bodies of one part each that touch, nothing. Never `overlapping`. Cost: as the impact,
-    /// which is asked first; for those that touch their manifolds too, and another search.
+    /// - A part is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness
+    ///   away at the start and the motion leads at most that far into it, not counting what the motion leads into the
+    ///   touched parts anyway. The thickness is the radius of a ball in the body's middle.
+    /// - Of a body that turns, and is deeper along that normal at the start than in what it touches, since another axis
+    ///   parts the two, what it goes into counts from where they meet.
+    /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
+    ///   below that than half its thickness.
+    /// - A motion that sinks a body into its floor by its whole thickness leads it under what stands there.
+    /// - Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact
+    ///   at the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as
+    ///   good as half a thickness.
+    /// - `None` for bodies of one part each that touch. Never `overlapping`.
+    ///
+    /// Cost: as the impact, which is asked first; for those that touch, their manifolds too, and another search.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Circle, Motion2, Pose2, Shape2, glam::Vec2};
@@ -171,15 +178,17 @@ impl Pair2<'_> {
     }
 
     /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as
-    /// well, as the next of the tiles that a floor is made of; but for parts of ground that it touches too, which has
-    /// no such seams.
+    /// well, such as the next of the tiles that a floor is made of. Not so parts of ground that A touches too: ground
+    /// has no such seams.
     ///
-    /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
-    /// never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual. This
-    /// is asked of where the two stand at the start, and what B does after that counts as sinking: one that was flush
-    /// and swings or rises into A, by less than that half, is no impact, but a contact once it is there. Half-spaces
-    /// are never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where there is
-    /// one, another search.
+    /// - Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
+    ///   never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
+    /// - This is judged by where the two stand at the start, and what B does after that counts as sinking: a body that
+    ///   was flush and swings or rises into A, by less than that half, is no impact, but a contact once it is there.
+    /// - Half-spaces are never flush.
+    /// - A touch whose axis is not of length 1 is ignored.
+    ///
+    /// Cost: as the next impact; where there is one, another search.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rect, Shape2, glam::Vec2};

@@ -51,29 +51,33 @@ use passage::{Course, Passage, Stretch, rounding_of};
 pub use ray::cast_ray3;
 
 impl Pair3<'_> {
-    /// When A, moved by this displacement in metres, first touches B, which stands; nothing where it never does.
+    /// When A, moved by this displacement in metres, first touches B, which stands still; `None` if it never does.
     ///
-    /// Before the fraction that is told they certainly do not touch; there they are at most `error` apart: at most 1e-6
-    /// of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds, save where
-    /// the displacement is so long or the bodies so far from the origin that f64 has no nearer place. A miss is certain
-    /// too. Shapes that pass each other within `error` may be told as an impact; those that part from each other are
-    /// not, however near they are, so that what a cast has brought to another may leave it: save, now and then, what
-    /// leaves an edge or a corner that is less than 1e-12 of the larger size away, or anything some ten thousand times
-    /// as large as itself.
+    /// - Before the fraction that is reported they certainly do not touch; there they are at most `error` apart: at
+    ///   most 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds,
+    ///   except where the displacement is so long or the bodies so far from the origin that f64 has no nearer place.
+    /// - A miss is certain too. Shapes that pass each other within `error` may be reported as an impact; those that
+    ///   part from each other are not, however near they are, so that what a cast has brought to another may leave it:
+    ///   except, now and then, what leaves an edge or a corner that is less than 1e-12 of the larger size away, or
+    ///   anything some ten thousand times as large as itself.
+    /// - Shapes that touch at the start, exactly, are reported as such, even when they move apart: compare the normal
+    ///   with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own, and
+    ///   both anchors are the bodies' positions.
+    /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
+    ///   `cast_shape`.
+    /// - Of compounds, the parts that meet first.
     ///
-    /// Shapes that touch at the start, exactly, are told as such, also when they move apart: compare the normal
-    /// with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own,
-    /// and both anchors are the bodies' positions. A displacement that is not finite counts as none: who touches is
-    /// told so, unlike by a world's `cast_shape`. Of compounds,
-    /// the parts that meet first. Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches
-    /// of both for others.
+    /// Of ground, the first triangle that is met; `part_b` (or `part_a`) is its number.
     ///
-    /// Of ground, the first triangle that is met; `part_b` (or `part_a`) is its number. One-sided ground stops what is
-    /// in front of a triangle at the start, by the centre of the part, however fast it is, and nothing else; what
-    /// overlaps no triangle that sees it does not touch at the start. What comes up through one-sided ground, and moves
-    /// away from the front of the triangle beside, passes the edge between the two. The normal is the triangle's own,
-    /// except where an edge or vertex stands out of the ground around it. Cost: that for each triangle whose box the
-    /// moved part's box meets and whose plane it reaches; for ground that turns, and for half-spaces, every triangle.
+    /// - One-sided ground stops what is in front of a triangle at the start, by the centre of the part, however fast it
+    ///   is, and nothing else. What overlaps no triangle that sees it does not touch at the start.
+    /// - What comes up through one-sided ground, and moves away from the front of the triangle beside, passes the edge
+    ///   between the two.
+    /// - The normal is the triangle's own, except where an edge or vertex stands out of the ground around it.
+    ///
+    /// Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches of both for others. On ground:
+    /// that for each triangle whose box the moved part's box meets and whose plane it reaches; for ground that turns,
+    /// and for half-spaces, every triangle.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -103,15 +107,18 @@ impl Pair3<'_> {
         self.first_touch(&Passage::straight(self, drift))
     }
 
-    /// When two bodies that both move, and may turn, first touch; nothing where they never do.
+    /// When two bodies that both move, and may turn, first touch; `None` if they never do.
     ///
-    /// As [`cast`](Self::cast), along the path that [`Motion3`] describes, taken exactly: before the fraction that
-    /// is told the shapes do not touch on it. [`Motion3::pose_at`] rounds rotations to f32 and positions to f64;
-    /// poses from it may overlap by that rounding just before the fraction, and at the fraction are at most `error`
-    /// apart with it. Where many steps lead no nearer, as for shapes that graze each other while they turn, the
-    /// fraction is that of the last step, and `error` the gap that is left there. Cost: a few distances; several
-    /// times those of a [`cast`](Self::cast) while turning; of compounds, for every pair of parts whose bounding
-    /// spheres meet on the way.
+    /// As [`cast`](Self::cast), along the path that [`Motion3`] describes, taken exactly: before the fraction that is
+    /// reported the shapes do not touch on it.
+    ///
+    /// - [`Motion3::pose_at`] rounds rotations to f32 and positions to f64. Poses from it may overlap by that rounding
+    ///   just before the fraction, and at the fraction are at most `error` apart with it.
+    /// - Where many steps lead no nearer, as for shapes that graze each other while they turn, the fraction is that of
+    ///   the last step, and `error` the gap that is left there.
+    ///
+    /// Cost: a few distances; several times those of a [`cast`](Self::cast) while turning; of compounds, for every pair
+    /// of parts whose bounding spheres meet on the way.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::{Quat, Vec3}};
@@ -133,22 +140,27 @@ impl Pair3<'_> {
         self.first_touch(&Passage::of_motions(self, [motion_a, motion_b]))
     }
 
-    /// [`impact`](Self::impact), of bodies that may touch already: what they run into next.
+    /// What bodies that may touch already run into next: like [`impact`](Self::impact), but what they touch at the
+    /// start is passed over.
     ///
-    /// Parts of ground and of compounds that touch at the start are left out, and so is what is level with them. A part
-    /// is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness away at
-    /// the start and the motion leads at most that far into it, not counting what the motion leads into the touched
-    /// parts anyway. Of a body that turns, and is deeper along that normal at the start than in what it touches, since
-    /// another axis parts the two, what it goes into counts from where they meet. A part of a compound is level, too,
-    /// if it is flush with a touched one, as long as the body never sinks deeper below that than half its thickness.
-    /// The thickness is the radius of a ball in the body's middle. So a ball that its weight presses on a level's floor
-    /// crosses the floor's seams and still runs into the level's walls, steps and ramps. A motion that sinks a body
-    /// into its floor by its whole thickness leads it under what stands there.
+    /// Parts of ground and of compounds that touch at the start are left out, and so is what is level with them. So a
+    /// ball that its weight presses on a level's floor crosses the floor's seams and still runs into the level's walls,
+    /// steps and ramps.
     ///
-    /// Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact at
-    /// the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as good as
-    /// half a thickness. Of bodies of one part each that touch, nothing. Never `overlapping`. Cost: as the impact,
-    /// which is asked first; for those that touch their manifolds too, and another search.
+    /// - A part is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness
+    ///   away at the start and the motion leads at most that far into it, not counting what the motion leads into the
+    ///   touched parts anyway. The thickness is the radius of a ball in the body's middle.
+    /// - Of a body that turns, and is deeper along that normal at the start than in what it touches, since another axis
+    ///   parts the two, what it goes into counts from where they meet.
+    /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
+    ///   below that than half its thickness.
+    /// - A motion that sinks a body into its floor by its whole thickness leads it under what stands there.
+    /// - Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact
+    ///   at the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as
+    ///   good as half a thickness.
+    /// - `None` for bodies of one part each that touch. Never `overlapping`.
+    ///
+    /// Cost: as the impact, which is asked first; for those that touch, their manifolds too, and another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Compound3, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
@@ -171,15 +183,17 @@ impl Pair3<'_> {
     }
 
     /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as
-    /// well, as the next of the tiles that a floor is made of; but for parts of ground that it touches too, which has
-    /// no such seams.
+    /// well, such as the next of the tiles that a floor is made of. Not so parts of ground that A touches too: ground
+    /// has no such seams.
     ///
-    /// Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
-    /// never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual. This
-    /// is asked of where the two stand at the start, and what B does after that counts as sinking: one that was flush
-    /// and swings or rises into A, by less than that half, is no impact, but a contact once it is there. Half-spaces
-    /// are never flush. A touch whose axis is not of length 1 is ignored. Cost: as the next impact; where there is
-    /// one, another search.
+    /// - Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
+    ///   never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
+    /// - This is judged by where the two stand at the start, and what B does after that counts as sinking: a body that
+    ///   was flush and swings or rises into A, by less than that half, is no impact, but a contact once it is there.
+    /// - Half-spaces are never flush.
+    /// - A touch whose axis is not of length 1 is ignored.
+    ///
+    /// Cost: as the next impact; where there is one, another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
