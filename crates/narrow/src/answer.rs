@@ -240,9 +240,9 @@ pub struct Closest2 {
     pub anchor_a: Vec2,
     /// The point of B, in world axes, relative to B's position.
     pub anchor_b: Vec2,
-    /// Which part of A that is: of a compound its part, of a chain the segment by its number; else 0.
+    /// Which part of A that is: the part of a compound, the segment of a chain by its number; else 0.
     pub part_a: u32,
-    /// The same of B.
+    /// The same for B.
     pub part_b: u32,
 }
 
@@ -271,9 +271,9 @@ pub struct Closest3 {
     pub anchor_a: Vec3,
     /// The point of B, in world axes, relative to B's position.
     pub anchor_b: Vec3,
-    /// Which part of A that is: of a compound its part, of ground the triangle by its number; else 0.
+    /// Which part of A that is: the part of a compound, the triangle of ground by its number; else 0.
     pub part_a: u32,
-    /// The same of B.
+    /// The same for B.
     pub part_b: u32,
 }
 
@@ -343,6 +343,7 @@ pub struct ContactPoint3 {
 ///
 /// Of a chain, the part is the first segment of the straight run that is touched, or the least of those that share the
 /// normal; and the error holds how far its vertices lie beside that.
+///
 /// Where there are several, each has the depth along its own normal: the least separation of all says whether the
 /// shapes overlap, and not how far they have to move to be free of each other.
 ///
@@ -400,11 +401,14 @@ pub struct Manifold3 {
     /// Unit normal in world axes, from A to B.
     pub normal: Vec3,
     /// Separation of the two parts, in metres. The least separation of the points is within `error` of it, plus 2e-6 of
-    /// the smaller bounding radius, with three exceptions. Where there are four points, which may stand for more, and
-    /// on ground made of triangles, the points may lie higher than that by up to 2^-15 of the smaller bounding
-    /// diameter: the price of a choice that is steady from frame to frame. Where ground bends in steps too small to
-    /// give normals, what stands up between the points counts here and in no point: up to 2^-11 of the smaller bounding
-    /// radius. So does the depth of a needle-thin triangle along a direction that the ground refuses.
+    /// the smaller bounding radius, with three exceptions:
+    ///
+    /// - Where there are four points, which may stand for more, and on ground made of triangles, the points may lie
+    ///   higher than that by up to 2^-15 of the smaller bounding diameter: the price of a choice that is steady from
+    ///   frame to frame.
+    /// - Where ground bends in steps too small to give normals, what stands up between the points counts here and in no
+    ///   point: up to 2^-11 of the smaller bounding radius.
+    /// - The depth of a needle-thin triangle along a direction that the ground refuses counts here and in no point, too.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
